@@ -1,0 +1,41 @@
+# make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them
+# make test        the fast tests
+# make lint        style, types, and who may import whom
+# make clean       remove results, report and caches; the environment in .venv stays
+#
+# Needs Python 3.11 or newer and make; `make -C CHECKOUT ...` works from any folder.
+
+BIN := .venv/bin
+# Touched after a full installation, so that setting up happens once for each state of these two files.
+STAMP := .venv/installed
+FLAGS := $(if $(filter-out 0,$(QUICK)),--quick)
+# The first of these that runs at all; a name may be there and still not start.
+PYTHON ?= $(shell for p in python3.11 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
+
+.PHONY: reproduce test lint clean
+
+reproduce: $(STAMP)
+	@status=0; $(BIN)/python -m validation --reproduce $(FLAGS) || status=$$?; \
+	if [ $$status -le 1 ]; then $(BIN)/python -m reports || status=1; fi; exit $$status
+
+test: $(STAMP)
+	$(BIN)/python -m pytest
+
+lint: $(STAMP)
+	$(BIN)/python -m ruff check
+	$(BIN)/python -m ruff format --check
+	$(BIN)/python -m mypy
+	$(BIN)/lint-imports
+
+$(STAMP): requirements.lock pyproject.toml
+	@[ -n "$(PYTHON)" ] || { echo "error: no python3 found; Python 3.11 or newer is needed" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; v = sys.version_info; \
+	sys.exit(f"error: Python 3.11 or newer is needed; $(PYTHON) is {v[0]}.{v[1]} (make PYTHON=... names another)" if v < (3, 11) else 0)'
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --only-binary=:all: -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
+
+clean:
+	rm -rf validation/results reports/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
+	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +

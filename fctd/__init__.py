@@ -1,0 +1,46 @@
+"""FCTD: fast contact torque and drag of a stiff drill string in a borehole.
+
+    case = fctd.load_case("well.toml")
+    result = fctd.simulate(case)
+
+Units are SI; x is north, y east, z down.  See ``simulate`` and ``find_contacts``.
+"""
+
+import hashlib
+import os
+from pathlib import Path
+
+
+def _cache_folder() -> Path:
+    """A compile cache for exactly these sources.
+
+    numba does not notice an edit in a function that a cached function calls, so the folder carries a hash
+    of all of them.
+    """
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(source.name.encode() + source.read_bytes())
+    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    return base / "fctd" / digest.hexdigest()[:16]
+
+
+# Before the first import of numba, which reads it once.
+os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
+
+from fctd.case import Case, load_case  # noqa: E402
+from fctd.errors import InputError  # noqa: E402
+from fctd.results import SimulationResult  # noqa: E402
+from fctd.simulate import simulate  # noqa: E402
+from fctd.wellbore import Contacts, Wellbore, build_wellbore, find_contacts  # noqa: E402
+
+__all__ = [
+    "Case",
+    "Contacts",
+    "InputError",
+    "SimulationResult",
+    "Wellbore",
+    "build_wellbore",
+    "find_contacts",
+    "load_case",
+    "simulate",
+]

@@ -1,0 +1,5 @@
+"""``python -m fctd``."""
+
+from fctd.cli import main
+
+main()

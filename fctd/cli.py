@@ -1,0 +1,120 @@
+"""The command line: ``fctd simulate CASE``; also ``python -m fctd``."""
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.table import Table
+
+from fctd.case import load_case, parse_override
+from fctd.errors import InputError
+from fctd.results import SimulationResult
+from fctd.simulate import simulate
+
+DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    help="Fast contact torque and drag of a stiff drill string.",
+)
+# Results go to standard output; progress and errors to standard error, so that neither spoils the other.
+screen, messages = Console(), Console(stderr=True)
+
+CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]
+Overrides = Annotated[
+    list[str],
+    typer.Option(
+        "--set", metavar="KEY=VALUE", help="Override a key of the case, e.g. wellbore.overlap='0.1 m'."
+    ),
+]
+Friction = Annotated[
+    float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")
+]
+
+
+@app.callback()
+def _root() -> None:
+    """Keep ``simulate`` a named command although it is the only one so far."""
+
+
+@app.command("simulate")
+def simulate_command(
+    case_file: CaseFile,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="FOLDER", help="Where results go; default: CASE-NAME-result."),
+    ] = None,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    friction: Friction = None,
+    csv: Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="No progress bar.")] = False,
+) -> None:
+    """Run the operations of a case and write history, profile and energy tables."""
+    changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
+    if friction is not None:
+        changes["friction"] = friction
+    case = load_case(case_file, changes)
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.completed:.0f}/{task.total:.0f} s simulated, {task.fields[factor]} × real time"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
+        task = bar.add_task("compiling, settling", total=1.0, factor="–")
+
+        def show(now: float, total: float, factor: float) -> None:
+            bar.update(task, description=case.name, total=total, completed=now, factor=f"{factor:.0f}")
+
+        result = simulate(case, progress=show)
+    folder = out or Path(f"{case.name}-result")
+    written = result.save(folder, csv=csv)
+    _summarise(result)
+    screen.print(f"Written: {', '.join(str(p) for p in written)}", soft_wrap=True, highlight=False)
+    if result.status == "interrupted":
+        raise typer.Exit(INTERRUPTED)
+    if result.status != "completed":
+        raise typer.Exit(FAILED)
+
+
+def _summarise(result: SimulationResult) -> None:
+    """Print the state at the end and the numbers of the run."""
+    if result.status != "completed":
+        messages.print(f"[bold]{result.status}[/bold]: {result.message}", highlight=False)
+    if len(result.history):
+        last = result.history.iloc[-1]
+        table = Table(title=f"{result.case.name}: {last['operation']}, bit at {last['bit_depth_m']:.1f} m")
+        for name in ("hook load kN", "surface torque kN·m", "Σ r μ F_n kN·m", "contact force kN", "contacts"):
+            table.add_column(name, justify="right")
+        table.add_row(
+            f"{last['hookload_N'] / 1e3:.1f}",
+            f"{last['surface_torque_N_m'] / 1e3:.3f}",
+            f"{last['sum_r_mu_fn_N_m'] / 1e3:.3f}",
+            f"{last['total_contact_force_N'] / 1e3:.1f}",
+            f"{last['contact_count']}",
+        )
+        screen.print(table)
+    run = result.run
+    screen.print(
+        f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms, {run['steps']} steps, "
+        f"{run['simulated_s']:.0f} s simulated in {run['wall_s']:.2f} s ({run['real_time_factor']:.0f} × real time), "
+        f"energy error {run['energy_error']:.1e}",
+        highlight=False, soft_wrap=True,
+    )  # fmt: skip
+
+
+def main() -> None:
+    """Entry point: one line for bad input, no traceback."""
+    try:
+        app()
+    except InputError as error:
+        messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
+        sys.exit(BAD_INPUT)
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)

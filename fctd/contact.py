@@ -1,0 +1,287 @@
+"""Stages 2 and 3 of the contact algorithm (§4.2–4.4): which piece of hole owns a point, and the wall there.
+
+A hole is a table with one row per piece, cylinder or arc, columns below.  The owner of a point is the first
+piece from the top whose lower end lies beyond the point, as in the paper's FOR-loop, but found by walking
+from the piece that owned it last.  The walk costs the same for a hundred cylinders as for a hundred
+thousand, and it never meets the far parts of the well whose infinite slab the point may also lie in.
+
+Every contact point keeps a copy of its piece in the state buffer.  While the point stays well inside the
+piece, stages 2 and 3 are then packed arithmetic and one comparison; only a point near the ends of its
+piece, or in an overlap, goes back to the table.
+"""
+
+import numpy as np
+from numba import njit
+
+from fctd.joints import cross
+from fctd.state import (
+    ARCS,
+    ARM_CONTACT,
+    CURVE,
+    CYLINDERS,
+    END_ALONG,
+    END_COS,
+    END_SIN,
+    FRICTION,
+    HOLE,
+    K_WALL,
+    MARGIN_END,
+    MARGIN_TOP,
+    NX,
+    NY,
+    NZ,
+    OX,
+    OY,
+    OZ,
+    PX,
+    PY,
+    PZ,
+    TRIBUTARY,
+    TX,
+    TY,
+    TZ,
+    axis,
+    position,
+)
+
+# Columns of both tables.  Start point A [m], unit axis (arcs: tangent) at A, length including the overlap
+# [m], hole radius [m], wall stiffness [N/m or N/m/m], friction factor, measured depth of A [m].
+START, DIRECTION, LENGTH = 0, 3, 6
+HOLE_RADIUS, STIFFNESS, FACTOR, START_MD = 7, 8, 9, 10
+# Cylinders: the length shared with the next one, and how far from A the one before may still own a point
+# inside the hole [m].
+OVERLAP, SHARED = 11, 12
+# Arcs: curvature [1/m] and unit vector from A towards the centre of curvature.
+CURVATURE, NORMAL = 11, 12
+COLUMNS = 15
+
+
+@njit(forceinline=True)
+def distance_along(C, i, x, y, z):
+    """λ|AB| of Eqs 5 and 14: distance of T past A along the axis of piece i [m]."""
+    return (
+        (x - C[i, START]) * C[i, DIRECTION]
+        + (y - C[i, START + 1]) * C[i, DIRECTION + 1]
+        + (z - C[i, START + 2]) * C[i, DIRECTION + 2]
+    )
+
+
+@njit(forceinline=True)
+def cylinder_owner(C, i, x, y, z):
+    """Stage 2 for cylinders: walk from piece i to the first one whose far end T has not passed."""
+    while i > 0 and distance_along(C, i - 1, x, y, z) <= C[i - 1, LENGTH]:
+        i -= 1
+    while i < C.shape[0] - 1 and distance_along(C, i, x, y, z) > C[i, LENGTH]:
+        i += 1
+    return i
+
+
+@njit(forceinline=True)
+def arc_owner(C, i, x, y, z):
+    """Stage 2 for arcs: walk from piece i to the one between whose end planes T lies."""
+    while i > 0 and distance_along(C, i, x, y, z) < 0:
+        i -= 1
+    while i < C.shape[0] - 1 and distance_along(C, i + 1, x, y, z) >= 0:
+        i += 1
+    return i
+
+
+@njit(forceinline=True)
+def axis_offset(C, i, x, y, z):
+    """PT (Eqs 13–14): vector from the axis of cylinder i to T, and the distance along it [m]."""
+    s = distance_along(C, i, x, y, z)
+    return (
+        x - C[i, START] - s * C[i, DIRECTION],
+        y - C[i, START + 1] - s * C[i, DIRECTION + 1],
+        z - C[i, START + 2] - s * C[i, DIRECTION + 2],
+        s,
+    )
+
+
+@njit(forceinline=True)
+def cylinder_wall(C, i, x, y, z):
+    """Stage 3 for cylinders: PT [m], hole radius [m], wall stiffness, friction factor, depth [m] at T.
+
+    In the overlap the penetrations, each against its own radius, the radial vectors, stiffness and friction
+    are blended (Eq. 24 with lengths in place of Q); the radius returned makes |PT| − radius the blend.
+    """
+    px, py, pz, s = axis_offset(C, i, x, y, z)
+    hole, stiffness, friction = C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR]
+    md = C[i, START_MD] + s
+    into = s - C[i, LENGTH] + C[i, OVERLAP]
+    if into > 0 and i < C.shape[0] - 1:
+        qx, qy, qz, along = axis_offset(C, i + 1, x, y, z)
+        v = into / C[i, OVERLAP]
+        u = 1 - v
+        excess = u * (np.sqrt(px * px + py * py + pz * pz) - hole)
+        excess += v * (np.sqrt(qx * qx + qy * qy + qz * qz) - C[i + 1, HOLE_RADIUS])
+        px, py, pz = u * px + v * qx, u * py + v * qy, u * pz + v * qz
+        hole = np.sqrt(px * px + py * py + pz * pz) - excess
+        stiffness = u * stiffness + v * C[i + 1, STIFFNESS]
+        friction = u * friction + v * C[i + 1, FACTOR]
+        md = u * md + v * (C[i + 1, START_MD] + along)
+    return px, py, pz, hole, stiffness, friction, md
+
+
+@njit(forceinline=True)
+def arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz):
+    """PT of a circular arc from its closest point, all in one formula that stays exact as κ → 0.
+
+    u, v, w : T − A along the tangent, towards the centre and along the binormal [m]; k : curvature κ [1/m].
+    With ρ the distance from the centre over the radius, the offset towards the centre is
+    (1 − ρ)/κ = (2v − κ(u² + v²))/(1 + ρ).  Returns PT [m] and the sine and cosine (times ρ) of the angle.
+    """
+    cosine, sine = 1 - k * v, k * u
+    rho = np.sqrt(cosine * cosine + sine * sine)
+    inward = (2 * v - k * (u * u + v * v)) / (rho + rho * rho)
+    p, q = -inward * sine, inward * cosine
+    return p * tx + q * nx + w * bx, p * ty + q * ny + w * by, p * tz + q * nz + w * bz, sine, cosine
+
+
+@njit(forceinline=True)
+def arc_wall(C, i, x, y, z):
+    """Stage 3 for arcs: PT [m], hole radius [m], wall stiffness, friction factor, depth [m] at T."""
+    dx, dy, dz = x - C[i, START], y - C[i, START + 1], z - C[i, START + 2]
+    tx, ty, tz = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
+    nx, ny, nz = C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
+    bx, by, bz = cross(tx, ty, tz, nx, ny, nz)
+    k = C[i, CURVATURE]
+    u = dx * tx + dy * ty + dz * tz
+    v = dx * nx + dy * ny + dz * nz
+    w = dx * bx + dy * by + dz * bz
+    px, py, pz, sine, cosine = arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz)
+    # Arc length s = atan2(sine, cosine)/κ; its series avoids 0/0 on a straight piece.
+    if k * C[i, LENGTH] > 1e-6:
+        s = np.arctan2(sine, cosine) / k
+    else:
+        ratio = sine / cosine
+        s = u / cosine * (1 - ratio * ratio / 3)
+    return px, py, pz, C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR], C[i, START_MD] + s
+
+
+@njit(forceinline=True)
+def store_wall(S, j, px, py, pz, hole, stiffness, friction):
+    """Write the wall beside contact point j."""
+    S[PX + j], S[PY + j], S[PZ + j], S[HOLE + j] = px, py, pz, hole
+    S[K_WALL + j], S[FRICTION + j] = stiffness * S[TRIBUTARY + j], friction
+
+
+@njit(forceinline=True)
+def contact_point(S, j):
+    """T (§4.1): the contact point on the axis of body j [m], global."""
+    x, y, z = position(S, j)
+    ax, ay, az = axis(S, j)
+    arm = S[ARM_CONTACT + j]
+    return x + arm * ax, y + arm * ay, z + arm * az
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def follow_cylinders(S, n):
+    """Update PT of every point from the cylinder it remembers; OX + j is reached only through this file.
+
+    Leaves the distance along the cylinder in END_ALONG.
+    """
+    for j in range(1, n + 1):
+        x, y, z = contact_point(S, j)
+        dx, dy, dz = x - S[OX + j], y - S[OY + j], z - S[OZ + j]
+        tx, ty, tz = S[TX + j], S[TY + j], S[TZ + j]
+        s = dx * tx + dy * ty + dz * tz
+        S[PX + j], S[PY + j], S[PZ + j] = dx - s * tx, dy - s * ty, dz - s * tz
+        S[END_ALONG + j] = s
+
+
+@njit(error_model="numpy")
+def refresh_cylinders(S, owner, n, C):
+    """Look up in the table every point that is near an end of its cylinder or in an overlap."""
+    last = C.shape[0] - 1
+    for j in range(1, n + 1):
+        s = S[END_ALONG + j]
+        if s > S[MARGIN_TOP + j] and s < S[MARGIN_END + j]:
+            continue
+        x, y, z = contact_point(S, j)
+        i = cylinder_owner(C, owner[j], x, y, z)
+        owner[j] = i
+        px, py, pz, hole, stiffness, friction, _ = cylinder_wall(C, i, x, y, z)
+        store_wall(S, j, px, py, pz, hole, stiffness, friction)
+        S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
+        S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
+        free_end = C[i, LENGTH] - C[i, OVERLAP] if i < last else np.inf
+        S[MARGIN_TOP + j] = C[i, SHARED] if i > 0 else -np.inf
+        # A blended wall holds for this step only: an empty interval sends the point back here.
+        S[MARGIN_END + j] = free_end if distance_along(C, i, x, y, z) < free_end else -np.inf
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def follow_arcs(S, n):
+    """Update PT of every point from the arc it remembers.
+
+    Leaves the distance past the plane at A in MARGIN_TOP and past the end plane in MARGIN_END.
+    """
+    for j in range(1, n + 1):
+        x, y, z = contact_point(S, j)
+        dx, dy, dz = x - S[OX + j], y - S[OY + j], z - S[OZ + j]
+        tx, ty, tz = S[TX + j], S[TY + j], S[TZ + j]
+        nx, ny, nz = S[NX + j], S[NY + j], S[NZ + j]
+        bx, by, bz = cross(tx, ty, tz, nx, ny, nz)
+        u = dx * tx + dy * ty + dz * tz
+        v = dx * nx + dy * ny + dz * nz
+        w = dx * bx + dy * by + dz * bz
+        px, py, pz, _, _ = arc_offset(u, v, w, S[CURVE + j], tx, ty, tz, nx, ny, nz, bx, by, bz)
+        S[PX + j], S[PY + j], S[PZ + j] = px, py, pz
+        S[MARGIN_TOP + j] = u
+        S[MARGIN_END + j] = u * S[END_COS + j] + v * S[END_SIN + j] - S[END_ALONG + j]
+
+
+@njit(error_model="numpy")
+def refresh_arcs(S, owner, n, C):
+    """Look up in the table every point that has left its arc."""
+    last = C.shape[0] - 1
+    for j in range(1, n + 1):
+        i = owner[j]
+        before, after = S[MARGIN_TOP + j] < 0, S[MARGIN_END + j] >= 0
+        if not (before and i > 0) and not (after and i < last) and S[HOLE + j] > 0:
+            continue
+        x, y, z = contact_point(S, j)
+        i = arc_owner(C, i, x, y, z)
+        owner[j] = i
+        px, py, pz, hole, stiffness, friction, _ = arc_wall(C, i, x, y, z)
+        store_wall(S, j, px, py, pz, hole, stiffness, friction)
+        S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
+        S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
+        S[NX + j], S[NY + j], S[NZ + j] = C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
+        k, length = C[i, CURVATURE], C[i, LENGTH]
+        angle = k * length
+        S[CURVE + j], S[END_COS + j], S[END_SIN + j] = k, np.cos(angle), np.sin(angle)
+        S[END_ALONG + j] = np.sin(angle) / k if angle > 1e-6 else length
+
+
+@njit(error_model="numpy")
+def update_walls(S, owner, n, packed, C, geometry):
+    """Update owners and the wall beside every contact point, given positions (stages 2 and 3).
+
+    n, packed : bodies, and columns that fill whole packed operations.
+    owner : int64 (n + 2,), remembered piece of each point.  A fresh buffer (zeros) sends every point to
+    the table.
+    """
+    if geometry == CYLINDERS:
+        follow_cylinders(S, packed)
+        refresh_cylinders(S, owner, n, C)
+    elif geometry == ARCS:
+        follow_arcs(S, packed)
+        refresh_arcs(S, owner, n, C)
+
+
+@njit(error_model="numpy", cache=True)
+def query_walls(C, geometry, points, owner, out):
+    """Walls beside free points.  points : (n, 3) [m]; owner : (n,) first guess in, owner out.
+
+    out : (n, 7) PT [m], hole radius [m], stiffness, friction, measured depth [m].
+    """
+    for j in range(points.shape[0]):
+        x, y, z = points[j]
+        if geometry == ARCS:
+            owner[j] = arc_owner(C, owner[j], x, y, z)
+            out[j] = arc_wall(C, owner[j], x, y, z)
+        else:
+            owner[j] = cylinder_owner(C, owner[j], x, y, z)
+            out[j] = cylinder_wall(C, owner[j], x, y, z)

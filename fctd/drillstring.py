@@ -1,0 +1,281 @@
+"""The string: components laid from the bit up become rigid segments with springs between them (§3.2, 5.1)."""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd import state
+from fctd.case import Case, ComponentSpec
+from fctd.dynamics import GRAVITY, PerMetre, set_long_segment
+from fctd.errors import InputError
+from fctd.wellbore import Wellbore
+
+Array = NDArray[np.float64]
+
+# A long segment hangs straight: where it lies the hole must be this close to vertical [rad], and it must be
+# this long [m].
+LONG_SEGMENT_TILT = np.radians(1.0)
+SHORTEST_LONG_SEGMENT = 10.0
+
+
+class Section(NamedTuple):
+    """One metre of a component: what its segments are made of.
+
+    mass [kg/m], weight (buoyed) [N/m], axial_inertia and tilt_inertia [kg m], EA [N], GJ, EI [N m^2],
+    shear κGA [N], outer, inner and contact radius [m].
+    """
+
+    mass: float
+    weight: float
+    axial_inertia: float
+    tilt_inertia: float
+    EA: float
+    GJ: float
+    EI: float
+    shear: float
+    outer: float
+    inner: float
+    contact_radius: float
+
+
+def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
+    """Timoshenko's κ of a hollow circle (Eq. 20 as Hutchinson 2001 has it, with (1 + ν)²)."""
+    a, b, nu = inner, outer, poisson
+    top = 6 * (a * a + b * b) ** 2 * (1 + nu) ** 2
+    rest = 7 * a**4 + 34 * a**2 * b**2 + 7 * b**4
+    rest += nu * (12 * a**4 + 48 * a**2 * b**2 + 12 * b**4)
+    rest += nu**2 * (4 * a**4 + 16 * a**2 * b**2 + 4 * b**4)
+    return top / rest
+
+
+def section_of(component: ComponentSpec, mud_density: float) -> Section:
+    """Properties of a component per metre; weight by the buoyancy factor (Eq. 25), inertia without it."""
+    b, a = 0.5 * component.outer_diameter, 0.5 * component.inner_diameter
+    area = np.pi * (b * b - a * a)
+    second = np.pi / 4 * (b**4 - a**4)
+    modulus = component.youngs_modulus
+    shear_modulus = modulus / (2 * (1 + component.poisson_ratio))
+    kappa = shear_coefficient(b, a, component.poisson_ratio)
+    mass = component.linear_mass if component.linear_mass is not None else component.density * area
+
+    def given(value: float | None, computed: float) -> float:
+        return computed if value is None else value
+
+    return Section(
+        mass=mass,
+        weight=mass * GRAVITY * (1 - mud_density / component.density),
+        axial_inertia=0.5 * mass * (a * a + b * b),
+        tilt_inertia=0.25 * mass * (a * a + b * b),
+        EA=given(component.axial_stiffness, modulus * area),
+        GJ=given(component.torsional_stiffness, shear_modulus * 2 * second),
+        EI=given(component.bending_stiffness, modulus * second),
+        shear=given(component.shear_stiffness, kappa * shear_modulus * area),
+        outer=b,
+        inner=a,
+        contact_radius=0.5 * component.contact_diameter,
+    )
+
+
+@dataclass(frozen=True)
+class String:
+    """A laid-out string, arrays from the top segment to the bit, shape (n,).
+
+    length [m]; component : index into ``sections`` and the case's components; long_segment : whether the
+    top segment is the paper's long one, whose length may change while the string moves.
+    """
+
+    top_md: float
+    length: Array
+    component: NDArray[np.int64]
+    sections: tuple[Section, ...]
+    long_segment: bool
+
+    @property
+    def segments(self) -> int:
+        """Number of segments."""
+        return len(self.length)
+
+    @property
+    def bit_depth(self) -> float:
+        """Unstretched length below the rotary table [m]."""
+        return self.top_md + float(self.length.sum())
+
+    def of(self, name: str) -> Array:
+        """A section property of every segment, shape (n,)."""
+        return np.array([getattr(s, name) for s in self.sections])[self.component]
+
+    def lengthened(self, by: float) -> "String":
+        """The same string with ``by`` metres more in its top segment."""
+        return replace(self, length=np.concatenate([self.length[:1] + by, self.length[1:]]))
+
+    def mid_contact(self) -> NDArray[np.bool_]:
+        """Segments that touch at their middle: a component of one segment shorter than its neighbours."""
+        longer = np.concatenate([[False], self.length[1:] < self.length[:-1] - 1e-9])
+        longer &= np.concatenate([self.length[:-1] < self.length[1:] - 1e-9, [False]])
+        alone = np.bincount(self.component, minlength=len(self.sections))[self.component] == 1
+        return np.asarray(longer & alone)
+
+    def contact_radius(self) -> Array:
+        """Radius at each segment's contact point [m]: at unlike neighbours the larger, clear of the middle ones."""
+        own, middle = self.of("contact_radius"), self.mid_contact()
+        below = np.append(np.where(middle, 0.0, own)[1:], 0.0)
+        return np.asarray(np.where(middle, own, np.maximum(own, below)))
+
+    def joints(self, name: str) -> Array:
+        """Stiffness of the n joints for a section stiffness (Eqs 17–19): half segments in series.
+
+        The first joint is the clamp at the top drive, half a segment away; a long segment puts its whole
+        length there and leaves the next joint the half below it alone.
+        """
+        compliance = 0.5 * self.length / self.of(name)
+        above = np.concatenate([[0.0], compliance[:-1]])
+        if self.long_segment:
+            compliance[0] *= 2
+            above[1:2] = 0.0
+        return np.asarray(1 / (above + compliance))
+
+
+def lay_out(case: Case, bit_depth: float, fed: bool) -> String:
+    """Segments of the string that is in the hole with the bit at ``bit_depth`` [m].
+
+    Components are laid from the bit up until the depth is reached; the topmost piece takes the remainder.
+    fed : whether pipe will be fed in or pulled out, which only a long segment can do.
+    Raises InputError when the string is too short or a long segment does not fit.
+    """
+    components = case.string.components
+    remaining = bit_depth - case.string.top_md
+    if remaining <= 0:
+        raise InputError(
+            f"less than the bit depth, {bit_depth:g} m",
+            key="string.top_md",
+            value=f"{case.string.top_md:g} m",
+        )
+    lengths: list[float] = []
+    owner: list[int] = []
+    for k, part in enumerate(components):
+        take = remaining if part.length is None else min(part.length, remaining)
+        pieces = _divide(part, take)
+        lengths += pieces
+        owner += [k] * len(pieces)
+        remaining -= take
+        if remaining <= 1e-9:
+            break
+    else:
+        raise InputError(
+            f"enough to reach from the bit at {bit_depth:g} m to string.top_md",
+            key="string.components",
+            value=f"{sum(c.length or 0 for c in components):g} m of string",
+        )
+    single = components[owner[-1]].length is None and components[owner[-1]].segments == 1
+    while fed and not single and lengths[-1] < SHORTEST_LONG_SEGMENT and owner[-2:] == owner[-1:] * 2:
+        lengths[-2] += lengths.pop()
+        owner.pop()
+    long_segment = fed or single
+    if long_segment and lengths[-1] < SHORTEST_LONG_SEGMENT - 1e-9:
+        raise InputError(
+            f"at least {SHORTEST_LONG_SEGMENT:g} m at every bit depth: the top segment grows and shrinks as the string moves",
+            key=f"string.components[{owner[-1]}]",
+            value=f"{lengths[-1]:.3g} m of it at the top",
+        )
+    used = components[: max(owner) + 1]
+    state.check_segments(len(lengths))
+    return String(
+        top_md=case.string.top_md,
+        length=np.array(lengths[::-1]),
+        component=np.array(owner[::-1], dtype=np.int64),
+        sections=tuple(section_of(c, case.mud.density) for c in used),
+        long_segment=long_segment,
+    )
+
+
+def _divide(part: ComponentSpec, take: float) -> list[float]:
+    """Segment lengths of ``take`` metres of a component from the bit up, remainder (0.5–1.5 nominal) on top."""
+    whole = take if part.length is None else part.length
+    nominal = whole / part.segments if part.segments is not None else part.segment_length
+    assert nominal is not None  # the case makes sure that one of the two is given
+    if abs(take - whole) < 1e-9:
+        count = max(round(whole / nominal), 1)
+        return [whole / count] * count
+    count = max(int(take / nominal + 0.5), 1)
+    return [nominal] * (count - 1) + [take - nominal * (count - 1)]
+
+
+def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> None:
+    """Raise InputError when the string is wider than the hole it passes, or its long segment is not upright.
+
+    deepest : greatest bit depth of the run [m].
+    """
+    grown = string.lengthened(deepest - string.bit_depth) if string.long_segment else string
+    bottom = grown.top_md + np.cumsum(grown.length)
+    top = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]])
+    starts = np.concatenate([[0.0], hole.intervals[:-1, 0]])
+    for k, (first, last) in enumerate(zip(top, bottom, strict=True)):
+        passes = (starts < last) & (hole.intervals[:, 0] > first)
+        narrowest = hole.intervals[passes, 1].min() if passes.any() else np.inf
+        radius = string.of("contact_radius")[k]
+        if radius > narrowest:
+            i = int(string.component[k])
+            raise InputError(
+                f"at most the hole's {2e3 * narrowest:.4g} mm",
+                key=f"string.components[{i}].contact_diameter",
+                value=f"{2e3 * radius:.4g} mm",
+            )
+    if string.long_segment:
+        tilt = hole.inclination(np.linspace(grown.top_md, bottom[0], 200)).max()
+        if tilt > LONG_SEGMENT_TILT:
+            raise InputError(
+                "a hole within 1 deg of vertical along the top segment; shorten the trip or give the string more segments",
+                key=f"string.components[{int(string.component[0])}]",
+                value=f"a top segment of {grown.length[0]:.4g} m, where the hole reaches {np.degrees(tilt):.2f} deg",
+            )
+
+
+def fill(S: Array, string: String, case: Case) -> PerMetre:
+    """Write the string into a fresh buffer; returns the pipe fed at the top."""
+    n, length = string.segments, string.length
+    row = state.row
+    mud = case.mud
+    row(S, state.MASS, n)[:] = string.of("mass") * length
+    row(S, state.WEIGHT, n)[:] = string.of("weight") * length
+    row(S, state.J_AXIAL, n)[:] = string.of("axial_inertia") * length
+    row(S, state.J_TRANSVERSE, n)[:] = string.of("mass") * length**3 / 12 + string.of("tilt_inertia") * length
+    middle = string.mid_contact()
+    row(S, state.ARM_TOP, n)[:] = row(S, state.ARM_BOTTOM, n)[:] = 0.5 * length
+    row(S, state.ARM_CONTACT, n)[:] = np.where(middle, 0.0, 0.5 * length)
+    row(S, state.RADIUS, n)[:] = string.contact_radius()
+    per_metre = case.wellbore.stiffness_per_length is not None
+    below = np.append(length[1:], 0.0)
+    row(S, state.TRIBUTARY, n)[:] = 0.5 * (length + below) if per_metre else 1.0
+    for target, per_length in (
+        (state.MUD_AXIAL, mud.axial_damping),
+        (state.MUD_LATERAL, mud.lateral_damping),
+        (state.MUD_SPIN, mud.rotational_damping),
+    ):
+        row(S, target, n)[:] = per_length * length
+    for target, name in (
+        (state.K_AXIAL, "EA"),
+        (state.K_SHEAR, "shear"),
+        (state.K_BEND, "EI"),
+        (state.K_TWIST, "GJ"),
+    ):
+        row(S, target, n)[:] = string.joints(name)
+    section = string.sections[string.component[0]]
+    pipe = PerMetre(
+        section.mass, section.weight, section.axial_inertia,
+        section.EA, section.GJ, section.EI, section.shear,
+        mud.axial_damping, mud.lateral_damping, mud.rotational_damping,
+    )  # fmt: skip
+    if string.long_segment:
+        row(S, state.ARM_BOTTOM, n)[0] = row(S, state.ARM_CONTACT, n)[0] = 0.0
+        set_long_segment(S, length[0], pipe)
+    else:
+        pipe = pipe._replace(weight=0.0)
+    for inverse, of in (
+        (state.INVERSE_MASS, state.MASS),
+        (state.INVERSE_JT, state.J_TRANSVERSE),
+        (state.INVERSE_JA, state.J_AXIAL),
+    ):
+        row(S, inverse, n)[:] = 1 / row(S, of, n)
+    return pipe

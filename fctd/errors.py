@@ -1,0 +1,235 @@
+"""Bad input: one exception for every module, the dotted keys it names, and tables that raise it.
+
+A bad value is answered in one line, for example
+`paper_well.toml: wellbore.intervals[0].diameter = "-2 mm": expected a length above 0`.
+"""
+
+from __future__ import annotations
+
+import copy
+import difflib
+import json
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping, Sequence
+from enum import Enum
+from os import PathLike
+from typing import Any, Final
+
+from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, model_validator
+from pydantic_core import ErrorDetails
+
+_LONGEST_VALUE: Final = 80  # characters of a value shown in a message
+
+
+class Missing(Enum):
+    """The type of `MISSING`; an enum so that it stays itself when an error is pickled."""
+
+    VALUE = "missing"
+
+
+MISSING: Final = Missing.VALUE
+"""The value of a key that is not there (None is a value: an override that deletes)."""
+
+
+class InputError(ValueError):
+    """What the user wrote cannot be used.
+
+    file: the file it stands in, or None; key: dotted path, list indices in brackets, or "";
+    value: as the user wrote it, or MISSING; expected: what would have been right, a noun phrase;
+    more: further problems of the same input, each on its own line of the message.
+    """
+
+    def __init__(
+        self,
+        expected: str,
+        *,
+        key: str = "",
+        value: object = MISSING,
+        file: str | PathLike[str] | None = None,
+        more: Sequence[InputError] = (),
+    ) -> None:
+        super().__init__(expected)
+        self.file = file
+        self.key = key
+        self.value = value
+        self.expected = expected
+        self.more = tuple(more)
+
+    def in_file(self, file: str | PathLike[str]) -> InputError:
+        """The same error, and the file it stands in unless it names one already."""
+        more = [other.in_file(file) for other in self.more]
+        file = file if self.file is None else self.file
+        return InputError(self.expected, key=self.key, value=self.value, file=file, more=more)
+
+    def at(self, key: str) -> InputError:
+        """The same error one level up: `key` is put before its own key."""
+        more = [other.at(key) for other in self.more]
+        return InputError(
+            self.expected, key=join_key(key, self.key), value=self.value, file=self.file, more=more
+        )
+
+    def __str__(self) -> str:
+        file = "" if self.file is None else f"{self.file}: "
+        return "\n".join([f"{file}{self._subject()}expected {self.expected}", *map(str, self.more)])
+
+    def _subject(self) -> str:
+        if self.value is MISSING:
+            return f"{self.key} is missing: " if self.key else ""
+        return f"{self.key} = {show(self.value)}: " if self.key else f"{show(self.value)}: "
+
+
+def show(value: object) -> str:
+    """A value as a case file writes it, cut to a readable length."""
+    try:
+        text = repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False, default=str)
+    except (ValueError, TypeError):  # integers of thousands of digits, keys that are no strings
+        text = f"a {type(value).__name__}"
+    return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
+
+
+def join_key(*parts: str | int) -> str:
+    """("operations", 0, "speed") as "operations[0].speed"; parts may be dotted keys themselves."""
+    key = ""
+    for part in parts:
+        text = f"[{part}]" if isinstance(part, int) else part
+        key += text if not key or not text or text.startswith("[") else f".{text}"
+    return key
+
+
+def split_key(key: str) -> list[str | int]:
+    """ "operations[0].speed" or "operations.0.speed" as ["operations", 0, "speed"]; "" as []."""
+    if not re.fullmatch(r"(?:(?:^|\.)[\w-]+|\[[0-9]+\])*", key):
+        raise InputError("a dotted key such as wellbore.overlap or operations[0].speed", value=key)
+    parts = re.findall(r"[\w-]+", key)
+    return [int(part) if re.fullmatch("[0-9]{1,9}", part) else part for part in parts]
+
+
+def look_up(data: Any, *parts: str | int) -> object:
+    """The value down a path of nested dicts and lists; MISSING where there is none or None."""
+    for part in parts:
+        if not _leads_on(data, part):
+            return MISSING
+        data = data[part]
+    return MISSING if data is None else data
+
+
+def set_key(table: dict[str, Any], key: str, value: object) -> None:
+    """Set a dotted key of nested dicts and lists; tables on the way are made, list items are not.
+
+    None in a table counts as absent (`known_keys`); for an item of a list it removes the item.
+    """
+    *parents, last = split_key(key) or [key]
+    place: Any = table
+    for part in parents:
+        if isinstance(place, dict) and place.get(part) is None:
+            place[part] = {}
+        place = place[part] if _leads_on(place, part) else None
+    if isinstance(place, list) and isinstance(last, int) and last < len(place) and value is None:
+        del place[last]
+    elif isinstance(place, dict) or _leads_on(place, last):
+        place[last] = copy.deepcopy(value)
+    else:
+        raise InputError("a value for a key that exists", key=key, value=value)
+
+
+def _leads_on(data: Any, part: str | int) -> bool:
+    """Whether nested dicts and lists go on at this key or index."""
+    if isinstance(data, list | tuple):
+        return isinstance(part, int) and part < len(data)
+    return isinstance(data, Mapping) and part in data
+
+
+def known_keys(table: Mapping[Any, Any], keys: Collection[str], owner: str = "") -> dict[str, Any]:
+    """The table without the keys that are None, or an InputError that names the nearest known key."""
+    for key, value in table.items():
+        if key not in keys:
+            raise InputError(nearest(key, keys, "key") + owner, key=str(key), value=value)
+    return {key: value for key, value in table.items() if value is not None}
+
+
+def nearest(word: object, choices: Collection[str], noun: str) -> str:
+    """What to expect in place of a word: the nearest choice, or all of them when none is near."""
+    near = difflib.get_close_matches(str(word), choices, n=1)
+    return f"the {noun} {near[0]}" if near else f"one of the {noun}s {', '.join(choices)}"
+
+
+class Expects(ABC):
+    """Metadata of a pydantic field that knows what the field wants."""
+
+    @property
+    @abstractmethod
+    def expected(self) -> str:
+        """What to write there."""
+
+
+class Table(BaseModel):
+    """A table of a case file, immutable. A key that is None, as an override may set it, is absent."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _check_keys(cls, raw: Any, info: ValidationInfo) -> Any:
+        if not isinstance(raw, Mapping):
+            return raw  # pydantic says what it is not
+        # A case knows its file, but only its own dump, read without context, may say so.
+        keys = [key for key in cls.model_fields if key != "file" or info.context is None]
+        written = known_keys(raw, keys, owner=f" of {raw['kind']}" if "kind" in keys else "")
+        for key, field in cls.model_fields.items():
+            if field.is_required() and key not in written:
+                wants = [item.expected for item in field.metadata if isinstance(item, Expects)]
+                raise InputError(wants[0] if wants else field.description or "a value", key=key)
+        return written
+
+
+def exclusive(table: Table, first: str, second: str, *, required: bool = False) -> None:
+    """Refuse two keys that are alternatives, and none of them where one is required."""
+    given = [key for key in (first, second) if getattr(table, key) is not None]
+    if len(given) == 2:
+        raise InputError(f"{first} or {second}, not both", key=second)
+    if required and not given:
+        raise InputError(f"{first} or {second}", key=first)
+
+
+_EXPECTED: Final = {
+    "missing": "a bare number",  # inside a list of fixed length: tables check their keys themselves
+    "too_long": "at most {max_length} values",
+    "tuple_type": "a list",
+    "dict_type": "a table of keys and values",
+    "model_type": "a table of keys and values",
+    "model_attributes_type": "a table of keys and values",
+    "string_type": "a text in quotes",
+    "path_type": "a file name in quotes",
+}
+
+
+def explain(failure: ValidationError, raw: object, branches: Collection[str]) -> InputError:
+    """All problems that pydantic found in `raw`, the first of them carrying the others.
+
+    branches: names that pydantic puts into a path for the members of a union.
+    """
+    written: list[InputError] = []
+    derived: list[InputError] = []
+    for detail in failure.errors(include_url=False):
+        parts = [part for part in detail["loc"] if part not in branches]
+        error = _from_detail(detail)
+        # What was filled in from a bad value is bad as well; the line of that value says enough.
+        follows = error.value is not MISSING and look_up(raw, *parts) is MISSING
+        uncalled = detail["type"] == "default_factory_not_called"
+        (derived if follows or uncalled else written).append(error.at(join_key(*parts)))
+    first, *more = written or derived
+    return InputError(first.expected, key=first.key, value=first.value, more=more)
+
+
+def _from_detail(detail: ErrorDetails) -> InputError:
+    """One problem, its key counted from where pydantic met it."""
+    written, context = detail["input"], detail.get("ctx", {})
+    error = context.get("error")
+    if isinstance(error, InputError):
+        # Rules across keys name a key only: what stands there is read from the table itself.
+        value = look_up(written, *split_key(error.key)) if error.value is MISSING else error.value
+        return InputError(error.expected, key=error.key, value=value)
+    expected = _EXPECTED.get(detail["type"], detail["msg"].removeprefix("Input should be "))
+    value = MISSING if detail["type"] == "missing" else written
+    return InputError(expected.format(**context), value=value)

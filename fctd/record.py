@@ -1,0 +1,190 @@
+"""What is kept of a run: history, profiles along the string, and the energy ledger."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fctd import dynamics, state
+from fctd.case import Case
+from fctd.energy import energy_of, penetration
+from fctd.results import SimulationResult
+from fctd.run import Run
+from fctd.wellbore import hole_frame
+
+Array = NDArray[np.float64]
+
+SUMS = (
+    state.SUM_NORMAL, state.SUM_FRICTION_TORQUE, state.SUM_R_MU_N,
+    state.SUM_MUD_TORQUE, state.SUM_TENSION, state.SUM_TORQUE,
+)  # fmt: skip
+LOSSES = {
+    "lost_friction_J": state.LOST_FRICTION,
+    "lost_contact_J": state.LOST_CONTACT,
+    "lost_mud_J": state.LOST_MUD,
+    "lost_joints_J": state.LOST_JOINT,
+}
+
+
+def sensors(case: Case, kind: str, hookload: float, torque: float) -> tuple[float, float]:
+    """Weight indicator [N] and drive torque [N m]: what the rig reads for the string's own reactions.
+
+    Sheave friction lowers the dead line's tension when the block is hoisted and raises it when lowered.
+    """
+    rig = case.rig
+    hoisting = {"trip_out": 1, "back_ream": 1, "trip_in": -1}.get(kind, 0)
+    indicator = (hookload + rig.block_weight) * rig.sheave_efficiency**hoisting
+    return indicator, torque + rig.torque_offset
+
+
+class Recorder:
+    """Reads a settled run at its start and after every record interval."""
+
+    def __init__(self, run: Run) -> None:
+        self.run = run
+        self.start = energy_of(run.S, run.segments)
+        self.start_depth = run.string.bit_depth
+        self.start_length = float(run.top[dynamics.TOP_LENGTH])
+        self.last_time = 0.0
+        self.history: list[dict[str, Any]] = []
+        self.ledger: list[dict[str, float]] = []
+        self.profiles: dict[float, pd.DataFrame] = {}
+        self.wanted = list(run.case.record.profile_at)
+        self.mean = {offset: np.zeros(run.segments) for offset in SUMS}
+
+    def rows(self, offset: int) -> Array:
+        """One quantity of every segment."""
+        return state.row(self.run.S, offset, self.run.segments)
+
+    @property
+    def bit_depth(self) -> float:
+        """Unstretched length below the rotary table [m]."""
+        return self.start_depth + float(self.run.top[dynamics.TOP_LENGTH]) - self.start_length
+
+    def record(self, operation: int) -> None:
+        """Append a row of history and ledger, and a profile at a wanted depth; start new sums."""
+        top, case = self.run.top, self.run.case
+        span = float(top[dynamics.TOP_TIME]) - self.last_time
+        self.last_time = float(top[dynamics.TOP_TIME])
+        for offset in SUMS:
+            self.mean[offset] = self.rows(offset) / span
+            self.rows(offset)[:] = 0.0
+        hookload = float(top[dynamics.SUM_HOOKLOAD]) / span
+        torque = float(top[dynamics.SUM_TOP_TORQUE]) / span
+        top[[dynamics.SUM_HOOKLOAD, dynamics.SUM_TOP_TORQUE]] = 0.0
+
+        kind = case.operations[operation].kind
+        indicator, drive = sensors(case, kind, hookload, torque)
+        before = self.history[-1]["bit_depth_m"] if self.history else self.start_depth
+        self.history.append(
+            {
+                "time_s": self.last_time,
+                "operation": kind,
+                "bit_depth_m": self.bit_depth,
+                "bit_md_m": float(self._walls()[1][-1, 6]),
+                "hookload_N": hookload,
+                "surface_torque_N_m": torque,
+                "weight_indicator_N": indicator,
+                "drive_torque_N_m": drive,
+                "sum_r_ft_N_m": float(self.mean[state.SUM_FRICTION_TORQUE].sum()),
+                "sum_r_mu_fn_N_m": float(self.mean[state.SUM_R_MU_N].sum()),
+                "mud_torque_N_m": float(self.mean[state.SUM_MUD_TORQUE].sum()),
+                "total_contact_force_N": float(self.mean[state.SUM_NORMAL].sum()),
+                "contact_count": int((penetration(self.run.S, self.run.segments) > 0).sum()),
+            }
+        )
+        self.ledger.append(self._balance())
+        low, high = sorted((before, self.bit_depth))
+        for depth in [d for d in self.wanted if low <= d <= high]:
+            self.wanted.remove(depth)
+            self.profiles[self.bit_depth] = self._profile()
+
+    def result(self, status: str, message: str, wall: float, residual: float) -> SimulationResult:
+        """Everything recorded, with the profile of the end and the numbers of the run."""
+        run = self.run
+        if self.history:
+            self.profiles[self.bit_depth] = self._profile()
+        energy = pd.DataFrame(self.ledger)
+        work = (
+            [float(np.abs(energy[c]).max()) for c in ("top_drive_work_J", *LOSSES)]
+            if self.ledger
+            else [np.nan]
+        )
+        numbers = {
+            "segments": run.segments,
+            "pieces_of_hole": len(run.hole.pieces),
+            "step_s": run.step,
+            "steps": run.steps,
+            "simulated_s": self.last_time,
+            "wall_s": wall,
+            "real_time_factor": self.last_time / wall if wall > 0 else np.nan,
+            "energy_error": abs(self.ledger[-1]["residual_J"]) / max(work) if self.ledger else np.nan,
+            "settling_residual": residual,
+        }
+        profile = (
+            pd.concat(list(self.profiles.values()), ignore_index=True) if self.profiles else pd.DataFrame()
+        )
+        return SimulationResult(
+            run.case, status, message, pd.DataFrame(self.history), profile, energy, numbers
+        )
+
+    def _walls(self) -> tuple[Array, Array]:
+        """Contact points (n, 3) [m] and the walls beside them (Wellbore.walls)."""
+        arm = self.rows(state.ARM_CONTACT)
+        pairs = ((state.X, state.AX), (state.Y, state.AY), (state.Z, state.AZ))
+        points = np.stack([self.rows(p) + arm * self.rows(a) for p, a in pairs], axis=1)
+        return points, self.run.hole.walls(points, self.run.owner[1 : self.run.segments + 1])
+
+    def _balance(self) -> dict[str, float]:
+        """The ledger: energy held since the start, work and fed pipe as gains, losses, and what is left."""
+        energy, top = energy_of(self.run.S, self.run.segments), self.run.top
+        held = {
+            f"{name}_J": now - then
+            for name, now, then in zip(energy._fields, energy, self.start, strict=True)
+        }
+        gains = {
+            "top_drive_work_J": float(top[dynamics.TOP_WORK]),
+            "fed_pipe_J": float(top[dynamics.FED_ENERGY]),
+        }
+        losses = {name: float(self.rows(offset).sum()) for name, offset in LOSSES.items()}
+        residual = sum(held.values()) + sum(losses.values()) - sum(gains.values())
+        return {"time_s": self.last_time, **held, **gains, **losses, "residual_J": residual}
+
+    def _profile(self) -> pd.DataFrame:
+        """The string from the top to the bit: loads are means over the last interval.
+
+        A row per contact point and one for the top; tension and torque belong to the joint there.
+        """
+        run, string = self.run, self.run.string
+        points, walls = self._walls()
+        offset, md = walls[:, :3], walls[:, 6]
+        _, direction = run.hole.at(md)
+        high, right = hole_frame(direction)
+        up, aside = np.sum(offset * high, axis=1), np.sum(offset * right, axis=1)
+        tension = np.append(self.mean[state.SUM_TENSION], 0.0)
+        # Buoyed weight carries effective tension; the steel's own follows from the pressure of equal mud
+        # inside and outside at the depth of the joint.
+        depth = np.append(run.S[state.Z], points[:, 2])
+        steel = np.pi * (string.of("outer") ** 2 - string.of("inner") ** 2)
+        pressure = run.case.mud.density * dynamics.GRAVITY * depth
+        axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
+        turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
+        bending = self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0))
+        top_inclination = run.hole.inclination(np.array([string.top_md]))
+        return pd.DataFrame(
+            {
+                "bit_depth_m": self.bit_depth,
+                "operation": self.history[-1]["operation"],
+                "md_m": np.append(string.top_md, md),
+                "inclination_deg": np.degrees(np.append(top_inclination, run.hole.inclination(md))),
+                "effective_tension_N": tension,
+                "true_tension_N": tension - pressure * np.append(steel[0], steel),
+                "torque_N_m": np.append(self.mean[state.SUM_TORQUE], 0.0),
+                "contact_force_N": np.append(0.0, self.mean[state.SUM_NORMAL]),
+                "contact_angle_deg": np.append(0.0, np.degrees(np.arctan2(aside, up)) % 360),
+                "bending_moment_N_m": np.append(bending, 0.0),
+                "offset_high_m": np.append(0.0, up),
+                "offset_right_m": np.append(0.0, aside),
+            }
+        )

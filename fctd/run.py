@@ -1,0 +1,208 @@
+"""A run before its first step: hole, string, step, and the string settled at its start."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd import dynamics, state
+from fctd.case import Case
+from fctd.contact import update_walls
+from fctd.drillstring import String, check_fit, fill, lay_out
+from fctd.dynamics import Motion, PerMetre
+from fctd.energy import penetration
+from fctd.errors import InputError
+from fctd.operations import Stretch, depth_range, rad_per_s, schedule
+from fctd.rotations import quaternion_from_axis
+from fctd.stability import AUTO_SHARE, stable_step, stiffest_mode
+from fctd.wellbore import Wellbore, build_wellbore
+
+Array = NDArray[np.float64]
+# The string is settled when no force is out of balance by more than this share of its weight.
+SETTLED = 1e-6
+LONGEST_SETTLING = 400.0  # [s] simulated
+
+
+class Unstable(Exception):
+    """The run left what the model can describe; its text says how."""
+
+
+@dataclass
+class Run:
+    """Everything the stepper works on, and the step it takes.
+
+    S, top, owner : state buffers (state.py, dynamics.py, contact.py); segments n; step [s].
+    """
+
+    case: Case
+    hole: Wellbore
+    string: String
+    pipe: PerMetre
+    S: Array
+    top: Array
+    owner: NDArray[np.int64]
+    step: float
+    laws: state.Laws
+    steps: int = 0
+    segments: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.segments = self.string.segments
+
+    def advance(self, motion: Motion, duration: float, laws: state.Laws | None = None) -> None:
+        """Advance by ``duration`` [s] in equal steps no longer than the run's."""
+        steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
+        dynamics.advance(
+            self.S, self.top, self.owner, self.segments, self.hole.pieces, laws or self.laws,
+            motion, self.pipe, duration / steps, steps,
+        )  # fmt: skip
+        self.steps += steps
+
+    def refresh(self) -> None:
+        """Bring axes and walls up to the present positions."""
+        dynamics.update_axes(self.S, self.segments)
+        update_walls(self.S, self.owner, self.segments, self.segments, self.hole.pieces, self.hole.geometry)
+
+    def check(self) -> None:
+        """Raise Unstable when the state is no longer finite, or has left the hole or the joint law."""
+        n = self.segments
+        rows = [state.row(self.S, offset, n) for offset in (state.X, state.Y, state.Z, state.VX, state.WZ)]
+        if not all(np.isfinite(r).all() for r in rows):
+            raise Unstable("a position or velocity is not finite")
+        deep = penetration(self.S, n) - state.row(self.S, state.HOLE, n)
+        if (deep > 0).any():
+            raise Unstable(f"segment {int(np.argmax(deep)) + 1} has left the hole")
+        axes = np.stack([state.row(self.S, a, n) for a in (state.AX, state.AY, state.AZ)], axis=1)
+        cosine = np.sum(axes[1:] * axes[:-1], axis=1)
+        if (cosine < 0).any():
+            raise Unstable(f"the string has folded at segment {int(np.argmin(cosine)) + 2}")
+
+
+def prepare(case: Case) -> tuple[Run, list[Stretch]]:
+    """Build hole and string of a case, lay the string on the axis of the hole and choose the step.
+
+    Raises InputError for a case that cannot be simulated.
+    """
+    if not case.operations:
+        raise InputError("at least one operation to simulate", key="operations", value=[])
+    hole = build_wellbore(case)
+    first, shallowest, deepest = depth_range(case)
+    fed = deepest > shallowest
+    string = lay_out(case, shallowest, fed)
+    check_fit(case, string, hole, deepest)
+    string = string.lengthened(first - shallowest)
+
+    n = string.segments
+    S, top = state.new_state(n), np.zeros(dynamics.TOP_SIZE)
+    pipe = fill(S, string, case)
+    top[dynamics.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
+    lie_on_axis(S, top, string, hole)
+    stretches = schedule(case.operations)
+    laws = state.Laws(
+        geometry=hole.geometry,
+        friction=state.PAPER if case.contact.friction_law == "paper" else state.COULOMB,
+        friction_scale=1.0,
+        contact_damping=case.contact.damping,
+        joint_damping=case.solver.joint_damping,
+        settling=0.0,
+    )
+    limit = _step_limit(S, case, string, hole, pipe, shallowest - first)
+    step = AUTO_SHARE * limit if case.solver.step == "auto" else case.solver.step
+    if step > limit * (1 + 1e-9):
+        raise InputError(
+            f"'auto' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
+        )
+    run = Run(case, hole, string, pipe, S, top, np.zeros(n + 2, np.int64), step, laws)
+    return run, stretches
+
+
+def _step_limit(
+    S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float
+) -> float:
+    """Largest stable step of the run [s]; the top segment is stiffest where it is shortest."""
+    spin = max(rad_per_s(o.rpm) for o in case.operations)
+    probe = S.copy()
+    if string.long_segment:
+        dynamics.set_long_segment(probe, string.length[0] + shrinks, pipe)
+    return stable_step(
+        stiffest_mode(probe, string.segments, hole.stiffest_wall), case.solver.joint_damping, spin
+    )
+
+
+def lie_on_axis(S: Array, top: Array, string: String, hole: Wellbore) -> None:
+    """Place the string on the axis of the hole, unstretched, every joint on the axis."""
+    md = string.top_md
+    (start,), (tangent,) = hole.at(np.array([md]))
+    joints = [start]
+    for length in string.length:
+        # The chord is what has to equal the segment: the axis is a little longer in a bend.
+        guess = md + length
+        for _ in range(3):
+            guess += length - np.linalg.norm(hole.at(np.array([guess]))[0][0] - joints[-1])
+        md = guess
+        joints.append(hole.at(np.array([md]))[0][0])
+    points = np.array(joints)
+    axes = np.diff(points, axis=0) / np.linalg.norm(np.diff(points, axis=0), axis=1, keepdims=True)
+    n = string.segments
+    centre = points[1:] - axes * state.row(S, state.ARM_BOTTOM, n)[:, None]
+    turned = _transported(np.vstack([tangent, axes]))
+    top[dynamics.TOP_FRAME : dynamics.TOP_FRAME + 4] = turned[0]
+    for k, offset in enumerate((state.X, state.Y, state.Z)):
+        S[offset] = start[k]
+        state.row(S, offset, n)[:] = centre[:, k]
+    for k, offset in enumerate((state.AX, state.AY, state.AZ)):
+        S[offset] = tangent[k]
+        state.row(S, offset, n)[:] = axes[:, k]
+    for k, offset in enumerate((state.QW, state.QX, state.QY, state.QZ)):
+        S[offset] = turned[0, k]
+        state.row(S, offset, n)[:] = turned[1:, k]
+
+
+def _transported(axes: Array) -> Array:
+    """Quaternions of a chain of axes (n, 3) without twist from one to the next, shape (n, 4)."""
+    out = quaternion_from_axis(axes[:1])
+    for before, after in zip(axes, axes[1:], strict=False):
+        # The shortest rotation that takes ``before`` to ``after``, applied on the left.
+        w = np.concatenate([[1 + before @ after], np.cross(before, after)])
+        w /= np.linalg.norm(w)
+        a, b = w, out[-1]
+        vector = a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:])
+        out = np.vstack([out, np.concatenate([[a[0] * b[0] - a[1:] @ b[1:]], vector])])
+    return out
+
+
+def settle(run: Run, tolerance: float = SETTLED) -> float:
+    """Relax the frictionless string at rest; returns the largest force out of balance over the weight.
+
+    Damping proportional to mass, a few times critical for the slowest swing of the hanging string: damping
+    critical for its stretching would leave the swing creeping for minutes.
+    """
+    n, string = run.segments, run.string
+    weight = float((string.of("weight") * string.length).sum())
+    rate = 12 * np.sqrt(dynamics.GRAVITY / float(string.length.sum()))
+    laws = run.laws._replace(friction_scale=0.0, settling=rate)
+    still = Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+    residual = np.inf
+    for _ in range(int(LONGEST_SETTLING * rate)):
+        run.advance(still, 1 / rate, laws)
+        before = np.stack([state.row(run.S, v, n) for v in (state.VX, state.VY, state.VZ)])
+        run.advance(still, run.step, laws)
+        after = np.stack([state.row(run.S, v, n) for v in (state.VX, state.VY, state.VZ)])
+        # What moves a body is the imbalance of all forces but the artificial drag.
+        pull = (after - before) / run.step + laws.settling * after
+        residual = float(np.abs(state.row(run.S, state.MASS, n) * pull).max()) / weight
+        if not np.isfinite(residual) or residual < tolerance:
+            break
+    return residual
+
+
+def forget_start(run: Run) -> None:
+    """Bring the settled string to rest and clear clock, sums and losses: the run starts here."""
+    for offset in (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ):
+        state.row(run.S, offset, run.segments)[:] = 0.0
+    first, last = state.SUM_NORMAL, state.LOST_JOINT
+    run.S[first : last + state.STRIDE] = 0.0
+    run.top[[dynamics.TOP_TIME, dynamics.TOP_ANGLE, dynamics.TOP_WORK, dynamics.FED_ENERGY]] = 0.0
+    run.top[[dynamics.SUM_HOOKLOAD, dynamics.SUM_TOP_TORQUE]] = 0.0
+    run.steps = 0
+    run.refresh()

@@ -1,0 +1,58 @@
+"""A whole simulation: prepare, settle, run the schedule, record (§4.6, §6.2)."""
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from fctd import dynamics
+from fctd.case import Case
+from fctd.dynamics import Motion
+from fctd.record import Recorder
+from fctd.results import SimulationResult
+from fctd.run import SETTLED, Unstable, forget_start, prepare, settle
+
+# Called after every record with simulated and total time [s] and the real-time factor so far.
+Progress = Callable[[float, float, float], None]
+
+
+def simulate(case: Case, progress: Progress | None = None) -> SimulationResult:
+    """Simulate a case's operations.
+
+    Returns whatever was reached: ``status`` is ``completed``, or says why it stopped and ``message`` when.
+    Raises InputError for a case that cannot be simulated.
+    """
+    run, stretches = prepare(case)
+    status, message = "completed", ""
+    residual = settle(run)
+    forget_start(run)
+    recorder = Recorder(run)
+    total = sum(s.motion.duration for s in stretches)
+    began = time.perf_counter()
+    try:
+        if not residual < SETTLED:
+            status, message = "unsettled", f"out of balance by {residual:.2g} of the weight before the start"
+            stretches = []
+        for motion, operation in stretches:
+            for end in _records(motion, case.record.interval):
+                run.advance(motion, end - run.top[dynamics.TOP_TIME])
+                run.refresh()
+                run.check()
+                recorder.record(operation)
+                if progress is not None:
+                    now = run.top[dynamics.TOP_TIME]
+                    progress(now, total, now / max(time.perf_counter() - began, 1e-9))
+    except Unstable as error:
+        status, message = "unstable", f"at {run.top[dynamics.TOP_TIME]:.4g} s: {error}"
+    except KeyboardInterrupt:
+        status, message = "interrupted", f"at {run.top[dynamics.TOP_TIME]:.4g} s"
+    wall = time.perf_counter() - began
+    return recorder.result(status, message, wall, residual)
+
+
+def _records(motion: Motion, interval: float) -> list[float]:
+    """Times at which a stretch is recorded: the grid of the interval and its own end [s]."""
+    end = motion.start + motion.duration
+    grid = interval * np.arange(np.floor(motion.start / interval) + 1, np.ceil(end / interval))
+    inside = grid[(grid > motion.start + 1e-6) & (grid < end - 1e-6)]
+    return [*(float(t) for t in inside), end]

@@ -1,0 +1,171 @@
+"""The memory of a run: one flat buffer, one row per quantity, one column per body.
+
+LLVM packs a loop only when it can prove that rows do not overlap.  It can when every row is a constant
+offset into one buffer, so the offsets are written out below and a row is reached as ``S[VX + j]``.
+NamedTuples of arrays, 2-D arrays and reshapes inside a kernel all stay scalar.
+
+Column 0 is the top drive, columns 1..n are the rigid segments from the top to the bit.  Joint j connects
+bodies j - 1 and j.  The columns after n are inert (no mass, no stiffness): they stand for the free end
+below the bit and fill the last packed operation, since a scalar remainder loop would cost as much as all
+the rest of a 60-segment string.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from fctd.errors import InputError
+
+MAX_SEGMENTS = 10_000
+# Not a power of two: rows a power of two apart would all fall into the same cache set.
+STRIDE = 10_029
+# Columns handled at once; a multiple of every vector width in use.
+LANES = 8
+
+# Centre of mass, global frame (x north, y east, z down) [m]; velocity, global [m/s].
+X, Y, Z = 0 * STRIDE, 1 * STRIDE, 2 * STRIDE
+VX, VY, VZ = 3 * STRIDE, 4 * STRIDE, 5 * STRIDE
+# Orientation quaternion, body to global, scalar first; spin in the body frame [rad/s].
+QW, QX, QY, QZ = 6 * STRIDE, 7 * STRIDE, 8 * STRIDE, 9 * STRIDE
+WX, WY, WZ = 10 * STRIDE, 11 * STRIDE, 12 * STRIDE
+
+# Derived each step: string axis towards the bit and spin, both global.
+AX, AY, AZ = 13 * STRIDE, 14 * STRIDE, 15 * STRIDE
+GX, GY, GZ = 16 * STRIDE, 17 * STRIDE, 18 * STRIDE
+
+# Body constants: mass [kg], transverse and axial inertia [kg m^2], their inverses, buoyed weight [N].
+MASS, J_TRANSVERSE, J_AXIAL = 19 * STRIDE, 20 * STRIDE, 21 * STRIDE
+INVERSE_MASS, INVERSE_JT, INVERSE_JA = 22 * STRIDE, 23 * STRIDE, 24 * STRIDE
+WEIGHT = 25 * STRIDE
+# Arms from the centre of mass along the axis to the upper joint, lower joint and contact point [m].
+ARM_TOP, ARM_BOTTOM, ARM_CONTACT = 26 * STRIDE, 27 * STRIDE, 28 * STRIDE
+# Contact radius [m]; multiplier of the wall stiffness (1 a point, or tributary length [m]).
+RADIUS, TRIBUTARY = 29 * STRIDE, 30 * STRIDE
+# Mud damping of the whole segment: axial, lateral [N s/m], rotational [N m s].
+MUD_AXIAL, MUD_LATERAL, MUD_SPIN = 31 * STRIDE, 32 * STRIDE, 33 * STRIDE
+
+# Joint constants: axial, shear [N/m], bending, torsional [N m/rad] stiffness; whole turns of twist that
+# the quaternions cannot hold [rad].
+K_AXIAL, K_SHEAR, K_BEND, K_TWIST = 34 * STRIDE, 35 * STRIDE, 36 * STRIDE, 37 * STRIDE
+TURNS = 38 * STRIDE
+# Joint loads, global: force on the lower body [N] (the upper feels the opposite), moments on the upper and
+# on the lower body [N m].
+FX, FY, FZ = 39 * STRIDE, 40 * STRIDE, 41 * STRIDE
+UX, UY, UZ = 42 * STRIDE, 43 * STRIDE, 44 * STRIDE
+LX, LY, LZ = 45 * STRIDE, 46 * STRIDE, 47 * STRIDE
+
+# Wall beside the contact point: vector PT from the hole axis to the point [m], hole radius such that
+# |PT| - HOLE + RADIUS is the penetration [m], stiffness [N/m], friction factor.
+PX, PY, PZ, HOLE = 48 * STRIDE, 49 * STRIDE, 50 * STRIDE, 51 * STRIDE
+K_WALL, FRICTION = 52 * STRIDE, 53 * STRIDE
+# The piece of hole that the contact point remembers (see contact.py): start, axis there, where along it
+# the point may be without a new search; for arcs also normal, curvature and end plane.
+OX, OY, OZ = 54 * STRIDE, 55 * STRIDE, 56 * STRIDE
+TX, TY, TZ = 57 * STRIDE, 58 * STRIDE, 59 * STRIDE
+NX, NY, NZ = 60 * STRIDE, 61 * STRIDE, 62 * STRIDE
+CURVE, END_COS, END_SIN, END_ALONG = 63 * STRIDE, 64 * STRIDE, 65 * STRIDE, 66 * STRIDE
+MARGIN_TOP, MARGIN_END = 67 * STRIDE, 68 * STRIDE
+
+# Sums over the steps since the last record: impulses of the wall's normal force [N s], of the friction
+# torque Σ r F_t, of Σ r μ F_n and of the mud torque [N m s], of joint tension [N s] and torque [N m s].
+SUM_NORMAL, SUM_FRICTION_TORQUE, SUM_R_MU_N = 69 * STRIDE, 70 * STRIDE, 71 * STRIDE
+SUM_MUD_TORQUE, SUM_TENSION, SUM_TORQUE = 72 * STRIDE, 73 * STRIDE, 74 * STRIDE
+# Energy lost since the start of the run [J]: friction, contact damping, mud, joint damping.
+LOST_FRICTION, LOST_CONTACT, LOST_MUD, LOST_JOINT = 75 * STRIDE, 76 * STRIDE, 77 * STRIDE, 78 * STRIDE
+
+ROWS = 79
+
+
+class Laws(NamedTuple):
+    """Choices and constants of a run, scalars so that one stepper serves every case.
+
+    geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : COULOMB or PAPER.
+    friction_scale : multiplies every friction factor (0 while the string settles).
+    contact_damping : wall damping [N s/m].  joint_damping : stiffness-proportional damping time [s].
+    settling : artificial mass-proportional damping rate [1/s], 0 in a run.
+    """
+
+    geometry: int
+    friction: int
+    friction_scale: float
+    contact_damping: float
+    joint_damping: float
+    settling: float
+
+
+# Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.
+TINY = 1e-300
+
+CYLINDERS, ARCS, OPEN = 0, 1, 2
+COULOMB, PAPER = 0, 1
+
+
+def check_segments(segments: int) -> None:
+    """Raise InputError when the string has more segments than the buffer holds."""
+    if segments > MAX_SEGMENTS:
+        raise InputError(
+            f"at most {MAX_SEGMENTS} segments in all", key="string.components", value=f"{segments} segments"
+        )
+
+
+def new_state(segments: int) -> np.ndarray:
+    """Return a fresh buffer for ``segments`` bodies: at rest at the origin, upright, without mass."""
+    check_segments(segments)
+    S = np.zeros(ROWS * STRIDE)
+    S[QW : QW + STRIDE] = 1.0
+    S[AZ : AZ + STRIDE] = 1.0
+    return S
+
+
+def row(S: np.ndarray, offset: int, segments: int) -> np.ndarray:
+    """View of one quantity for bodies 1..n, outside kernels (shape (n,))."""
+    return S[offset + 1 : offset + 1 + segments]
+
+
+@njit(forceinline=True)
+def position(S, j):
+    """Centre of mass of body j [m], global."""
+    return S[X + j], S[Y + j], S[Z + j]
+
+
+@njit(forceinline=True)
+def velocity(S, j):
+    """Velocity of the centre of mass of body j [m/s], global."""
+    return S[VX + j], S[VY + j], S[VZ + j]
+
+
+@njit(forceinline=True)
+def quaternion(S, j):
+    """Orientation of body j, body to global, scalar first."""
+    return S[QW + j], S[QX + j], S[QY + j], S[QZ + j]
+
+
+@njit(forceinline=True)
+def spin(S, j):
+    """Spin of body j in its own frame [rad/s]."""
+    return S[WX + j], S[WY + j], S[WZ + j]
+
+
+@njit(forceinline=True)
+def axis(S, j):
+    """Unit vector along body j towards the bit, global."""
+    return S[AX + j], S[AY + j], S[AZ + j]
+
+
+@njit(forceinline=True)
+def global_spin(S, j):
+    """Spin of body j [rad/s], global."""
+    return S[GX + j], S[GY + j], S[GZ + j]
+
+
+@njit(forceinline=True)
+def joint_force(S, j):
+    """Force of joint j on body j [N], global; body j - 1 feels the opposite."""
+    return S[FX + j], S[FY + j], S[FZ + j]
+
+
+@njit(forceinline=True)
+def radial(S, j):
+    """Vector PT from the hole axis to contact point j [m], global."""
+    return S[PX + j], S[PY + j], S[PZ + j]

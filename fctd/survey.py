@@ -1,0 +1,100 @@
+"""Survey stations to positions along the hole: average angle (Eqs 21–23) and minimum curvature.
+
+Stations are (n, 3) arrays of measured depth [m], inclination and azimuth [rad]; azimuth is unwrapped, so it
+may run past 2π.  Positions are (n, 3): north, east, true vertical depth [m].
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Courses(NamedTuple):
+    """The arcs between stations by minimum curvature, one row each.
+
+    md [m] at the start; start (n, 3) [m]; tangent (n, 3) there; normal (n, 3) towards the centre of
+    curvature; curvature [1/m]; length [m].
+    """
+
+    md: Array
+    start: Array
+    tangent: Array
+    normal: Array
+    curvature: Array
+    length: Array
+
+
+def to_radians(stations: Array) -> Array:
+    """Stations in degrees, as read, to radians with the azimuth unwrapped through north."""
+    out = np.array(stations, dtype=float)
+    out[:, 1] = np.radians(out[:, 1])
+    out[:, 2] = np.unwrap(np.radians(out[:, 2]))
+    return out
+
+
+def tangents(stations: Array) -> Array:
+    """Unit vectors along the hole at the stations, shape (n, 3)."""
+    inclination, azimuth = stations[:, 1], stations[:, 2]
+    across = np.sin(inclination)
+    return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), np.cos(inclination)], axis=1)
+
+
+def interpolate_angles(stations: Array, md: Array) -> Array:
+    """Stations at other depths, inclination and unwrapped azimuth linear in measured depth."""
+    return np.stack(
+        [md, np.interp(md, stations[:, 0], stations[:, 1]), np.interp(md, stations[:, 0], stations[:, 2])],
+        axis=1,
+    )
+
+
+def average_angle(stations: Array) -> Array:
+    """Positions by Eqs 21–23, with DM the change of measured depth (the paper prints vertical depth)."""
+    middle = 0.5 * (stations[1:] + stations[:-1])
+    steps = np.diff(stations[:, 0])[:, None] * tangents(middle)
+    return np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])
+
+
+def dogleg(stations: Array) -> Array:
+    """Angle between the tangents of neighbouring stations [rad], shape (n − 1,)."""
+    t = tangents(stations)
+    # 2 asin(|Δt|/2) keeps its precision where acos(t·t) loses half of it: at small angles.
+    half = 0.5 * np.linalg.norm(np.diff(t, axis=0), axis=1)
+    return np.asarray(2 * np.arcsin(np.minimum(half, 1.0)))
+
+
+def minimum_curvature(stations: Array) -> Courses:
+    """Circular arcs through the stations (Sawaryn & Thorogood 2005).
+
+    Raises ValueError when neighbouring stations point in opposite directions: no single arc joins them.
+    """
+    t, angle = tangents(stations), dogleg(stations)
+    length = np.diff(stations[:, 0])
+    if np.any(angle > np.pi - 1e-6):
+        raise ValueError(f"opposite directions at station {int(np.argmax(angle)) + 1}")
+    factor = np.where(angle > 1e-4, 2 / np.maximum(angle, 1e-12) * np.tan(angle / 2), 1 + angle**2 / 12)
+    steps = (0.5 * length * factor)[:, None] * (t[1:] + t[:-1])
+    start = np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])[:-1]
+    across = t[1:] - np.sum(t[1:] * t[:-1], axis=1, keepdims=True) * t[:-1]
+    size = np.linalg.norm(across, axis=1, keepdims=True)
+    anything = np.cross(t[:-1], np.where(np.abs(t[:-1, :1]) < 0.9, [[1.0, 0, 0]], [[0, 1.0, 0]]))
+    anything /= np.linalg.norm(anything, axis=1, keepdims=True)
+    normal = np.where(size > 1e-14, across / np.maximum(size, 1e-300), anything)
+    return Courses(stations[:-1, 0], start, t[:-1], normal, angle / length, length)
+
+
+def along_courses(courses: Courses, md: Array) -> tuple[Array, Array]:
+    """Positions and tangents at measured depths on the arcs; straight on beyond both ends."""
+    i = np.clip(np.searchsorted(courses.md, md, side="right") - 1, 0, len(courses.md) - 1)
+    t, n, k = courses.tangent[i], courses.normal[i], courses.curvature[i]
+    s = md - courses.md[i]
+    inside = np.clip(s, 0.0, courses.length[i])
+    angle = (k * inside)[:, None]
+    # sin(κs)/κ and (1 − cos κs)/κ written so that κ → 0 is exact.
+    forward = inside[:, None] * np.sinc(angle / np.pi)
+    aside = 0.5 * inside[:, None] * angle * np.sinc(0.5 * angle / np.pi) ** 2
+    direction = np.cos(angle) * t + np.sin(angle) * n
+    point = courses.start[i] + forward * t + aside * n
+    return point + (s - inside)[:, None] * direction, direction

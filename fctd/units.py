@@ -1,0 +1,204 @@
+"""Quantities at the boundary: a string with its unit, or a bare SI number, to an SI float.
+
+`Length`, `PositiveForce`, … are `float` to the type checker and, as fields of a pydantic model,
+parse and check what the user wrote. Everything behind the boundary is SI and never sees a unit.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from functools import cache
+from numbers import Integral, Real
+from typing import TYPE_CHECKING, Annotated, Any, Final
+
+from pydantic_core import CoreSchema, core_schema
+
+from fctd.errors import Expects, InputError
+
+if TYPE_CHECKING:
+    from pint import UnitRegistry
+    from pydantic import GetCoreSchemaHandler
+
+# Only text of this shape reaches pint: its parser evaluates arithmetic ("8 1/2 in" is 0.1 m to it,
+# "1,2 m" is 12 m, and "10**10**10 m" never returns).
+_FACTOR = r"[^\W\d_]+(?:(?:\^|\*\*)?-?[1-9]|[²³])?"
+_QUANTITY = re.compile(
+    r"\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+    rf"\s*(?P<unit>{_FACTOR}(?:\s*[*/·]\s*{_FACTOR})*)\s*",
+)
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A physical dimension: its name with article, its SI unit and examples for messages."""
+
+    noun: str
+    unit: str
+    example: str
+
+
+LENGTH: Final = Dimension("a length", "m", "'12 m' or '40 ft'")
+TIME: Final = Dimension("a time", "s", "'10 s' or '2 min'")
+SPEED: Final = Dimension("a speed", "m/s", "'0.5 m/s' or '60 ft/min'")
+FORCE: Final = Dimension("a force", "N", "'50 kN' or '12 klbf'")
+TORQUE: Final = Dimension("a torque", "N*m", "'0.5 kN*m' or '400 ft*lbf'")
+STRESS: Final = Dimension("a stress", "Pa", "'206.8 GPa' or '30e6 psi'")
+DENSITY: Final = Dimension("a density", "kg/m^3", "'1200 kg/m^3' or '10 ppg'")
+LINEAR_MASS: Final = Dimension("a mass per length", "kg/m", "'36.8 kg/m' or '19.5 lb/ft'")
+STIFFNESS: Final = Dimension("a stiffness", "N/m", "'1e7 N/m'")
+STIFFNESS_PER_LENGTH: Final = Dimension("a stiffness per length", "N/m^2", "'1e6 N/m/m'")
+AXIAL_STIFFNESS: Final = Dimension("an axial or shear stiffness", "N", "'1.2e9 N'")
+BENDING_STIFFNESS: Final = Dimension("a bending or torsional stiffness", "N*m^2", "'2e6 N*m^2'")
+DAMPING: Final = Dimension("a damping coefficient", "N*s/m", "'1e4 N*s/m'")
+DAMPING_PER_LENGTH: Final = Dimension("a damping coefficient per length", "N*s/m^2", "'5 N*s/m^2'")
+ROTATIONAL_DAMPING: Final = Dimension("a rotational damping per length", "N*s", "'0.1 N*s'")
+
+
+@cache
+def _registry() -> UnitRegistry[Any]:
+    """The one unit registry; built on first use, since pint takes half a second to come up."""
+    from pint import UnitRegistry
+
+    registry: UnitRegistry[Any] = UnitRegistry()
+    registry.define("pound_per_gallon = pound / gallon = ppg")
+    registry.define("specific_gravity = 1000 kilogram / meter ** 3 = sg")
+    return registry
+
+
+@cache
+def conversion(unit: str, target: str) -> float:
+    """How many `target` units one `unit` is, e.g. conversion("ft", "m") = 0.3048.
+
+    Raises ValueError for a unit that is unknown or of another dimension.
+    """
+    if unit == target:
+        return 1.0
+    registry = _registry()
+    try:
+        factor = registry.Quantity(1.0, unit).to(target).magnitude
+    except Exception as error:  # pint lets assertion and token errors of its parser through
+        raise ValueError(f"{unit!r} cannot be converted to {target!r}") from error
+    return float(f"{factor:.15g}")  # pint multiplies floats: its foot is 0.30479999999999996 m
+
+
+@dataclass(frozen=True, kw_only=True)
+class Number(Expects):
+    """Pydantic annotation for a bare number within bounds; says what it expects when it refuses."""
+
+    noun: str = "a number"
+    above: float | None = None
+    at_least: float | None = None
+    at_most: float | None = None
+
+    @property
+    def bounded(self) -> str:
+        """The noun with its bounds: "a length above 0"."""
+        bounds = {"above": self.above, "at least": self.at_least, "at most": self.at_most}
+        words = " and ".join(f"{word} {limit:g}" for word, limit in bounds.items() if limit is not None)
+        return f"{self.noun} {words}".strip()
+
+    @property
+    def expected(self) -> str:
+        """What to write here."""
+        return self.bounded
+
+    def read(self, value: object) -> float:
+        """The value as a float; refuses all that is not a number (booleans are not)."""
+        if isinstance(value, bool) or not isinstance(value, Real):
+            raise InputError(self.expected, value=value)
+        try:
+            return float(value)
+        except OverflowError as error:  # an integer beyond the floats
+            raise InputError(self.expected, value=value) from error
+
+    def parse(self, value: object) -> float:
+        """The value in SI, finite and within bounds, or an InputError."""
+        number = self.read(value)
+        if not math.isfinite(number):
+            raise InputError(self.expected, value=value)
+        within = (
+            (self.above is None or number > self.above)
+            and (self.at_least is None or number >= self.at_least)
+            and (self.at_most is None or number <= self.at_most)
+        )
+        if not within:
+            raise InputError(self.bounded, value=value)
+        return number
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.parse, handler(source))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Whole(Number):
+    """A whole number: 20, not 20.0."""
+
+    noun: str = "a whole number"
+
+    def read(self, value: object) -> float:
+        if not isinstance(value, Integral):
+            raise InputError(self.expected, value=value)
+        return super().read(value)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Quantity(Number):
+    """A quantity of one dimension: a string with its unit, or a bare SI number."""
+
+    dimension: Dimension
+    noun: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "noun", self.dimension.noun)
+
+    @property
+    def expected(self) -> str:
+        return f"{self.noun} such as {self.dimension.example}"
+
+    def read(self, value: object) -> float:
+        if not isinstance(value, str):
+            return super().read(value)
+        match = _QUANTITY.fullmatch(value)
+        if match is None:
+            raise InputError(self.expected, value=value)
+        try:
+            factor = conversion(match["unit"], self.dimension.unit)
+            # In decimals "102 mm" is 0.102 m; in binary floats it is 0.10200000000000001 m.
+            return float(Decimal(match["number"]) * Decimal(repr(factor)))
+        except (ValueError, ArithmeticError) as error:
+            raise InputError(self.expected, value=value) from error
+
+
+def parse_quantity(value: object, dimension: Dimension) -> float:
+    """A quantity of the dimension in SI, or an InputError without file and key."""
+    return Quantity(dimension=dimension).parse(value)
+
+
+Bare = Annotated[float, Number(noun="a bare number")]
+Count = Annotated[int, Whole(at_least=1)]
+Friction = Annotated[float, Number(noun="a friction factor", at_least=0.0)]
+PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
+Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
+Rpm = Annotated[float, Number(noun="a bare number of rev/min", at_least=0.0)]
+PositiveRpm = Annotated[float, Number(noun="a bare number of rev/min", above=0.0)]
+Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
+PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
+Time = Annotated[float, Quantity(dimension=TIME, at_least=0.0)]
+PositiveTime = Annotated[float, Quantity(dimension=TIME, above=0.0)]
+PositiveSpeed = Annotated[float, Quantity(dimension=SPEED, above=0.0)]
+Force = Annotated[float, Quantity(dimension=FORCE, at_least=0.0)]
+Torque = Annotated[float, Quantity(dimension=TORQUE)]
+PositiveStress = Annotated[float, Quantity(dimension=STRESS, above=0.0)]
+Density = Annotated[float, Quantity(dimension=DENSITY, at_least=0.0)]
+PositiveDensity = Annotated[float, Quantity(dimension=DENSITY, above=0.0)]
+PositiveLinearMass = Annotated[float, Quantity(dimension=LINEAR_MASS, above=0.0)]
+PositiveStiffness = Annotated[float, Quantity(dimension=STIFFNESS, above=0.0)]
+PositiveStiffnessPerLength = Annotated[float, Quantity(dimension=STIFFNESS_PER_LENGTH, above=0.0)]
+PositiveAxialStiffness = Annotated[float, Quantity(dimension=AXIAL_STIFFNESS, above=0.0)]
+PositiveBendingStiffness = Annotated[float, Quantity(dimension=BENDING_STIFFNESS, above=0.0)]
+Damping = Annotated[float, Quantity(dimension=DAMPING, at_least=0.0)]
+DampingPerLength = Annotated[float, Quantity(dimension=DAMPING_PER_LENGTH, at_least=0.0)]
+RotationalDamping = Annotated[float, Quantity(dimension=ROTATIONAL_DAMPING, at_least=0.0)]

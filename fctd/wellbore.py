@@ -1,0 +1,258 @@
+"""The hole as the contact algorithm sees it: a table of cylinders with overlap (§5.2, Fig. 8), or of arcs."""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from fctd import contact, survey
+from fctd.case import Case, IntervalSpec, WellboreSpec
+from fctd.errors import InputError
+from fctd.state import ARCS, CYLINDERS, OPEN
+
+Array = NDArray[np.float64]
+
+# The first and last piece reach this far beyond surface and total depth [m].
+RUN_OUT = 10.0
+# Straight hole needs no short cylinders, but neighbours in the table should stay neighbours in space [m].
+LONGEST_CYLINDER = 30.0
+# Below this inclination the high side is north [rad].
+VERTICAL = np.radians(0.1)
+
+
+class Contacts(NamedTuple):
+    """Answer of a contact query, one row a point.
+
+    penetration (n,) [m], negative is clearance; normal (n, 3) from the hole axis to the wall; md (n,) [m].
+    """
+
+    penetration: Array
+    normal: Array
+    md: Array
+
+
+@dataclass(frozen=True)
+class Wellbore:
+    """A hole ready for queries.
+
+    pieces : (m, COLUMNS) table of contact.py; geometry : CYLINDERS, ARCS or OPEN.
+    md (k,) [m], points (k, 3) [m], directions (k, 3): axis sampled at the ends of the pieces.
+    """
+
+    pieces: Array
+    geometry: int
+    md: Array
+    points: Array
+    directions: Array
+    intervals: Array = field(repr=False)  # columns: to_md [m], radius [m]
+    courses: survey.Courses | None = None
+
+    @property
+    def stiffest_wall(self) -> float:
+        """Largest wall stiffness [N/m a point, or N/m/m]; 0 without walls."""
+        return 0.0 if self.geometry == OPEN else float(self.pieces[:, contact.STIFFNESS].max())
+
+    @property
+    def total_depth(self) -> float:
+        """Measured depth of the last station [m]."""
+        return float(self.md[-1])
+
+    def at(self, md: Array) -> tuple[Array, Array]:
+        """Positions (n, 3) [m] and unit tangents (n, 3) of the axis at measured depths (n,) [m]."""
+        md = np.atleast_1d(np.asarray(md, dtype=float))
+        if self.courses is not None:
+            return survey.along_courses(self.courses, md)
+        i = np.clip(np.searchsorted(self.md, md, side="right") - 1, 0, len(self.md) - 2)
+        direction = self.directions[i]
+        return self.points[i] + (md - self.md[i])[:, None] * direction, direction
+
+    def inclination(self, md: Array) -> Array:
+        """Inclination of the axis [rad] at measured depths (n,) [m]."""
+        return np.asarray(np.arccos(np.clip(self.at(md)[1][:, 2], -1.0, 1.0)))
+
+    def walls(self, points: Array, owner: NDArray[np.int64] | None = None) -> Array:
+        """Walls beside points (n, 3) [m]: (n, 7) PT [m], hole radius [m], stiffness, friction, md [m].
+
+        owner : (n,) pieces to start looking from, for points that have been asked for before.
+        """
+        points = np.ascontiguousarray(np.atleast_2d(points), dtype=float)
+        start = self._nearest(points) if owner is None else owner.copy()
+        out = np.empty((len(points), 7))
+        contact.query_walls(self.pieces, self.geometry, points, start, out)
+        return out
+
+    def _nearest(self, points: Array) -> NDArray[np.int64]:
+        """Piece nearest to each point, from samples of the axis at most half a metre apart."""
+        counts = np.maximum(np.ceil(np.diff(self.md) / 0.5).astype(int), 1)
+        parts = [
+            np.linspace(a, b, n, endpoint=False)
+            for a, b, n in zip(self.md, self.md[1:], counts, strict=False)
+        ]
+        md = np.append(np.concatenate(parts), self.md[-1])
+        _, i = cKDTree(self.at(md)[0]).query(points)
+        starts = self.pieces[:, contact.START_MD]
+        found = np.searchsorted(starts, md[i], side="right") - 1
+        return np.clip(found, 0, len(starts) - 1).astype(np.int64)
+
+
+def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Contacts:
+    """Penetration, normal and measured depth of points in a hole (§4.2–4.4).
+
+    points : (n, 3) north, east, down [m]; radii : (n,) or one, contact radius of the string [m].
+    Raises ValueError when shapes disagree or a value is not finite.
+    """
+    points = np.atleast_2d(np.asarray(points, dtype=float))
+    radii = np.broadcast_to(np.asarray(radii, dtype=float), points.shape[:1])
+    if points.shape[1] != 3 or not np.all(np.isfinite(points)) or not np.all(np.isfinite(radii)):
+        raise ValueError("points must be finite, shape (n, 3), and radii finite, shape (n,)")
+    walls = wellbore.walls(points)
+    distance = np.linalg.norm(walls[:, :3], axis=1)
+    normal = walls[:, :3] / np.maximum(distance, 1e-300)[:, None]
+    return Contacts(distance - walls[:, 3] + radii, normal, walls[:, 6])
+
+
+def hole_frame(direction: Array) -> tuple[Array, Array]:
+    """Unit vectors to the high side and to the right looking downhole, for tangents (n, 3).
+
+    Within 0.1° of vertical the high side is north.
+    """
+    up = np.where(
+        np.hypot(direction[:, 0], direction[:, 1])[:, None] < np.sin(VERTICAL), [[1.0, 0, 0]], [[0, 0, -1.0]]
+    )
+    high = up - np.sum(up * direction, axis=1, keepdims=True) * direction
+    high /= np.linalg.norm(high, axis=1, keepdims=True)
+    return high, np.cross(direction, high)
+
+
+def build_wellbore(case: Case) -> Wellbore:
+    """The hole of a case.
+
+    Raises InputError for intervals that end above the survey, or an overlap longer than a cylinder.
+    """
+    hole = case.wellbore
+    stations = survey.to_radians(hole.read_stations())
+    depth = stations[-1, 0]
+    curved = hole.survey_method == "minimum_curvature"
+    try:
+        courses = survey.minimum_curvature(stations)
+    except ValueError as error:
+        raise InputError(
+            "stations that a circular arc can join", key="wellbore.survey", value=str(error)
+        ) from None
+    ends = [i.to_md for i in hole.intervals if i.to_md < depth]
+    geometry = ARCS if hole.geometry == "arcs" else CYLINDERS
+    if hole.geometry == "arcs":
+        md = np.union1d(stations[:, 0], ends)
+        pieces = _arcs(hole, courses, md)
+    else:
+        md = _cylinder_ends(hole, stations, np.asarray(ends, dtype=float))
+        if curved:
+            points = survey.along_courses(courses, md)[0]
+        else:
+            points = survey.average_angle(survey.interpolate_angles(stations, md))
+        pieces = _cylinders(hole, md, points)
+    starts = pieces[1:-1] if hole.geometry == "arcs" else pieces
+    directions = starts[:, contact.DIRECTION : contact.DIRECTION + 3]
+    points = survey.along_courses(courses, md)[0] if hole.geometry == "arcs" else points
+    return Wellbore(
+        pieces=pieces,
+        geometry=geometry,
+        md=md,
+        points=points,
+        directions=np.vstack([directions, directions[-1:]]),
+        intervals=np.array([[i.to_md, 0.5 * i.diameter] for i in hole.intervals]),
+        courses=courses if hole.geometry == "arcs" else None,
+    )
+
+
+def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
+    """Measured depths of the cylinder ends: stations, interval ends, and enough between for the chord.
+
+    A chord of length ℓ in a bend of curvature κ misses the arc by κℓ²/8.
+    """
+    curvature = survey.dogleg(stations) / np.diff(stations[:, 0])
+    if hole.cylinder_length is not None:
+        wanted = np.full(len(curvature), hole.cylinder_length)
+    else:
+        wanted = np.sqrt(8 * hole.chord_tolerance / np.maximum(curvature, 1e-12))
+        wanted = np.minimum(wanted, LONGEST_CYLINDER)
+    if hole.overlap > wanted.min():
+        raise InputError(
+            f"at most the length of a cylinder, here {wanted.min():.3g} m",
+            key="wellbore.overlap",
+            value=f"{hole.overlap:g} m",
+        )
+    breaks = np.union1d(stations[:, 0], ends)
+    course = np.searchsorted(stations[:, 0], breaks[:-1], side="right") - 1
+    counts = np.maximum(np.ceil(np.diff(breaks) / wanted[course] - 1e-9).astype(int), 1)
+    parts = [
+        np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)
+    ]
+    return np.append(np.concatenate(parts), breaks[-1])
+
+
+def _stiffness(hole: WellboreSpec, interval: IntervalSpec) -> float:
+    """Wall stiffness of an interval [N/m a point, or N/m/m], its own or the wellbore's."""
+    values = (interval.stiffness, interval.stiffness_per_length, hole.stiffness, hole.stiffness_per_length)
+    return next(v for v in values if v is not None)
+
+
+def _wall_columns(hole: WellboreSpec, pieces: Array, middle: Array) -> None:
+    """Fill hole radius, stiffness and friction from the interval that holds the middle of each piece."""
+    to_md = np.array([i.to_md for i in hole.intervals])
+    for row, k in zip(pieces, np.searchsorted(to_md, middle), strict=True):
+        interval = hole.intervals[min(int(k), len(hole.intervals) - 1)]
+        row[contact.HOLE_RADIUS] = 0.5 * interval.diameter
+        row[contact.STIFFNESS] = _stiffness(hole, interval)
+        row[contact.FACTOR] = interval.friction
+
+
+def _cylinders(hole: WellboreSpec, md: Array, points: Array) -> Array:
+    """Cylinders between successive points, each but the last extended by the overlap (Fig. 8)."""
+    span = np.diff(points, axis=0)
+    length = np.linalg.norm(span, axis=1)
+    direction = span / length[:, None]
+    pieces = np.zeros((len(length), contact.COLUMNS))
+    pieces[:, contact.START : contact.START + 3] = points[:-1]
+    pieces[:, contact.DIRECTION : contact.DIRECTION + 3] = direction
+    pieces[:, contact.START_MD] = md[:-1]
+    _wall_columns(hole, pieces, 0.5 * (md[1:] + md[:-1]))
+    # Stations may stand closer than the overlap: it may not reach past half of the next cylinder.
+    overlap = np.minimum(hole.overlap, 0.5 * np.append(length[1:], 0.0))
+    pieces[:, contact.OVERLAP] = overlap
+    pieces[:, contact.LENGTH] = length + overlap
+    bend = np.linalg.norm(np.diff(direction, axis=0), axis=1)
+    pieces[1:, contact.SHARED] = overlap[:-1] + 4 * pieces[1:, contact.HOLE_RADIUS] * bend
+    pieces[0, contact.START : contact.START + 3] -= RUN_OUT * direction[0]
+    pieces[0, contact.START_MD] -= RUN_OUT
+    pieces[0, contact.LENGTH] += RUN_OUT
+    pieces[-1, contact.LENGTH] += RUN_OUT
+    return pieces
+
+
+def _arcs(hole: WellboreSpec, courses: survey.Courses, md: Array) -> Array:
+    """Arcs between successive depths, with a straight piece before the first and after the last."""
+    point, tangent = survey.along_courses(courses, md)
+    i = np.clip(np.searchsorted(courses.md, md, side="right") - 1, 0, len(courses.md) - 1)
+    curvature, normal = courses.curvature[i], courses.normal[i]
+    angle = (curvature * (md - courses.md[i]))[:, None]
+    pieces = np.zeros((len(md) + 1, contact.COLUMNS))
+    pieces[1:, contact.START : contact.START + 3] = point
+    pieces[1:, contact.DIRECTION : contact.DIRECTION + 3] = tangent
+    pieces[1:, contact.NORMAL : contact.NORMAL + 3] = (
+        np.cos(angle) * normal - np.sin(angle) * courses.tangent[i]
+    )
+    pieces[1:-1, contact.CURVATURE] = curvature[:-1]
+    pieces[1:-1, contact.LENGTH] = np.diff(md)
+    pieces[-1, contact.LENGTH] = RUN_OUT
+    pieces[1:, contact.START_MD] = md
+    pieces[0] = pieces[1]
+    pieces[0, contact.START : contact.START + 3] -= RUN_OUT * tangent[0]
+    pieces[0, contact.CURVATURE] = 0.0
+    pieces[0, contact.LENGTH] = RUN_OUT
+    pieces[0, contact.START_MD] = md[0] - RUN_OUT
+    middle = np.concatenate([md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]])
+    _wall_columns(hole, pieces, middle)
+    return pieces

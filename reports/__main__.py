@@ -1,0 +1,26 @@
+"""``python -m reports``: write the page from every result in validation/results."""
+
+import typer
+
+from reports import page
+from validation import record
+from validation.registry import STUDIES
+from validation.study import ROOT
+
+OUT = ROOT / "reports" / "out"
+
+app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+
+
+@app.command()
+def main() -> None:
+    """Write reports/out/index.html and print where it is; exit code 1 when a figure could not be drawn."""
+    problems = page.render(record.RESULTS, STUDIES, OUT)
+    for problem in problems:
+        typer.echo(problem, err=True)
+    typer.echo(f"report: {OUT / 'index.html'}")
+    raise typer.Exit(1 if problems else 0)
+
+
+if __name__ == "__main__":
+    app(prog_name="python -m reports")

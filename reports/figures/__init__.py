@@ -1,0 +1,37 @@
+"""The figures: study -> module with ``FIGURES``, each drawn from the study's tables alone."""
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import matplotlib.figure
+import pandas as pd
+
+Tables = dict[str, pd.DataFrame]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure of a study: its file name, its caption, and the function that draws it."""
+
+    name: str
+    caption: str
+    draw: Callable[[Tables], matplotlib.figure.Figure]
+
+
+MODULES: dict[str, str] = {
+    "paper_well": "reports.figures.paper_well",
+    "curved_chain": "reports.figures.curved_chain",
+    "energy_ledger": "reports.figures.energy_ledger",
+    "overlap": "reports.figures.overlap",
+    "cylinder_error": "reports.figures.cylinder_error",
+    "real_survey": "reports.figures.real_survey",
+}
+
+
+def of_study(study: str) -> list[Figure]:
+    """The study's figures in the order of the page; none for a study that only has tables."""
+    if study not in MODULES:
+        return []
+    figures: list[Figure] = importlib.import_module(MODULES[study]).FIGURES
+    return figures

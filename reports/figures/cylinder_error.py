@@ -1,0 +1,40 @@
+"""What it costs to build a bend from straight cylinders."""
+
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+
+def errors(tables: Tables) -> Canvas:
+    """Error of penetration, with its bound, and of direction against the length of a cylinder."""
+    table = tables["errors"].sort_values("cylinder_length_m")
+    length = table["cylinder_length_m"]
+    canvas = style.figure(3.6)
+    penetration, angle = canvas.subplots(1, 2, sharex=True)
+    penetration.plot(
+        length, table["bound_mm"], color=style.QUIET, linewidth=3.5, alpha=0.6, label="bound ℓ²/8R"
+    )
+    penetration.plot(length, table["max_penetration_error_mm"], **style.line(0), marker="o", label="largest")
+    penetration.plot(
+        length, table["rms_penetration_error_mm"], **style.line(1), marker="s", label="root mean square"
+    )
+    penetration.set_ylabel("error of penetration, mm")
+    penetration.legend(loc="upper left")
+    angle.plot(length, table["max_angle_error_deg"], **style.line(0), marker="o")
+    angle.set_ylabel("largest error of direction, °")
+    for ax in (penetration, angle):
+        ax.set(xscale="log", yscale="log", xlabel="cylinder length, m")
+        style.plain_log_ticks(ax.xaxis)
+        style.plain_log_ticks(ax.yaxis)
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "errors",
+        "Error of the wall's position (left) and direction (right), against the exact arc, for points "
+        "near the wall of a bend built from cylinders of one length. The wide grey line is the distance "
+        "between chord and arc, which falls with the square of the length.",
+        errors,
+    )
+]

@@ -1,0 +1,40 @@
+"""Whether the energy that goes in is accounted for, and how the rest shrinks with the time step."""
+
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+
+def closure(tables: Tables) -> Canvas:
+    """What is left over in the ledger against the step, with lines of first and second order beside it."""
+    table = tables["closure"]
+    canvas = style.figure(4.0)
+    ax = canvas.subplots()
+    for index, (case, rows) in enumerate(table.groupby("case", sort=False)):
+        ordered = rows.sort_values("step_s")
+        residual = ordered["relative_residual"].abs()
+        ax.plot(
+            ordered["step_s"] * 1e3,
+            residual,
+            **style.line(index),
+            marker=style.MARKERS[index],
+            label=str(case),
+        )
+    ax.set(xscale="log", yscale="log", xlabel="time step, ms", ylabel="|residual| / work")
+    style.plain_log_ticks(ax.xaxis)
+    style.slopes(
+        ax, table["step_s"].to_numpy(float) * 1e3, np.abs(table["relative_residual"].to_numpy(float))
+    )
+    style.legend_above(ax, columns=3)
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "closure",
+        "What the energy ledger cannot account for, as a share of the work done, against the time step. "
+        "The grey lines fall with the first and the second power of the step.",
+        closure,
+    )
+]

@@ -1,0 +1,46 @@
+"""A point dragged through a bend, with cylinders that overlap and cylinders that only meet."""
+
+from typing import Any
+
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+
+def drag(tables: Tables) -> Canvas:
+    """Contact force and direction along the way, with overlap and without."""
+    table = tables["drag"]
+    canvas = style.figure(4.6)
+    force, direction = canvas.subplots(2, 1, sharex=True)
+    # The run without overlap lies thin over the other; dashes would be lost in its jumps.
+    for index, (overlap, rows) in enumerate(sorted(table.groupby("overlap"), reverse=True)):
+        ordered = rows.sort_values("s_m")
+        look = {"color": style.COLOURS[index], "linewidth": (3.2, 1.0)[index], "alpha": (0.55, 1.0)[index]}
+        force.plot(ordered["s_m"], ordered["contact_force_N"] / 1e3, **look, label=_label(overlap))
+        touching = ordered["contact_force_N"] > 0
+        direction.plot(ordered["s_m"], ordered["direction_deg"].where(touching), **look)
+    force.set_ylabel("contact force, kN")
+    force.set_ylim(bottom=0)
+    direction.set(xlabel="distance dragged, m", ylabel="direction of the force, °")
+    style.legend_above(force)
+    return canvas
+
+
+def _label(overlap: Any) -> str:
+    """The overlap is a length in m, or only yes or no."""
+    if not overlap:
+        return "without overlap"
+    return (
+        "with overlap" if overlap is True or str(overlap) == "True" else f"with an overlap of {overlap:g} m"
+    )
+
+
+FIGURES = [
+    Figure(
+        "drag",
+        "A point pressed against the outer wall and dragged through a bend. Where cylinders only meet, "
+        "their joint leaves a gap on the outside of the bend in which no cylinder owns the point; the "
+        "overlap closes it and blends one cylinder into the next.",
+        drag,
+    )
+]

@@ -1,0 +1,132 @@
+"""One look for all figures: fonts, lines told apart in grey and by the colour-blind, axes with units."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+from matplotlib.typing import RcKeyType
+from numpy.typing import NDArray
+
+WIDTH_IN = 7.2  # the page's column
+
+RC: dict[RcKeyType, Any] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9.5,
+    "axes.titlesize": 9.5,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.labelsize": 9.5,
+    "axes.labelcolor": "#222222",
+    "axes.edgecolor": "#666666",
+    "axes.linewidth": 0.8,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.formatter.useoffset": False,
+    "grid.color": "#e3e3e3",
+    "grid.linewidth": 0.6,
+    "xtick.color": "#444444",
+    "ytick.color": "#444444",
+    "legend.frameon": False,
+    "legend.fontsize": 9,
+    "lines.linewidth": 1.7,
+    "lines.markersize": 4.5,
+    "lines.markeredgewidth": 0.8,
+    "figure.facecolor": "white",
+    "savefig.facecolor": "white",
+    "savefig.dpi": 160,
+    # The same tables give the same file, byte for byte.
+    "svg.hashsalt": "fctd",
+}
+
+# Okabe and Ito's palette, ordered so that neighbours differ in lightness; a dash and a marker for each.
+COLOURS = ["#0072B2", "#D55E00", "#000000", "#56B4E9", "#009E73", "#CC79A7"]
+DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (9, 3))]
+MARKERS = ["o", "s", "^", "D", "v", "P"]
+# A friction law looks the same in every figure.
+LAWS = {"paper": 0, "coulomb": 1, "karnopp": 2}
+
+SHADE = "#f1e9d8"
+QUIET = "#8a8a8a"
+
+# Contact angles run from -90° to 270°, so that neither the high nor the low side falls on the seam.
+SIDES = [-90, 0, 90, 180, 270]
+SIDE_LABELS = ["left", "0°\nhigh", "90°\nright", "180°\nlow", "left"]
+
+
+def line(index: int) -> dict[str, Any]:
+    """The look of the series number ``index`` drawn as a line."""
+    return {"color": COLOURS[index % 6], "linestyle": DASHES[index % 6]}
+
+
+def dots(index: int, *, filled: bool = True) -> dict[str, Any]:
+    """The look of the series number ``index`` drawn as separate points."""
+    colour = COLOURS[index % 6]
+    return {
+        "color": colour,
+        "linestyle": "none",
+        "marker": MARKERS[index % 6],
+        "markerfacecolor": colour if filled else "white",
+    }
+
+
+def figure(height_in: float) -> Figure:
+    """An empty figure as wide as the page's column."""
+    return Figure(figsize=(WIDTH_IN, height_in), layout="constrained")
+
+
+def depth_downwards(ax: Axes, label: str = "measured depth, m") -> None:
+    """Depth on the vertical axis, growing downwards as in the well."""
+    ax.set_ylabel(label)
+    ax.invert_yaxis()
+
+
+def legend_above(ax: Axes, columns: int = 2) -> None:
+    """A legend over the axes, where it hides no data."""
+    ax.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=columns, borderaxespad=0.3)
+
+
+def plain_log_ticks(axis: Axis) -> None:
+    """Ticks of a logarithmic axis as 1, 2, 5, 10 and not as powers, where it spans little."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(NullLocator())
+
+
+def slopes(ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
+    """Grey lines of first and second order, from above the largest value of a log-log plot."""
+    at = np.array([x.min(), x.max()])
+    bottom = ax.get_ylim()[0]
+    for order, dash, label in ((1, (0, (1, 1.5)), "first order"), (2, (0, (6, 2, 1, 2)), "second order")):
+        ax.plot(
+            at, 2 * y.max() * (at / x.max()) ** order, color=QUIET, linewidth=1, linestyle=dash, label=label
+        )
+    ax.set_ylim(bottom=bottom)
+
+
+def unrolled(angle_deg: "pd.Series[float]") -> "pd.Series[float]":
+    """Contact angles between the first and the last of ``SIDES``."""
+    return (angle_deg + 90) % 360 - 90
+
+
+def build_intervals(
+    md_m: NDArray[np.float64], inclination_deg: NDArray[np.float64], least_deg_per_m: float = 0.01
+) -> list[tuple[float, float]]:
+    """The stretches of hole, top and bottom in m, over which the inclination changes."""
+    md, first = np.unique(md_m, return_index=True)
+    inclination = inclination_deg[first]
+    bends = np.abs(np.diff(inclination)) > least_deg_per_m * np.diff(md)
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], bends.astype(int), [0]))))
+    return [(float(md[top]), float(md[bottom])) for top, bottom in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def shade_builds(ax: Axes, md_m: NDArray[np.float64], inclination_deg: NDArray[np.float64]) -> None:
+    """Shade the bent stretches of hole on an axis of measured depth."""
+    for top, bottom in build_intervals(md_m, inclination_deg):
+        ax.axvspan(top, bottom, color=SHADE, zorder=0, linewidth=0)

@@ -1,0 +1,125 @@
+"""From stored results to one page: read each result, draw its figures, print its tables."""
+
+import base64
+import shutil
+import traceback
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import jinja2
+import matplotlib as mpl
+import pandas as pd
+
+from reports import figures, words
+from reports.figures import style
+from validation import record
+from validation.record import Record
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A drawn figure: carried inside the page (``source``), and beside it as files to take away."""
+
+    caption: str
+    source: str
+    svg: str
+    png: str
+
+
+@dataclass(frozen=True)
+class Printed:
+    """A table as text; a column has a label, a unit, and is set to the right where it holds numbers."""
+
+    caption: str
+    columns: list[tuple[str, str, bool]]
+    rows: list[tuple[str, ...]]
+
+
+@dataclass
+class Section:
+    """What the page says about one study; without a record, that it has not been run."""
+
+    study: str
+    record: Record | None = None
+    pictures: list[Picture] = field(default_factory=list)
+    tables: list[Printed] = field(default_factory=list)
+    problems: list[str] = field(default_factory=list)
+
+    @property
+    def question(self) -> str:
+        """The study's question; its name while the question is not known."""
+        return self.record.question or self.study if self.record else self.study
+
+    @property
+    def summary(self) -> str:
+        """What came of it, in a few words."""
+        return self.record.summary if self.record else "not run"
+
+
+def render(results: Path, studies: Iterable[str], out: Path) -> list[str]:
+    """Write ``out/index.html`` and ``out/figures``; return what could not be drawn.
+
+    Studies stand in the order given; results of studies that are not among them come after.
+    """
+    shutil.rmtree(out / "figures", ignore_errors=True)
+    (out / "figures").mkdir(parents=True)
+    found = sorted(path.parent.name for path in results.glob("[!.]*/verdict.json"))
+    sections = [_section(results / study, out) for study in dict.fromkeys([*studies, *found])]
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    page = environment.get_template("page.html").render(
+        sections=sections, number=words.number, quantity=words.quantity
+    )
+    (out / "index.html").write_text(page, encoding="utf-8")
+    return [f"{section.study}: {problem}" for section in sections for problem in section.problems]
+
+
+def _section(folder: Path, out: Path) -> Section:
+    """Read one study's result and draw what belongs to it."""
+    section = Section(folder.name)
+    if not (folder / "verdict.json").exists():
+        return section
+    section.record = record.read(folder)
+    if section.record.status != "finished":
+        return section
+    tables = record.read_tables(folder, section.record)
+    section.tables = [_print(tables[name], caption) for name, caption in section.record.display.items()]
+    for figure in figures.of_study(section.study):
+        try:
+            section.pictures.append(_draw(section.study, figure, tables, out))
+        except Exception as error:
+            # A figure that cannot be drawn must not cost the reader the rest of the page.
+            traceback.print_exc()
+            section.problems.append(
+                f"figure {figure.name!r} could not be drawn: {type(error).__name__}: {error}"
+            )
+    return section
+
+
+def _draw(study: str, figure: figures.Figure, tables: figures.Tables, out: Path) -> Picture:
+    """Draw a figure into ``out/figures`` as SVG and PNG."""
+    svg, png = (f"figures/{study}-{figure.name}.{kind}" for kind in ("svg", "png"))
+    with mpl.rc_context(style.RC):
+        canvas = figure.draw(tables)
+        canvas.savefig(out / svg, metadata={"Date": None})
+        canvas.savefig(out / png)
+    # As a data address, each drawing keeps its identifiers to itself and the page is one file.
+    source = "data:image/svg+xml;base64," + base64.b64encode((out / svg).read_bytes()).decode()
+    return Picture(figure.caption, source, svg, png)
+
+
+def _print(table: pd.DataFrame, caption: str) -> Printed:
+    """A table's columns as text."""
+    columns = [
+        (*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in map(str, table.columns)
+    ]
+    cells = [words.column(table[name]) for name in table.columns]
+    return Printed(caption, columns, list(zip(*cells, strict=True)))

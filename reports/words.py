@@ -1,0 +1,115 @@
+"""How numbers, columns and names are printed: units out of column names, sensible digits, plain words."""
+
+import math
+from typing import Any
+
+import pandas as pd
+
+# Endings of column names, longest first, so that ``_kN_m`` is not taken for metres.
+UNITS = {
+    "N_m_per_rad": "N·m/rad",
+    "kg_per_m3": "kg/m³",
+    "N_per_m": "N/m",
+    "percent": "%",
+    "kN_m": "kN·m",
+    "N_m": "N·m",
+    "m_s": "m/s",
+    "deg": "°",
+    "kN": "kN",
+    "mm": "mm",
+    "ms": "ms",
+    "us": "µs",
+    "ns": "ns",
+    "N": "N",
+    "J": "J",
+    "m": "m",
+    "s": "s",
+}
+
+SYMBOLS = {
+    "md": "measured depth",
+    "hookload": "hook load",
+    "soft_hookload": "soft hook load",
+    "hookload_difference": "hook load difference",
+    "sum_r_mu_fn": "Σ rμFₙ",
+    "sum_r_ft": "Σ rFₜ",
+}
+
+NAMES = {
+    "rotate_off_bottom": "rotating off bottom",
+    "trip_out": "picking up",
+    "trip_in": "slacking off",
+    "drill_rotating": "drilling, rotating",
+    "drill_sliding": "drilling, sliding",
+    "back_ream": "back-reaming",
+}
+
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+SPACE, NARROW_SPACE = "\u00a0", "\u202f"  # neither breaks a line
+MINUS = "\u2212"
+NOTHING = "–"
+
+
+def heading(column: str) -> tuple[str, str]:
+    """A column's name in words and its unit: ``bit_depth_m`` gives ("bit depth", "m")."""
+    for ending, unit in UNITS.items():
+        if column.endswith(f"_{ending}"):
+            return _label(column.removesuffix(f"_{ending}")), unit
+    return _label(column), ""
+
+
+def name(identifier: str) -> str:
+    """An operation in the driller's words; other names as they stand."""
+    return NAMES.get(identifier, identifier)
+
+
+def number(value: float) -> str:
+    """A number by itself: four digits, powers of ten where it is very large or small."""
+    if math.isnan(value):
+        return NOTHING
+    if math.isinf(value):
+        return "∞" if value > 0 else f"{MINUS}∞"
+    size = abs(value)
+    if value == round(value) and size < 1e9:
+        return _fixed(value, 0)
+    if 1e-3 <= size < 1e6:
+        return _shortest(value, max(0, 3 - math.floor(math.log10(size))))
+    mantissa, exponent = f"{value:.2e}".split("e")
+    return f"{_shortest(float(mantissa), 2)}{SPACE}×{SPACE}10{str(int(exponent)).translate(SUPERSCRIPT)}"
+
+
+def quantity(value: float, unit: str) -> str:
+    """A number and its unit on one line."""
+    return "no number" if math.isnan(value) else f"{number(value)}{SPACE}{unit}".rstrip()
+
+
+def column(values: "pd.Series[Any]") -> list[str]:
+    """A table's column: numbers share their decimals where their sizes allow it, so that they compare."""
+    if pd.api.types.is_bool_dtype(values):
+        return ["yes" if value else "no" for value in values]
+    if not pd.api.types.is_numeric_dtype(values):
+        return [NOTHING if pd.isna(value) else name(str(value)) for value in values]
+    numbers = [float(value) for value in values]
+    sizes = [abs(value) for value in numbers if math.isfinite(value) and value != 0]
+    if not sizes or max(sizes) >= 1e6 or max(sizes) < 1e-3:
+        return [number(value) for value in numbers]
+    decimals = max(0, 3 - math.floor(math.log10(max(sizes))))
+    if min(sizes) * 10**decimals < 10:
+        return [number(value) for value in numbers]
+    while decimals and all(f"{size:.{decimals}f}".endswith("0") for size in sizes):
+        decimals -= 1
+    return [_fixed(value, decimals) if math.isfinite(value) else number(value) for value in numbers]
+
+
+def _label(identifier: str) -> str:
+    return SYMBOLS.get(identifier, identifier.replace("_", " "))
+
+
+def _fixed(value: float, decimals: int) -> str:
+    return f"{value:,.{decimals}f}".replace(",", NARROW_SPACE).replace("-", MINUS)
+
+
+def _shortest(value: float, decimals: int) -> str:
+    """At most so many decimals, without zeros at the end."""
+    text = _fixed(value, decimals)
+    return text.rstrip("0").rstrip(".") if "." in text else text

@@ -1,0 +1,222 @@
+"""Invented tables with the columns and roughly the sizes of the studies' own, to draw figures from."""
+
+import itertools
+
+import numpy as np
+import pandas as pd
+
+OPERATIONS = ("rotate_off_bottom", "trip_out", "trip_in")
+
+
+def paper_well() -> dict[str, pd.DataFrame]:
+    def drive(depths, scale):
+        return pd.concat(
+            pd.DataFrame(
+                {
+                    "variant": variant,
+                    "bit_depth_m": depths,
+                    "hookload_N": 3.5e5 - 40 * (depths - 1750) * scale,
+                    "surface_torque_N_m": scale * torque * ((depths - 1750) / 700) ** 2,
+                    "sum_r_mu_fn_N_m": 1.02 * scale * torque * ((depths - 1750) / 700) ** 2,
+                    "sum_r_ft_N_m": scale * torque * ((depths - 1750) / 700) ** 2,
+                    "contact_count": 30,
+                    "total_contact_force_N": 1e5,
+                }
+            )
+            for variant, torque in (("paper-well", 3200.0), ("paper-well-b", 3500.0))
+        )
+
+    profiles = []
+    for variant, operation, bit in itertools.product(
+        ("paper-well", "paper-well-b"), ("trip_in", "rotate_off_bottom"), (1800.0, 2100.0, 2450.0)
+    ):
+        md = np.concatenate([np.arange(bit - 1700, bit - 200, 37.5), np.arange(bit - 200, bit + 1, 10.0)])
+        bent = np.interp(md, [1750, 2250, 2450], [0, 58, 90])
+        force = np.where(bent > 0, 2500 + 2000 * np.sin(md / 17), np.maximum(0, 300 * np.sin(md / 40)))
+        profiles.append(
+            pd.DataFrame(
+                {
+                    "variant": variant,
+                    "operation": operation,
+                    "bit_depth_m": bit,
+                    "md_m": md,
+                    "contact_force_N": force,
+                    "contact_angle_deg": np.where(md < 2150, 2.0, 172.0),
+                    "effective_tension_N": 100 * (bit - md),
+                    "inclination_deg": bent,
+                }
+            )
+        )
+    runs = pd.DataFrame(
+        {
+            "run": ["paper-well", "paper-well, 120 segments"],
+            "segments": [61, 121],
+            "step_s": [2.4e-3, 1.2e-3],
+            "steps": [583_000, 1_166_000],
+            "simulated_s": [1400.0, 1400.0],
+            "wall_s": [11.2, 43.7],
+            "real_time_factor": [125.0, 32.0],
+            "energy_error": [3.1e-7, 7.9e-8],
+            "status": ["converged", "converged"],
+        }
+    )
+    return {
+        "trip_in": drive(np.linspace(1750, 2450, 300), 1.0),
+        "rotating": drive(np.linspace(1750, 2450, 15), 0.93),
+        "profiles": pd.concat(profiles),
+        "runs": runs,
+    }
+
+
+def curved_chain() -> dict[str, pd.DataFrame]:
+    soft = {"rotate_off_bottom": (426.5, 2.39), "trip_out": (472.0, np.nan), "trip_in": (374.0, np.nan)}
+    rows, profiles = [], []
+    shift = itertools.count()
+    for geometry, law, operation in itertools.product(
+        ("arcs", "cylinders"), ("paper", "coulomb"), OPERATIONS
+    ):
+        load, torque = soft[operation]
+        percent = 0.3 * next(shift) - 1.2
+        rows.append(
+            {
+                "geometry": geometry,
+                "law": law,
+                "operation": operation,
+                "hookload_kN": load * (1 + percent / 100),
+                "torque_kN_m": torque * (1 + 2 * percent / 100),
+                "total_contact_force_kN": 118.0 + percent,
+                "soft_hookload_kN": load,
+                "soft_torque_kN_m": torque,
+                "hookload_difference_percent": percent,
+                "torque_difference_percent": 2 * percent if torque == torque else np.nan,
+                "stiffness_factor": 1 + percent / 100,
+            }
+        )
+    for law, operation in itertools.product(("paper", "coulomb"), OPERATIONS):
+        md = np.arange(975.0, 2451.0, 25.0)
+        force = np.where(md < 1700, 0.0, 2600 + 900 * np.sin(md / 60) + (300 if law == "paper" else 0))
+        side = 180 - (11.3 if law == "coulomb" else 0.0)
+        profiles.append(
+            pd.DataFrame(
+                {
+                    "operation": operation,
+                    "law": law,
+                    "md_m": md,
+                    "contact_force_N": force,
+                    "contact_angle_deg": np.where(md < 2050, -8.0 if law == "coulomb" else 0.0, side),
+                }
+            )
+        )
+    return {"numbers": pd.DataFrame(rows), "profiles": pd.concat(profiles)}
+
+
+def energy_ledger() -> dict[str, pd.DataFrame]:
+    fraction = np.array([1.0, 0.5, 0.25, 0.125])
+    closure = pd.concat(
+        pd.DataFrame(
+            {
+                "case": case,
+                "step_s": 4e-3 * fraction,
+                "step_fraction": fraction,
+                "work_J": 1e6,
+                "residual_J": 1e6 * size * fraction**order,
+                "relative_residual": sign * size * fraction**order,
+            }
+        )
+        for case, size, order, sign in (
+            ("free fall", 2e-5, 2, 1),
+            ("sliding, law paper", 3e-4, 1, -1),
+            ("rotating, law coulomb", 8e-5, 1, 1),
+        )
+    )
+    ledger = pd.DataFrame(
+        {"case": "free fall", "step_fraction": 1.0, "term": ["kinetic", "gravity"], "energy_J": [1e6, -1e6]}
+    )
+    return {"ledger": ledger, "closure": closure}
+
+
+def overlap() -> dict[str, pd.DataFrame]:
+    s = np.linspace(0, 30, 601)
+    wave = 900 + 400 * np.cos(2 * np.pi * s / 10)
+    joint = np.abs((s + 5) % 10 - 5) < 0.25
+    return {
+        "drag": pd.concat(
+            [
+                pd.DataFrame(
+                    {"s_m": s, "overlap": True, "contact_force_N": wave, "direction_deg": 0.2 * s + np.sin(s)}
+                ),
+                pd.DataFrame(
+                    {
+                        "s_m": s,
+                        "overlap": False,
+                        "contact_force_N": np.where(joint, 0.0, wave),
+                        "direction_deg": 2 * np.floor((s + 5) / 10),
+                    }
+                ),
+            ]
+        )
+    }
+
+
+def cylinder_error() -> dict[str, pd.DataFrame]:
+    length = np.array([0.5, 1.0, 2.0, 5.0, 10.0])
+    bound = 1e3 * length**2 / 8 / 286
+    return {
+        "errors": pd.DataFrame(
+            {
+                "cylinder_length_m": length,
+                "max_penetration_error_mm": 0.97 * bound,
+                "rms_penetration_error_mm": 0.5 * bound,
+                "max_angle_error_deg": 0.25 * length**2,
+                "bound_mm": bound,
+            }
+        )
+    }
+
+
+def ownership() -> dict[str, pd.DataFrame]:
+    return {
+        "owners": pd.DataFrame(
+            {
+                "well": ["paper-well", "build to 120°"],
+                "max_tangent_difference_deg": [90.0, 120.0],
+                "points": [10_000, 10_000],
+                "wrong_owner_percent": [0.0, 42.1],
+            }
+        )
+    }
+
+
+def real_survey() -> dict[str, pd.DataFrame]:
+    time = np.linspace(0, 600, 1200)
+    md = np.arange(400.0, 3510.0, 30.0)
+    return {
+        "history": pd.DataFrame(
+            {
+                "time_s": time,
+                "surface_torque_N_m": 9e3 * (1 - np.exp(-time / 20)) + 150 * np.sin(time / 3),
+                "hookload_N": 9.1e5 - 2e4 * (1 - np.exp(-time / 20)) + 2e3 * np.sin(time / 3),
+            }
+        ),
+        "profiles": pd.DataFrame(
+            {
+                "md_m": md,
+                "contact_force_N": np.maximum(0, 2000 + 2500 * np.sin(md / 90)),
+                "contact_angle_deg": (190 + 40 * np.sin(md / 300)) % 360,
+            }
+        ),
+    }
+
+
+STUDIES = {
+    function.__name__: function
+    for function in (
+        paper_well,
+        curved_chain,
+        energy_ledger,
+        overlap,
+        cylinder_error,
+        ownership,
+        real_survey,
+    )
+}

@@ -1,0 +1,58 @@
+"""Every registered figure draws from its study's tables, with labelled axes and something on them."""
+
+import itertools
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+from reports import figures
+from reports.figures import style
+
+from . import synthetic
+
+ALL = [(study, figure) for study in figures.MODULES for figure in figures.of_study(study)]
+
+
+def test_names_make_distinct_files():
+    names = [(study, figure.name) for study, figure in ALL]
+    assert len(set(names)) == len(names)
+    assert set(figures.MODULES) == {study for study, _ in names}
+
+
+@pytest.mark.parametrize(("study", "figure"), ALL, ids=[f"{study}-{figure.name}" for study, figure in ALL])
+def test_figure_draws(study, figure, tmp_path):
+    with mpl.rc_context(style.RC):
+        canvas = figure.draw(synthetic.STUDIES[study]())
+        canvas.savefig(tmp_path / "figure.svg")
+    assert figure.caption.endswith(".")
+    for ax in canvas.axes:
+        assert ax.get_lines(), "an axes without data"
+    labels = {label for ax in canvas.axes for label in (ax.get_xlabel(), ax.get_ylabel()) if label}
+    assert labels
+    without_unit = {label for label in labels if ", " not in label}
+    assert without_unit <= {"contact angle", "|residual| / work"}
+
+
+def test_torque_is_drawn_in_kilonewton_metres():
+    tables = synthetic.paper_well()
+    (figure,) = [figure for figure in figures.of_study("paper_well") if figure.name == "torque"]
+    drawn = figure.draw(tables).axes[0].get_lines()
+    assert len(drawn) == 4
+    paper = tables["trip_in"].query("variant == 'paper-well'")
+    assert drawn[0].get_ydata()[-1] == pytest.approx(paper["sum_r_mu_fn_N_m"].iloc[-1] / 1e3)
+
+
+def test_build_intervals_are_where_the_inclination_changes():
+    md = np.array([1700.0, 1750.0, 2000.0, 2250.0, 2250.0, 2300.0, 2350.0, 2450.0, 2600.0])
+    inclination = np.array([0.0, 0.0, 29.0, 58.0, 58.0, 58.0, 66.0, 90.0, 90.0])
+    shuffled = np.random.default_rng(1).permutation(len(md))
+    assert style.build_intervals(md[shuffled], inclination[shuffled]) == [(1750.0, 2250.0), (2300.0, 2450.0)]
+
+
+def test_series_differ_in_lightness_from_their_neighbours():
+    def lightness(colour):
+        return np.dot([0.2126, 0.7152, 0.0722], mpl.colors.to_rgb(colour))
+
+    light = [lightness(colour) for colour in style.COLOURS]
+    assert min(abs(a - b) for a, b in itertools.pairwise(light)) > 0.03

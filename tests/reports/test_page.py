@@ -1,0 +1,165 @@
+"""The page shows every study: finished, missed, failed, skipped and not run."""
+
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import pytest
+from typer.testing import CliRunner
+
+from reports import __main__ as command_line
+from reports import page
+from validation import record
+from validation.record import Judged, Provenance, Record
+from validation.study import Check
+
+from . import synthetic
+
+ORIGIN = Provenance("0123abcd", {"fctd": "0.1.0", "numpy": "2.4.6"}, "Some CPU", 2)
+BLANK = Record(
+    study="overlap",
+    question="Does the overlap close the gap?",
+    status="finished",
+    message="",
+    checks=(),
+    notes=(),
+    display={},
+    tables=(),
+    quick=False,
+    date="2025-01-02T03:04:05+00:00",
+    wall_s=1.5,
+    provenance=ORIGIN,
+)
+
+
+def judged(value, recorded=None, name="largest jump"):
+    return Judged(Check(name, value, 1e-6, "at_most", "kN·m", "continuity <C⁰>"), recorded)
+
+
+def finished(study, **changes):
+    tables = synthetic.STUDIES[study]()
+    return replace(BLANK, study=study, tables=tuple(tables), **changes), tables
+
+
+@pytest.fixture
+def render(tmp_path):
+    def call(*runs, studies=()):
+        for run, tables in runs:
+            record.write(run, tables, tmp_path / "results")
+        problems = page.render(tmp_path / "results", studies, tmp_path / "out")
+        return (tmp_path / "out" / "index.html").read_text(encoding="utf-8"), problems
+
+    return call
+
+
+def words_of(html):
+    """The page as it is read: tags away, white space collapsed."""
+    return re.sub(r"\s+", " ", re.sub(r"<style>.*?</style>|<[^>]+>", " ", html, flags=re.DOTALL))
+
+
+def test_finished_study_has_question_checks_figure_notes_and_origin(render, tmp_path):
+    run, tables = finished("overlap", checks=(judged(5e-7),), notes=("Mind the gap.",))
+    html, problems = render((run, tables), studies=["overlap"])
+    text = words_of(html)
+    assert problems == []
+    assert html.count("Does the overlap close the gap?") == 2
+    assert "largest jump 5 × 10⁻⁷ kN·m at most 1 × 10⁻⁶ kN·m ✓ met" in text
+    assert "continuity &lt;C⁰&gt;" in html
+    assert "Mind the gap." in text
+    assert "full run of 2025-01-02 03:04 UTC" in text
+    assert "commit 0123abcd" in text
+    assert "Some CPU, 2 cores" in text
+    assert (tmp_path / "out" / "figures" / "overlap-drag.svg").exists()
+    assert (tmp_path / "out" / "figures" / "overlap-drag.png").exists()
+    assert 'src="data:image/svg+xml;base64,' in html
+
+
+def test_verdicts_are_told_in_words(render):
+    checks = (
+        judged(1.0, name="a"),
+        judged(1.0, "chords are chords", name="b"),
+        judged(0.0, "old reason", name="c"),
+        judged(float("nan"), name="d"),
+    )
+    text = words_of(render((replace(BLANK, checks=checks), {}), studies=["overlap"])[0])
+    assert "✗ worse than recorded" in text
+    assert "✗ missed (recorded)" in text
+    assert "Recorded as missed: chords are chords" in text
+    assert "✓ better than recorded" in text
+    assert "d no number at most" in text
+    assert "2 worse than recorded, 1 missed (recorded), 1 better than recorded" in text
+
+
+def test_table_for_display_has_units_in_its_head(render):
+    run, tables = finished("ownership", display={"owners": "Wrong owners"}, quick=True)
+    text = words_of(render((run, tables))[0])
+    assert "Wrong owners" in text
+    assert "wrong owner %" in text
+    assert "build to 120° 120 10 000 42.1" in text
+    assert "quick run" in text
+
+
+def test_skipped_failed_and_missing_studies_are_visible(render):
+    skipped = replace(BLANK, study="volve", status="skipped", message="the public data folder is missing")
+    failed = replace(BLANK, study="broken", status="failed", message="ArithmeticError: lost", question="")
+    text = words_of(render((skipped, {}), (failed, {}), studies=["volve", "broken", "absent"])[0])
+    assert "○ skipped" in text
+    assert "Skipped: the public data folder is missing" in text
+    assert "✗ failed" in text
+    assert "Failed: ArithmeticError: lost" in text
+    assert "○ not run" in text
+    assert "python -m validation absent" in text
+
+
+def test_registry_order_then_what_else_was_found(render):
+    runs = [(replace(BLANK, study=study, question=f"Q-{study}?"), {}) for study in ("a", "b", "c")]
+    html, _ = render(*runs, studies=["c", "b"])
+    assert re.findall(r'<section id="(\w+)">', html) == ["c", "b", "a"]
+
+
+def test_figure_that_cannot_be_drawn_leaves_the_page(render, capsys):
+    html, problems = render((replace(BLANK, checks=(judged(0.0),)), {}), studies=["overlap"])
+    assert problems == ["overlap: figure 'drag' could not be drawn: KeyError: 'drag'"]
+    assert "could not be drawn" in html
+    assert "largest jump" in html
+    assert "KeyError" in capsys.readouterr().err
+
+
+def test_page_without_results(render):
+    html, problems = render()
+    assert problems == []
+    assert "There is no study yet." in html
+
+
+def test_tags_are_balanced(render):
+    class Balance(HTMLParser):
+        def __init__(self):
+            super().__init__()
+            self.open = []
+
+        def handle_starttag(self, tag, attributes):
+            if tag not in {"meta", "img"}:
+                self.open.append(tag)
+
+        def handle_endtag(self, tag):
+            assert self.open.pop() == tag
+
+    run, tables = finished("ownership", display={"owners": "Wrong owners"}, checks=(judged(1.0, "why"),))
+    parser = Balance()
+    parser.feed(render((run, tables), studies=["ownership", "absent"])[0])
+    assert parser.open == []
+
+
+def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
+    monkeypatch.setattr(record, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(command_line, "OUT", tmp_path / "out")
+    answer = CliRunner().invoke(command_line.app)
+    assert answer.exit_code == 0
+    assert str(tmp_path / "out" / "index.html") in answer.output.replace("\n", "")
+
+
+def test_command_tells_when_a_figure_is_missing(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(record, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(command_line, "OUT", tmp_path / "out")
+    record.write(BLANK, {}, tmp_path / "results")
+    assert CliRunner().invoke(command_line.app).exit_code == 1

@@ -1,0 +1,69 @@
+"""Units leave column names, and numbers keep the digits that matter."""
+
+import math
+
+import pandas as pd
+import pytest
+
+from reports import words
+
+
+@pytest.mark.parametrize(
+    ("column", "heading"),
+    [
+        ("bit_depth_m", ("bit depth", "m")),
+        ("torque_kN_m", ("torque", "kN·m")),
+        ("surface_torque_N_m", ("surface torque", "N·m")),
+        ("sum_r_mu_fn_N_m", ("Σ rμFₙ", "N·m")),
+        ("hookload_difference_percent", ("hook load difference", "%")),
+        ("max_angle_error_deg", ("max angle error", "°")),
+        ("max_penetration_error_mm", ("max penetration error", "mm")),
+        ("md_m", ("measured depth", "m")),
+        ("steps", ("steps", "")),
+        ("operation", ("operation", "")),
+    ],
+)
+def test_heading(column, heading):
+    assert words.heading(column) == heading
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (61, "61"),
+        (1_166_000.0, "1 166 000"),
+        (426.512, "426.5"),
+        (0.5, "0.5"),
+        (-2.3456, "−2.346"),
+        (3.14159e-7, "3.14 × 10⁻⁷"),
+        (-1e-6, "−1 × 10⁻⁶"),
+        (2.5e12, "2.5 × 10¹²"),
+        (math.nan, "–"),
+        (-math.inf, "−∞"),
+    ],
+)
+def test_number(value, text):
+    plain = words.number(value).replace(words.NARROW_SPACE, " ").replace(words.SPACE, " ")
+    assert plain == text
+
+
+@pytest.mark.parametrize(
+    ("values", "texts"),
+    [
+        ([426.512, 472.0, math.nan], ["426.5", "472.0", "–"]),
+        ([2.39, 2.3], ["2.39", "2.30"]),
+        ([0.0024, 0.0012], ["0.0024", "0.0012"]),
+        ([100.0, 0.01], ["100", "0.01"]),
+        ([1, 1000], ["1", "1\u202f000"]),
+        ([True, False], ["yes", "no"]),
+        (["trip_in", "arcs", None], ["slacking off", "arcs", "–"]),
+    ],
+)
+def test_column(values, texts):
+    assert words.column(pd.Series(values)) == texts
+
+
+def test_quantity_of_nothing_has_no_unit():
+    assert words.quantity(math.nan, "m") == "no number"
+    assert words.quantity(2.0, "") == "2"

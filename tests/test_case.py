@@ -1,0 +1,603 @@
+"""Case files: what is accepted, in which units, and how each wrong value is answered."""
+
+import contextlib
+import copy
+import json
+import math
+import pickle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fctd import units
+from fctd.case import Case, RotateOffBottom, TripOut, load_case, parse_override
+from fctd.errors import MISSING, InputError
+from tests.strategies import cases, corrupted_cases, write_case
+
+CASE: dict[str, Any] = {
+    "name": "test-well",
+    "wellbore": {
+        "stations": [[0, 0, 0], [1000, 0, 45], [2000, 60, 45]],
+        "intervals": [
+            {"to_md": "1000 m", "diameter": "12.25 in", "friction": 0.2},
+            {"to_md": "2000 m", "diameter": "215.9 mm", "friction": 0.3, "name": "open hole"},
+        ],
+    },
+    "string": {
+        "components": [
+            {
+                "name": "collar",
+                "length": "200 m",
+                "outer_diameter": "158 mm",
+                "inner_diameter": "65 mm",
+                "segments": 20,
+            },
+            {
+                "name": "pipe",
+                "outer_diameter": "102 mm",
+                "inner_diameter": "60 mm",
+                "segment_length": "25 m",
+            },
+        ]
+    },
+    "operations": [
+        {"kind": "trip_in", "from_md": "1000 m", "to_md": "1500 m", "speed": "0.5 m/s"},
+        {"kind": "rotate_off_bottom", "duration": "1 min", "rpm": 60},
+        {"kind": "back_ream", "to_md": "1200 m", "speed": "0.1 m/s", "rpm": 90},
+        {"kind": "trip_out", "from_md": "1200 m", "to_md": "1100 m", "speed": "0.2 m/s"},
+    ],
+}
+
+
+@pytest.fixture
+def case_file(tmp_path: Path) -> Path:
+    """The valid case above as a file."""
+    path = tmp_path / "well.toml"
+    path.write_text(write_case(CASE), encoding="utf-8")
+    return path
+
+
+def refusal(path: Path, overrides: dict[str, Any] | None = None) -> InputError:
+    """The error that loading raises."""
+    with pytest.raises(InputError) as caught:
+        load_case(path, overrides)
+    return caught.value
+
+
+# --- what a valid case becomes ---------------------------------------------------------------------
+
+
+def test_values_are_si(case_file: Path) -> None:
+    case = load_case(case_file)
+    assert case.file == case_file
+    assert case.wellbore.intervals[0].diameter == pytest.approx(0.31115, rel=1e-14)
+    assert case.wellbore.intervals[1].diameter == 0.2159
+    assert case.string.components[0].length == 200.0
+    assert case.operations[1].ramp_time == 10.0
+
+
+def test_defaults(case_file: Path) -> None:
+    case = load_case(case_file)
+    hole, pipe = case.wellbore, case.string.components[1]
+    assert (hole.survey_method, hole.geometry, hole.overlap) == ("minimum_curvature", "cylinders", 0.2)
+    assert (hole.chord_tolerance, hole.cylinder_length) == (0.002, None)
+    assert (hole.stiffness, hole.stiffness_per_length) == (1e7, None)
+    assert (pipe.length, pipe.contact_diameter, pipe.density) == (None, 0.102, 7850.0)
+    assert (pipe.youngs_modulus, pipe.poisson_ratio, pipe.bending_stiffness) == (206.8e9, 0.3, None)
+    assert (case.mud.density, case.mud.lateral_damping) == (0.0, 0.0)
+    assert (case.rig.block_weight, case.rig.sheave_efficiency, case.rig.torque_offset) == (0.0, 1.0, 0.0)
+    assert (case.contact.friction_law, case.contact.damping) == ("coulomb", 1e4)
+    assert (case.solver.step, case.solver.joint_damping) == ("auto", 1e-4)
+    assert (case.record.interval, case.record.profile_at) == (1.0, ())
+
+
+def test_each_operation_starts_where_the_last_ended(case_file: Path) -> None:
+    operations = load_case(case_file).operations
+    assert [(o.start_md, o.end_md) for o in operations] == [
+        (1000.0, 1500.0),
+        (1500.0, 1500.0),
+        (1500.0, 1200.0),
+        (1200.0, 1100.0),
+    ]
+    assert isinstance(operations[1], RotateOffBottom)
+    assert isinstance(operations[3], TripOut)
+    assert [(o.speed, o.rpm) for o in operations] == [(0.5, 0.0), (0.0, 60.0), (0.1, 90.0), (0.2, 0.0)]
+
+
+def test_alternatives_replace_their_default(case_file: Path) -> None:
+    hole = load_case(
+        case_file,
+        {"wellbore.cylinder_length": "2 m", "wellbore.stiffness_per_length": "1e6 N/m/m"},
+    ).wellbore
+    assert (hole.chord_tolerance, hole.cylinder_length) == (None, 2.0)
+    assert (hole.stiffness, hole.stiffness_per_length) == (None, 1e6)
+
+
+def test_a_case_is_frozen(case_file: Path) -> None:
+    with pytest.raises(ValueError, match="frozen"):
+        load_case(case_file).mud.density = 1.0  # type: ignore[misc]
+
+
+def test_operations_may_be_absent(case_file: Path) -> None:
+    assert load_case(case_file, {"operations": None}).operations == ()
+
+
+def test_inline_stations_are_checked_and_served(case_file: Path) -> None:
+    hole = load_case(case_file, {"wellbore.stations": [[0, 0, 0], [0, 0, 0], [2000, 60, 45]]}).wellbore
+    assert hole.read_stations().tolist() == [[0, 0, 0], [2000, 60, 45]]
+
+
+# --- overrides -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("key", ["operations[0].speed", "operations.0.speed"])
+def test_override_of_a_list_item(case_file: Path, key: str) -> None:
+    assert load_case(case_file, {key: "60 ft/min"}).operations[0].speed == pytest.approx(0.3048)
+
+
+def test_override_makes_an_optional_table(case_file: Path) -> None:
+    assert load_case(case_file, {"mud.density": "1.2 sg"}).mud.density == 1200.0
+
+
+def test_override_does_not_keep_the_callers_objects(case_file: Path) -> None:
+    mud = {"density": 1000}
+    assert load_case(case_file, {"mud": mud, "mud.density": 1100}).mud.density == 1100.0
+    assert mud == {"density": 1000}
+
+
+def test_none_deletes_so_that_alternatives_can_be_switched(case_file: Path) -> None:
+    switched = {"string.components[0].segments": None, "string.components[0].segment_length": "5 m"}
+    collar = load_case(case_file, switched).string.components[0]
+    assert (collar.segments, collar.segment_length) == (None, 5.0)
+
+
+def test_none_removes_a_list_item(case_file: Path) -> None:
+    assert len(load_case(case_file, {"operations[3]": None}).operations) == 3
+
+
+def test_friction_sets_every_interval(case_file: Path) -> None:
+    hole = load_case(case_file, {"friction": 0.17}).wellbore
+    assert [interval.friction for interval in hole.intervals] == [0.17, 0.17]
+
+
+def test_numpy_numbers_may_override(case_file: Path) -> None:
+    overrides = {"friction": np.float64(0.25), "string.components[0].segments": np.int64(7)}
+    case = load_case(case_file, overrides)
+    assert case.wellbore.intervals[0].friction == 0.25
+    assert case.string.components[0].segments == 7
+
+
+@pytest.mark.parametrize(
+    ("key", "expected"),
+    [
+        ("operations[9].speed", "a key that exists"),
+        ("operations[9]", "a key that exists"),
+        ("operations.first", "a key that exists"),
+        ("name.first", "a key that exists"),
+        ("operations[", "a dotted key such as"),
+        ("mud..density", "a dotted key such as"),
+    ],
+)
+def test_override_of_a_path_that_is_not_there(case_file: Path, key: str, expected: str) -> None:
+    error = refusal(case_file, {key: 3})
+    assert str(case_file) in str(error)
+    assert key in str(error)
+    assert expected in str(error)
+
+
+@pytest.mark.parametrize("value", [3, None])
+def test_override_of_an_unknown_key(case_file: Path, value: object) -> None:
+    error = refusal(case_file, {"wellbore.overlp": value})
+    assert (error.key, error.expected) == ("wellbore.overlp", "the key overlap")
+
+
+@pytest.mark.parametrize(
+    ("text", "key", "value"),
+    [
+        ("mud.density=1200", "mud.density", 1200),
+        ("mud.density = 1.2e3", "mud.density", 1200.0),
+        ("wellbore.overlap=0.2 m", "wellbore.overlap", "0.2 m"),
+        ('wellbore.overlap="0.2 m"', "wellbore.overlap", "0.2 m"),
+        ("wellbore.geometry=arcs", "wellbore.geometry", "arcs"),
+        ("record.profile_at=[100, '1 km']", "record.profile_at", [100, "1 km"]),
+        ("name=a=b", "name", "a=b"),
+        ("name=1\nmud.density=3", "name", "1\nmud.density=3"),
+        ("wellbore.chord_tolerance=", "wellbore.chord_tolerance", None),
+    ],
+)
+def test_parse_override(text: str, key: str, value: object) -> None:
+    assert parse_override(text) == (key, value)
+
+
+@pytest.mark.parametrize("text", ["mud.density", "=3", ""])
+def test_parse_override_refuses(text: str) -> None:
+    with pytest.raises(InputError, match="expected key=value"):
+        parse_override(text)
+
+
+# --- the survey file -------------------------------------------------------------------------------
+
+SURVEY = "md_m,inc_deg,azi_deg\n0,0,0\n2000,30,90\n"
+USE_SURVEY = {"wellbore.stations": None, "wellbore.survey": "survey.csv"}
+
+
+def test_survey_lies_beside_the_case(case_file: Path) -> None:
+    (case_file.parent / "survey.csv").write_text(SURVEY)
+    case = load_case(case_file, USE_SURVEY)
+    assert case.wellbore.survey == case_file.parent / "survey.csv"
+    assert case.wellbore.read_stations().tolist() == [[0, 0, 0], [2000, 30, 90]]
+
+
+def test_overridden_survey_is_first_sought_in_the_current_directory(
+    case_file: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    here = tmp_path_factory.mktemp("elsewhere")
+    monkeypatch.chdir(here)
+    (case_file.parent / "survey.csv").write_text(SURVEY)
+    assert load_case(case_file, USE_SURVEY).wellbore.survey == case_file.parent / "survey.csv"
+    (here / "survey.csv").write_text(SURVEY)
+    assert load_case(case_file, USE_SURVEY).wellbore.survey == here / "survey.csv"
+
+
+def test_survey_with_columns(case_file: Path) -> None:
+    (case_file.parent / "survey.csv").write_text("Depth ( ft ),I ( deg ),A ( rad )\n0,0,0\n8000,30,1\n")
+    columns = {"md": "Depth ( ft )", "inc": "I ( deg )", "azi": "A ( rad )"}
+    case = load_case(case_file, USE_SURVEY | {"wellbore.columns": columns})
+    assert case.wellbore.read_stations()[1] == pytest.approx([2438.4, 30, math.degrees(1)], rel=1e-14)
+
+
+def test_a_wrong_survey_is_named_instead_of_the_case(case_file: Path) -> None:
+    (case_file.parent / "survey.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n2000,x,90\n")
+    error = refusal(case_file, USE_SURVEY)
+    assert (error.file, error.key) == (case_file.parent / "survey.csv", "row 3, inc_deg")
+
+
+# --- every rule that a file can break --------------------------------------------------------------
+
+RULES: list[tuple[dict[str, Any], str, object, str]] = [
+    # keys
+    ({"name": None}, "name", MISSING, "a name in quotes"),
+    ({"name": 3}, "name", 3, "a text in quotes"),
+    ({"wellbore": None}, "wellbore", MISSING, "a table [wellbore]"),
+    ({"string": None}, "string", MISSING, "a table [string]"),
+    ({"string": 3}, "string", 3, "a table of keys and values"),
+    ({"operations": 3}, "operations", 3, "a list"),
+    ({"operations": [3]}, "operations[0]", 3, "a table of keys and values"),
+    ({"muds": {"density": 3}}, "muds", {"density": 3}, "the key mud"),
+    ({"file": "x.toml"}, "file", "x.toml", "one of the keys name, wellbore"),
+    ({"wellbore.overlp": "2 mm"}, "wellbore.overlp", "2 mm", "the key overlap"),
+    ({"rig.xyz": 1}, "rig.xyz", 1, "one of the keys block_weight, sheave_efficiency, torque_offset"),
+    # wellbore
+    ({"wellbore.survey": "a.csv"}, "wellbore.survey", "a.csv", "a survey file that exists"),
+    ({"wellbore.survey": 3}, "wellbore.survey", 3, "a file name in quotes"),
+    ({"wellbore.stations": None}, "wellbore.survey", MISSING, "survey or stations"),
+    ({"wellbore.columns": {"md": "D"}}, "wellbore.columns", {"md": "D"}, "columns only beside survey"),
+    ({"wellbore.columns": {"m": "D"}}, "wellbore.columns.m", "D", "the key md"),
+    ({"wellbore.columns": {"md": 1}}, "wellbore.columns.md", 1, "a text in quotes"),
+    ({"wellbore.columns": 1}, "wellbore.columns", 1, "a table of keys and values"),
+    ({"wellbore.stations": [[0, 0, 0]]}, "wellbore.stations", [[0, 0, 0]], "two different stations, found 1"),
+    ({"wellbore.stations[0][0]": 5}, "wellbore.stations[0][0]", 5, "measured depth 0, add a tie-in"),
+    ({"wellbore.stations[0][0]": "0 m"}, "wellbore.stations[0][0]", "0 m", "a bare number"),
+    ({"wellbore.stations[2][0]": 900}, "wellbore.stations[2][0]", 900, "greater than that of the station"),
+    ({"wellbore.stations[1][1]": 181}, "wellbore.stations[1][1]", 181, "an inclination from 0 to 180 deg"),
+    ({"wellbore.stations[1]": [9, 0]}, "wellbore.stations[1][2]", MISSING, "a bare number"),
+    ({"wellbore.stations[1]": [9, 0, 0, 0]}, "wellbore.stations[1]", [9, 0, 0, 0], "at most 3 values"),
+    ({"wellbore.survey_method": "tangent"}, "wellbore.survey_method", "tangent", "'average_angle' or"),
+    ({"wellbore.geometry": "tubes"}, "wellbore.geometry", "tubes", "'cylinders' or 'arcs'"),
+    (
+        {"wellbore.geometry": "arcs", "wellbore.survey_method": "average_angle"},
+        "wellbore.geometry",
+        "arcs",
+        "cylinders, since arcs need survey_method minimum_curvature",
+    ),
+    ({"wellbore.chord_tolerance": 0}, "wellbore.chord_tolerance", 0, "a length above 0"),
+    ({"wellbore.cylinder_length": "0 m"}, "wellbore.cylinder_length", "0 m", "a length above 0"),
+    (
+        {"wellbore.cylinder_length": "2 m", "wellbore.chord_tolerance": "2 mm"},
+        "wellbore.chord_tolerance",
+        "2 mm",
+        "cylinder_length or chord_tolerance, not both",
+    ),
+    ({"wellbore.overlap": "-1 mm"}, "wellbore.overlap", "-1 mm", "a length at least 0"),
+    ({"wellbore.stiffness": "1e7 N/m/m"}, "wellbore.stiffness", "1e7 N/m/m", "a stiffness such as '1e7 N/m'"),
+    (
+        {"wellbore.stiffness": 1e7, "wellbore.stiffness_per_length": 1e6},
+        "wellbore.stiffness_per_length",
+        1e6,
+        "stiffness or stiffness_per_length, not both",
+    ),
+    ({"wellbore.intervals": None}, "wellbore.intervals", MISSING, "tables [[wellbore.intervals]]"),
+    ({"wellbore.intervals": []}, "wellbore.intervals", [], "at least one"),
+    (
+        {"wellbore.intervals[0].to_md": None},
+        "wellbore.intervals[0].to_md",
+        MISSING,
+        "a length such as '12 m'",
+    ),
+    ({"wellbore.intervals[1].to_md": 1000}, "wellbore.intervals[1].to_md", 1000, "below the interval above"),
+    (
+        {"wellbore.intervals[0].diameter": "-2 mm"},
+        "wellbore.intervals[0].diameter",
+        "-2 mm",
+        "a length above 0",
+    ),
+    ({"wellbore.intervals[0].friction": -0.1}, "wellbore.intervals[0].friction", -0.1, "factor at least 0"),
+    ({"friction": "0.1"}, "wellbore.intervals[0].friction", "0.1", "a friction factor"),
+    (
+        {"wellbore.intervals[1].stiffness_per_length": 1e6},
+        "wellbore.intervals[1].stiffness_per_length",
+        1e6,
+        "stiffness, the kind of the whole wellbore",
+    ),
+    (
+        {"wellbore.stiffness_per_length": 1e6, "wellbore.intervals[0].stiffness": 1e7},
+        "wellbore.intervals[0].stiffness",
+        1e7,
+        "stiffness_per_length, the kind of the whole wellbore",
+    ),
+    # string
+    ({"string.top_md": "-1 m"}, "string.top_md", "-1 m", "a length at least 0"),
+    ({"string.components": []}, "string.components", [], "at least one"),
+    ({"string.components[0].name": None}, "string.components[0].name", MISSING, "a name in quotes"),
+    ({"string.components[0].length": None}, "string.components[0].length", MISSING, "only the last may omit"),
+    ({"string.components[0].length": 0}, "string.components[0].length", 0, "a length above 0"),
+    ({"string.components[0].segments": 0}, "string.components[0].segments", 0, "a whole number at least 1"),
+    ({"string.components[0].segments": 2.5}, "string.components[0].segments", 2.5, "a whole number"),
+    ({"string.components[0].segments": True}, "string.components[0].segments", True, "a whole number"),
+    ({"string.components[0].segments": None}, "string.components[0].segments", MISSING, "or segment_length"),
+    (
+        {"string.components[0].segment_length": "9 m"},
+        "string.components[0].segment_length",
+        "9 m",
+        "segments or segment_length, not both",
+    ),
+    (
+        {"string.components[0].inner_diameter": "158 mm"},
+        "string.components[0].inner_diameter",
+        "158 mm",
+        "a diameter below outer_diameter",
+    ),
+    ({"string.components[0].inner_diameter": -1}, "string.components[0].inner_diameter", -1, "at least 0"),
+    (
+        {"string.components[0].outer_diameter": "2 kg"},
+        "string.components[0].outer_diameter",
+        "2 kg",
+        "a length such as '12 m' or '40 ft'",
+    ),
+    (
+        {"string.components[0].contact_diameter": "157 mm"},
+        "string.components[0].contact_diameter",
+        "157 mm",
+        "at least outer_diameter",
+    ),
+    (
+        {"string.components[0].linear_mass": 0},
+        "string.components[0].linear_mass",
+        0,
+        "a mass per length above 0",
+    ),
+    (
+        {"string.components[0].youngs_modulus": "2 GN"},
+        "string.components[0].youngs_modulus",
+        "2 GN",
+        "a stress such as '206.8 GPa'",
+    ),
+    ({"string.components[0].poisson_ratio": 0.6}, "string.components[0].poisson_ratio", 0.6, "at most 0.5"),
+    ({"string.components[0].density": 0}, "string.components[0].density", 0, "a density above 0"),
+    *(
+        (
+            {f"string.components[0].{key}_stiffness": 0},
+            f"string.components[0].{key}_stiffness",
+            0,
+            "stiffness above 0",
+        )
+        for key in ("axial", "bending", "torsional", "shear")
+    ),
+    # mud, rig, contact, solver, record
+    ({"mud.density": "-1 ppg"}, "mud.density", "-1 ppg", "a density at least 0"),
+    ({"mud.axial_damping": -1}, "mud.axial_damping", -1, "at least 0"),
+    ({"mud.lateral_damping": "1 N*s/m"}, "mud.lateral_damping", "1 N*s/m", "such as '5 N*s/m^2'"),
+    ({"mud.rotational_damping": "1 N"}, "mud.rotational_damping", "1 N", "such as '0.1 N*s'"),
+    ({"rig.block_weight": -1}, "rig.block_weight", -1, "a force at least 0"),
+    ({"rig.sheave_efficiency": 0}, "rig.sheave_efficiency", 0, "an efficiency above 0 and at most 1"),
+    ({"rig.sheave_efficiency": 1.1}, "rig.sheave_efficiency", 1.1, "an efficiency above 0 and at most 1"),
+    ({"rig.torque_offset": "3 N"}, "rig.torque_offset", "3 N", "a torque such as '0.5 kN*m'"),
+    ({"contact.friction_law": "stick"}, "contact.friction_law", "stick", "'coulomb' or 'paper'"),
+    ({"contact.damping": -1}, "contact.damping", -1, "a damping coefficient at least 0"),
+    ({"solver.step": 0}, "solver.step", 0, '"auto" or a time'),
+    ({"solver.step": "fast"}, "solver.step", "fast", '"auto" or a time such as'),
+    ({"solver.joint_damping": "-1 ms"}, "solver.joint_damping", "-1 ms", "a time at least 0"),
+    ({"record.interval": 0}, "record.interval", 0, "a time above 0"),
+    ({"record.profile_at": "1 m"}, "record.profile_at", "1 m", "a list"),
+    ({"record.profile_at": ["1 s"]}, "record.profile_at[0]", "1 s", "a length such as"),
+    # operations
+    (
+        {"operations[0].kind": None},
+        "operations[0].kind",
+        MISSING,
+        "one of the kinds trip_in, trip_out, rotate_off",
+    ),
+    ({"operations[0].kind": "trip_up"}, "operations[0].kind", "trip_up", "the kind trip_"),
+    ({"operations[0].from_md": None}, "operations[0].from_md", MISSING, "a length such as"),
+    ({"operations[0].to_md": None}, "operations[0].to_md", MISSING, "a length such as"),
+    ({"operations[0].to_md": "900 m"}, "operations[0].to_md", "900 m", "a depth below from_md, 1000 m"),
+    ({"operations[2].to_md": "1500 m"}, "operations[2].to_md", "1500 m", "a depth above from_md, 1500 m"),
+    ({"operations[3].to_md": "1.3 km"}, "operations[3].to_md", "1.3 km", "a depth above from_md, 1200 m"),
+    ({"operations[0].to_md": "9 km"}, "operations[0].to_md", "9 km", "within survey and intervals, 2000 m"),
+    ({"string.top_md": "1 km"}, "operations[0].from_md", "1000 m", "a depth below string.top_md, 1000 m"),
+    (
+        {"operations[3].from_md": "1300 m"},
+        "operations[3].from_md",
+        "1300 m",
+        "1200 m, where the operation before",
+    ),
+    (
+        {"operations[1].at_md": "1400 m"},
+        "operations[1].at_md",
+        "1400 m",
+        "1500 m, where the operation before",
+    ),
+    ({"operations[0].speed": 0}, "operations[0].speed", 0, "a speed above 0"),
+    ({"operations[0].speed": None}, "operations[0].speed", MISSING, "a speed such as '0.5 m/s'"),
+    ({"operations[0].rpm": -1}, "operations[0].rpm", -1, "a bare number of rev/min at least 0"),
+    ({"operations[0].rpm": "60 rpm"}, "operations[0].rpm", "60 rpm", "a bare number of rev/min"),
+    ({"operations[0].ramp_time": 0}, "operations[0].ramp_time", 0, "a time above 0"),
+    ({"operations[0].duration": "9 s"}, "operations[0].duration", "9 s", "of trip_in"),
+    ({"operations[1].rpm": 0}, "operations[1].rpm", 0, "rev/min above 0"),
+    ({"operations[1].duration": None}, "operations[1].duration", MISSING, "a time such as"),
+    ({"operations[1].speed": 1}, "operations[1].speed", 1, "of rotate_off_bottom"),
+    ({"operations[2].rpm": None}, "operations[2].rpm", MISSING, "rev/min above 0"),
+]
+
+
+@pytest.mark.parametrize(
+    ("overrides", "key", "value", "expected"), RULES, ids=[f"{r[1]}-{r[2]}" for r in RULES]
+)
+def test_rule(case_file: Path, overrides: dict[str, Any], key: str, value: object, expected: str) -> None:
+    error = refusal(case_file, overrides)
+    assert (error.file, error.key, error.value) == (case_file, key, value)
+    shown = f"{key} is missing: " if value is MISSING else f"{key} = {json.dumps(value)}: "
+    first = str(error).splitlines()[0]
+    assert first.startswith(f"{case_file}: {shown}expected ")
+    assert expected in first
+
+
+def test_the_message_of_the_documentation(case_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(case_file.parent)
+    error = refusal(Path("well.toml"), {"wellbore.intervals[0].diameter": "-2 mm"})
+    assert str(error) == 'well.toml: wellbore.intervals[0].diameter = "-2 mm": expected a length above 0'
+
+
+def test_several_problems_stand_on_lines_of_their_own(case_file: Path) -> None:
+    error = refusal(case_file, {"mud.density": "-1 ppg", "rig.sheave_efficiency": 2})
+    assert [line.split(": ")[1] for line in str(error).splitlines()] == [
+        'mud.density = "-1 ppg"',
+        "rig.sheave_efficiency = 2",
+    ]
+
+
+def test_what_follows_from_a_problem_is_not_reported(case_file: Path) -> None:
+    """The next start is filled in from a bad end, and contact_diameter from a bad outer_diameter."""
+    overrides = {"operations[0].to_md": "far", "string.components[0].outer_diameter": "wide"}
+    assert len(str(refusal(case_file, overrides)).splitlines()) == 2
+
+
+def test_operations_that_omit_a_start_may_not_follow_a_missing_end(case_file: Path) -> None:
+    assert "operations[0].to_md is missing" in str(refusal(case_file, {"operations[0].to_md": None}))
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        (None, "a case file that can be read (No such file"),
+        (b"name = ", "a case file in TOML"),
+        (b"\xff\xfe\x00", "a case file in TOML"),
+        (b"", "a name in quotes"),
+        (b"x = " + b"[" * 5000, "a case file in TOML"),
+        (b"x = " + b"9" * 5000, "a case file in TOML"),
+        (b"x = 0x" + b"9" * 5000, "one of the keys name"),
+    ],
+    ids=["missing", "half", "binary", "empty", "nested", "long integer", "long hexadecimal"],
+)
+def test_a_file_that_is_no_case(tmp_path: Path, content: bytes | None, expected: str) -> None:
+    path = tmp_path / "well.toml"
+    if content is not None:
+        path.write_bytes(content)
+    error = refusal(path)
+    assert str(path) in str(error)
+    assert expected in str(error)
+
+
+def test_a_folder_is_no_case(tmp_path: Path) -> None:
+    assert "a case file that can be read" in str(refusal(tmp_path))
+
+
+def test_an_error_survives_pickling(case_file: Path) -> None:
+    error = refusal(case_file, {"mud.density": "-1 ppg", "rig.sheave_efficiency": 2, "name": None})
+    assert str(pickle.loads(pickle.dumps(error))) == str(error)
+
+
+# --- any case --------------------------------------------------------------------------------------
+
+
+@given(raw=cases())
+def test_a_valid_case_loads_and_round_trips(
+    raw: dict[str, Any], tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    path = tmp_path_factory.mktemp("valid") / "well.toml"
+    path.write_text(write_case(raw), encoding="utf-8")
+    case = load_case(path)
+    assert Case.model_validate_json(case.model_dump_json()) == case
+    assert Case.model_validate(copy.deepcopy(raw)).operations == case.operations
+
+
+@given(raw=corrupted_cases())
+@settings(max_examples=300)
+def test_a_corrupted_case_is_accepted_or_refused(
+    raw: dict[str, Any], tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    path = tmp_path_factory.mktemp("corrupted") / "well.toml"
+    path.write_text(write_case(raw), encoding="utf-8")
+    answer = f"{path}: expected nothing else"
+    try:
+        load_case(path)
+    except InputError as error:
+        answer = str(error)
+    for line in answer.splitlines():
+        assert line.startswith(f"{path}: ")
+        assert "expected " in line
+
+
+# --- quantities ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [
+        ("12 m", units.LENGTH, 12.0),
+        ("40 ft", units.LENGTH, 12.192),
+        ("8.5in", units.LENGTH, 0.2159),
+        ("-2 mm", units.LENGTH, -0.002),
+        ("102 mm", units.LENGTH, 0.102),
+        (3, units.LENGTH, 3.0),
+        ("1e6 N/m/m", units.STIFFNESS_PER_LENGTH, 1e6),
+        ("1200 kg/m^3", units.DENSITY, 1200.0),
+        ("1200 kg/m³", units.DENSITY, 1200.0),
+        ("10 ppg", units.DENSITY, 1198.26427316897),  # 0.45359237 kg / (231 · 0.0254³ m³)
+        ("1.4 sg", units.DENSITY, 1400.0),
+        ("5 N*m", units.TORQUE, 5.0),
+        ("5 N·m", units.TORQUE, 5.0),
+        ("206.8 GPa", units.STRESS, 206.8e9),
+        ("3 lbf", units.FORCE, 13.3446648457815),  # 0.45359237 · 9.80665 N
+        ("3 klbf", units.FORCE, 13344.6648457815),
+        ("1 lb/ft", units.LINEAR_MASS, 1.48816394356955),  # 0.45359237 / 0.3048 kg/m
+        ("60 ft/min", units.SPEED, 0.3048),
+        ("2 min", units.TIME, 120.0),
+        ("3 N*m*s/m", units.ROTATIONAL_DAMPING, 3.0),
+    ],
+)
+def test_quantity(text: object, dimension: units.Dimension, value: float) -> None:
+    assert units.parse_quantity(text, dimension) == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        *("12", "m", "", "12 s", "12 parsnips", "nan m", "inf m", "1e400 m", "1e99999999999999999999 m"),
+        *("1,2 m", "8 1/2 in", "2 m + 3 m", "10**10**10 m", "2 m * 3", "3 degC", "1 m m", "__import__('os')"),
+        *(True, None, math.nan, math.inf, 10**400, [1], {}),
+    ],
+)
+def test_no_quantity(value: object) -> None:
+    with pytest.raises(InputError, match="expected a length such as '12 m' or '40 ft'"):
+        units.parse_quantity(value, units.LENGTH)
+
+
+@given(text=st.text(max_size=12) | st.from_regex(r"\A[0-9]{1,3} [a-zµ°]{1,5}([*/^]{1,2}[a-z0-9]{1,3})?\Z"))
+def test_any_text_is_a_length_or_refused(text: str) -> None:
+    with contextlib.suppress(InputError):
+        assert math.isfinite(units.parse_quantity(text, units.LENGTH))

@@ -1,0 +1,70 @@
+"""A registry of toy studies, whose results go to a temporary folder."""
+
+import io
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+
+import pandas as pd
+import pytest
+from rich.console import Console
+
+from validation import record, registry, runner
+from validation.study import Check, Context, Outcome, Study
+
+Register = Callable[..., None]
+
+
+def outcome(value: float = 0.5) -> Outcome:
+    """One table and one check, "error at most 1"."""
+    table = pd.DataFrame({"depth_m": [0.0, 10.0], "force_N": [1.0, 2.0]})
+    return Outcome(
+        tables={"forces": table},
+        checks=[Check("error", value, 1.0, "at_most", "mm", "closed form")],
+        notes=["a toy"],
+        display={"forces": "Forces by depth"},
+    )
+
+
+@pytest.fixture
+def register(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Register:
+    """Put studies into an otherwise empty registry: ``register(name, run, needs=...)``."""
+    monkeypatch.setattr(record, "RESULTS", tmp_path / "results")
+    for name in list(registry.STUDIES):
+        monkeypatch.delitem(registry.STUDIES, name)
+
+    def add(
+        name: str,
+        run: Callable[[Context], Outcome] = lambda context: outcome(),
+        *,
+        reproduce: bool = True,
+        needs: tuple[str, ...] = (),
+    ) -> None:
+        module = ModuleType(f"toy_{name}")
+        module.STUDY = Study(name, f"Is {name} right?", run, reproduce, needs)
+        monkeypatch.setitem(sys.modules, module.__name__, module)
+        monkeypatch.setitem(registry.STUDIES, name, module.__name__)
+
+    return add
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Callable[..., tuple[int, str]]:
+    """Run studies by name into ``tmp_path / "results"``; gives the exit code and what was printed."""
+
+    def call(
+        *names: str, expected: runner.Expected | None = None, data: Path | None = None, quick: bool = False
+    ) -> tuple[int, str]:
+        text = io.StringIO()
+        code = runner.run_all(
+            names,
+            quick=quick,
+            data=data,
+            expected=expected or {},
+            results=tmp_path / "results",
+            console=Console(file=text),
+        )
+        return code, text.getvalue()
+
+    return call

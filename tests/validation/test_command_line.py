@@ -1,0 +1,73 @@
+"""``python -m validation``: what it runs, what it answers, how it exits."""
+
+import pytest
+from typer.testing import CliRunner
+
+from validation import record, runner
+from validation.__main__ import app
+from validation.study import Check, Outcome
+
+
+@pytest.fixture
+def invoke(register, tmp_path, monkeypatch):
+    expected = tmp_path / "expected.toml"
+    expected.write_text("")
+    monkeypatch.setattr(runner, "EXPECTED", expected)
+    register("paper_well")
+    register("overlap", reproduce=False)
+    return lambda *arguments: CliRunner().invoke(app, arguments)
+
+
+def results():
+    return sorted(path.name for path in record.RESULTS.iterdir())
+
+
+def test_list_gives_names_and_questions(invoke):
+    answer = invoke("--list")
+    assert answer.exit_code == 0
+    assert "paper_well           Is paper_well right?  [reproduce]" in answer.output
+    assert "overlap " in answer.output
+
+
+def test_all_runs_every_study(invoke):
+    assert invoke("--all", "--quick").exit_code == 0
+    assert results() == ["overlap", "paper_well"]
+    assert record.read(record.RESULTS / "overlap").quick
+
+
+def test_reproduce_runs_the_marked_ones(invoke):
+    assert invoke("--reproduce").exit_code == 0
+    assert results() == ["paper_well"]
+
+
+def test_names_run_those(invoke):
+    assert invoke("overlap").exit_code == 0
+    assert results() == ["overlap"]
+
+
+def test_unknown_name_is_answered_with_the_nearest(invoke):
+    answer = invoke("papr_well")
+    assert answer.exit_code == 2
+    assert "unknown study 'papr_well'; did you mean 'paper_well'?" in answer.output
+    assert not record.RESULTS.exists()
+
+
+def test_nothing_asked_for(invoke):
+    answer = invoke()
+    assert answer.exit_code == 2
+    assert "--reproduce" in answer.output
+
+
+def test_bad_expected_file(invoke):
+    runner.EXPECTED.write_text("[paper_well")
+    answer = invoke("--all")
+    assert answer.exit_code == 2
+    assert "expected.toml" in answer.output
+
+
+def test_worse_than_recorded(invoke, register):
+    check = Check("error", 2.0, 1.0, "at_most", "", "test")
+    register("missing", lambda context: Outcome({}, [check]))
+    assert invoke("missing").exit_code == 1
+    runner.EXPECTED.write_text('[missing]\n"error" = "missed: known"')
+    assert invoke("missing").exit_code == 0

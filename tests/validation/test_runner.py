@@ -1,0 +1,204 @@
+"""The runner's rules: what is stored, what is recorded, which exit code follows."""
+
+import json
+import math
+import os
+import signal
+
+import pandas as pd
+import pytest
+
+from validation import record, registry, runner
+from validation.study import Check, Outcome
+
+from .conftest import outcome
+
+
+def stored(tmp_path, name):
+    return json.loads((tmp_path / "results" / name / "verdict.json").read_text())
+
+
+def test_met_check_and_its_table_are_stored(register, run, tmp_path):
+    register("toy")
+    code, text = run("toy", quick=True)
+    assert code == 0
+    assert "toy: 1 met" in text
+
+    verdict = stored(tmp_path, "toy")
+    assert verdict["question"] == "Is toy right?"
+    assert verdict["quick"] is True
+    assert verdict["checks"][0] == {
+        "name": "error",
+        "value": 0.5,
+        "bound": 1.0,
+        "kind": "at_most",
+        "unit": "mm",
+        "source": "closed form",
+        "verdict": "met",
+        "recorded": None,
+    }
+    assert set(verdict["provenance"]["versions"]) == {"fctd", "numpy", "numba", "python"}
+    kept = record.read(tmp_path / "results" / "toy")
+    table = record.read_tables(tmp_path / "results" / "toy", kept)["forces"]
+    pd.testing.assert_frame_equal(table, outcome().tables["forces"])
+
+
+def test_miss_not_recorded_is_an_error(register, run):
+    register("toy", lambda context: outcome(2.0))
+    code, text = run("toy")
+    assert code == 1
+    assert "worse than recorded: toy" in text
+
+
+def test_recorded_miss_is_a_row_and_no_error(register, run, tmp_path):
+    register("toy", lambda context: outcome(2.0))
+    code, text = run("toy", expected={"toy": {"error": "chords are chords"}})
+    assert code == 0
+    assert "missed (recorded)" in text
+    check = stored(tmp_path, "toy")["checks"][0]
+    assert (check["verdict"], check["recorded"]) == ("missed", "chords are chords")
+
+
+def test_recorded_miss_that_is_met_again_asks_for_an_update(register, run):
+    register("toy")
+    code, text = run("toy", expected={"toy": {"error": "chords are chords"}})
+    assert code == 0
+    assert "better than recorded" in text
+    assert "take it out of expected.toml" in text
+
+
+def test_recorded_check_that_is_gone_is_named(register, run):
+    register("toy")
+    code, text = run("toy", expected={"toy": {"old name": "why"}})
+    assert code == 0
+    assert "does not make: ['old name']" in text
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_numbers_that_json_has_no_word_for_survive(register, run, tmp_path, value):
+    register("toy", lambda context: outcome(value))
+    assert run("toy")[0] == 1
+    check = record.read(tmp_path / "results" / "toy").checks[0].check
+    assert check.value == pytest.approx(value, nan_ok=True)
+
+
+def test_pair_of_bounds_survives(register, run, tmp_path):
+    check = Check("share", 0.5, (0.0, math.inf), "within", "", "closed form")
+    register("toy", lambda context: Outcome({}, [check]))
+    assert run("toy")[0] == 0
+    assert record.read(tmp_path / "results" / "toy").checks[0].check == check
+
+
+def test_failed_study_is_recorded_and_the_others_go_on(register, run, tmp_path, capsys):
+    def fail(context):
+        raise ArithmeticError("lost in the bend")
+
+    register("broken", fail)
+    register("toy")
+    code, text = run("broken", "toy")
+    assert code == 1
+    assert stored(tmp_path, "broken")["status"] == "failed"
+    assert stored(tmp_path, "broken")["message"] == "ArithmeticError: lost in the bend"
+    assert stored(tmp_path, "toy")["status"] == "finished"
+    assert "lost in the bend" in text
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_study_that_cannot_be_loaded_fails_like_any_other(register, run, tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(registry.STUDIES, "absent", "validation.no_such_module")
+    assert run("absent")[0] == 1
+    assert "no_such_module" in stored(tmp_path, "absent")["message"]
+    assert runner.is_reproduced("absent")
+
+
+def test_table_that_cannot_be_stored_is_a_failure(register, run, tmp_path, capsys):
+    table = pd.DataFrame({"mixed": [1.0, "two", object()]})
+    register("toy", lambda context: Outcome({"mixed": table}, []))
+    assert run("toy")[0] == 1
+    assert stored(tmp_path, "toy")["status"] == "failed"
+
+
+def test_study_without_its_data_is_skipped_by_name(register, run, tmp_path):
+    register("real", needs=("data",))
+    code, text = run("real")
+    assert code == 0
+    assert "real: skipped" in text
+    assert "open registries" in stored(tmp_path, "real")["message"]
+    assert run("real", data=tmp_path)[0] == 0
+    assert stored(tmp_path, "real")["status"] == "finished"
+
+
+def test_interrupt_keeps_what_finished_and_half_of_nothing(register, run, tmp_path):
+    def interrupt(context):
+        raise KeyboardInterrupt
+
+    register("first")
+    register("second", interrupt)
+    register("third")
+    code, text = run("first", "second", "third")
+    assert code == 130
+    assert "kept: first" in text
+    assert [path.name for path in (tmp_path / "results").iterdir()] == ["first"]
+
+
+def test_interrupt_while_writing_leaves_the_earlier_result(register, run, tmp_path, monkeypatch):
+    register("toy")
+    run("toy")
+    before = stored(tmp_path, "toy")
+
+    def interrupt(*args, **kwargs):
+        os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(record, "_to_json", interrupt)
+    assert run("toy")[0] == 130
+    assert stored(tmp_path, "toy") == before
+    assert [path.name for path in (tmp_path / "results").iterdir()] == ["toy"]
+
+
+def test_progress_hands_on_every_item(register, run):
+    seen = []
+
+    def loop(context):
+        seen.extend(context.progress(range(3), "depths"))
+        seen.extend(context.progress(iter("ab"), "letters"))
+        return outcome()
+
+    register("toy", loop)
+    assert run("toy")[0] == 0
+    assert seen == [0, 1, 2, "a", "b"]
+
+
+def test_every_registered_study_loads():
+    for name in registry.STUDIES:
+        study = runner.load(name)
+        assert study.question.endswith("?"), name
+
+
+def test_expected_file_is_readable_and_names_studies():
+    assert runner.read_expected(runner.EXPECTED).keys() <= registry.STUDIES.keys()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[toy]\n"error" = "met: no"',
+        '[toy]\n"error" = "missed:"',
+        '[toy]\n"error" = "missed"',
+        '[other]\n"error" = "missed: why"',
+        'toy = "missed: why"',
+        "[toy",
+    ],
+)
+def test_expected_file_that_says_something_else_is_refused(register, tmp_path, text):
+    register("toy")
+    path = tmp_path / "expected.toml"
+    path.write_text(text)
+    with pytest.raises(runner.UsageError, match=r"expected\.toml"):
+        runner.read_expected(path)
+
+
+def test_expected_file_gives_the_reasons(register, tmp_path):
+    register("toy")
+    path = tmp_path / "expected.toml"
+    path.write_text('[toy]\n"error" = "missed: chords: 2 mm"')
+    assert runner.read_expected(path) == {"toy": {"error": "chords: 2 mm"}}

@@ -1,0 +1,183 @@
+"""What is kept of a run: ``verdict.json`` and one Parquet file per table, written whole or not at all."""
+
+import json
+import math
+import os
+import platform
+import shutil
+import subprocess
+import tempfile
+from collections import Counter
+from dataclasses import asdict, dataclass
+from importlib import metadata
+from pathlib import Path
+from typing import Any, Literal
+
+import pandas as pd
+
+from validation.study import ROOT, Check
+
+RESULTS = ROOT / "validation" / "results"
+
+Status = Literal["finished", "skipped", "failed"]
+Standing = Literal["met", "missed (recorded)", "better than recorded", "worse than recorded"]
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A check beside what ``expected.toml`` records of it: why it is known to be missed, or None."""
+
+    check: Check
+    recorded: str | None
+
+    @property
+    def standing(self) -> Standing:
+        """The verdict against the record."""
+        if self.check.verdict == "met":
+            return "met" if self.recorded is None else "better than recorded"
+        return "worse than recorded" if self.recorded is None else "missed (recorded)"
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where a result comes from."""
+
+    commit: str
+    versions: dict[str, str]
+    cpu: str
+    cores: int
+
+
+@dataclass(frozen=True)
+class Record:
+    """The content of ``verdict.json``; ``message`` says why a study was skipped or failed."""
+
+    study: str
+    question: str
+    status: Status
+    message: str
+    checks: tuple[Judged, ...]
+    notes: tuple[str, ...]
+    display: dict[str, str]
+    tables: tuple[str, ...]
+    quick: bool
+    date: str
+    wall_s: float
+    provenance: Provenance
+
+    @property
+    def is_error(self) -> bool:
+        """Whether this run is worse than what is recorded."""
+        return self.status == "failed" or any(j.standing == "worse than recorded" for j in self.checks)
+
+    @property
+    def summary(self) -> str:
+        """The run in a few words, e.g. ``4 met, 1 missed (recorded)``."""
+        if self.status != "finished":
+            return self.status
+        counts = Counter(judged.standing for judged in self.checks)
+        return ", ".join(f"{count} {standing}" for standing, count in counts.items()) or "no checks"
+
+
+def provenance() -> Provenance:
+    """The code and the machine that this process runs on."""
+    versions = {name: metadata.version(name) for name in ("fctd", "numpy", "numba")}
+    versions["python"] = platform.python_version()
+    return Provenance(_commit(), versions, _cpu_name(), os.cpu_count() or 1)
+
+
+def write(record: Record, tables: dict[str, pd.DataFrame], results: Path) -> Path:
+    """Store a run as ``results/STUDY/``, replacing the one before; return the folder.
+
+    Everything is written to a folder of its own first and then renamed, so that a run that is interrupted
+    leaves the earlier result or none, never half of one.
+    """
+    results.mkdir(parents=True, exist_ok=True)
+    folder = results / record.study
+    with tempfile.TemporaryDirectory(prefix=f".{record.study}-", dir=results) as scratch:
+        new, old = Path(scratch) / "new", Path(scratch) / "old"
+        new.mkdir()
+        for name, table in tables.items():
+            table.to_parquet(new / f"{name}.parquet", index=False)
+        (new / "verdict.json").write_text(json.dumps(_to_json(record), indent=2, ensure_ascii=False) + "\n")
+        if folder.exists():
+            folder.rename(old)
+        new.rename(folder)
+    return folder
+
+
+def read(folder: Path) -> Record:
+    """The record stored in a result folder."""
+    stored = json.loads((folder / "verdict.json").read_text())
+    return Record(
+        **stored
+        | {
+            "checks": tuple(_judged(entry) for entry in stored["checks"]),
+            "notes": tuple(stored["notes"]),
+            "tables": tuple(stored["tables"]),
+            "provenance": Provenance(**stored["provenance"]),
+        }
+    )
+
+
+def read_tables(folder: Path, record: Record) -> dict[str, pd.DataFrame]:
+    """The tables stored beside a record."""
+    return {name: pd.read_parquet(folder / f"{name}.parquet") for name in record.tables}
+
+
+def _to_json(record: Record) -> dict[str, Any]:
+    """The record as JSON can hold it: each check with its verdict, for those who read the file by eye."""
+    checks = [
+        asdict(judged.check)
+        | {
+            "value": _number(judged.check.value),
+            "bound": [_number(limit) for limit in judged.check.bound]
+            if isinstance(judged.check.bound, tuple)
+            else _number(judged.check.bound),
+            "verdict": judged.check.verdict,
+            "recorded": judged.recorded,
+        }
+        for judged in record.checks
+    ]
+    return asdict(record) | {"checks": checks}
+
+
+def _judged(stored: dict[str, Any]) -> Judged:
+    """The inverse for one check; the stored verdict is left aside, since it follows from value and bound."""
+    bound = stored["bound"]
+    check = Check(
+        name=stored["name"],
+        value=float(stored["value"]),
+        bound=(float(bound[0]), float(bound[1])) if isinstance(bound, list) else float(bound),
+        kind=stored["kind"],
+        unit=stored["unit"],
+        source=stored["source"],
+    )
+    return Judged(check, stored["recorded"])
+
+
+def _number(value: float) -> float | str:
+    """JSON has no word for nan and the infinities; ``float`` reads them back from text."""
+    return float(value) if math.isfinite(value) else str(float(value))
+
+
+def _commit() -> str:
+    """The commit checked out, marked where tracked files differ from it; ``unknown`` outside a repository."""
+    if shutil.which("git") is None:
+        return "unknown"
+    git = ["git", "-C", str(ROOT)]
+    head = subprocess.run([*git, "rev-parse", "--short=12", "HEAD"], capture_output=True, text=True)
+    if head.returncode:
+        return "unknown"
+    changed = subprocess.run([*git, "diff", "--quiet", "HEAD"], capture_output=True).returncode
+    return head.stdout.strip() + (" with changes" if changed else "")
+
+
+def _cpu_name() -> str:
+    """The processor's own name where Linux tells it; elsewhere what Python knows."""
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        for line in cpuinfo.read_text().splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()

@@ -1,0 +1,129 @@
+"""What a study is: a question, a function from a context to tables and checks, and what it needs to run."""
+
+import math
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal, Protocol, TypeVar
+
+import pandas as pd
+
+ROOT = Path(__file__).resolve().parents[1]
+
+Kind = Literal["at_most", "at_least", "within"]
+Need = Literal["data"]
+T = TypeVar("T")
+
+NEEDS: dict[Need, str] = {
+    "data": (
+        "the public data folder is missing: surveys and field measurements from open registries; "
+        "set FCTD_DATA to where they lie, see README"
+    ),
+}
+
+
+def data_folder() -> Path | None:
+    """The public data: ``FCTD_DATA``, else ``../shared/data`` beside the checkout; None if absent."""
+    folder = Path(os.environ.get("FCTD_DATA") or ROOT.parent / "shared" / "data")
+    return folder if folder.is_dir() else None
+
+
+@dataclass(frozen=True)
+class Check:
+    """A number a study found and the bound it is held against; the verdict follows from the two.
+
+    ``bound`` is one number for ``at_most`` and ``at_least``, and a pair (low, high) for ``within``.
+    ``source`` says where the bound comes from: a closed form, a publication, a target of this project.
+    """
+
+    name: str
+    value: float
+    bound: float | tuple[float, float]
+    kind: Kind
+    unit: str
+    source: str
+
+    def __post_init__(self) -> None:
+        if isinstance(self.bound, tuple) != (self.kind == "within"):
+            raise ValueError(f"check {self.name!r}: 'within' takes a pair (low, high), the others one number")
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Lowest and highest value that meets the bound."""
+        if isinstance(self.bound, tuple):
+            return self.bound
+        return (-math.inf, self.bound) if self.kind == "at_most" else (self.bound, math.inf)
+
+    @property
+    def verdict(self) -> Literal["met", "missed"]:
+        """A value that is no finite number has met nothing."""
+        low, high = self.limits
+        return "met" if math.isfinite(self.value) and low <= self.value <= high else "missed"
+
+    def requirement(self, number: Callable[[float], str] = "{:.6g}".format) -> str:
+        """The bound in words, e.g. ``at most 0.02 kN·m``, with numbers printed by ``number``."""
+        if isinstance(self.bound, tuple):
+            words = f"within {number(self.bound[0])} to {number(self.bound[1])}"
+        else:
+            words = f"{self.kind.replace('_', ' ')} {number(self.bound)}"
+        return f"{words} {self.unit}".rstrip()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a study found.
+
+    ``tables`` are stored one file each; row labels are not stored, so what matters is in a column, and a
+    column's name ends in its unit (``bit_depth_m``). ``display`` maps the tables the report prints in full to
+    their captions. ``notes`` are sentences a reader of the numbers must know.
+    """
+
+    tables: dict[str, pd.DataFrame]
+    checks: list[Check]
+    notes: list[str] = field(default_factory=list)
+    display: dict[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if unknown := self.display.keys() - self.tables.keys():
+            raise ValueError(f"display names tables that are not there: {sorted(unknown)}")
+        if len({check.name for check in self.checks}) < len(self.checks):
+            raise ValueError("two checks share a name, so expected.toml could not tell them apart")
+
+
+class Progress(Protocol):
+    """Hands on the items of a loop while the terminal shows how far it has come."""
+
+    def __call__(self, items: Iterable[T], label: str) -> Iterable[T]: ...
+
+
+def silent(items: Iterable[T], label: str) -> Iterable[T]:
+    """The progress that shows nothing."""
+    return items
+
+
+@dataclass(frozen=True)
+class Context:
+    """What a study is told: whether to take the short way, where the public data lie, how to show progress.
+
+    ``data`` is a folder whenever the study says ``needs=("data",)``; otherwise it may be None.
+    """
+
+    quick: bool = False
+    data: Path | None = None
+    progress: Progress = silent
+
+
+@dataclass(frozen=True)
+class Study:
+    """One question, and the function that answers it.
+
+    ``reproduce`` marks the studies that ``make reproduce`` runs. ``needs`` names what must be there, or the
+    study is skipped by name.
+    """
+
+    name: str
+    question: str
+    run: Callable[[Context], Outcome]
+    reproduce: bool
+    needs: tuple[Need, ...] = ()
