@@ -14,7 +14,7 @@ from typing import Annotated, Any, ClassVar, Final, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, ValidationError, ValidationInfo, field_validator, model_validator
+from pydantic import Field, StrictBool, ValidationError, ValidationInfo, field_validator, model_validator
 
 from fctd import units
 from fctd.errors import MISSING, InputError, Table, exclusive, explain, known_keys, look_up, nearest, set_key
@@ -170,8 +170,9 @@ class RigSpec(Table):
 
 
 class ContactSpec(Table):
-    """The law of friction, and the damping of a contact point [N*s/m]."""
+    """The law of friction, and the damping of a contact point [N*s/m]; not `enabled`: no wall at all."""
 
+    enabled: StrictBool = True
     friction_law: Literal["coulomb", "paper"] = "coulomb"
     damping: units.Damping = 1e4
 

@@ -103,7 +103,8 @@ def _summarise(result: SimulationResult) -> None:
     run = result.run
     screen.print(
         f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms, {run['steps']} steps, "
-        f"{run['simulated_s']:.0f} s simulated in {run['wall_s']:.2f} s ({run['real_time_factor']:.0f} × real time), "
+        f"{run['simulated_s']:.0f} s simulated in {run['wall_s']:.2f} s "
+        f"({run['real_time_factor']:.0f} × real time), "
         f"energy error {run['energy_error']:.1e}",
         highlight=False, soft_wrap=True,
     )  # fmt: skip

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from fctd import state
 from fctd.case import Case, ComponentSpec
-from fctd.dynamics import GRAVITY, PerMetre, set_long_segment
 from fctd.errors import InputError
+from fctd.topdrive import GRAVITY, PerMetre, set_long_segment
 from fctd.wellbore import Wellbore
 
 Array = NDArray[np.float64]
@@ -118,7 +118,7 @@ class String:
         return np.asarray(longer & alone)
 
     def contact_radius(self) -> Array:
-        """Radius at each segment's contact point [m]: at unlike neighbours the larger, clear of the middle ones."""
+        """Radius at each contact point [m]: at unlike neighbours the larger, clear of the middle ones."""
         own, middle = self.of("contact_radius"), self.mid_contact()
         below = np.append(np.where(middle, 0.0, own)[1:], 0.0)
         return np.asarray(np.where(middle, own, np.maximum(own, below)))
@@ -175,7 +175,7 @@ def lay_out(case: Case, bit_depth: float, fed: bool) -> String:
     long_segment = fed or single
     if long_segment and lengths[-1] < SHORTEST_LONG_SEGMENT - 1e-9:
         raise InputError(
-            f"at least {SHORTEST_LONG_SEGMENT:g} m at every bit depth: the top segment grows and shrinks as the string moves",
+            f"at least {SHORTEST_LONG_SEGMENT:g} m at every bit depth, as the top segment's length changes",
             key=f"string.components[{owner[-1]}]",
             value=f"{lengths[-1]:.3g} m of it at the top",
         )
@@ -191,7 +191,7 @@ def lay_out(case: Case, bit_depth: float, fed: bool) -> String:
 
 
 def _divide(part: ComponentSpec, take: float) -> list[float]:
-    """Segment lengths of ``take`` metres of a component from the bit up, remainder (0.5–1.5 nominal) on top."""
+    """Segments of ``take`` metres of a component from the bit up; remainder (0.5–1.5 nominal) on top."""
     whole = take if part.length is None else part.length
     nominal = whole / part.segments if part.segments is not None else part.segment_length
     assert nominal is not None  # the case makes sure that one of the two is given
@@ -226,9 +226,9 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
         tilt = hole.inclination(np.linspace(grown.top_md, bottom[0], 200)).max()
         if tilt > LONG_SEGMENT_TILT:
             raise InputError(
-                "a hole within 1 deg of vertical along the top segment; shorten the trip or give the string more segments",
+                "a hole within 1 deg of vertical along the top segment (a shorter trip, or more segments)",
                 key=f"string.components[{int(string.component[0])}]",
-                value=f"a top segment of {grown.length[0]:.4g} m, where the hole reaches {np.degrees(tilt):.2f} deg",
+                value=f"{grown.length[0]:.4g} m at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
             )
 
 

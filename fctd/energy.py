@@ -10,7 +10,7 @@ from fctd.joints import strain_energy
 
 
 class Energy(NamedTuple):
-    """Energies of a state [J]: kinetic, gravity (zero at the rotary table), strain, contact (wall springs)."""
+    """Energies of a state [J]; gravity is zero at the rotary table, contact is in the wall's springs."""
 
     kinetic: float
     gravity: float

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.case import Case, Operation
-from fctd.dynamics import Motion
+from fctd.topdrive import Motion
 
 
 class Stretch(NamedTuple):

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd import dynamics, state
+from fctd import state, topdrive
 from fctd.case import Case
 from fctd.energy import energy_of, penetration
 from fctd.results import SimulationResult
@@ -45,7 +45,7 @@ class Recorder:
         self.run = run
         self.start = energy_of(run.S, run.segments)
         self.start_depth = run.string.bit_depth
-        self.start_length = float(run.top[dynamics.TOP_LENGTH])
+        self.start_length = float(run.top[topdrive.TOP_LENGTH])
         self.last_time = 0.0
         self.history: list[dict[str, Any]] = []
         self.ledger: list[dict[str, float]] = []
@@ -60,19 +60,19 @@ class Recorder:
     @property
     def bit_depth(self) -> float:
         """Unstretched length below the rotary table [m]."""
-        return self.start_depth + float(self.run.top[dynamics.TOP_LENGTH]) - self.start_length
+        return self.start_depth + float(self.run.top[topdrive.TOP_LENGTH]) - self.start_length
 
     def record(self, operation: int) -> None:
         """Append a row of history and ledger, and a profile at a wanted depth; start new sums."""
         top, case = self.run.top, self.run.case
-        span = float(top[dynamics.TOP_TIME]) - self.last_time
-        self.last_time = float(top[dynamics.TOP_TIME])
+        span = float(top[topdrive.TOP_TIME]) - self.last_time
+        self.last_time = float(top[topdrive.TOP_TIME])
         for offset in SUMS:
             self.mean[offset] = self.rows(offset) / span
             self.rows(offset)[:] = 0.0
-        hookload = float(top[dynamics.SUM_HOOKLOAD]) / span
-        torque = float(top[dynamics.SUM_TOP_TORQUE]) / span
-        top[[dynamics.SUM_HOOKLOAD, dynamics.SUM_TOP_TORQUE]] = 0.0
+        hookload = float(top[topdrive.SUM_HOOKLOAD]) / span
+        torque = float(top[topdrive.SUM_TOP_TORQUE]) / span
+        top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 0.0
 
         kind = case.operations[operation].kind
         indicator, drive = sensors(case, kind, hookload, torque)
@@ -144,8 +144,8 @@ class Recorder:
             for name, now, then in zip(energy._fields, energy, self.start, strict=True)
         }
         gains = {
-            "top_drive_work_J": float(top[dynamics.TOP_WORK]),
-            "fed_pipe_J": float(top[dynamics.FED_ENERGY]),
+            "top_drive_work_J": float(top[topdrive.TOP_WORK]),
+            "fed_pipe_J": float(top[topdrive.FED_ENERGY]),
         }
         losses = {name: float(self.rows(offset).sum()) for name, offset in LOSSES.items()}
         residual = sum(held.values()) + sum(losses.values()) - sum(gains.values())
@@ -167,7 +167,7 @@ class Recorder:
         # inside and outside at the depth of the joint.
         depth = np.append(run.S[state.Z], points[:, 2])
         steel = np.pi * (string.of("outer") ** 2 - string.of("inner") ** 2)
-        pressure = run.case.mud.density * dynamics.GRAVITY * depth
+        pressure = run.case.mud.density * topdrive.GRAVITY * depth
         axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
         turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
         bending = self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0))

@@ -1,20 +1,21 @@
 """A run before its first step: hole, string, step, and the string settled at its start."""
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd import dynamics, state
+from fctd import dynamics, state, topdrive
 from fctd.case import Case
 from fctd.contact import update_walls
 from fctd.drillstring import String, check_fit, fill, lay_out
-from fctd.dynamics import Motion, PerMetre
 from fctd.energy import penetration
 from fctd.errors import InputError
 from fctd.operations import Stretch, depth_range, rad_per_s, schedule
 from fctd.rotations import quaternion_from_axis
 from fctd.stability import AUTO_SHARE, stable_step, stiffest_mode
+from fctd.topdrive import Motion, PerMetre
 from fctd.wellbore import Wellbore, build_wellbore
 
 Array = NDArray[np.float64]
@@ -23,7 +24,7 @@ SETTLED = 1e-6
 LONGEST_SETTLING = 400.0  # [s] simulated
 
 
-class Unstable(Exception):
+class UnstableError(Exception):
     """The run left what the model can describe; its text says how."""
 
 
@@ -64,18 +65,18 @@ class Run:
         update_walls(self.S, self.owner, self.segments, self.segments, self.hole.pieces, self.hole.geometry)
 
     def check(self) -> None:
-        """Raise Unstable when the state is no longer finite, or has left the hole or the joint law."""
+        """Raise UnstableError when the state is no longer finite, or has left the hole or the joint law."""
         n = self.segments
         rows = [state.row(self.S, offset, n) for offset in (state.X, state.Y, state.Z, state.VX, state.WZ)]
         if not all(np.isfinite(r).all() for r in rows):
-            raise Unstable("a position or velocity is not finite")
+            raise UnstableError("a position or velocity is not finite")
         deep = penetration(self.S, n) - state.row(self.S, state.HOLE, n)
         if (deep > 0).any():
-            raise Unstable(f"segment {int(np.argmax(deep)) + 1} has left the hole")
+            raise UnstableError(f"segment {int(np.argmax(deep)) + 1} has left the hole")
         axes = np.stack([state.row(self.S, a, n) for a in (state.AX, state.AY, state.AZ)], axis=1)
         cosine = np.sum(axes[1:] * axes[:-1], axis=1)
         if (cosine < 0).any():
-            raise Unstable(f"the string has folded at segment {int(np.argmin(cosine)) + 2}")
+            raise UnstableError(f"the string has folded at segment {int(np.argmin(cosine)) + 2}")
 
 
 def prepare(case: Case) -> tuple[Run, list[Stretch]]:
@@ -83,8 +84,16 @@ def prepare(case: Case) -> tuple[Run, list[Stretch]]:
 
     Raises InputError for a case that cannot be simulated.
     """
+    try:
+        return _prepare(case)
+    except InputError as error:
+        raise (error if case.file is None else error.in_file(case.file)) from None
+
+
+def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
     if not case.operations:
         raise InputError("at least one operation to simulate", key="operations", value=[])
+    case.check_depths()
     hole = build_wellbore(case)
     first, shallowest, deepest = depth_range(case)
     fed = deepest > shallowest
@@ -93,9 +102,9 @@ def prepare(case: Case) -> tuple[Run, list[Stretch]]:
     string = string.lengthened(first - shallowest)
 
     n = string.segments
-    S, top = state.new_state(n), np.zeros(dynamics.TOP_SIZE)
+    S, top = state.new_state(n), np.zeros(topdrive.TOP_SIZE)
     pipe = fill(S, string, case)
-    top[dynamics.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
+    top[topdrive.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
     lie_on_axis(S, top, string, hole)
     stretches = schedule(case.operations)
     laws = state.Laws(
@@ -123,7 +132,7 @@ def _step_limit(
     spin = max(rad_per_s(o.rpm) for o in case.operations)
     probe = S.copy()
     if string.long_segment:
-        dynamics.set_long_segment(probe, string.length[0] + shrinks, pipe)
+        topdrive.set_long_segment(probe, string.length[0] + shrinks, pipe)
     return stable_step(
         stiffest_mode(probe, string.segments, hole.stiffest_wall), case.solver.joint_damping, spin
     )
@@ -146,7 +155,7 @@ def lie_on_axis(S: Array, top: Array, string: String, hole: Wellbore) -> None:
     n = string.segments
     centre = points[1:] - axes * state.row(S, state.ARM_BOTTOM, n)[:, None]
     turned = _transported(np.vstack([tangent, axes]))
-    top[dynamics.TOP_FRAME : dynamics.TOP_FRAME + 4] = turned[0]
+    top[topdrive.TOP_FRAME : topdrive.TOP_FRAME + 4] = turned[0]
     for k, offset in enumerate((state.X, state.Y, state.Z)):
         S[offset] = start[k]
         state.row(S, offset, n)[:] = centre[:, k]
@@ -161,7 +170,7 @@ def lie_on_axis(S: Array, top: Array, string: String, hole: Wellbore) -> None:
 def _transported(axes: Array) -> Array:
     """Quaternions of a chain of axes (n, 3) without twist from one to the next, shape (n, 4)."""
     out = quaternion_from_axis(axes[:1])
-    for before, after in zip(axes, axes[1:], strict=False):
+    for before, after in pairwise(axes):
         # The shortest rotation that takes ``before`` to ``after``, applied on the left.
         w = np.concatenate([[1 + before @ after], np.cross(before, after)])
         w /= np.linalg.norm(w)
@@ -179,7 +188,7 @@ def settle(run: Run, tolerance: float = SETTLED) -> float:
     """
     n, string = run.segments, run.string
     weight = float((string.of("weight") * string.length).sum())
-    rate = 12 * np.sqrt(dynamics.GRAVITY / float(string.length.sum()))
+    rate = 12 * np.sqrt(topdrive.GRAVITY / float(string.length.sum()))
     laws = run.laws._replace(friction_scale=0.0, settling=rate)
     still = Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
     residual = np.inf
@@ -202,7 +211,7 @@ def forget_start(run: Run) -> None:
         state.row(run.S, offset, run.segments)[:] = 0.0
     first, last = state.SUM_NORMAL, state.LOST_JOINT
     run.S[first : last + state.STRIDE] = 0.0
-    run.top[[dynamics.TOP_TIME, dynamics.TOP_ANGLE, dynamics.TOP_WORK, dynamics.FED_ENERGY]] = 0.0
-    run.top[[dynamics.SUM_HOOKLOAD, dynamics.SUM_TOP_TORQUE]] = 0.0
+    run.top[[topdrive.TOP_TIME, topdrive.TOP_ANGLE, topdrive.TOP_WORK, topdrive.FED_ENERGY]] = 0.0
+    run.top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 0.0
     run.steps = 0
     run.refresh()

@@ -5,12 +5,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from fctd import dynamics
+from fctd import topdrive
 from fctd.case import Case
-from fctd.dynamics import Motion
 from fctd.record import Recorder
 from fctd.results import SimulationResult
-from fctd.run import SETTLED, Unstable, forget_start, prepare, settle
+from fctd.run import SETTLED, UnstableError, forget_start, prepare, settle
+from fctd.topdrive import Motion
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
@@ -35,17 +35,17 @@ def simulate(case: Case, progress: Progress | None = None) -> SimulationResult:
             stretches = []
         for motion, operation in stretches:
             for end in _records(motion, case.record.interval):
-                run.advance(motion, end - run.top[dynamics.TOP_TIME])
+                run.advance(motion, end - run.top[topdrive.TOP_TIME])
                 run.refresh()
                 run.check()
                 recorder.record(operation)
                 if progress is not None:
-                    now = run.top[dynamics.TOP_TIME]
+                    now = run.top[topdrive.TOP_TIME]
                     progress(now, total, now / max(time.perf_counter() - began, 1e-9))
-    except Unstable as error:
-        status, message = "unstable", f"at {run.top[dynamics.TOP_TIME]:.4g} s: {error}"
+    except UnstableError as error:
+        status, message = "unstable", f"at {run.top[topdrive.TOP_TIME]:.4g} s: {error}"
     except KeyboardInterrupt:
-        status, message = "interrupted", f"at {run.top[dynamics.TOP_TIME]:.4g} s"
+        status, message = "interrupted", f"at {run.top[topdrive.TOP_TIME]:.4g} s"
     wall = time.perf_counter() - began
     return recorder.result(status, message, wall, residual)
 

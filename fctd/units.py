@@ -1,6 +1,6 @@
 """Quantities at the boundary: a string with its unit, or a bare SI number, to an SI float.
 
-`Length`, `PositiveForce`, … are `float` to the type checker and, as fields of a pydantic model,
+`Length`, `PositiveTime`, … are `float` to the type checker and, as fields of a pydantic model,
 parse and check what the user wrote. Everything behind the boundary is SI and never sees a unit.
 """
 

@@ -72,16 +72,23 @@ class Wellbore:
         """Inclination of the axis [rad] at measured depths (n,) [m]."""
         return np.asarray(np.arccos(np.clip(self.at(md)[1][:, 2], -1.0, 1.0)))
 
-    def walls(self, points: Array, owner: NDArray[np.int64] | None = None) -> Array:
+    def walls(self, points: Array, near: NDArray[np.int64] | None = None) -> Array:
         """Walls beside points (n, 3) [m]: (n, 7) PT [m], hole radius [m], stiffness, friction, md [m].
 
-        owner : (n,) pieces to start looking from, for points that have been asked for before.
+        near : (n,) pieces to start looking from, for points that have been asked for before.
         """
+        return self._query(points, near)[0]
+
+    def owners(self, points: Array) -> NDArray[np.int64]:
+        """Index of the piece that owns each point (n, 3) [m]."""
+        return self._query(points, None)[1]
+
+    def _query(self, points: Array, near: NDArray[np.int64] | None) -> tuple[Array, NDArray[np.int64]]:
         points = np.ascontiguousarray(np.atleast_2d(points), dtype=float)
-        start = self._nearest(points) if owner is None else owner.copy()
+        owner = self._nearest(points) if near is None else near.copy()
         out = np.empty((len(points), 7))
-        contact.query_walls(self.pieces, self.geometry, points, start, out)
-        return out
+        contact.query_walls(self.pieces, self.geometry, points, owner, out)
+        return out, owner
 
     def _nearest(self, points: Array) -> NDArray[np.int64]:
         """Piece nearest to each point, from samples of the axis at most half a metre apart."""
@@ -142,7 +149,7 @@ def build_wellbore(case: Case) -> Wellbore:
             "stations that a circular arc can join", key="wellbore.survey", value=str(error)
         ) from None
     ends = [i.to_md for i in hole.intervals if i.to_md < depth]
-    geometry = ARCS if hole.geometry == "arcs" else CYLINDERS
+    geometry = OPEN if not case.contact.enabled else ARCS if hole.geometry == "arcs" else CYLINDERS
     if hole.geometry == "arcs":
         md = np.union1d(stations[:, 0], ends)
         pieces = _arcs(hole, courses, md)
@@ -173,7 +180,7 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
     A chord of length ℓ in a bend of curvature κ misses the arc by κℓ²/8.
     """
     curvature = survey.dogleg(stations) / np.diff(stations[:, 0])
-    if hole.cylinder_length is not None:
+    if hole.chord_tolerance is None:
         wanted = np.full(len(curvature), hole.cylinder_length)
     else:
         wanted = np.sqrt(8 * hole.chord_tolerance / np.maximum(curvature, 1e-12))

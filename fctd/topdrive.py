@@ -1,0 +1,180 @@
+"""The top drive holds the string's upper end, turns it and feeds pipe in; its reactions are the outputs."""
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from fctd.joints import joint_twist, strain_energy
+from fctd.state import (
+    ARM_TOP,
+    GX,
+    GY,
+    GZ,
+    INVERSE_JA,
+    INVERSE_JT,
+    INVERSE_MASS,
+    J_AXIAL,
+    J_TRANSVERSE,
+    K_AXIAL,
+    K_BEND,
+    K_SHEAR,
+    K_TWIST,
+    MASS,
+    MUD_AXIAL,
+    MUD_LATERAL,
+    MUD_SPIN,
+    QW,
+    QX,
+    QY,
+    QZ,
+    TURNS,
+    UX,
+    UY,
+    UZ,
+    VX,
+    VY,
+    VZ,
+    WEIGHT,
+    Z,
+    axis,
+    joint_force,
+    spin,
+    velocity,
+)
+
+GRAVITY = 9.80665
+
+
+class Motion(NamedTuple):
+    """What the top drive does during one stretch of a run; a ramp when the ends differ.
+
+    start, duration [s]; feed speed downwards [m/s] and rotation speed [rad/s] at both ends.
+    """
+
+    start: float
+    duration: float
+    feed_from: float
+    feed_to: float
+    spin_from: float
+    spin_to: float
+
+
+class PerMetre(NamedTuple):
+    """The pipe that is fed in at the top, per metre: the long segment's properties follow its length.
+
+    mass [kg/m], weight (buoyed) [N/m], axial_inertia [kg m], EA [N], GJ, EI [N m^2], shear (κGA) [N],
+    mud damping axial, lateral [N s/m^2], rotational [N s].
+    """
+
+    mass: float
+    weight: float
+    axial_inertia: float
+    EA: float
+    GJ: float
+    EI: float
+    shear: float
+    mud_axial: float
+    mud_lateral: float
+    mud_spin: float
+
+
+# Top drive's own numbers, shape (TOP_SIZE,): angle turned [rad], length of the long segment [m] (0: none),
+# simulated time [s]; sums since the last record of hook load [N s] and torque [N m s]; work done by the
+# top drive and energy brought in by fed pipe since the start [J].
+TOP_ANGLE, TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(7)
+# Quaternion of the top drive before it turns.
+TOP_FRAME = 7
+TOP_SIZE = 11
+
+
+@njit(forceinline=True)
+def ramp(at, start, duration, first, last):
+    """Smooth step from ``first`` to ``last``: no jump of acceleration to set the string ringing."""
+    u = min(max((at - start) / duration, 0.0), 1.0)
+    return first + (last - first) * u * u * (3 - 2 * u)
+
+
+@njit(error_model="numpy")
+def set_long_segment(S, length, pipe):
+    """Update the long segment (body 1 and joint 1) to its length [m].
+
+    A massless arm with springs EA/L and GJ/L, half its mass lumped at the lower end (§6.2, §5.1): hanging
+    it stretches by its load and by its own weight exactly.
+    """
+    half = 0.5 * length
+    S[ARM_TOP + 1] = length
+    S[MASS + 1] = pipe.mass * half
+    S[WEIGHT + 1] = pipe.weight * half
+    S[J_AXIAL + 1] = pipe.axial_inertia * half
+    S[J_TRANSVERSE + 1] = pipe.mass * half * length * length / 3
+    S[INVERSE_MASS + 1] = 1 / S[MASS + 1]
+    S[INVERSE_JA + 1] = 1 / S[J_AXIAL + 1]
+    S[INVERSE_JT + 1] = 1 / S[J_TRANSVERSE + 1]
+    S[MUD_AXIAL + 1] = pipe.mud_axial * half
+    S[MUD_LATERAL + 1] = pipe.mud_lateral * half
+    S[MUD_SPIN + 1] = pipe.mud_spin * half
+    S[K_AXIAL + 1] = pipe.EA / length
+    S[K_SHEAR + 1] = pipe.shear / length
+    S[K_BEND + 1] = pipe.EI / length
+    S[K_TWIST + 1] = pipe.GJ / length
+
+
+@njit(error_model="numpy")
+def long_segment_energy(S):
+    """Kinetic, gravity and strain energy that depend on the long segment's length [J]."""
+    vx, vy, vz = velocity(S, 1)
+    wx, wy, wz = spin(S, 1)
+    kinetic = 0.5 * S[MASS + 1] * (vx * vx + vy * vy + vz * vz)
+    kinetic += 0.5 * (S[J_TRANSVERSE + 1] * (wx * wx + wy * wy) + S[J_AXIAL + 1] * wz * wz)
+    return kinetic - S[WEIGHT + 1] * S[Z + 1] + strain_energy(S, 1)
+
+
+@njit(error_model="numpy")
+def move_top_drive(S, top, motion, pipe, dt):
+    """Update the top drive's angle, feed and clamp velocity for this step; returns dL [m] and dθ [rad]."""
+    now = top[TOP_TIME]
+    feed = ramp(now, motion.start, motion.duration, motion.feed_from, motion.feed_to)
+    rate = ramp(now, motion.start, motion.duration, motion.spin_from, motion.spin_to)
+    if feed != 0:
+        # The energy that longer pipe holds, by a central difference about the length at which this step's
+        # loads are taken: a one-sided one would leave ½k dL² of every step in the ledger.
+        top[TOP_LENGTH] += dt * feed
+        set_long_segment(S, top[TOP_LENGTH] - 0.5 * dt * feed, pipe)
+        before = long_segment_energy(S)
+        set_long_segment(S, top[TOP_LENGTH] + 0.5 * dt * feed, pipe)
+        top[FED_ENERGY] += long_segment_energy(S) - before
+        set_long_segment(S, top[TOP_LENGTH], pipe)
+    top[TOP_ANGLE] += dt * rate
+    top[TOP_TIME] += dt
+    half = 0.5 * (top[TOP_ANGLE] + S[TURNS + 1])
+    c, s = math.cos(half), math.sin(half)
+    w, x, y, z = top[TOP_FRAME], top[TOP_FRAME + 1], top[TOP_FRAME + 2], top[TOP_FRAME + 3]
+    S[QW], S[QX], S[QY], S[QZ] = w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s
+    ax, ay, az = axis(S, 0)
+    S[VX], S[VY], S[VZ] = feed * ax, feed * ay, feed * az
+    S[GX], S[GY], S[GZ] = rate * ax, rate * ay, rate * az
+    return dt * feed, dt * rate
+
+
+@njit(error_model="numpy")
+def read_top_drive(S, top, pipe, fed, turned_by, dt):
+    """Update the sums of hook load, torque and work, given the loads of joint 1."""
+    ax, ay, az = axis(S, 0)
+    fx, fy, fz = joint_force(S, 1)
+    # The half of the long segment's weight that is not lumped below hangs on the top drive itself.
+    tension = -(fx * ax + fy * ay + fz * az)
+    hookload = tension + 0.5 * pipe.weight * top[TOP_LENGTH]
+    torque = -(S[UX + 1] * ax + S[UY + 1] * ay + S[UZ + 1] * az)
+    top[SUM_HOOKLOAD] += dt * hookload
+    top[SUM_TOP_TORQUE] += dt * torque
+    # The pipe passes the clamp stretched, (1 + T/EA) times its unstretched length.
+    raised = hookload * fed * (1 + tension / pipe.EA)
+    top[TOP_WORK] += torque * turned_by - raised
+    top[FED_ENERGY] += raised
+    # Quaternions hold twist within two turns: a whole turn is moved into TURNS long before.
+    held = joint_twist(S, 1) - S[TURNS + 1]
+    if held > math.pi:
+        S[TURNS + 1] += 2 * math.pi
+    elif held < -math.pi:
+        S[TURNS + 1] -= 2 * math.pi

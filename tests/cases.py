@@ -1,0 +1,51 @@
+"""Small cases that the engine's tests build on."""
+
+from typing import Any
+
+from fctd.case import Case
+
+
+def make_case(
+    stations: list[list[float]] | None = None,
+    components: list[dict[str, Any]] | None = None,
+    operations: list[dict[str, Any]] | None = None,
+    top_md: float = 0.0,
+    wellbore: dict[str, Any] | None = None,
+    **sections: dict[str, Any],
+) -> Case:
+    """A case from keyword sections: a vertical 1000 m hole and one pipe unless told otherwise."""
+    stations = stations or [[0, 0, 0], [1000, 0, 0]]
+    hole = {
+        "stations": stations,
+        "intervals": [{"to_md": stations[-1][0], "diameter": 0.2159, "friction": 0.2}],
+        **(wellbore or {}),
+    }
+    return Case.model_validate(
+        {
+            "name": "test",
+            "wellbore": hole,
+            "string": {"top_md": top_md, "components": components or [pipe(1000, 20)]},
+            "operations": operations or [],
+            **sections,
+        }
+    )
+
+
+def pipe(length: float | None, segments: int, outer: float = 0.127, **more: Any) -> dict[str, Any]:
+    """A component of 5 inch drill pipe, or of another outer diameter [m]."""
+    given = {} if length is None else {"length": length}
+    return {
+        "name": "pipe", **given, "outer_diameter": outer, "inner_diameter": 0.07,
+        "segments": segments, **more,
+    }  # fmt: skip
+
+
+def rotation(at: float, duration: float, rpm: float = 60.0, ramp: float = 5.0) -> dict[str, Any]:
+    """An operation: rotate off bottom."""
+    return {"kind": "rotate_off_bottom", "at_md": at, "duration": duration, "rpm": rpm, "ramp_time": ramp}
+
+
+def trip(start: float, end: float, speed: float = 0.2, ramp: float = 5.0) -> dict[str, Any]:
+    """An operation: trip in or out, whichever leads from start to end."""
+    kind = "trip_in" if end > start else "trip_out"
+    return {"kind": kind, "from_md": start, "to_md": end, "speed": speed, "ramp_time": ramp}

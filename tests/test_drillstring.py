@@ -1,0 +1,147 @@
+"""Laying out a string, its stiffness and what does not fit."""
+
+import numpy as np
+import pytest
+
+from fctd.drillstring import lay_out, section_of, shear_coefficient
+from fctd.errors import InputError
+from fctd.run import prepare
+from fctd.state import MAX_SEGMENTS
+from tests.cases import make_case, pipe, rotation, trip
+
+
+def test_shear_coefficient_limits() -> None:
+    """Hutchinson 2001: solid circle 6(1+ν)²/(7+12ν+4ν²), thin tube (1+ν)/(2+ν)."""
+    for nu in (0.0, 0.3, 0.5):
+        solid = 6 * (1 + nu) ** 2 / (7 + 12 * nu + 4 * nu**2)
+        assert shear_coefficient(1.0, 0.0, nu) == pytest.approx(solid, rel=1e-12)
+        assert shear_coefficient(1.0, 1.0 - 1e-9, nu) == pytest.approx((1 + nu) / (2 + nu), rel=1e-7)
+
+
+def test_buoyancy_lowers_weight_and_not_mass() -> None:
+    component = make_case(components=[pipe(1000, 20)]).string.components[0]
+    air, mud = section_of(component, 0.0), section_of(component, 1570.0)
+    assert mud.mass == air.mass == pytest.approx(7850 * np.pi / 4 * (0.127**2 - 0.07**2))
+    assert mud.weight == pytest.approx(0.8 * air.weight)
+
+
+def test_components_are_laid_from_the_bit_and_the_top_takes_the_remainder() -> None:
+    case = make_case(components=[pipe(100, 10, outer=0.159), pipe(500, 20), pipe(1000, 40)])
+    string = lay_out(case, 810.0, fed=False)
+    assert string.bit_depth == pytest.approx(810)
+    np.testing.assert_allclose(string.length[-10:], 10)
+    np.testing.assert_allclose(string.length[-30:-10], 25)
+    assert 12.5 <= string.length[0] < 37.5
+    assert list(np.bincount(string.component)) == [10, 20, 8]
+    assert not string.long_segment
+
+
+@pytest.mark.parametrize("depth", [1000.0, 990.0, 976.0, 975.0, 963.0])
+def test_remainder_is_between_half_and_one_and_a_half(depth: float) -> None:
+    string = lay_out(make_case(components=[pipe(1000, 40)]), depth, fed=False)
+    assert 12.5 - 1e-9 <= string.length[0] < 37.5
+    assert string.length.sum() == pytest.approx(depth)
+
+
+def test_segment_length_instead_of_count() -> None:
+    component = pipe(1000, 1)
+    del component["segments"]
+    string = lay_out(make_case(components=[{**component, "segment_length": 25.0}]), 1000, fed=False)
+    assert string.segments == 40
+
+
+def test_unlike_neighbours_are_in_series_and_the_clamp_is_half_a_segment_away() -> None:
+    case = make_case(components=[pipe(100, 2, outer=0.159), pipe(900, 9)])
+    string = lay_out(case, 1000.0, fed=False)
+    stiffness = string.joints("EA")
+    collar, tube = string.sections[0].EA, string.sections[1].EA
+    assert stiffness[0] == pytest.approx(2 * tube / 100)
+    assert stiffness[1] == pytest.approx(tube / 100)
+    assert stiffness[9] == pytest.approx(1 / (50 / tube + 25 / collar))
+    assert stiffness[10] == pytest.approx(collar / 50)
+
+
+def test_long_segment_puts_its_whole_length_at_the_top() -> None:
+    case = make_case(components=[pipe(500, 10), pipe(None, 1)])
+    string = lay_out(case, 1000.0, fed=True)
+    assert string.long_segment
+    stiffness = string.joints("GJ")
+    assert stiffness[0] == pytest.approx(string.sections[1].GJ / 500)
+    assert stiffness[1] == pytest.approx(string.sections[0].GJ / 25)
+
+
+def test_contact_radius_is_the_larger_at_unlike_neighbours() -> None:
+    case = make_case(components=[pipe(50, 2, outer=0.159), pipe(950, 10, contact_diameter=0.168)])
+    string = lay_out(case, 1000.0, fed=False)
+    np.testing.assert_allclose(string.contact_radius()[-3:], [0.084, 0.0795, 0.0795])
+
+
+def test_a_short_component_touches_at_its_middle() -> None:
+    stabiliser = pipe(2, 1, outer=0.2)
+    case = make_case(components=[pipe(50, 5), stabiliser, pipe(948, 90)], operations=[rotation(1000, 1)])
+    run, _ = prepare(case)
+    k = run.segments - 6
+    assert run.string.length[k] == 2
+    assert run.string.mid_contact()[k]
+    assert run.string.mid_contact().sum() == 1
+    radius = run.string.contact_radius()
+    assert radius[k] == 0.1
+    assert radius[k - 1] == pytest.approx(0.0635)  # the joints beside it are the pipe's
+    from fctd import state
+
+    assert run.S[state.ARM_CONTACT + k + 1] == 0
+
+
+def test_tributary_length_for_stiffness_per_metre() -> None:
+    from fctd import state
+
+    case = make_case(
+        components=[pipe(100, 10, outer=0.159), pipe(900, 30)],
+        wellbore={"stiffness_per_length": 1e6},
+        operations=[rotation(1000, 1)],
+    )
+    run, _ = prepare(case)
+    tributary = state.row(run.S, state.TRIBUTARY, run.segments)
+    np.testing.assert_allclose(tributary[[0, 28, 29, 30, -1]], [30, 30, 20, 10, 5])
+
+
+@pytest.mark.parametrize(
+    ("case", "pattern"),
+    [
+        (
+            {"components": [pipe(1000, 20, contact_diameter=0.23)]},
+            r"string\.components\[0\]\.contact_diameter.*230 mm.*at most the hole's 215\.9 mm",
+        ),
+        ({"components": [pipe(500, 20)]}, r"string\.components.*500 m of string.*reach from the bit at 1000 m"),
+        (
+            {"components": [pipe(1000, MAX_SEGMENTS + 1)]},
+            rf"string\.components.*{MAX_SEGMENTS + 1} segments.*at most {MAX_SEGMENTS}",
+        ),
+        (
+            {"components": [pipe(995, 20), pipe(None, 1)]},
+            r"string\.components\[1\].*5 m of it at the top.*at least 10 m",
+        ),
+        (
+            {
+                "stations": [[0, 0, 0], [300, 0, 0], [1000, 60, 0]],
+                "components": [pipe(500, 20), pipe(None, 1)],
+            },
+            r"string\.components\[1\].*500 m at the top.*within 1 deg of vertical",
+        ),
+        ({"solver": {"step": 0.1}}, r"solver\.step.*0\.1 s.*at most the stable step"),
+    ],
+)
+def test_what_does_not_fit_is_refused(case: dict, pattern: str) -> None:
+    with pytest.raises(InputError, match=pattern):
+        prepare(make_case(operations=[rotation(1000, 1)], **case))
+
+
+def test_a_fed_top_segment_must_stay_in_vertical_hole() -> None:
+    stations = [[0, 0, 0], [100, 0, 0], [1000, 60, 0]]
+    with pytest.raises(InputError, match=r"string\.components\[0\].*within 1 deg of vertical"):
+        prepare(make_case(stations, [pipe(1000, 20)], [trip(600, 900)]))
+
+
+def test_a_case_without_operations_cannot_be_simulated() -> None:
+    with pytest.raises(InputError, match=r"operations.*at least one operation"):
+        prepare(make_case())

@@ -1,0 +1,196 @@
+"""The stepper: exact statics, conservation at its order, packed code, clamps that only stop."""
+
+import math
+import platform
+import re
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from fctd import dynamics, friction, joints, state, topdrive
+from fctd.contact import COLUMNS, follow_arcs, follow_cylinders
+from fctd.run import prepare, settle
+from tests.cases import make_case, pipe, rotation
+
+FREE = state.Laws(state.OPEN, state.COULOMB, 1.0, 0.0, 0.0, 0.0)
+STILL = topdrive.Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+NO_PIPE = topdrive.PerMetre(*[0.0] * 10)._replace(EA=1.0)
+NO_HOLE = np.zeros((1, COLUMNS))
+
+
+def run_free(S: np.ndarray, n: int, step: float, time: float) -> None:
+    """Advance bodies that hang from nothing and touch nothing."""
+    top = np.zeros(topdrive.TOP_SIZE)
+    top[topdrive.TOP_FRAME] = 1.0
+    owner = np.zeros(n + 2, np.int64)
+    dynamics.advance(S, top, owner, n, NO_HOLE, FREE, STILL, NO_PIPE, step, round(time / step))
+
+
+def set_body(S: np.ndarray, j: int, mass: float, transverse: float, axial: float) -> None:
+    for row, inverse, value in (
+        (state.MASS, state.INVERSE_MASS, mass),
+        (state.J_TRANSVERSE, state.INVERSE_JT, transverse),
+        (state.J_AXIAL, state.INVERSE_JA, axial),
+    ):
+        S[row + j], S[inverse + j] = value, 1 / value
+
+
+@pytest.mark.parametrize("top_segments", [10, 1])
+def test_hanging_chain_stretches_by_the_closed_form(top_segments: int) -> None:
+    """Tapered string in mud: each part stretches by the load below and by half its own weight.
+
+    ``top_segments = 1`` without a length is the paper's long segment.
+    """
+    lower, upper = pipe(150, 6, outer=0.159), pipe(None, top_segments)
+    case = make_case(
+        components=[lower, upper], mud={"density": 1200}, operations=[rotation(1000, 10)]
+    )  # fmt: skip
+    run, _ = prepare(case)
+    assert run.string.long_segment == (top_segments == 1)
+    settle(run, tolerance=1e-13)
+    run.refresh()
+    below, stretch = 0.0, 0.0
+    for length, section in ((150.0, run.string.sections[0]), (850.0, run.string.sections[1])):
+        stretch += (below + 0.5 * section.weight * length) * length / section.EA
+        below += section.weight * length
+    n = run.segments
+    bit = run.S[state.Z + n] + run.S[state.ARM_BOTTOM + n] * run.S[state.AZ + n]
+    assert bit - 1000 == pytest.approx(stretch, rel=1e-8)
+
+
+def spinning_top(step: float, time: float = 2.0) -> tuple[float, float]:
+    """Relative error of angular momentum and energy of a free long body that spins and tumbles."""
+    S = state.new_state(1)
+    set_body(S, 1, 400.0, 3000.0, 1.0)
+    S[[state.WX + 1, state.WY + 1, state.WZ + 1]] = 0.3, -0.2, 8.0
+
+    def momentum_energy() -> tuple[np.ndarray, float]:
+        q = S[[state.QW + 1, state.QX + 1, state.QY + 1, state.QZ + 1]]
+        spin = S[[state.WX + 1, state.WY + 1, state.WZ + 1]]
+        inertia = np.array([3000.0, 3000.0, 1.0])
+        turned = Rotation.from_quat(q, scalar_first=True).apply(inertia * spin)
+        return turned, float(0.5 * (inertia * spin**2).sum())
+
+    before, energy = momentum_energy()
+    run_free(S, 1, step, time)
+    after, energy_after = momentum_energy()
+    return float(np.linalg.norm(after - before) / np.linalg.norm(before)), abs(energy_after / energy - 1)
+
+
+def test_torque_free_top_keeps_momentum_at_second_order_and_energy_exactly() -> None:
+    coarse, fine = spinning_top(8e-3), spinning_top(4e-3)
+    assert math.log2(coarse[0] / fine[0]) > 1.9
+    assert fine[0] < 5e-4
+    assert max(coarse[1], fine[1]) < 1e-12
+
+
+def swinging_chain(step: float, time: float = 0.4) -> tuple[np.ndarray, float]:
+    """Positions of a hanging three-body chain let go while bent, and its relative energy error."""
+    n = 3
+    S = state.new_state(n)
+    S[state.AZ] = 1.0
+    tilt = [Rotation.from_rotvec([0.1 * k, 0.05 * k, 0]) for k in range(n + 1)]
+    end = np.zeros(3)
+    for j in range(1, n + 1):
+        set_body(S, j, 100.0, 900.0, 0.3)
+        S[state.WEIGHT + j] = 980.0
+        S[state.ARM_TOP + j] = S[state.ARM_BOTTOM + j] = 5.0
+        S[state.K_AXIAL + j], S[state.K_SHEAR + j] = 4e5, 1e5
+        S[state.K_BEND + j], S[state.K_TWIST + j] = 5e4, 3e2
+        axis = tilt[j].apply([0, 0, 1])
+        S[[state.X + j, state.Y + j, state.Z + j]] = end + 5 * axis
+        S[[state.QW + j, state.QX + j, state.QY + j, state.QZ + j]] = tilt[j].as_quat(scalar_first=True)
+        S[[state.AX + j, state.AY + j, state.AZ + j]] = axis
+        end = end + 10 * axis
+
+    def energy() -> float:
+        dynamics.update_axes(S, n)
+        rows = {r: state.row(S, r, n) for r in (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ)}
+        kinetic = 50 * sum((rows[r] ** 2).sum() for r in (state.VX, state.VY, state.VZ))
+        kinetic += 450 * sum((rows[r] ** 2).sum() for r in (state.WX, state.WY))
+        kinetic += 0.15 * (rows[state.WZ] ** 2).sum()
+        strain = sum(joints.strain_energy(S, j) for j in range(1, n + 1))
+        return float(kinetic + strain - 980 * state.row(S, state.Z, n).sum())
+
+    before = energy()
+    run_free(S, n, step, time)
+    positions = np.stack([state.row(S, r, n) for r in (state.X, state.Y, state.Z)])
+    return positions, abs(energy() - before) / abs(before)
+
+
+def test_stepper_converges_at_first_order() -> None:
+    """Symplectic Euler: positions and energy error halve with the step."""
+    reference, _ = swinging_chain(1e-5)
+    errors = [np.abs(swinging_chain(h)[0] - reference).max() for h in (2e-3, 1e-3, 5e-4)]
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert np.all(orders > 0.9), orders
+    assert np.all(orders < 1.3), orders
+    drift = [swinging_chain(h)[1] for h in (1e-3, 5e-4)]
+    assert math.log2(drift[0] / drift[1]) > 0.8
+
+
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86-64 instructions")
+@pytest.mark.parametrize(
+    ("kernel", "arguments"),
+    [
+        (dynamics.update_axes, ()),
+        (joints.update_joint_loads, (1e-4, 1e-3)),
+        (follow_cylinders, ()),
+        (follow_arcs, ()),
+        (dynamics.move_with_coulomb, (FREE, 1e-3)),
+        (dynamics.move_with_paper, (FREE, 1e-3)),
+        (dynamics.move_freely, (FREE, 1e-3)),
+    ],
+)
+def test_kernels_are_packed(kernel, arguments: tuple) -> None:
+    """The main loop of every arithmetic kernel is vector code.
+
+    Its packed operations match the scalar ones of the remainder loop; a helper that stayed a call, or rows
+    that may alias, would leave none.
+    """
+    kernel(state.new_state(8), 8, *arguments)
+    assembly = "\n".join(kernel.inspect_asm().values())
+    arithmetic = r"\bv?(?:add|sub|mul|div|sqrt|fn?m(?:add|sub)\d{3})"
+    packed = len(re.findall(arithmetic + r"pd\b", assembly))
+    scalar = len(re.findall(arithmetic + r"sd\b", assembly))
+    assert packed > 10
+    assert packed >= 0.9 * scalar
+
+
+@pytest.mark.parametrize("law", [friction.coulomb_impulse, friction.paper_impulse])
+@pytest.mark.parametrize("limit", [1e-3, 1e9])
+def test_friction_opposes_sliding_and_at_most_stops_it(law, limit: float) -> None:
+    S = state.new_state(1)
+    set_body(S, 1, 400.0, 3000.0, 1.0)
+    S[state.RADIUS + 1], S[state.ARM_CONTACT + 1] = 0.06, 5.0
+    motion = np.array([0.0, 0.3, 0.7, 0.0, 0.0, -4.0])  # across, along and spinning
+    change = np.array(law(S, 1, *motion, 1.0, 0.0, 0.0, limit))
+    after = motion + change[:6]
+
+    def kinetic(m: np.ndarray) -> float:
+        return float(200 * (m[:3] ** 2).sum() + 1500 * (m[3:5] ** 2).sum() + 0.5 * m[5] ** 2)
+
+    assert kinetic(after) < kinetic(motion)
+    assert change[6] >= -1e-12
+    if law is friction.paper_impulse:
+        assert after[2] * motion[2] >= -1e-12
+        assert after[5] * motion[5] >= -1e-12
+        if limit > 1:
+            assert after[2] == pytest.approx(0, abs=1e-12)
+            assert after[5] == pytest.approx(0, abs=1e-12)
+    elif limit < 1:
+        # Force and torque of one force: its share about the axis follows the sliding direction.
+        sliding = np.array([motion[1] + 0.06 * motion[5] + 0, motion[2]])
+        direction = sliding / np.linalg.norm(sliding)
+        assert change[2] == pytest.approx(-limit * direction[1] / 400, rel=1e-9)
+        assert change[5] == pytest.approx(-limit * 0.06 * direction[0] / 1.0, rel=1e-9)
+
+
+def test_an_inert_column_stays_finite() -> None:
+    """The columns that fill the last packed operation must never grow a NaN that a sum could pick up."""
+    run, _ = prepare(make_case(components=[pipe(1000, 21)], operations=[rotation(1000, 1)]))
+    run.advance(STILL, 100 * run.step)
+    per_body = run.S.reshape(state.ROWS, state.STRIDE)[:, run.segments + 1 : run.segments + 9]
+    searching = (state.MARGIN_TOP // state.STRIDE, state.MARGIN_END // state.STRIDE)
+    assert np.isfinite(np.delete(per_body, searching, axis=0)).all()

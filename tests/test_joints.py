@@ -1,0 +1,149 @@
+"""The joint law of DESIGN §4: loads are the potential's derivatives, balanced, and do no net work."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from fctd import joints, state
+
+STIFFNESS = {state.K_AXIAL: 4e7, state.K_SHEAR: 9e6, state.K_BEND: 4e4, state.K_TWIST: 3e4}
+small = st.floats(-1, 1)
+vector = st.tuples(small, small, small)
+
+
+def pair(upper: Rotation, lower: Rotation, gap: np.ndarray) -> np.ndarray:
+    """Two bodies of 10 m whose hinge points are ``gap`` apart; the upper one is column 1, joint is 2."""
+    S = state.new_state(2)
+    place(S, 1, upper, np.zeros(3))
+    offset = 5 * upper.apply([0, 0, 1]) + gap + 5 * lower.apply([0, 0, 1])
+    place(S, 2, lower, offset)
+    for row, value in STIFFNESS.items():
+        S[row + 2] = value
+    S[state.ARM_TOP + 1 : state.ARM_TOP + 3] = S[state.ARM_BOTTOM + 1 : state.ARM_BOTTOM + 3] = 5.0
+    return S
+
+
+def place(S: np.ndarray, j: int, rotation: Rotation, position: np.ndarray) -> None:
+    w, x, y, z = rotation.as_quat(scalar_first=True)
+    S[[state.QW + j, state.QX + j, state.QY + j, state.QZ + j]] = w, x, y, z
+    S[[state.AX + j, state.AY + j, state.AZ + j]] = rotation.apply([0, 0, 1])
+    S[[state.X + j, state.Y + j, state.Z + j]] = position
+
+
+def at(S: np.ndarray, j: int, *rows: int) -> np.ndarray:
+    return S[[r + j for r in rows]]
+
+
+def loads(S: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Force on the lower body, moments on upper and lower body, all at their hinge points."""
+    joints.update_joint_loads(S, 2, 0.0, 1.0)
+    return (
+        at(S, 2, state.FX, state.FY, state.FZ),
+        at(S, 2, state.UX, state.UY, state.UZ),
+        at(S, 2, state.LX, state.LY, state.LZ),
+    )
+
+
+def a_pair(bend: tuple[float, ...], gap: tuple[float, ...]) -> tuple[Rotation, Rotation, np.ndarray]:
+    upper = Rotation.from_rotvec([0.7, -0.2, 0.4])
+    return upper, upper * Rotation.from_rotvec(0.4 * np.array(bend)), 0.01 * np.array(gap)
+
+
+@given(vector, vector)
+def test_loads_are_minus_the_gradient_of_the_strain_energy(bend: tuple, gap: tuple) -> None:
+    upper, lower, d = a_pair(bend, gap)
+    S = pair(upper, lower, d)
+    force, on_upper, on_lower = loads(S)
+    arm_upper, arm_lower = 5 * upper.apply([0, 0, 1]), -5 * lower.apply([0, 0, 1])
+
+    def energy(move: np.ndarray, turn_upper: np.ndarray, turn_lower: np.ndarray) -> float:
+        T = S.copy()
+        place(T, 1, Rotation.from_rotvec(turn_upper) * upper, np.zeros(3))
+        place(T, 2, Rotation.from_rotvec(turn_lower) * lower, at(S, 2, state.X, state.Y, state.Z) + move)
+        return float(joints.strain_energy(T, 2))
+
+    # On the centre of mass the joint's force also has the moment of its arm.
+    expected = [force, on_upper + np.cross(arm_upper, -force), on_lower + np.cross(arm_lower, force)]
+    h = 1e-5
+    for which, load in enumerate(expected):
+        for k in range(3):
+            delta = np.zeros((3, 3))
+            delta[which, k] = h
+            slope = (energy(*delta) - energy(*-delta)) / (2 * h)
+            assert -slope == pytest.approx(load[k], rel=1e-5, abs=20)
+
+
+@given(vector, vector)
+def test_net_force_and_moment_on_a_free_pair_vanish(bend: tuple, gap: tuple) -> None:
+    upper, lower, d = a_pair(bend, gap)
+    force, on_upper, on_lower = loads(pair(upper, lower, d))
+    # The two hinge points are d apart, so the pair of forces has a moment of its own.
+    net = on_upper + on_lower + np.cross(d, force)
+    scale = np.linalg.norm(on_upper) + np.linalg.norm(on_lower) + np.linalg.norm(force)
+    np.testing.assert_allclose(net, 0, atol=1e-12 * scale + 1e-9)
+
+
+def test_a_closed_path_does_no_work() -> None:
+    """Bend, twist and stretch together around a loop that ends where it began."""
+
+    def pose(t: float) -> tuple[Rotation, Rotation, np.ndarray]:
+        a, b = 2 * math.pi * t, 4 * math.pi * t
+        upper = Rotation.from_rotvec([0.1 * math.sin(b), 0.2 * math.cos(a), 0.1])
+        lower = Rotation.from_rotvec([0.3 * math.sin(a), 0.25 * math.cos(b), 0.4 * math.sin(a)])
+        return upper, lower, np.array([2e-3 * math.sin(a), 1e-3 * math.cos(b), 1e-3 * math.sin(b)])
+
+    def power(t: float) -> tuple[float, float]:
+        h = 1e-6
+        (u0, l0, d0), (u1, l1, d1) = pose(t - h), pose(t + h)
+        force, on_upper, on_lower = loads(pair(*pose(t)))
+        spin_upper = (u1 * u0.inv()).as_rotvec() / (2 * h)
+        spin_lower = (l1 * l0.inv()).as_rotvec() / (2 * h)
+        parts = force @ (d1 - d0) / (2 * h), on_upper @ spin_upper, on_lower @ spin_lower
+        return sum(parts), sum(abs(p) for p in parts)
+
+    # The trapezoidal rule converges faster than any power on a periodic integrand.
+    samples = np.array([power(t) for t in np.arange(400) / 400])
+    assert abs(samples[:, 0].mean()) < 1e-8 * samples[:, 1].mean()
+
+
+def test_torque_passes_a_bent_chain_unchanged() -> None:
+    """18 joints of 5 degrees: the moment about each body's own axis is k_t τ, as on a straight chain."""
+    twist, kt = 0.1, 3e4
+    rotation = Rotation.identity()
+    previous = rotation
+    for k in range(18):
+        half = Rotation.from_rotvec([0, 0, twist / 2])
+        plane = math.radians(20 * k)  # the bend is not planar
+        swing = Rotation.from_rotvec(math.radians(5) * np.array([math.cos(plane), math.sin(plane), 0]))
+        rotation = previous * half * swing * half
+        _, on_upper, on_lower = loads(pair(previous, rotation, np.zeros(3)))
+        assert on_upper @ previous.apply([0, 0, 1]) == pytest.approx(kt * twist, rel=1e-10)
+        assert on_lower @ rotation.apply([0, 0, 1]) == pytest.approx(-kt * twist, rel=1e-10)
+        previous = rotation
+
+
+@given(vector, vector, vector, vector, vector)
+def test_damping_acts_on_relative_motion_only(bend, gap, drift, turn, other) -> None:
+    """A pair that moves as one rigid body feels no damping; one that does not loses energy."""
+    upper, lower, d = a_pair(bend, gap)
+    S = pair(upper, lower, d)
+    springs = loads(S)
+    for j in (1, 2):
+        position = at(S, j, state.X, state.Y, state.Z)
+        S[[state.VX + j, state.VY + j, state.VZ + j]] = np.array(drift) + np.cross(turn, position)
+        S[[state.GX + j, state.GY + j, state.GZ + j]] = turn
+    joints.update_joint_loads(S, 2, 1e-3, 1.0)
+    for rows, spring in zip(
+        ((state.FX, state.FY, state.FZ), (state.UX, state.UY, state.UZ), (state.LX, state.LY, state.LZ)),
+        springs,
+        strict=True,
+    ):
+        np.testing.assert_allclose(at(S, 2, *rows), spring, atol=1e-7 * (1 + np.abs(spring).max()))
+    lost = S[state.LOST_JOINT + 2]
+    S[[state.GX + 2, state.GY + 2, state.GZ + 2]] += np.array(other)
+    joints.update_joint_loads(S, 2, 1e-3, 1.0)
+    assert S[state.LOST_JOINT + 2] >= lost - 1e-12

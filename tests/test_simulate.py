@@ -1,0 +1,210 @@
+"""Whole simulations on small strings: balances, laws, schedule, records, and what goes wrong."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import fctd
+from fctd import SimulationResult, simulate
+from fctd.operations import schedule
+from tests.cases import make_case, pipe, rotation, trip
+
+BUILD = [[0, 0, 0], [400, 0, 0], [850, 90, 0], [1200, 90, 0]]
+STRING = [pipe(700, 28, outer=0.102)]
+
+
+def build_case(operation: dict | list, **sections):
+    operations = operation if isinstance(operation, list) else [operation]
+    return make_case(BUILD, STRING, operations, top_md=300.0, **sections)
+
+
+def steady(result: SimulationResult, seconds: float = 10.0) -> pd.Series:
+    assert result.status == "completed", result.message
+    late = result.history[result.history.time_s > result.history.time_s.max() - seconds]
+    return late.mean(numeric_only=True)
+
+
+ROTATE = rotation(1000, 30, ramp=10)
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+@pytest.mark.parametrize("law", ["coulomb", "paper"])
+def test_torque_balance_at_steady_rotation(geometry: str, law: str) -> None:
+    """Top reaction = Σ r F_t without dampers, and + mud torque with them (DESIGN §4), within 0.5 %."""
+    for mud in ({}, {"mud": {"rotational_damping": 0.5, "axial_damping": 1.0, "lateral_damping": 5.0}}):
+        result = simulate(
+            build_case(ROTATE, wellbore={"geometry": geometry}, contact={"friction_law": law}, **mud)
+        )  # fmt: skip
+        end = steady(result)
+        losses = end.sum_r_ft_N_m + end.mud_torque_N_m
+        assert end.surface_torque_N_m == pytest.approx(losses, rel=5e-3)
+        assert (end.mud_torque_N_m > 100) == bool(mud)
+        # In pure rotation the paper's Σ r μ F_n is the same number.
+        assert end.sum_r_ft_N_m == pytest.approx(end.sum_r_mu_fn_N_m, rel=2e-3)
+
+
+def test_mud_torque_is_the_damper_times_the_spin() -> None:
+    mud = {"rotational_damping": 0.5}
+    end = steady(simulate(build_case(ROTATE, mud=mud)))
+    assert end.mud_torque_N_m == pytest.approx(0.5 * 700 * 2 * np.pi, rel=1e-3)
+
+
+def test_rotating_hook_load_is_the_vertical_weight() -> None:
+    """Contact forces of a rotating string have no share along the hole, whatever they are."""
+    case = build_case(ROTATE)
+    section = fctd.drillstring.section_of(case.string.components[0], 0.0)
+    radius = 450 / (np.pi / 2)
+    assert steady(simulate(case)).hookload_N == pytest.approx(section.weight * (100 + radius), rel=3e-3)
+
+
+def test_coulomb_rotation_climbs_the_wall_by_the_friction_angle() -> None:
+    """N = q/√(1+μ²) at 180° − atan μ in the horizontal part, turning clockwise looking downhole."""
+    case = build_case(ROTATE, mud={"lateral_damping": 50.0})
+    result = simulate(case)
+    part = result.profile[(result.profile.md_m > 900) & (result.profile.md_m < 980)]
+    np.testing.assert_allclose(part.contact_angle_deg, 180 - np.degrees(np.arctan(0.2)), atol=0.1)
+    weight = fctd.drillstring.section_of(case.string.components[0], 0.0).weight * 25
+    np.testing.assert_allclose(part.contact_force_N, weight / np.sqrt(1.04), rtol=5e-3)
+
+
+def test_pick_up_and_slack_off_bracket_rotation() -> None:
+    up = steady(simulate(build_case(trip(1000, 995, ramp=10))), 5)
+    down = steady(simulate(build_case(trip(1000, 1005, ramp=10))), 5)
+    still = steady(simulate(build_case(ROTATE)))
+    assert up.hookload_N > 1.02 * still.hookload_N > 1.04 * down.hookload_N
+
+
+def test_back_reaming_turns_drag_into_torque() -> None:
+    """Sliding along and around at once: the resultant friction is shared by the ratio of the speeds."""
+    ream = {"kind": "back_ream", "from_md": 1000, "to_md": 994, "speed": 0.2, "rpm": 60, "ramp_time": 10}
+    end = steady(simulate(build_case(ream)), 5)
+    up = steady(simulate(build_case(trip(1000, 995, ramp=10))), 5)
+    around = 0.051 * 2 * np.pi
+    share = around / np.hypot(around, 0.2)
+    assert end.sum_r_ft_N_m == pytest.approx(share * end.sum_r_mu_fn_N_m, rel=0.02)
+    assert end.hookload_N < up.hookload_N
+
+
+@pytest.mark.parametrize("operation", [ROTATE, trip(1000, 1006, ramp=10), trip(1000, 994, ramp=10)])
+def test_energy_ledger_closes(operation: dict) -> None:
+    """Within 0.1 % of the energy turned over, at the default step."""
+    result = simulate(build_case(operation, wellbore={"geometry": "arcs"}))
+    assert result.run["energy_error"] < 1e-3
+    terms = result.energy.iloc[-1]
+    turned_over = terms[["top_drive_work_J", "lost_friction_J"]].abs().max()
+    assert abs(terms.residual_J) / turned_over == pytest.approx(result.run["energy_error"], rel=1e-9)
+
+
+def test_energy_error_falls_with_the_step() -> None:
+    errors = []
+    for step in (3e-3, 1.5e-3, 0.75e-3):
+        result = simulate(build_case(ROTATE, wellbore={"geometry": "arcs"}, solver={"step": step}))
+        errors.append(result.energy.residual_J.abs().max())
+    assert errors[2] < 0.6 * errors[0], errors
+
+
+def test_fed_pipe_brings_its_strain_energy() -> None:
+    """Lowering a vertical string: each metre enters with T²/2EA and, half of it lumped, with ¼ m v²."""
+    case = make_case(operations=[trip(900, 960, speed=0.5)], components=[pipe(800, 16), pipe(None, 1)])
+    result = simulate(case)
+    section = fctd.drillstring.section_of(case.string.components[1], 0.0)
+    long = result.history.bit_depth_m - 800
+    tension = result.history.hookload_N - 0.5 * section.weight * long
+    expected = 60 * ((tension**2).mean() / (2 * section.EA) + 0.25 * section.mass * 0.5**2)
+    assert result.energy.fed_pipe_J.iloc[-1] == pytest.approx(expected, rel=0.01)
+
+
+def test_many_turns_of_twist_are_kept() -> None:
+    """A soft long segment winds up by several turns; torque still balances."""
+    components = [pipe(300, 12, outer=0.102), pipe(None, 1, outer=0.102, torsional_stiffness=2e4)]
+    stations = [[0, 0, 0], [500, 0, 0], [950, 90, 0], [1200, 90, 0]]
+    damping = {"rotational_damping": 2.0}
+    result = simulate(
+        make_case(stations, components, [rotation(780, 120, rpm=60, ramp=60)], mud=damping)
+    )
+    end = steady(result)
+    assert end.surface_torque_N_m * 480 / 2e4 > 4 * np.pi
+    assert end.surface_torque_N_m == pytest.approx(end.sum_r_ft_N_m + end.mud_torque_N_m, rel=0.02)
+
+
+def test_schedule_stops_between_operations_and_hits_its_depths() -> None:
+    case = build_case([trip(990, 994, ramp=2), rotation(994, 10, ramp=2), trip(994, 991, ramp=2)])
+    stretches = schedule(case.operations)
+    travelled = sum(0.5 * (m.feed_from + m.feed_to) * m.duration for m, _ in stretches)
+    assert travelled == pytest.approx(1.0)
+    result = simulate(case)
+    ends = result.history.groupby("operation", sort=False).bit_depth_m.last()
+    np.testing.assert_allclose(ends, [994, 994, 991], atol=1e-4)
+    assert result.run["simulated_s"] == pytest.approx(sum(m.duration for m, _ in stretches))
+
+
+def test_short_trips_shorten_their_ramps() -> None:
+    stretches = schedule(build_case([trip(990, 990.5, speed=1.0, ramp=10)]).operations)
+    assert sum(0.5 * (m.feed_from + m.feed_to) * m.duration for m, _ in stretches) == pytest.approx(0.5)
+
+
+def test_profiles_are_kept_at_the_depths_asked_for() -> None:
+    case = build_case(trip(990, 995), record={"interval": 0.5, "profile_at": [992.0, 993.5]})
+    depths = simulate(case).profile.bit_depth_m.unique()
+    assert len(depths) == 3
+    np.testing.assert_allclose(depths, [992, 993.5, 995], atol=0.11)
+
+
+def test_sensors_add_block_offset_and_sheaves() -> None:
+    rig = {"block_weight": 3e5, "sheave_efficiency": 0.97, "torque_offset": 500}
+    for operation, exponent in ((trip(1000, 995), 1), (trip(1000, 1005), -1), (ROTATE, 0)):
+        end = steady(simulate(build_case(operation, rig=rig)), 5)
+        assert end.weight_indicator_N == pytest.approx((end.hookload_N + 3e5) * 0.97**exponent)
+        assert end.drive_torque_N_m == pytest.approx(end.surface_torque_N_m + 500)
+
+
+def test_true_tension_is_effective_less_buoyancy() -> None:
+    """At the bit of an off-bottom string the mud's pressure compresses the steel: −ρ g z (A_o − A_i)."""
+    result = simulate(make_case(operations=[rotation(1000, 1, ramp=1)], mud={"density": 1200}))
+    area = np.pi / 4 * (0.127**2 - 0.07**2)
+    bit = result.profile.iloc[-1]
+    assert bit.effective_tension_N == 0
+    assert bit.true_tension_N == pytest.approx(-1200 * 9.80665 * 1000 * area, rel=1e-3)
+
+
+def test_without_walls_nothing_touches() -> None:
+    result = simulate(make_case(operations=[rotation(1000, 1, ramp=1)], contact={"enabled": False}))
+    assert result.history.contact_count.max() == 0
+    assert result.history.total_contact_force_N.max() == 0
+
+
+def test_an_unstable_run_stops_says_when_and_keeps_what_it_has() -> None:
+    """A string spun far beyond its critical speed leaves the hole: through the case alone."""
+    case = make_case(
+        BUILD, STRING, [rotation(1000, 60, rpm=6000, ramp=50)], top_md=300.0,
+        wellbore={"stiffness": 3e5},
+    )  # fmt: skip
+    result = simulate(case)
+    assert result.status == "unstable"
+    assert "s: segment" in result.message or "s: the string" in result.message or "finite" in result.message
+    assert len(result.history) > 0
+    assert np.isfinite(result.history.select_dtypes("number").to_numpy()).all()
+
+
+def test_an_interrupted_run_keeps_what_it_has() -> None:
+    def stop(now: float, total: float, factor: float) -> None:
+        if now > 3:
+            raise KeyboardInterrupt
+
+    result = simulate(build_case(ROTATE), progress=stop)
+    assert result.status == "interrupted"
+    assert 3 <= result.history.time_s.max() < 6
+
+
+def test_progress_reports_simulated_and_total_time() -> None:
+    seen = []
+    simulate(build_case(rotation(1000, 5, ramp=1)), progress=lambda *args: seen.append(args))
+    times, totals, factors = zip(*seen, strict=True)
+    assert list(times) == pytest.approx([1, 2, 3, 4, 5])
+    assert set(totals) == {5.0}
+    assert min(factors) > 0
+
+
+def test_two_runs_are_the_same_to_the_last_bit() -> None:
+    first, second = (simulate(build_case(rotation(1000, 5, ramp=1))) for _ in range(2))
+    pd.testing.assert_frame_equal(first.history, second.history, check_exact=True)

@@ -1,0 +1,98 @@
+"""Positions from stations, against exact curves and published survey calculations."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fctd import survey
+from fctd.survey_file import read_stations
+from validation.study import data_folder
+
+
+def test_average_angle_is_the_paper_eqs_21_to_23() -> None:
+    stations = survey.to_radians(np.array([[0, 0, 0], [100, 10, 30], [200, 30, 60.0]]))
+    a1, a2 = np.radians(5), np.radians(20)
+    e1, e2 = np.radians(15), np.radians(45)
+    north = 100 * (np.sin(a1) * np.cos(e1) + np.sin(a2) * np.cos(e2))
+    east = 100 * (np.sin(a1) * np.sin(e1) + np.sin(a2) * np.sin(e2))
+    down = 100 * (np.cos(a1) + np.cos(a2))
+    np.testing.assert_allclose(survey.average_angle(stations)[-1], [north, east, down], rtol=1e-14)
+
+
+def test_minimum_curvature_is_exact_on_a_circle() -> None:
+    radius = 286.479
+    md = np.linspace(0, radius * np.pi / 2, 7)
+    stations = np.stack([md, md / radius, np.full(7, 0.6)], axis=1)
+    courses = survey.minimum_curvature(stations)
+    at = np.linspace(0, md[-1], 41)
+    points, tangents = survey.along_courses(courses, at)
+    angle = at / radius
+    across = radius * (1 - np.cos(angle))
+    expected = np.stack([across * np.cos(0.6), across * np.sin(0.6), radius * np.sin(angle)], axis=1)
+    np.testing.assert_allclose(points, expected, atol=1e-9)
+    np.testing.assert_allclose(tangents[:, 2], np.cos(angle), atol=1e-12)
+
+
+def test_both_methods_converge_to_each_other() -> None:
+    """On a smooth 3D curve the two methods differ by the square of the station spacing."""
+
+    def end(spacing: float) -> np.ndarray:
+        md = np.arange(0, 1000 + 1e-9, spacing)
+        stations = np.stack([md, 0.2 + md / 1000, 2.0 + md / 500], axis=1)
+        curved = survey.along_courses(survey.minimum_curvature(stations), md[-1:])[0][0]
+        return np.linalg.norm(survey.average_angle(stations)[-1] - curved)
+
+    assert np.log2(end(50) / end(25)) == pytest.approx(2, abs=0.1)
+
+
+def test_azimuth_runs_through_north_the_short_way() -> None:
+    stations = survey.to_radians(np.array([[0, 60, 350], [100, 60, 10.0]]))
+    assert np.degrees(stations[1, 2]) == pytest.approx(370)
+    assert survey.average_angle(stations)[-1, 1] == pytest.approx(0, abs=1e-12)
+
+
+@given(st.floats(0, 3.1), st.floats(-3, 3), st.floats(1e-12, 3))
+def test_dogleg_keeps_its_precision_at_small_angles(inclination: float, azimuth: float, change: float) -> None:
+    stations = np.array([[0, inclination, azimuth], [10, abs(inclination - change), azimuth]])
+    expected = abs(stations[1, 1] - inclination)
+    assert survey.dogleg(stations)[0] == pytest.approx(expected, rel=1e-6, abs=1e-15)
+
+
+def test_opposite_directions_have_no_arc() -> None:
+    stations = survey.to_radians(np.array([[0, 90, 0], [100, 90, 180.0]]))
+    with pytest.raises(ValueError, match="opposite directions at station 1"):
+        survey.minimum_curvature(stations)
+
+
+needs_data = pytest.mark.skipif(data_folder() is None, reason="public data folder is missing (see README)")
+
+
+@needs_data
+def test_published_reference_well() -> None:
+    """North, east and vertical depth as the ISCWSA publishes them."""
+    points, table = computed("iscwsa_reference_well.csv", None)
+    np.testing.assert_allclose(points, table[["tvd_m", "north_m", "east_m"]].to_numpy()[:, [1, 2, 0]], atol=0.01)
+
+
+@needs_data
+def test_published_horizontal_well() -> None:
+    """Vertical depth as published; north and east are map coordinates, all true distances times one scale."""
+    columns = {"md": "Measured Depth ( ft )", "inc": "Inclination ( deg )", "azi": "Azimuth Grid ( deg )"}
+    points, table = computed("wellpathpy_well9_horizontal_reference.csv", columns)
+    np.testing.assert_allclose(points[:, 2], 0.3048 * table["TVD ( ft )"], atol=0.01)
+    grid = table[["Northing ( m )", "Easting ( m )"]].to_numpy()
+    grid = grid - grid[0]
+    scale = (grid * points[:, :2]).sum() / (points[:, :2] ** 2).sum()
+    assert 0.9996 <= scale < 1  # the range of a transverse Mercator grid
+    np.testing.assert_allclose(scale * points[:, :2], grid, atol=0.01)
+
+
+def computed(name: str, columns: dict[str, str] | None) -> tuple[np.ndarray, pd.DataFrame]:
+    """Positions by minimum curvature, and the published table."""
+    folder = data_folder()
+    assert folder is not None
+    stations = survey.to_radians(read_stations(folder / "surveys" / name, columns))
+    points, _ = survey.along_courses(survey.minimum_curvature(stations), stations[:, 0])
+    return points, pd.read_csv(folder / "surveys" / name)
