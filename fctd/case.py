@@ -181,7 +181,7 @@ class SolverSpec(Table):
     """The time step [s], and joint damping as a multiple of joint stiffness [s]."""
 
     step: float | Literal["auto"] = "auto"
-    joint_damping: units.Time = 1e-4
+    joint_damping: units.Time = 0.0
 
     @field_validator("step", mode="before")
     @classmethod

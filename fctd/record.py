@@ -38,6 +38,16 @@ def sensors(case: Case, kind: str, hookload: float, torque: float) -> tuple[floa
     return indicator, torque + rig.torque_offset
 
 
+def _work(energy: pd.DataFrame) -> float:
+    """Energy turned over in a run [J]: the larger of all losses and of the top drive's work beyond lifting.
+
+    Lifting and lowering move hundreds of times more energy back and forth, which would hide any error.
+    """
+    losses = energy[list(LOSSES)].sum(axis=1).max()
+    beyond = (energy["top_drive_work_J"] - energy["gravity_J"]).abs().max()
+    return float(max(losses, beyond))
+
+
 class Recorder:
     """Reads a settled run at its start and after every record interval."""
 
@@ -106,11 +116,7 @@ class Recorder:
         if self.history:
             self.profiles[self.bit_depth] = self._profile()
         energy = pd.DataFrame(self.ledger)
-        work = (
-            [float(np.abs(energy[c]).max()) for c in ("top_drive_work_J", *LOSSES)]
-            if self.ledger
-            else [np.nan]
-        )
+        work = _work(energy) if self.ledger else np.nan
         numbers = {
             "segments": run.segments,
             "pieces_of_hole": len(run.hole.pieces),
@@ -119,7 +125,8 @@ class Recorder:
             "simulated_s": self.last_time,
             "wall_s": wall,
             "real_time_factor": self.last_time / wall if wall > 0 else np.nan,
-            "energy_error": abs(self.ledger[-1]["residual_J"]) / max(work) if self.ledger else np.nan,
+            "work_J": work,
+            "energy_error": abs(self.ledger[-1]["residual_J"]) / work if self.ledger else np.nan,
             "settling_residual": residual,
         }
         profile = (

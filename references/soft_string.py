@@ -8,7 +8,9 @@ oppose each other and the wall force changes side; the length of the vector hand
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fctd import survey
 from fctd.case import Case
 from fctd.drillstring import lay_out
 from fctd.wellbore import build_wellbore
@@ -38,9 +40,8 @@ def soft_string(case: Case, operation: str, bit_depth: float) -> SoftString:
     md = np.linspace(string.top_md, bit_depth, count + 1)
     middle = 0.5 * (md[1:] + md[:-1])
     segment = np.clip(np.searchsorted(joints, middle) - 1, 0, string.segments - 1)
-    points, _ = hole.at(middle)
-    tangents = hole.at(md)[1]
-    friction = hole.walls(points)[:, 5]
+    tangents = _tangents(case, md)
+    friction = hole.walls(hole.at(middle)[0])[:, 5]
     weight, radius = string.of("weight")[segment], string.of("contact_radius")[segment]
     length = md[1] - md[0]
     pull = PULL[operation]
@@ -62,3 +63,11 @@ def soft_string(case: Case, operation: str, bit_depth: float) -> SoftString:
         torque += (pull == 0) * friction[k] * radius[k] * side
         contact += side
     return SoftString(tension, torque, contact)
+
+
+def _tangents(case: Case, md: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Directions of the hole itself, not of the cylinders that stand for it, at measured depths (n,) [m]."""
+    stations = survey.to_radians(case.wellbore.read_stations())
+    if case.wellbore.survey_method == "minimum_curvature":
+        return survey.along_courses(survey.minimum_curvature(stations), md)[1]
+    return survey.tangents(survey.interpolate_angles(stations, md))
