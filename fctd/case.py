@@ -178,10 +178,13 @@ class ContactSpec(Table):
 
 
 class SolverSpec(Table):
-    """The time step [s], and joint damping as a multiple of joint stiffness [s]."""
+    """The time step [s], and joint damping as a multiple of joint stiffness [s].
+
+    The default damps like steel, a loss of 0.2 % at 30 Hz: enough to keep sliding segments from chattering.
+    """
 
     step: float | Literal["auto"] = "auto"
-    joint_damping: units.Time = 0.0
+    joint_damping: units.Time = 1e-5
 
     @field_validator("step", mode="before")
     @classmethod
