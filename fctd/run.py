@@ -105,7 +105,7 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
     S, top = state.new_state(n), np.zeros(topdrive.TOP_SIZE)
     pipe = fill(S, string, case)
     top[topdrive.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
-    lie_on_axis(S, top, string, hole)
+    lie_on_axis(S, string, hole)
     stretches = schedule(case.operations)
     laws = state.Laws(
         geometry=hole.geometry,
@@ -138,7 +138,7 @@ def _step_limit(
     )
 
 
-def lie_on_axis(S: Array, top: Array, string: String, hole: Wellbore) -> None:
+def lie_on_axis(S: Array, string: String, hole: Wellbore) -> None:
     """Place the string on the axis of the hole, unstretched, every joint on the axis."""
     md = string.top_md
     (start,), (tangent,) = hole.at(np.array([md]))
@@ -155,7 +155,6 @@ def lie_on_axis(S: Array, top: Array, string: String, hole: Wellbore) -> None:
     n = string.segments
     centre = points[1:] - axes * state.row(S, state.ARM_BOTTOM, n)[:, None]
     turned = _transported(np.vstack([tangent, axes]))
-    top[topdrive.TOP_FRAME : topdrive.TOP_FRAME + 4] = turned[0]
     for k, offset in enumerate((state.X, state.Y, state.Z)):
         S[offset] = start[k]
         state.row(S, offset, n)[:] = centre[:, k]
@@ -211,7 +210,7 @@ def forget_start(run: Run) -> None:
         state.row(run.S, offset, run.segments)[:] = 0.0
     first, last = state.SUM_NORMAL, state.LOST_JOINT
     run.S[first : last + state.STRIDE] = 0.0
-    run.top[[topdrive.TOP_TIME, topdrive.TOP_ANGLE, topdrive.TOP_WORK, topdrive.FED_ENERGY]] = 0.0
+    run.top[[topdrive.TOP_TIME, topdrive.TOP_WORK, topdrive.FED_ENERGY]] = 0.0
     run.top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 0.0
     run.steps = 0
     run.refresh()

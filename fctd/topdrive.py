@@ -6,6 +6,7 @@ from typing import NamedTuple
 from numba import njit
 
 from fctd.joints import joint_twist, strain_energy
+from fctd.rotations import turned
 from fctd.state import (
     ARM_TOP,
     GX,
@@ -39,6 +40,7 @@ from fctd.state import (
     Z,
     axis,
     joint_force,
+    quaternion,
     spin,
     velocity,
 )
@@ -79,13 +81,11 @@ class PerMetre(NamedTuple):
     mud_spin: float
 
 
-# Top drive's own numbers, shape (TOP_SIZE,): angle turned [rad], length of the long segment [m] (0: none),
-# simulated time [s]; sums since the last record of hook load [N s] and torque [N m s]; work done by the
-# top drive and energy brought in by fed pipe since the start [J].
-TOP_ANGLE, TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(7)
-# Quaternion of the top drive before it turns.
-TOP_FRAME = 7
-TOP_SIZE = 11
+# Top drive's own numbers, shape (TOP_SIZE,): length of the long segment [m] (0: none), simulated time [s];
+# sums since the last record of hook load [N s] and torque [N m s]; work done by the top drive and energy
+# brought in by fed pipe since the start [J].
+TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(6)
+TOP_SIZE = 6
 
 
 @njit(forceinline=True)
@@ -145,12 +145,9 @@ def move_top_drive(S, top, motion, pipe, dt):
         set_long_segment(S, top[TOP_LENGTH] + 0.5 * dt * feed, pipe)
         top[FED_ENERGY] += long_segment_energy(S) - before
         set_long_segment(S, top[TOP_LENGTH], pipe)
-    top[TOP_ANGLE] += dt * rate
     top[TOP_TIME] += dt
-    half = 0.5 * (top[TOP_ANGLE] + S[TURNS + 1])
-    c, s = math.cos(half), math.sin(half)
-    w, x, y, z = top[TOP_FRAME], top[TOP_FRAME + 1], top[TOP_FRAME + 2], top[TOP_FRAME + 3]
-    S[QW], S[QX], S[QY], S[QZ] = w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s
+    w, x, y, z = quaternion(S, 0)
+    S[QW], S[QX], S[QY], S[QZ] = turned(w, x, y, z, 0.0, 0.0, dt * rate)
     ax, ay, az = axis(S, 0)
     S[VX], S[VY], S[VZ] = feed * ax, feed * ay, feed * az
     S[GX], S[GY], S[GZ] = rate * ax, rate * ay, rate * az
@@ -172,9 +169,10 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
     raised = hookload * fed * (1 + tension / pipe.EA)
     top[TOP_WORK] += torque * turned_by - raised
     top[FED_ENERGY] += raised
-    # Quaternions hold twist within two turns: a whole turn is moved into TURNS long before.
+    # Quaternions hold twist within two turns: a whole turn is moved into TURNS long before, and the top
+    # drive's quaternion changes sign, as it does by turning once.
     held = joint_twist(S, 1) - S[TURNS + 1]
-    if held > math.pi:
-        S[TURNS + 1] += 2 * math.pi
-    elif held < -math.pi:
-        S[TURNS + 1] -= 2 * math.pi
+    if held > math.pi or held < -math.pi:
+        S[TURNS + 1] += 2 * math.pi if held > 0 else -2 * math.pi
+        w, x, y, z = quaternion(S, 0)
+        S[QW], S[QX], S[QY], S[QZ] = -w, -x, -y, -z

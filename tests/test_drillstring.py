@@ -112,7 +112,10 @@ def test_tributary_length_for_stiffness_per_metre() -> None:
             {"components": [pipe(1000, 20, contact_diameter=0.23)]},
             r"string\.components\[0\]\.contact_diameter.*230 mm.*at most the hole's 215\.9 mm",
         ),
-        ({"components": [pipe(500, 20)]}, r"string\.components.*500 m of string.*reach from the bit at 1000 m"),
+        (
+            {"components": [pipe(500, 20)]},
+            r"string\.components.*500 m of string.*reach from the bit at 1000 m",
+        ),
         (
             {"components": [pipe(1000, MAX_SEGMENTS + 1)]},
             rf"string\.components.*{MAX_SEGMENTS + 1} segments.*at most {MAX_SEGMENTS}",

@@ -22,7 +22,6 @@ NO_HOLE = np.zeros((1, COLUMNS))
 def run_free(S: np.ndarray, n: int, step: float, time: float) -> None:
     """Advance bodies that hang from nothing and touch nothing."""
     top = np.zeros(topdrive.TOP_SIZE)
-    top[topdrive.TOP_FRAME] = 1.0
     owner = np.zeros(n + 2, np.int64)
     dynamics.advance(S, top, owner, n, NO_HOLE, FREE, STILL, NO_PIPE, step, round(time / step))
 

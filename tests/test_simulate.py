@@ -123,9 +123,7 @@ def test_many_turns_of_twist_are_kept() -> None:
     components = [pipe(300, 12, outer=0.102), pipe(None, 1, outer=0.102, torsional_stiffness=2e4)]
     stations = [[0, 0, 0], [500, 0, 0], [950, 90, 0], [1200, 90, 0]]
     damping = {"rotational_damping": 2.0}
-    result = simulate(
-        make_case(stations, components, [rotation(780, 120, rpm=60, ramp=60)], mud=damping)
-    )
+    result = simulate(make_case(stations, components, [rotation(780, 120, rpm=60, ramp=60)], mud=damping))
     end = steady(result)
     assert end.surface_torque_N_m * 480 / 2e4 > 4 * np.pi
     assert end.surface_torque_N_m == pytest.approx(end.sum_r_ft_N_m + end.mud_torque_N_m, rel=0.02)

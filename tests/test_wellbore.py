@@ -102,9 +102,7 @@ def test_the_gap_without_overlap_is_there() -> None:
     assert (closed >= 0).all()
 
 
-angle_steps = st.lists(
-    st.tuples(st.floats(-25, 25), st.floats(-60, 60)), min_size=4, max_size=10
-)
+angle_steps = st.lists(st.tuples(st.floats(-25, 25), st.floats(-60, 60)), min_size=4, max_size=10)
 
 
 def random_well(turns: list[tuple[float, float]], start: float = 0.0) -> list[list[float]]:
