@@ -1,5 +1,6 @@
 # make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them
 # make test        the fast tests
+# make bench       what a step costs, on this machine
 # make lint        style, types, and who may import whom
 # make clean       remove results, report and caches; the environment in .venv stays
 #
@@ -12,7 +13,7 @@ FLAGS := $(if $(filter-out 0,$(QUICK)),--quick)
 # The first of these that runs at all; a name may be there and still not start.
 PYTHON ?= $(shell for p in python3.11 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
-.PHONY: reproduce test lint clean
+.PHONY: reproduce test bench lint clean
 
 reproduce: $(STAMP)
 	@status=0; $(BIN)/python -m validation --reproduce $(FLAGS) || status=$$?; \
@@ -20,6 +21,9 @@ reproduce: $(STAMP)
 
 test: $(STAMP)
 	$(BIN)/python -m pytest
+
+bench: $(STAMP)
+	$(BIN)/python -m pytest benchmarks --benchmark-enable --benchmark-sort=name
 
 lint: $(STAMP)
 	$(BIN)/python -m ruff check

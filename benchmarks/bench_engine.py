@@ -3,29 +3,32 @@
 ``make bench`` runs it.  One core, compile time excluded; ``ns_per_segment_step`` is in every record.
 """
 
+from pathlib import Path
 from typing import Any
 
 import pytest
 from numba import njit
 from pytest_benchmark.fixture import BenchmarkFixture
 
+from fctd import load_case, simulate
 from fctd.joints import update_joint_loads
 from fctd.results import versions
 from fctd.run import Run, forget_start, prepare, settle
+from fctd.state import OPEN
 from fctd.topdrive import Motion
-from validation.cases import load, rotation
 
+CASES = Path(__file__).parents[1] / "validation" / "cases"
 BODY_STEPS = 200_000  # a round
+ROTATION = {"kind": "rotate_off_bottom", "at_md": 2450.0, "duration": 60.0, "rpm": 60.0, "ramp_time": 4.0}
 
 
-def turning(segments: int, **changes: Any) -> tuple[Run, Motion]:
+def turning(segments: int, changes: dict[str, Any]) -> tuple[Run, Motion]:
     """The curved chain cut into ``segments``, settled and turning.
 
     Segments and step are those of the case whatever is changed, so that only the kernel differs.
     """
-    run, stretches = prepare(
-        load("curved_chain", string__components__0__segments=segments, operations=rotation(2450.0, 60.0, 4.0), **changes)
-    )  # fmt: skip
+    changes |= {"string.components[0].segments": segments, "operations": [ROTATION]}
+    run, stretches = prepare(load_case(CASES / "curved_chain.toml", changes))
     settle(run)
     forget_start(run)
     # Long enough for the first wave to reach the bit: ahead of it velocities are denormal numbers, which
@@ -50,18 +53,16 @@ def steps(benchmark: BenchmarkFixture, run: Run, motion: Motion) -> None:
 def bench_step(benchmark: BenchmarkFixture, segments: int, kind: str) -> None:
     """One step: the difference to contact-free is what contact adds."""
     changes: dict[str, dict[str, Any]] = {
-        "contact-free": {"contact__enabled": False},
+        "contact-free": {},
         "cylinders": {},
-        "arcs": {"wellbore__geometry": "arcs"},
-        "cylinders, law paper": {"contact__friction_law": "paper"},
+        "arcs": {"wellbore.geometry": "arcs"},
+        "cylinders, law paper": {"contact.friction_law": "paper"},
     }
     benchmark.group = "step over segments"
+    run, motion = turning(segments, changes[kind])
     if kind == "contact-free":
-        # The string would fall where no hole holds it: settle it in the hole, then take the hole away.
-        run, motion = turning(segments)
-        run.laws = prepare(load("curved_chain", **changes[kind]))[0].laws
-    else:
-        run, motion = turning(segments, **changes[kind])
+        # The string is settled in the hole, then the hole is taken away.
+        run.laws = run.laws._replace(geometry=OPEN)
     steps(benchmark, run, motion)
 
 
@@ -70,11 +71,11 @@ def bench_cylinders(benchmark: BenchmarkFixture, length: float) -> None:
     """One step of 60 segments in 10² to 10⁵ cylinders."""
     benchmark.group = "step over cylinders"
     changes = {
-        "wellbore__chord_tolerance": None,
-        "wellbore__cylinder_length": length,
-        "wellbore__overlap": min(0.2, length / 10),
+        "wellbore.chord_tolerance": None,
+        "wellbore.cylinder_length": length,
+        "wellbore.overlap": min(0.2, length / 10),
     }
-    steps(benchmark, *turning(60, **changes))
+    steps(benchmark, *turning(60, changes))
 
 
 @njit(error_model="numpy")
@@ -86,7 +87,7 @@ def many_joint_loads(S, n, count):  # type: ignore[no-untyped-def]
 def bench_joints(benchmark: BenchmarkFixture) -> None:
     """The packed joint arithmetic by itself, springs and damping, 64 joints."""
     benchmark.group = "joints"
-    run, _ = turning(60)
+    run, _ = turning(60, {})
     count = BODY_STEPS // 64
     benchmark.pedantic(many_joint_loads, args=(run.S, 64, count), rounds=15, warmup_rounds=2)
     if benchmark.stats is not None:
@@ -95,9 +96,7 @@ def bench_joints(benchmark: BenchmarkFixture) -> None:
 
 def bench_trip_in(benchmark: BenchmarkFixture) -> None:
     """The paper's well tripped into from 1750 to 2450 m at 0.5 m/s, records and ledger included."""
-    from fctd import simulate
-
     benchmark.group = "paper-well"
-    case = load("paper_well", contact__friction_law="paper")
+    case = load_case(CASES / "paper_well.toml", {"contact.friction_law": "paper"})
     result = benchmark.pedantic(simulate, args=(case,), rounds=3, warmup_rounds=1)
     benchmark.extra_info |= {"real_time_factor": result.run["real_time_factor"], "steps": result.run["steps"]}

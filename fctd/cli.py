@@ -28,13 +28,9 @@ screen, messages = Console(), Console(stderr=True)
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]
 Overrides = Annotated[
     list[str],
-    typer.Option(
-        "--set", metavar="KEY=VALUE", help="Override a key of the case, e.g. wellbore.overlap='0.1 m'."
-    ),
+    typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case, e.g. wellbore.overlap='0.1 m'."),
 ]
-Friction = Annotated[
-    float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")
-]
+Friction = Annotated[float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")]
 
 
 @app.callback()

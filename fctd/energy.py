@@ -28,9 +28,7 @@ def _strain(S, n):
 
 def penetration(S: np.ndarray, n: int) -> np.ndarray:
     """Penetration of every contact point [m], negative is clearance; −inf where there is no wall."""
-    distance = np.sqrt(
-        state.row(S, state.PX, n) ** 2 + state.row(S, state.PY, n) ** 2 + state.row(S, state.PZ, n) ** 2
-    )
+    distance = np.sqrt(state.row(S, state.PX, n) ** 2 + state.row(S, state.PY, n) ** 2 + state.row(S, state.PZ, n) ** 2)
     hole = state.row(S, state.HOLE, n)
     return np.where(hole > 0, distance - hole + state.row(S, state.RADIUS, n), -np.inf)
 
@@ -43,9 +41,7 @@ def energy_of(S: np.ndarray, n: int) -> Energy:
 
     speed = row(state.VX) ** 2 + row(state.VY) ** 2 + row(state.VZ) ** 2
     swing = row(state.WX) ** 2 + row(state.WY) ** 2
-    kinetic = (
-        row(state.MASS) * speed + row(state.J_TRANSVERSE) * swing + row(state.J_AXIAL) * row(state.WZ) ** 2
-    )
+    kinetic = row(state.MASS) * speed + row(state.J_TRANSVERSE) * swing + row(state.J_AXIAL) * row(state.WZ) ** 2
     pressed = np.maximum(penetration(S, n), 0.0)
     return Energy(
         kinetic=0.5 * float(kinetic.sum()),

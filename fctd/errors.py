@@ -65,9 +65,7 @@ class InputError(ValueError):
     def at(self, key: str) -> InputError:
         """The same error one level up: `key` is put before its own key."""
         more = [other.at(key) for other in self.more]
-        return InputError(
-            self.expected, key=join_key(key, self.key), value=self.value, file=self.file, more=more
-        )
+        return InputError(self.expected, key=join_key(key, self.key), value=self.value, file=self.file, more=more)
 
     def __str__(self) -> str:
         file = "" if self.file is None else f"{self.file}: "

@@ -129,12 +129,8 @@ class Recorder:
             "energy_error": abs(self.ledger[-1]["residual_J"]) / work if self.ledger else np.nan,
             "settling_residual": residual,
         }
-        profile = (
-            pd.concat(list(self.profiles.values()), ignore_index=True) if self.profiles else pd.DataFrame()
-        )
-        return SimulationResult(
-            run.case, status, message, pd.DataFrame(self.history), profile, energy, numbers
-        )
+        profile = pd.concat(list(self.profiles.values()), ignore_index=True) if self.profiles else pd.DataFrame()
+        return SimulationResult(run.case, status, message, pd.DataFrame(self.history), profile, energy, numbers)
 
     def _walls(self) -> tuple[Array, Array]:
         """Contact points (n, 3) [m] and the walls beside them (Wellbore.walls)."""
@@ -146,10 +142,7 @@ class Recorder:
     def _balance(self) -> dict[str, float]:
         """The ledger: energy held since the start, work and fed pipe as gains, losses, and what is left."""
         energy, top = energy_of(self.run.S, self.run.segments), self.run.top
-        held = {
-            f"{name}_J": now - then
-            for name, now, then in zip(energy._fields, energy, self.start, strict=True)
-        }
+        held = {f"{name}_J": now - then for name, now, then in zip(energy._fields, energy, self.start, strict=True)}
         gains = {
             "top_drive_work_J": float(top[topdrive.TOP_WORK]),
             "fed_pipe_J": float(top[topdrive.FED_ENERGY]),

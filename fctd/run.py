@@ -118,24 +118,18 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
     limit = _step_limit(S, case, string, hole, pipe, shallowest - first)
     step = AUTO_SHARE * limit if case.solver.step == "auto" else case.solver.step
     if step > limit * (1 + 1e-9):
-        raise InputError(
-            f"'auto' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
-        )
+        raise InputError(f"'auto' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s")
     run = Run(case, hole, string, pipe, S, top, np.zeros(n + 2, np.int64), step, laws)
     return run, stretches
 
 
-def _step_limit(
-    S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float
-) -> float:
+def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float) -> float:
     """Largest stable step of the run [s]; the top segment is stiffest where it is shortest."""
     spin = max(rad_per_s(o.rpm) for o in case.operations)
     probe = S.copy()
     if string.long_segment:
         topdrive.set_long_segment(probe, string.length[0] + shrinks, pipe)
-    return stable_step(
-        stiffest_mode(probe, string.segments, hole.stiffest_wall), case.solver.joint_damping, spin
-    )
+    return stable_step(stiffest_mode(probe, string.segments, hole.stiffest_wall), case.solver.joint_damping, spin)
 
 
 def lie_on_axis(S: Array, string: String, hole: Wellbore) -> None:

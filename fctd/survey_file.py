@@ -31,9 +31,7 @@ _UNIT_ENDS_HEADER: Final = re.compile(r"(?:\(\s*|_)(?P<unit>[a-z]+)\s*\)?$")
 _SAME: Final = 1e-9  # m and deg: rows closer than this are one station written twice
 
 
-def read_stations(
-    path: str | PathLike[str], columns: Mapping[StationKey, str] | None = None
-) -> NDArray[np.float64]:
+def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] | None = None) -> NDArray[np.float64]:
     """The checked stations of a CSV file.
 
     Headers name their units: md_m or md_ft, inc_deg or inc_rad, azi_deg or azi_rad, in any case.
@@ -82,9 +80,7 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
     return [(line, cells) for line, cells in rows if any(cells)]
 
 
-def _stations(
-    rows: Sequence[tuple[int, list[str]]], columns: Mapping[StationKey, str]
-) -> NDArray[np.float64]:
+def _stations(rows: Sequence[tuple[int, list[str]]], columns: Mapping[StationKey, str]) -> NDArray[np.float64]:
     if not rows:
         raise InputError("a row of headers and a row for each station, the file is empty")
     (_, headers), *body = rows

@@ -93,10 +93,7 @@ class Wellbore:
     def _nearest(self, points: Array) -> NDArray[np.int64]:
         """Piece nearest to each point, from samples of the axis at most half a metre apart."""
         counts = np.maximum(np.ceil(np.diff(self.md) / 0.5).astype(int), 1)
-        parts = [
-            np.linspace(a, b, n, endpoint=False)
-            for a, b, n in zip(self.md, self.md[1:], counts, strict=False)
-        ]
+        parts = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(self.md, self.md[1:], counts, strict=False)]
         md = np.append(np.concatenate(parts), self.md[-1])
         _, i = cKDTree(self.at(md)[0]).query(points)
         starts = self.pieces[:, contact.START_MD]
@@ -125,9 +122,7 @@ def hole_frame(direction: Array) -> tuple[Array, Array]:
 
     Within 0.1° of vertical the high side is north.
     """
-    up = np.where(
-        np.hypot(direction[:, 0], direction[:, 1])[:, None] < np.sin(VERTICAL), [[1.0, 0, 0]], [[0, 0, -1.0]]
-    )
+    up = np.where(np.hypot(direction[:, 0], direction[:, 1])[:, None] < np.sin(VERTICAL), [[1.0, 0, 0]], [[0, 0, -1.0]])
     high = up - np.sum(up * direction, axis=1, keepdims=True) * direction
     high /= np.linalg.norm(high, axis=1, keepdims=True)
     return high, np.cross(direction, high)
@@ -145,9 +140,7 @@ def build_wellbore(case: Case) -> Wellbore:
     try:
         courses = survey.minimum_curvature(stations)
     except ValueError as error:
-        raise InputError(
-            "stations that a circular arc can join", key="wellbore.survey", value=str(error)
-        ) from None
+        raise InputError("stations that a circular arc can join", key="wellbore.survey", value=str(error)) from None
     ends = [i.to_md for i in hole.intervals if i.to_md < depth]
     geometry = OPEN if not case.contact.enabled else ARCS if hole.geometry == "arcs" else CYLINDERS
     if hole.geometry == "arcs":
@@ -194,9 +187,7 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
     breaks = np.union1d(stations[:, 0], ends)
     course = np.searchsorted(stations[:, 0], breaks[:-1], side="right") - 1
     counts = np.maximum(np.ceil(np.diff(breaks) / wanted[course] - 1e-9).astype(int), 1)
-    parts = [
-        np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)
-    ]
+    parts = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)]
     return np.append(np.concatenate(parts), breaks[-1])
 
 
@@ -248,9 +239,7 @@ def _arcs(hole: WellboreSpec, courses: survey.Courses, md: Array) -> Array:
     pieces = np.zeros((len(md) + 1, contact.COLUMNS))
     pieces[1:, contact.START : contact.START + 3] = point
     pieces[1:, contact.DIRECTION : contact.DIRECTION + 3] = tangent
-    pieces[1:, contact.NORMAL : contact.NORMAL + 3] = (
-        np.cos(angle) * normal - np.sin(angle) * courses.tangent[i]
-    )
+    pieces[1:, contact.NORMAL : contact.NORMAL + 3] = np.cos(angle) * normal - np.sin(angle) * courses.tangent[i]
     pieces[1:-1, contact.CURVATURE] = curvature[:-1]
     pieces[1:-1, contact.LENGTH] = np.diff(md)
     pieces[-1, contact.LENGTH] = RUN_OUT

@@ -75,9 +75,7 @@ def render(results: Path, studies: Iterable[str], out: Path) -> list[str]:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    page = environment.get_template("page.html").render(
-        sections=sections, number=words.number, quantity=words.quantity
-    )
+    page = environment.get_template("page.html").render(sections=sections, number=words.number, quantity=words.quantity)
     (out / "index.html").write_text(page, encoding="utf-8")
     return [f"{section.study}: {problem}" for section in sections for problem in section.problems]
 
@@ -98,9 +96,7 @@ def _section(folder: Path, out: Path) -> Section:
         except Exception as error:
             # A figure that cannot be drawn must not cost the reader the rest of the page.
             traceback.print_exc()
-            section.problems.append(
-                f"figure {figure.name!r} could not be drawn: {type(error).__name__}: {error}"
-            )
+            section.problems.append(f"figure {figure.name!r} could not be drawn: {type(error).__name__}: {error}")
     return section
 
 
@@ -118,8 +114,6 @@ def _draw(study: str, figure: figures.Figure, tables: figures.Tables, out: Path)
 
 def _print(table: pd.DataFrame, caption: str) -> Printed:
     """A table's columns as text."""
-    columns = [
-        (*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in map(str, table.columns)
-    ]
+    columns = [(*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in map(str, table.columns)]
     cells = [words.column(table[name]) for name in table.columns]
     return Printed(caption, columns, list(zip(*cells, strict=True)))

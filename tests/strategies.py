@@ -344,15 +344,9 @@ def cases(draw: st.DrawFn) -> dict[str, Any]:
                 "torque_offset": st.just("-0.5 kN*m"),
             }
         ),
-        "contact": optional(
-            {"friction_law": st.sampled_from(["coulomb", "paper"]), "damping": positive(0, 1e6)}
-        ),
-        "solver": optional(
-            {"step": st.sampled_from(["auto", "1 ms", 0.002]), "joint_damping": positive(0, 0.01)}
-        ),
-        "record": optional(
-            {"interval": st.just("0.5 s"), "profile_at": st.lists(lengths(100, 3000), max_size=3)}
-        ),
+        "contact": optional({"friction_law": st.sampled_from(["coulomb", "paper"]), "damping": positive(0, 1e6)}),
+        "solver": optional({"step": st.sampled_from(["auto", "1 ms", 0.002]), "joint_damping": positive(0, 0.01)}),
+        "record": optional({"interval": st.just("0.5 s"), "profile_at": st.lists(lengths(100, 3000), max_size=3)}),
     }
     return raw | draw(optional(tables))
 

@@ -57,7 +57,7 @@ def test_defaults(case_file: Path) -> None:
     assert (case.mud.density, case.mud.lateral_damping) == (0.0, 0.0)
     assert (case.rig.block_weight, case.rig.sheave_efficiency, case.rig.torque_offset) == (0.0, 1.0, 0.0)
     assert (case.contact.friction_law, case.contact.damping) == ("coulomb", 1e4)
-    assert (case.solver.step, case.solver.joint_damping) == ("auto", 1e-4)
+    assert (case.solver.step, case.solver.joint_damping) == ("auto", 1e-5)
     assert (case.record.interval, case.record.profile_at) == (1.0, ())
 
 
@@ -242,9 +242,7 @@ def test_rule(case_file: Path, key: str, value: object, expected: str) -> None:
 
 
 @pytest.mark.parametrize(("overrides", "key", "value", "expected"), COMBINED)
-def test_combined_rule(
-    case_file: Path, overrides: dict[str, Any], key: str, value: object, expected: str
-) -> None:
+def test_combined_rule(case_file: Path, overrides: dict[str, Any], key: str, value: object, expected: str) -> None:
     """Keys that do not go together, and wrong items inside lists."""
     check(case_file, overrides, key, value, expected)
 
@@ -308,9 +306,7 @@ def test_an_error_survives_pickling(case_file: Path) -> None:
 
 
 @given(raw=cases())
-def test_a_valid_case_loads_and_round_trips(
-    raw: dict[str, Any], tmp_path_factory: pytest.TempPathFactory
-) -> None:
+def test_a_valid_case_loads_and_round_trips(raw: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> None:
     path = tmp_path_factory.mktemp("valid") / "well.toml"
     path.write_text(write_case(raw), encoding="utf-8")
     case = load_case(path)
@@ -320,9 +316,7 @@ def test_a_valid_case_loads_and_round_trips(
 
 @given(raw=corrupted_cases())
 @settings(max_examples=300)
-def test_a_corrupted_case_is_accepted_or_refused(
-    raw: dict[str, Any], tmp_path_factory: pytest.TempPathFactory
-) -> None:
+def test_a_corrupted_case_is_accepted_or_refused(raw: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> None:
     path = tmp_path_factory.mktemp("corrupted") / "well.toml"
     path.write_text(write_case(raw), encoding="utf-8")
     answer = f"{path}: expected nothing else"

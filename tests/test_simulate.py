@@ -209,9 +209,7 @@ def test_a_little_joint_damping_keeps_a_sliding_string_quiet() -> None:
     loses next to nothing and stops it."""
     lost = []
     for damping in (0.0, 1e-5):
-        case = build_case(
-            trip(1000, 1070, speed=1.0), wellbore={"geometry": "arcs"}, solver={"joint_damping": damping}
-        )
+        case = build_case(trip(1000, 1070, speed=1.0), wellbore={"geometry": "arcs"}, solver={"joint_damping": damping})
         last = simulate(case).energy.iloc[-1]
         lost.append((last.lost_contact_J + last.lost_joints_J) / last.lost_friction_J)
     assert lost[1] < 1e-3

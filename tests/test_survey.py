@@ -54,9 +54,7 @@ def test_azimuth_runs_through_north_the_short_way() -> None:
 
 
 @given(st.floats(0, 3.1), st.floats(-3, 3), st.floats(1e-12, 3))
-def test_dogleg_keeps_its_precision_at_small_angles(
-    inclination: float, azimuth: float, change: float
-) -> None:
+def test_dogleg_keeps_its_precision_at_small_angles(inclination: float, azimuth: float, change: float) -> None:
     stations = np.array([[0, inclination, azimuth], [10, abs(inclination - change), azimuth]])
     expected = abs(stations[1, 1] - inclination)
     assert survey.dogleg(stations)[0] == pytest.approx(expected, rel=1e-6, abs=1e-15)
@@ -75,9 +73,7 @@ needs_data = pytest.mark.skipif(data_folder() is None, reason="public data folde
 def test_published_reference_well() -> None:
     """North, east and vertical depth as the ISCWSA publishes them."""
     points, table = computed("iscwsa_reference_well.csv", None)
-    np.testing.assert_allclose(
-        points, table[["tvd_m", "north_m", "east_m"]].to_numpy()[:, [1, 2, 0]], atol=0.01
-    )
+    np.testing.assert_allclose(points, table[["tvd_m", "north_m", "east_m"]].to_numpy()[:, [1, 2, 0]], atol=0.01)
 
 
 @needs_data

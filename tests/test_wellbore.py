@@ -201,9 +201,7 @@ def test_stations_that_no_arc_joins_are_refused() -> None:
         hole_of([[0, 0, 0], [500, 90, 0], [501, 90, 180]])
 
 
-@pytest.mark.parametrize(
-    ("points", "radii"), [([[0, 0, np.nan]], 0.1), ([[0, 0]], 0.1), ([[0, 0, 5]], np.inf)]
-)
+@pytest.mark.parametrize(("points", "radii"), [([[0, 0, np.nan]], 0.1), ([[0, 0]], 0.1), ([[0, 0, 5]], np.inf)])
 def test_bad_queries_are_refused(points: list, radii: float) -> None:
     with pytest.raises(ValueError, match="finite"):
         find_contacts(hole_of([[0, 0, 0], [100, 0, 0]]), np.array(points), radii)

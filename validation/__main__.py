@@ -50,9 +50,7 @@ def _choose(names: list[str], every: bool, reproduce: bool) -> list[str]:
     """The studies asked for, in the order of the registry."""
     for name in names:
         runner.check_name(name)
-    chosen = [
-        name for name in STUDIES if every or name in names or (reproduce and runner.is_reproduced(name))
-    ]
+    chosen = [name for name in STUDIES if every or name in names or (reproduce and runner.is_reproduced(name))]
     if not chosen:
         raise runner.UsageError("nothing to run: name a study, or say --all, --reproduce or --list")
     return chosen

@@ -102,8 +102,8 @@ def run(context: Context) -> Outcome:
             "What is left between the two models is the clearance (the string lies up to 105 mm off the axis), "
             "bending stiffness, and the 25 m between contact points; a hundredth of the bending stiffness "
             "shows the share of the second.",
-            "Torque and hook load are weighted means over the last 20 s. Nothing but friction damps the torsion of this "
-            "string, so the torque of law coulomb swings by a few percent about its mean for minutes.",
+            "Torque and hook load are weighted means over the last 20 s. Nothing but friction damps the torsion of "
+            "this string, so the torque of law coulomb swings by a few percent about its mean for minutes.",
         ],
         display={"numbers": "Five numbers of the chain beside the soft string's"},
     )  # fmt: skip
@@ -113,12 +113,8 @@ def _known(numbers: pd.DataFrame) -> pd.Series:
     """Percent by which our soft string differs from the numbers it is known to give."""
     loads = numbers["operation"].map({"rotate_off_bottom": 426.5, "trip_out": 472.0, "trip_in": 374.0})
     torques = numbers["law"].map({"paper": 2.39, "coulomb": 2.34})
-    return pd.concat(
-        [
-            100 * (numbers["soft_hookload_kN"] / loads - 1),
-            100 * (numbers["soft_torque_kN_m"] / torques - 1).dropna(),
-        ]
-    )
+    differences = [numbers["soft_hookload_kN"] / loads - 1, (numbers["soft_torque_kN_m"] / torques - 1).dropna()]
+    return 100 * pd.Series(pd.concat(differences))
 
 
 STUDY = Study(

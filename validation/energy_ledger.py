@@ -40,7 +40,7 @@ def run(context: Context) -> Outcome:
             result = simulate(load(file, **changes, solver__step=fraction * default))
             last = result.energy.iloc[-1]
             ledger += [
-                {"case": name, "step_fraction": fraction, "term": term.removesuffix("_J"), "energy_J": value}
+                {"case": name, "step_fraction": fraction, "term": str(term).removesuffix("_J"), "energy_J": value}
                 for term, value in last.items()
                 if str(term).endswith("_J")
             ]

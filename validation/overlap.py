@@ -58,12 +58,12 @@ def run(context: Context) -> Outcome:
     return Outcome(
         tables={"drag": drag},
         checks=[
-            Check("largest change of force in a step with overlap", jump(OVERLAP, "contact_force_N") / full,
-                  0.02 * millimetres / 2, "at_most", "of the force", f"no jump in {millimetres:.0f} mm"),
+            Check("largest change of force in a step with overlap", 100 * jump(OVERLAP, "contact_force_N") / full,
+                  1.0 * millimetres / 2, "at_most", "%", f"no jump in {millimetres:.0f} mm"),
             Check("largest change of direction in a step with overlap", jump(OVERLAP, "direction_deg"),
                   0.01 * millimetres / 2, "at_most", "deg", f"no jump in {millimetres:.0f} mm"),
-            Check("largest change of force without overlap", jump(0.0, "contact_force_N") / full,
-                  0.5, "at_least", "of the force", "the gap of Fig. 8 is there"),
+            Check("largest change of force without overlap", 100 * jump(0.0, "contact_force_N") / full,
+                  50.0, "at_least", "%", "the gap of Fig. 8 is there"),
             Check("largest change of direction without overlap", jump(0.0, "direction_deg"),
                   0.2, "at_least", "deg", "the kink of 2 m cylinders in this bend: 0.4 deg"),
         ],

@@ -56,6 +56,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study(
-    "real_survey", "Does a real survey of eight kilometres run?", run, reproduce=False, needs=("data",)
-)
+STUDY = Study("real_survey", "Does a real survey of eight kilometres run?", run, reproduce=False, needs=("data",))

@@ -122,9 +122,7 @@ def run_all(
     return 1 if errors else 0
 
 
-def run_one(
-    name: str, context: Context, recorded: Mapping[str, str], origin: Provenance, results: Path
-) -> Record:
+def run_one(name: str, context: Context, recorded: Mapping[str, str], origin: Provenance, results: Path) -> Record:
     """Run one study and store what came of it: tables and checks, or why it was skipped, or how it failed."""
     start = time.perf_counter()
     blank = Record(

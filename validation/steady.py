@@ -18,4 +18,4 @@ def last_seconds(result: SimulationResult, seconds: float) -> pd.Series:
     history = result.history.select_dtypes("number")
     late = history[history["time_s"] > history["time_s"].max() - seconds + 1e-6]
     weights = np.hanning(len(late) + 2)[1:-1]
-    return late.mul(weights, axis=0).sum() / weights.sum()
+    return pd.Series(late.mul(weights, axis=0).sum() / weights.sum())

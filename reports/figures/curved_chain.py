@@ -29,9 +29,7 @@ def differences(tables: Tables) -> Canvas:
         for height, (operation, geometry) in enumerate(rows):
             for index, law in enumerate(laws):
                 chosen = numbers[
-                    (numbers["operation"] == operation)
-                    & (numbers["geometry"] == geometry)
-                    & (numbers["law"] == law)
+                    (numbers["operation"] == operation) & (numbers["geometry"] == geometry) & (numbers["law"] == law)
                 ]
                 # Laws are set apart by shape and a little by height, since they often agree.
                 shift = 0.16 * (index - (len(laws) - 1) / 2)
@@ -46,13 +44,10 @@ def differences(tables: Tables) -> Canvas:
             ax.axhline(edge - 0.5, color=style.QUIET, linewidth=0.5)
         ax.set_xlabel(label)
         ax.margins(x=0.12)
-    axes[0].set_yticks(
-        range(len(rows)), [f"{words.name(operation)}, {geometry}" for operation, geometry in rows]
-    )
+    axes[0].set_yticks(range(len(rows)), [f"{words.name(operation)}, {geometry}" for operation, geometry in rows])
     axes[0].set_ylim(len(rows) - 0.5, -0.5)
     handles = [
-        matplotlib.lines.Line2D([], [], **style.dots(style.LAWS[law]), markersize=6, label=f"law {law}")
-        for law in laws
+        matplotlib.lines.Line2D([], [], **style.dots(style.LAWS[law]), markersize=6, label=f"law {law}") for law in laws
     ]
     canvas.legend(handles=handles, loc="outside upper left", ncols=len(laws))
     return canvas
@@ -68,20 +63,21 @@ def contact(tables: Tables) -> Canvas:
         at = profiles[profiles["operation"] == operation]
         for law in sorted(at["law"].unique(), key=style.LAWS.__getitem__):
             index, profile = style.LAWS[law], at[at["law"] == law]
-            force.plot(
-                profile["md_m"], profile["contact_force_N"] / 1e3, **style.line(index), label=f"law {law}"
-            )
+            force.plot(profile["md_m"], profile["contact_force_N"] / 1e3, **style.line(index), label=f"law {law}")
             touching = profile[profile["contact_force_N"] > 0]
             turned = style.unrolled(touching["contact_angle_deg"])
             angle.plot(touching["md_m"], turned, **style.dots(index, filled=index == 0), markersize=3)
         force.set_title(words.name(operation))
         force.set_ylabel("contact force, kN")
-        force.set_ylim(bottom=0)
         angle.set_ylabel("contact angle")
         angle.set_yticks(style.SIDES, [label.replace("\n", " ") for label in style.SIDE_LABELS])
         angle.set_ylim(-90, 270)
+    touched = profiles[profiles["contact_force_N"] > 0]
+    grid[0][0].set_ylim(0, 1.05 * touched["contact_force_N"].max() / 1e3)
     for ax in grid[-1]:
         ax.set_xlabel("measured depth, m")
+        # Above the first contact there is nothing to see.
+        ax.set_xlim(touched["md_m"].min() - 50, profiles["md_m"].max() + 20)
     canvas.legend(*grid[0][0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
     return canvas
 

@@ -11,13 +11,9 @@ def errors(tables: Tables) -> Canvas:
     length = table["cylinder_length_m"]
     canvas = style.figure(3.6)
     penetration, angle = canvas.subplots(1, 2, sharex=True)
-    penetration.plot(
-        length, table["bound_mm"], color=style.QUIET, linewidth=3.5, alpha=0.6, label="bound ℓ²/8R"
-    )
+    penetration.plot(length, table["bound_mm"], color=style.QUIET, linewidth=3.5, alpha=0.6, label="bound ℓ²/8R")
     penetration.plot(length, table["max_penetration_error_mm"], **style.line(0), marker="o", label="largest")
-    penetration.plot(
-        length, table["rms_penetration_error_mm"], **style.line(1), marker="s", label="root mean square"
-    )
+    penetration.plot(length, table["rms_penetration_error_mm"], **style.line(1), marker="s", label="root mean square")
     penetration.set_ylabel("error of penetration, mm")
     penetration.legend(loc="upper left")
     angle.plot(length, table["max_angle_error_deg"], **style.line(0), marker="o")

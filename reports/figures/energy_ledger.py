@@ -23,9 +23,7 @@ def closure(tables: Tables) -> Canvas:
         )
     ax.set(xscale="log", yscale="log", xlabel="time step, ms", ylabel="|residual| / work")
     style.plain_log_ticks(ax.xaxis)
-    style.slopes(
-        ax, table["step_s"].to_numpy(float) * 1e3, np.abs(table["relative_residual"].to_numpy(float))
-    )
+    style.slopes(ax, table["step_s"].to_numpy(float) * 1e3, np.abs(table["relative_residual"].to_numpy(float)))
     style.legend_above(ax, columns=3)
     return canvas
 

@@ -30,9 +30,7 @@ def _label(overlap: Any) -> str:
     """The overlap is a length in m, or only yes or no."""
     if not overlap:
         return "without overlap"
-    return (
-        "with overlap" if overlap is True or str(overlap) == "True" else f"with an overlap of {overlap:g} m"
-    )
+    return "with overlap" if overlap is True or str(overlap) == "True" else f"with an overlap of {overlap:g} m"
 
 
 FIGURES = [

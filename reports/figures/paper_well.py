@@ -47,9 +47,7 @@ def contact(tables: Tables) -> Canvas:
     for row, depth in zip(grid, depths, strict=True):
         for ax, operation in zip(row, operations, strict=True):
             at = profiles[(profiles["bit_depth_m"] == depth) & (profiles["operation"] == operation)]
-            style.shade_builds(
-                ax, deepest["md_m"].to_numpy(float), deepest["inclination_deg"].to_numpy(float)
-            )
+            style.shade_builds(ax, deepest["md_m"].to_numpy(float), deepest["inclination_deg"].to_numpy(float))
             _stems(ax, at)
             ax.axvline(depth, **style.line(2), linewidth=1)
             ax.set_title(f"{words.name(operation)}, bit at {depth:.0f} m")

@@ -23,15 +23,11 @@ def contact(tables: Tables) -> Canvas:
     touching = table[table["contact_force_N"] > 0]
     canvas = style.figure(5.2)
     force, angle = canvas.subplots(1, 2, sharey=True, width_ratios=[3, 2])
-    force.hlines(
-        touching["md_m"], 0, touching["contact_force_N"] / 1e3, color=style.COLOURS[0], linewidth=0.9
-    )
+    force.hlines(touching["md_m"], 0, touching["contact_force_N"] / 1e3, color=style.COLOURS[0], linewidth=0.9)
     force.plot(touching["contact_force_N"] / 1e3, touching["md_m"], **style.dots(0), markersize=2.5)
     force.set_xlabel("contact force, kN")
     force.set_xlim(left=0)
-    angle.plot(
-        style.unrolled(touching["contact_angle_deg"]), touching["md_m"], **style.dots(0), markersize=2.5
-    )
+    angle.plot(style.unrolled(touching["contact_angle_deg"]), touching["md_m"], **style.dots(0), markersize=2.5)
     angle.set_xticks(style.SIDES, style.SIDE_LABELS)
     angle.set(xlabel="contact angle", xlim=(-90, 270))
     style.depth_downwards(force)

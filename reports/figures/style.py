@@ -104,9 +104,7 @@ def slopes(ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
     at = np.array([x.min(), x.max()])
     bottom = ax.get_ylim()[0]
     for order, dash, label in ((1, (0, (1, 1.5)), "first order"), (2, (0, (6, 2, 1, 2)), "second order")):
-        ax.plot(
-            at, 2 * y.max() * (at / x.max()) ** order, color=QUIET, linewidth=1, linestyle=dash, label=label
-        )
+        ax.plot(at, 2 * y.max() * (at / x.max()) ** order, color=QUIET, linewidth=1, linestyle=dash, label=label)
     ax.set_ylim(bottom=bottom)
 
 

@@ -72,9 +72,7 @@ def curved_chain() -> dict[str, pd.DataFrame]:
     soft = {"rotate_off_bottom": (426.5, 2.39), "trip_out": (472.0, np.nan), "trip_in": (374.0, np.nan)}
     rows, profiles = [], []
     shift = itertools.count()
-    for geometry, law, operation in itertools.product(
-        ("arcs", "cylinders"), ("paper", "coulomb"), OPERATIONS
-    ):
+    for geometry, law, operation in itertools.product(("arcs", "cylinders"), ("paper", "coulomb"), OPERATIONS):
         load, torque = soft[operation]
         percent = 0.3 * next(shift) - 1.2
         rows.append(

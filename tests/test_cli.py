@@ -1,0 +1,146 @@
+"""The command line as a user meets it: files written, messages, exit codes."""
+
+import json
+from pathlib import Path
+
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+
+from fctd import cli
+
+CASE = """
+name = "small"
+[wellbore]
+stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]
+overlap = "0.2 m"
+[[wellbore.intervals]]
+to_md = "900 m"
+diameter = "8.5 in"
+friction = 0.2
+[string]
+[[string.components]]
+name = "pipe"
+length = "800 m"
+outer_diameter = "5 in"
+inner_diameter = "4.276 in"
+segments = 32
+[[operations]]
+kind = "rotate_off_bottom"
+at_md = "800 m"
+duration = "4 s"
+rpm = 60
+ramp_time = "2 s"
+"""
+
+
+@pytest.fixture
+def case_file(tmp_path: Path) -> Path:
+    path = tmp_path / "small.toml"
+    path.write_text(CASE)
+    return path
+
+
+def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
+    """Exit code of ``fctd ARGUMENTS``."""
+    monkeypatch.setattr("sys.argv", ["fctd", *map(str, arguments)])
+    with pytest.raises(SystemExit) as stopped:
+        cli.main()
+    return int(stopped.value.code or 0)
+
+
+def test_simulate_writes_tables_with_metadata(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    assert run(monkeypatch, "simulate", case_file, "--out", out, "--csv", "--quiet", "--friction", "0.3") == 0
+    printed = capsys.readouterr().out
+    assert "small: rotate_off_bottom" in printed
+    assert "32 segments" in printed
+    for name in ("history", "profile", "energy"):
+        table = pd.read_parquet(out / f"{name}.parquet")
+        assert len(table) > 3
+        pd.testing.assert_frame_equal(table, pd.read_csv(out / f"{name}.csv"), check_dtype=False)
+    metadata = pq.read_schema(out / "history.parquet").metadata
+    case = json.loads(metadata[b"case"])
+    assert case["wellbore"]["intervals"][0]["friction"] == 0.3
+    assert {"fctd", "numpy", "numba", "python"} <= json.loads(metadata[b"versions"]).keys()
+    assert json.loads(metadata[b"run"])["segments"] == 32
+    assert metadata[b"status"] == b"completed"
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        ("wellbore.overlap=5 m", ["wellbore.overlap", "5", "length of a cylinder"]),
+        ("wellbore.ovrlap=1 m", ["wellbore.ovrlap", "overlap"]),
+        ("wellbore.overlap=1 kg", ["wellbore.overlap", "1 kg", "length"]),
+        ("wellbore.survey_method=spline", ["wellbore.survey_method", "spline", "minimum_curvature"]),
+        ("wellbore.intervals[0].friction=-0.1", ["wellbore.intervals[0].friction", "-0.1"]),
+        ("wellbore.intervals[0].diameter=0", ["wellbore.intervals[0].diameter", "0"]),
+        ("wellbore.intervals[0].diameter=4 in", ["contact_diameter", "127", "101.6"]),
+        ("string.components[0].inner_diameter=6 in", ["string.components[0].inner_diameter", "6 in"]),
+        ("string.components[0].outer_diameter=-1 in", ["string.components[0].outer_diameter", "-1 in"]),
+        ("string.components[0].segments=20000", ["string.components", "20000", "10000"]),
+        ("string.components[0].length=200 m", ["string.components", "200", "800"]),
+        ("solver.step=1 s", ["solver.step", "1", "stable"]),
+        ("operations[0].at_md=1000 m", ["operations[0].at_md", "1000", "900"]),
+        ("operations=[]", ["operations", "at least one"]),
+        ("wellbore.stations=[[0, 0, 0], [300, 181, 0]]", ["stations", "181", "180"]),
+        ("wellbore.stations=[[0, 0, 0], [300, 10, 0], [200, 10, 0]]", ["stations", "200"]),
+    ],
+)
+def test_bad_input_is_one_message_and_exit_code_2(
+    change: str,
+    expected: list[str],
+    case_file: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    out = tmp_path / "out"
+    assert run(monkeypatch, "simulate", case_file, "--set", change, "--out", out, "--quiet") == 2
+    message = capsys.readouterr().err
+    assert message.startswith(str(case_file))
+    assert "Traceback" not in message
+    assert "expected" in message
+    for part in expected:
+        assert part in message
+    assert not out.exists()
+
+
+def test_an_unfinished_run_is_exit_code_1_and_keeps_its_rows(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    push = (
+        "operations=[{kind = 'trip_in', from_md = 800, to_md = 880, speed = 2.0, ramp_time = 2}]",
+        "wellbore.intervals[0].friction=3.0",
+        "string.components[0].length=",
+        "wellbore.stiffness=2e5",
+        "record.interval=0.2",
+    )
+    changes = [part for change in push for part in ("--set", change)]
+    assert run(monkeypatch, "simulate", case_file, *changes, "--out", out, "--quiet") == 1
+    assert "unstable: at" in capsys.readouterr().err
+    assert len(pd.read_parquet(out / "history.parquet")) > 0
+
+
+def test_a_missing_case_file(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, "simulate", "nowhere.toml") == 2
+    assert "nowhere.toml" in capsys.readouterr().err
+
+
+def test_an_unknown_option_is_exit_code_2(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, "simulate", case_file, "--frction", "0.2") == 2
+    assert "--frction" in capsys.readouterr().err
+
+
+def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stopped(case: object, progress: object) -> object:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cli, "simulate", stopped)
+    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path, "--quiet") == 130
