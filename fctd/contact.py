@@ -23,6 +23,7 @@ from fctd.state import (
     END_COS,
     END_SIN,
     FRICTION,
+    HOLD,
     HOLE,
     K_WALL,
     MARGIN_END,
@@ -51,9 +52,11 @@ HOLE_RADIUS, STIFFNESS, FACTOR, START_MD = 7, 8, 9, 10
 # Cylinders: the length shared with the next one, and how far from A the one before may still own a point
 # inside the hole [m].
 OVERLAP, SHARED = 11, 12
-# Arcs: curvature [1/m] and unit vector from A towards the centre of curvature.
+# Arcs: curvature [1/m], unit vector from A towards the centre of curvature, and what radius, stiffness and
+# friction gain from the start to the end of the piece (a shoe between two sizes of hole).
 CURVATURE, NORMAL = 11, 12
-COLUMNS = 15
+RADIUS_GAIN, STIFFNESS_GAIN, FACTOR_GAIN = 15, 16, 17
+COLUMNS = 18
 
 
 @njit(forceinline=True)
@@ -156,7 +159,11 @@ def arc_wall(C, i, x, y, z):
     else:
         ratio = sine / cosine
         s = u / cosine * (1 - ratio * ratio / 3)
-    return px, py, pz, C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR], C[i, START_MD] + s
+    share = min(max(s / C[i, LENGTH], 0.0), 1.0)
+    hole = C[i, HOLE_RADIUS] + share * C[i, RADIUS_GAIN]
+    stiffness = C[i, STIFFNESS] + share * C[i, STIFFNESS_GAIN]
+    friction = C[i, FACTOR] + share * C[i, FACTOR_GAIN]
+    return px, py, pz, hole, stiffness, friction, C[i, START_MD] + s
 
 
 @njit(forceinline=True)
@@ -234,12 +241,12 @@ def follow_arcs(S, n):
 
 @njit(error_model="numpy")
 def refresh_arcs(S, owner, n, C):
-    """Look up in the table every point that has left its arc."""
+    """Look up in the table every point that has left its arc, or is in one whose wall changes along it."""
     last = C.shape[0] - 1
     for j in range(1, n + 1):
         i = owner[j]
         before, after = S[MARGIN_TOP + j] < 0, S[MARGIN_END + j] >= 0
-        if not (before and i > 0) and not (after and i < last) and S[HOLE + j] > 0:
+        if S[HOLD + j] > 0 and not (before and i > 0) and not (after and i < last):
             continue
         x, y, z = contact_point(S, j)
         i = arc_owner(C, i, x, y, z)
@@ -253,6 +260,8 @@ def refresh_arcs(S, owner, n, C):
         angle = k * length
         S[CURVE + j], S[END_COS + j], S[END_SIN + j] = k, np.cos(angle), np.sin(angle)
         S[END_ALONG + j] = np.sin(angle) / k if angle > 1e-6 else length
+        changes = C[i, RADIUS_GAIN] != 0 or C[i, STIFFNESS_GAIN] != 0 or C[i, FACTOR_GAIN] != 0
+        S[HOLD + j] = 0.0 if changes else 1.0
 
 
 @njit(error_model="numpy")

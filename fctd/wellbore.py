@@ -144,7 +144,9 @@ def build_wellbore(case: Case) -> Wellbore:
     ends = [i.to_md for i in hole.intervals if i.to_md < depth]
     geometry = OPEN if not case.contact.enabled else ARCS if hole.geometry == "arcs" else CYLINDERS
     if hole.geometry == "arcs":
-        md = np.union1d(stations[:, 0], ends)
+        # Where the hole changes, a shoe as long as the overlap of cylinders leads from one size to the next.
+        shoes = [min(end + hole.overlap, depth) for end in ends]
+        md = np.union1d(stations[:, 0], [*ends, *shoes])
         pieces = _arcs(hole, courses, md)
     else:
         md = _cylinder_ends(hole, stations, np.asarray(ends, dtype=float))
@@ -251,4 +253,20 @@ def _arcs(hole: WellboreSpec, courses: survey.Courses, md: Array) -> Array:
     pieces[0, contact.START_MD] = md[0] - RUN_OUT
     middle = np.concatenate([md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]])
     _wall_columns(hole, pieces, middle)
+    _lead_into_next(hole, pieces, md, middle)
     return pieces
+
+
+def _lead_into_next(hole: WellboreSpec, pieces: Array, md: Array, middle: Array) -> None:
+    """Make the wall of the shoe pieces below each interval change linearly from its values to the next one's."""
+    values = [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR]
+    gains = [contact.RADIUS_GAIN, contact.STIFFNESS_GAIN, contact.FACTOR_GAIN]
+    start = np.concatenate([md[:1], md])
+    for interval in hole.intervals[:-1]:
+        (shoe,) = np.nonzero((middle > interval.to_md) & (middle < interval.to_md + hole.overlap))
+        if not len(shoe):
+            continue
+        gain = pieces[np.ix_(shoe, values)] - pieces[shoe[0] - 1, values]
+        share = (start[shoe] - interval.to_md) / hole.overlap
+        pieces[np.ix_(shoe, values)] -= (1 - share[:, None]) * gain
+        pieces[np.ix_(shoe, gains)] = gain * pieces[shoe, contact.LENGTH, None] / hole.overlap

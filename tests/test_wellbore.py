@@ -169,10 +169,28 @@ def test_intervals_set_size_and_friction_and_the_boundary_is_a_piece_end() -> No
     for geometry in ("cylinders", "arcs"):
         hole = hole_of([[0, 0, 0], [400, 0, 0], [1000, 40, 0]], intervals=intervals, geometry=geometry)
         assert 512.5 in hole.md
-        walls = hole.walls(hole.at(np.array([300.0, 511.0, 514.0]))[0])
+        walls = hole.walls(hole.at(np.array([300.0, 512.0, 514.0]))[0])
         np.testing.assert_allclose(walls[:, 3], [0.16, 0.16, 0.10795])
         np.testing.assert_allclose(walls[:, 4], [1e7, 1e7, 5e6])
         np.testing.assert_allclose(walls[:, 5], [0.1, 0.1, 0.3])
+
+
+@pytest.mark.parametrize(("geometry", "station"), [("cylinders", 505.0), ("arcs", 505.0), ("arcs", 500.1)])
+def test_the_wall_leads_from_one_size_of_hole_to_the_next(geometry: str, station: float) -> None:
+    """At a shoe nothing jumps: radius, stiffness and friction change over the length of the overlap."""
+    intervals = [
+        {"to_md": 500, "diameter": 0.32, "friction": 0.1, "stiffness": 2e7},
+        {"to_md": 1000, "diameter": 0.22, "friction": 0.3},
+    ]
+    stations = [[0, 0, 0], [station, 5, 0], [1000, 40, 0]]
+    hole = hole_of(stations, intervals=intervals, geometry=geometry, overlap=0.2, chord_tolerance=1e-5)
+    md = np.linspace(499.9, 500.3, 401)
+    axis, direction = hole.at(md)
+    walls = hole.walls(axis + 0.05 * hole_frame(direction)[1])
+    share = np.clip((md - 500) / 0.2, 0, 1)
+    np.testing.assert_allclose(walls[:, 3], 0.16 - 0.05 * share, atol=1e-4)
+    np.testing.assert_allclose(walls[:, 4], 2e7 - 1e7 * share, rtol=1e-3)
+    np.testing.assert_allclose(walls[:, 5], 0.1 + 0.2 * share, atol=1e-3)
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])

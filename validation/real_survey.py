@@ -45,8 +45,8 @@ def run(context: Context) -> Outcome:
                   "one minute without failing"),
             Check("energy error", float(result.run["energy_error"]), 1e-3, "at_most", "", "target: 0.1 %"),
             Check("Σ r F_t against surface torque",
-                  100 * abs(float(end["sum_r_ft_N_m"] / end["surface_torque_N_m"]) - 1), 5.0, "at_most", "%",
-                  "balance, while the string still swings"),
+                  100 * abs(float(end["sum_r_ft_N_m"] / end["surface_torque_N_m"]) - 1), 0.5, "at_most", "%",
+                  "torque balance, no dampers"),
         ],
         notes=[
             "Hole size, string, mud and friction are assumed, the survey is real: this shows that the engine runs "
