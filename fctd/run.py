@@ -162,14 +162,14 @@ def lie_on_axis(S: Array, string: String, hole: Wellbore) -> None:
 
 def _transported(axes: Array) -> Array:
     """Quaternions of a chain of axes (n, 3) without twist from one to the next, shape (n, 4)."""
-    out = quaternion_from_axis(axes[:1])
-    for before, after in pairwise(axes):
+    out = np.empty((len(axes), 4))
+    out[0] = quaternion_from_axis(axes[:1])[0]
+    for k, (before, after) in enumerate(pairwise(axes)):
         # The shortest rotation that takes ``before`` to ``after``, applied on the left.
-        w = np.concatenate([[1 + before @ after], np.cross(before, after)])
-        w /= np.linalg.norm(w)
-        a, b = w, out[-1]
-        vector = a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:])
-        out = np.vstack([out, np.concatenate([[a[0] * b[0] - a[1:] @ b[1:]], vector])])
+        w, v = 1 + before @ after, np.cross(before, after)
+        q0, q = out[k, 0], out[k, 1:]
+        out[k + 1] = np.concatenate([[w * q0 - v @ q], w * q + q0 * v + np.cross(v, q)])
+        out[k + 1] /= np.linalg.norm(out[k + 1])
     return out
 
 

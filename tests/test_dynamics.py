@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from numba.core.runtime import _nrt_python, rtsys
 from scipy.spatial.transform import Rotation
 
 from fctd import dynamics, friction, joints, state, topdrive
@@ -193,3 +194,16 @@ def test_an_inert_column_stays_finite() -> None:
     per_body = run.S.reshape(state.ROWS, state.STRIDE)[:, run.segments + 1 : run.segments + 9]
     searching = (state.MARGIN_TOP // state.STRIDE, state.MARGIN_END // state.STRIDE)
     assert np.isfinite(np.delete(per_body, searching, axis=0)).all()
+
+
+def test_steps_allocate_nothing() -> None:
+    """As many allocations for a thousand steps as for one."""
+    run, _ = prepare(make_case(operations=[rotation(1000, 1)]))
+    _nrt_python.memsys_enable_stats()
+    counts = []
+    for steps in (1, 1, 1000):
+        before = rtsys.get_allocation_stats().alloc
+        run.advance(STILL, steps * run.step)
+        counts.append(rtsys.get_allocation_stats().alloc - before)
+    _nrt_python.memsys_disable_stats()
+    assert counts[2] == counts[1]

@@ -1,0 +1,46 @@
+"""The package as it is installed: compile cache, imports, versions."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import fctd
+
+SOURCE = Path(fctd.__file__).parent
+
+
+def cache_folder(root: Path, **environment: str) -> str:
+    """Where the package in ``root`` tells numba to keep its cache."""
+    clean = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
+    done = subprocess.run(
+        [sys.executable, "-c", "import fctd, os; print(os.environ['NUMBA_CACHE_DIR'])"],
+        cwd=root, env={**clean, "PYTHONPATH": str(root), **environment}, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    return done.stdout.strip()
+
+
+def test_the_compile_cache_follows_the_sources(tmp_path: Path) -> None:
+    """numba does not see an edit in a function that a cached one calls; a folder per source hash does."""
+    shutil.copytree(SOURCE, tmp_path / "fctd", ignore=shutil.ignore_patterns("__pycache__"))
+    before = cache_folder(tmp_path)
+    assert cache_folder(tmp_path) == before
+    with (tmp_path / "fctd" / "joints.py").open("a") as file:
+        file.write("\n# edited\n")
+    assert cache_folder(tmp_path) != before
+    assert cache_folder(tmp_path, NUMBA_CACHE_DIR="mine") == "mine"
+
+
+def test_the_engine_needs_none_of_the_suite() -> None:
+    """Importing the engine loads nothing of the other packages or of what only they need."""
+    program = (
+        "import sys, fctd; others = {'references', 'validation', 'reports', 'benchmarks', 'matplotlib', 'jinja2', "
+        "'pybullet', 'fcl', 'trimesh', 'skfem', 'pytest'}; print(sorted(others & sys.modules.keys()))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_versions_name_what_the_numbers_depend_on() -> None:
+    assert {"fctd", "python", "numpy", "numba"} <= fctd.results.versions().keys()
