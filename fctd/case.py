@@ -324,6 +324,9 @@ class Case(Table):
                     f"{before.end_md:g} m, where the operation before ends (or leave it out)",
                     key=f"operations[{i}].{here.start_key}",
                 )
+        lightest = min(component.density for component in self.string.components)
+        if self.mud.density >= lightest:
+            raise InputError(f"a density below the string's, {lightest:g} kg/m^3", key="mud.density")
         return self
 
     def check_depths(self, raw: Mapping[str, Any] | None = None) -> None:

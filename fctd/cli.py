@@ -1,5 +1,6 @@
 """The command line: ``fctd simulate CASE``; also ``python -m fctd``."""
 
+import re
 import sys
 from pathlib import Path
 from typing import Annotated, Any
@@ -55,6 +56,11 @@ def simulate_command(
     if friction is not None:
         changes["friction"] = friction
     case = load_case(case_file, changes)
+    folder = out or Path(re.sub(r"[^\w.-]+", "-", f"{case.name}-result"))
+    try:  # before hours of computing, not after
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"a folder that can be written ({error.strerror})", key="--out", value=str(folder)) from None
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -69,7 +75,6 @@ def simulate_command(
             bar.update(task, description=case.name, total=total, completed=now, factor=f"{factor:.0f}")
 
         result = simulate(case, progress=show)
-    folder = out or Path(f"{case.name}-result")
     written = result.save(folder, csv=csv)
     _summarise(result)
     screen.print(f"Written: {', '.join(str(p) for p in written)}", soft_wrap=True, highlight=False)
@@ -81,8 +86,8 @@ def simulate_command(
 
 def _summarise(result: SimulationResult) -> None:
     """Print the state at the end and the numbers of the run."""
-    if result.status != "completed":
-        messages.print(f"[bold]{result.status}[/bold]: {result.message}", highlight=False)
+    if result.message:
+        messages.print(f"[bold]{result.status}[/bold]: {result.message}", highlight=False, soft_wrap=True)
     if len(result.history):
         last = result.history.iloc[-1]
         table = Table(title=f"{result.case.name}: {last['operation']}, bit at {last['bit_depth_m']:.1f} m")

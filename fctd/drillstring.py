@@ -137,13 +137,15 @@ class String:
         return np.asarray(1 / (above + compliance))
 
 
-def lay_out(case: Case, bit_depth: float, fed: bool) -> String:
+def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> String:
     """Segments of the string that is in the hole with the bit at ``bit_depth`` [m].
 
     Components are laid from the bit up until the depth is reached; the topmost piece takes the remainder.
-    fed : whether pipe will be fed in or pulled out, which only a long segment can do.
-    Raises InputError when the string is too short or a long segment does not fit.
+    deepest : bit depth [m] that pipe will be fed to from here, which only a long segment can do.
+    Raises InputError when the string is too short, a long segment does not fit, or more than the topmost
+    component would have to be fed.
     """
+    fed = deepest is not None and deepest > bit_depth
     components = case.string.components
     remaining = bit_depth - case.string.top_md
     if remaining <= 0:
@@ -179,6 +181,8 @@ def lay_out(case: Case, bit_depth: float, fed: bool) -> String:
             key=f"string.components[{owner[-1]}]",
             value=f"{lengths[-1]:.3g} m of it at the top",
         )
+    if fed and deepest is not None:
+        _check_feed(case, owner[-1], deepest)
     used = components[: max(owner) + 1]
     state.check_segments(len(lengths))
     return String(
@@ -188,6 +192,21 @@ def lay_out(case: Case, bit_depth: float, fed: bool) -> String:
         sections=tuple(section_of(c, case.mud.density) for c in used),
         long_segment=long_segment,
     )
+
+
+def _check_feed(case: Case, top: int, deepest: float) -> None:
+    """Raise InputError when the component at the top ends before the bit is at ``deepest`` [m]."""
+    lengths = [component.length for component in case.string.components[: top + 1]]
+    if any(length is None for length in lengths):
+        return
+    reach = case.string.top_md + sum(length for length in lengths if length is not None)
+    if deepest > reach + 1e-6:
+        raise InputError(
+            f"to reach a bit depth of {deepest:g} m, since one trip feeds pipe of one component "
+            "(a longer component, or a run for each)",
+            key=f"string.components[{top}].length",
+            value=f"enough for a bit depth of {reach:g} m",
+        )
 
 
 def _divide(part: ComponentSpec, take: float) -> list[float]:
@@ -247,7 +266,10 @@ def fill(S: Array, string: String, case: Case) -> PerMetre:
     row(S, state.RADIUS, n)[:] = string.contact_radius()
     per_metre = case.wellbore.stiffness_per_length is not None
     below = np.append(length[1:], 0.0)
-    row(S, state.TRIBUTARY, n)[:] = 0.5 * (length + below) if per_metre else 1.0
+    # Half of either neighbour; a long segment touches the wall by its end alone, a middle contact by all of it.
+    above = np.where(np.arange(n) == 0, 0.0, length) if string.long_segment else length
+    tributary = np.where(middle, length, 0.5 * (above + below))
+    row(S, state.TRIBUTARY, n)[:] = tributary if per_metre else 1.0
     for target, per_length in (
         (state.MUD_AXIAL, mud.axial_damping),
         (state.MUD_LATERAL, mud.lateral_damping),

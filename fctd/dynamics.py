@@ -9,7 +9,7 @@ dissipating impulse by the velocity after it, which is what moves the body.
 from numba import njit
 
 from fctd.contact import update_walls
-from fctd.friction import coulomb_impulse, normal_impulse, paper_impulse, wall_normal
+from fctd.friction import approach, coulomb_impulse, normal_impulse, paper_impulse, wall_normal
 from fctd.joints import update_joint_loads
 from fctd.rotations import rotation_columns, turned
 from fctd.state import (
@@ -27,6 +27,7 @@ from fctd.state import (
     INVERSE_JT,
     INVERSE_MASS,
     J_AXIAL,
+    J_TRANSVERSE,
     LANES,
     LOST_CONTACT,
     LOST_FRICTION,
@@ -67,7 +68,7 @@ from fctd.state import (
     spin,
     velocity,
 )
-from fctd.topdrive import move_top_drive, read_top_drive
+from fctd.topdrive import move_top_drive, planned_speeds, read_top_drive
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -141,19 +142,21 @@ def brake(S, j, u, v, w, a, b, c, settling, dt):
 
 @njit(forceinline=True)
 def touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt):
-    """Apply the wall's normal and friction impulses to body j; returns its velocity and spin."""
+    """Apply the wall's normal and friction impulses and the mud to body j; returns its velocity and spin."""
     penetration, nx, ny, nz = wall_normal(S, j)
-    normal, damped = normal_impulse(S, j, u, v, w, a, b, nx, ny, nz, penetration, laws.contact_damping, dt)
+    normal, damper = normal_impulse(S, j, u, v, w, a, b, nx, ny, nz, penetration, laws.contact_damping, dt)
     k, q = normal * S[INVERSE_MASS + j], normal * S[ARM_CONTACT + j] * S[INVERSE_JT + j]
     u, v, w, a, b = u - k * nx, v - k * ny, w - k * nz, a + q * ny, b - q * nx
     limit = laws.friction_scale * S[FRICTION + j] * normal
-    du, dv, dw, da, db, dc, rubbed = friction_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit)
+    du, dv, dw, da, db, dc = friction_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit)
+    u, v, w, a, b, c = brake(S, j, u + du, v + dv, w + dw, a + da, b + db, c + dc, laws.settling, dt)
+    m, jt, ja = S[MASS + j], S[J_TRANSVERSE + j], S[J_AXIAL + j]
     S[SUM_NORMAL + j] += normal
     S[SUM_R_MU_N + j] += S[RADIUS + j] * limit
-    S[SUM_FRICTION_TORQUE + j] -= S[J_AXIAL + j] * dc
-    S[LOST_CONTACT + j] += damped
-    S[LOST_FRICTION + j] += rubbed
-    return u + du, v + dv, w + dw, a + da, b + db, c + dc
+    S[SUM_FRICTION_TORQUE + j] -= ja * dc
+    S[LOST_CONTACT + j] += damper * approach(S, j, u, v, w, a, b, nx, ny, nz)
+    S[LOST_FRICTION + j] -= m * (du * u + dv * v + dw * w) + jt * (da * a + db * b) + ja * dc * c
+    return u, v, w, a, b, c
 
 
 @njit(forceinline=True)
@@ -189,7 +192,6 @@ def move_with_coulomb(S, n, laws, dt):
     for j in range(1, n + 1):
         u, v, w, a, b, c = free_motion(S, j, dt)
         u, v, w, a, b, c = touch_wall(S, j, u, v, w, a, b, c, coulomb_impulse, laws, dt)
-        u, v, w, a, b, c = brake(S, j, u, v, w, a, b, c, laws.settling, dt)
         move(S, j, u, v, w, a, b, c, dt)
 
 
@@ -199,7 +201,6 @@ def move_with_paper(S, n, laws, dt):
     for j in range(1, n + 1):
         u, v, w, a, b, c = free_motion(S, j, dt)
         u, v, w, a, b, c = touch_wall(S, j, u, v, w, a, b, c, paper_impulse, laws, dt)
-        u, v, w, a, b, c = brake(S, j, u, v, w, a, b, c, laws.settling, dt)
         move(S, j, u, v, w, a, b, c, dt)
 
 
@@ -228,11 +229,12 @@ def step(S, top, owner, n, C, laws, motion, pipe, dt):
     """Advance the string by one step: the algorithm of §4 and Fig. 7 in order."""
     packed = (n + LANES - 1) // LANES * LANES
     update_axes(S, packed)
-    fed, turned_by = move_top_drive(S, top, motion, pipe, dt)
     update_joint_loads(S, packed, laws.joint_damping, dt)
-    read_top_drive(S, top, pipe, fed, turned_by, dt)
+    feed, rate = planned_speeds(top, motion, dt)
+    read_top_drive(S, top, pipe, dt * feed, dt * rate, dt)
     update_walls(S, owner, n, packed, C, laws.geometry)
     update_motion(S, packed, laws, dt)
+    move_top_drive(S, top, pipe, feed, rate, dt)
 
 
 @njit(error_model="numpy", cache=True)

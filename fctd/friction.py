@@ -37,21 +37,27 @@ def wall_normal(S, j):
 
 
 @njit(forceinline=True)
+def approach(S, j, u, v, w, a, b, nx, ny, nz):
+    """Speed of contact point j towards the wall [m/s]; velocity, spin and normal in the frame of the body."""
+    return u * nx + v * ny + w * nz + S[ARM_CONTACT + j] * (b * nx - a * ny)
+
+
+@njit(forceinline=True)
 def normal_impulse(S, j, u, v, w, a, b, nx, ny, nz, penetration, damping, dt):
-    """Impulse of the wall's normal force on body j [N s] (Eq. 12 with damping) and the energy it damps.
+    """Impulse of the wall's normal force on body j (Eq. 12 with damping) and the damper's part of it [N s].
 
     The damper is implicit in the velocity it changes.  The wall never pulls.
     """
     arm = S[ARM_CONTACT + j]
     response = (nx * nx + ny * ny + nz * nz) * S[INVERSE_MASS + j]
     response += arm * arm * (nx * nx + ny * ny) * S[INVERSE_JT + j]
-    speed = u * nx + v * ny + w * nz + arm * (b * nx - a * ny)
+    speed = approach(S, j, u, v, w, a, b, nx, ny, nz)
     elastic = dt * S[K_WALL + j] * penetration
     impulse = (elastic + dt * damping * speed) / (1 + dt * damping * response)
     impulse = impulse if penetration > 0 else 0.0
     impulse = impulse if impulse > 0 else 0.0
     elastic = elastic if penetration > 0 else 0.0
-    return impulse, (impulse - elastic) * (speed - impulse * response)
+    return impulse, impulse - elastic
 
 
 @njit(forceinline=True)
@@ -59,8 +65,7 @@ def coulomb_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     """Law ``coulomb``: one impulse against the sliding velocity at the wall side of the string.
 
     limit : μ × normal impulse [N s].  It acts at T + r_ds·normal, hence gives force and torque, and at most
-    stops the sliding of the free body (implicit clamp).  Returns the change of velocity and spin (6) and
-    the energy lost.
+    stops the sliding of the free body (implicit clamp).  Returns the change of velocity and spin (6).
     """
     im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
     r = S[RADIUS + j]
@@ -80,7 +85,6 @@ def coulomb_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     return (
         -f * im * sx, -f * im * sy, -f * im * sz,
         -f * it * mx, -f * it * my, -f * ia * mz,
-        f * (square - f * response),
     )  # fmt: skip
 
 
@@ -97,5 +101,4 @@ def paper_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     couple = couple if couple < ja * spinning else ja * spinning
     dw = drag * im if w < 0 else -drag * im
     dc = couple * ia if c < 0 else -couple * ia
-    lost = drag * (sliding - drag * im) + couple * (spinning - couple * ia)
-    return 0.0 * w, 0.0 * w, dw, 0.0 * w, 0.0 * w, dc, lost
+    return 0.0 * w, 0.0 * w, dw, 0.0 * w, 0.0 * w, dc

@@ -15,6 +15,7 @@ from fctd.wellbore import hole_frame
 
 Array = NDArray[np.float64]
 
+SAME_DEPTH = 1e-3  # [m]: the schedule meets its depths to the rounding of a step
 SUMS = (
     state.SUM_NORMAL, state.SUM_FRICTION_TORQUE, state.SUM_R_MU_N,
     state.SUM_MUD_TORQUE, state.SUM_TENSION, state.SUM_TORQUE,
@@ -38,6 +39,13 @@ def sensors(case: Case, kind: str, hookload: float, torque: float) -> tuple[floa
     return indicator, torque + rig.torque_offset
 
 
+def _at_contacts(joints: Array, middle: NDArray[np.bool_]) -> Array:
+    """What the n joints carry, at the top and at the n contact points: the joint there, or the mean of the two
+    beside a contact in the middle of its segment."""
+    below = np.append(joints[1:], 0.0)
+    return np.append(joints[0], np.where(middle, 0.5 * (joints + below), below))
+
+
 def _work(energy: pd.DataFrame) -> float:
     """Energy turned over in a run [J]: the larger of all losses and of the top drive's work beyond lifting.
 
@@ -59,7 +67,7 @@ class Recorder:
         self.last_time = 0.0
         self.history: list[dict[str, Any]] = []
         self.ledger: list[dict[str, float]] = []
-        self.profiles: dict[float, pd.DataFrame] = {}
+        self.profiles: dict[float, pd.DataFrame] = {}  # by time
         self.wanted = list(run.case.record.profile_at)
         self.mean = {offset: np.zeros(run.segments) for offset in SUMS}
 
@@ -106,15 +114,16 @@ class Recorder:
         )
         self.ledger.append(self._balance())
         low, high = sorted((before, self.bit_depth))
-        for depth in [d for d in self.wanted if low <= d <= high]:
-            self.wanted.remove(depth)
-            self.profiles[self.bit_depth] = self._profile()
+        passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]
+        if passed:
+            self.wanted = [depth for depth in self.wanted if depth not in passed]
+            self.profiles[self.last_time] = self._profile()
 
     def result(self, status: str, message: str, wall: float, residual: float) -> SimulationResult:
         """Everything recorded, with the profile of the end and the numbers of the run."""
         run = self.run
         if self.history:
-            self.profiles[self.bit_depth] = self._profile()
+            self.profiles[self.last_time] = self._profile()
         energy = pd.DataFrame(self.ledger)
         work = _work(energy) if self.ledger else np.nan
         numbers = {
@@ -155,7 +164,7 @@ class Recorder:
     def _profile(self) -> pd.DataFrame:
         """The string from the top to the bit: loads are means over the last interval.
 
-        A row per contact point and one for the top; tension and torque belong to the joint there.
+        A row per contact point and one for the top.
         """
         run, string = self.run, self.run.string
         points, walls = self._walls()
@@ -163,7 +172,7 @@ class Recorder:
         _, direction = run.hole.at(md)
         high, right = hole_frame(direction)
         up, aside = np.sum(offset * high, axis=1), np.sum(offset * right, axis=1)
-        tension = np.append(self.mean[state.SUM_TENSION], 0.0)
+        middle = string.mid_contact()
         # Buoyed weight carries effective tension; the steel's own follows from the pressure of equal mud
         # inside and outside at the depth of the joint.
         depth = np.append(run.S[state.Z], points[:, 2])
@@ -171,6 +180,7 @@ class Recorder:
         pressure = run.case.mud.density * topdrive.GRAVITY * depth
         axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
         turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
+        tension = _at_contacts(self.mean[state.SUM_TENSION], middle)
         bending = self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0))
         top_inclination = run.hole.inclination(np.array([string.top_md]))
         return pd.DataFrame(
@@ -181,10 +191,10 @@ class Recorder:
                 "inclination_deg": np.degrees(np.append(top_inclination, run.hole.inclination(md))),
                 "effective_tension_N": tension,
                 "true_tension_N": tension - pressure * np.append(steel[0], steel),
-                "torque_N_m": np.append(self.mean[state.SUM_TORQUE], 0.0),
+                "torque_N_m": _at_contacts(self.mean[state.SUM_TORQUE], middle),
                 "contact_force_N": np.append(0.0, self.mean[state.SUM_NORMAL]),
                 "contact_angle_deg": np.append(0.0, np.degrees(np.arctan2(aside, up)) % 360),
-                "bending_moment_N_m": np.append(bending, 0.0),
+                "bending_moment_N_m": _at_contacts(bending, middle),
                 "offset_high_m": np.append(0.0, up),
                 "offset_right_m": np.append(0.0, aside),
             }

@@ -23,8 +23,8 @@ TABLES = ("history", "profile", "energy")
 class SimulationResult:
     """Outcome of ``fctd.simulate``.
 
-    status : ``completed``, ``unstable``, ``unsettled`` or ``interrupted``; message says more when it is not
-    the first.  history : a row per record interval; loads are means over the interval, depths and energies
+    status : ``completed``, ``unstable``, ``unsettled`` or ``interrupted``; message says more when there is
+    more to say.  history : a row per record interval; loads are means over the interval, depths and energies
     values at its end.  profile : a row per contact point from the top to the bit, for every recorded bit
     depth.  energy : the ledger, a row per record interval.  run : segments, step, counts and timing.
     """

@@ -51,7 +51,7 @@ def turned(w, x, y, z, a, b, c):
 
 @njit(forceinline=True)
 def twist_angle(aw, ax, ay, az, bw, bx, by, bz):
-    """Twist of body b against body a about their common direction [rad], in (-2π, 2π).
+    """Twist of body b against body a about their common direction [rad], within half a turn.
 
     Symmetric swing-twist: the relative rotation is half the twist, a bend without twist, half the twist.
     Its quaternion has w = cos(bend/2) cos(twist/2) and z = cos(bend/2) sin(twist/2).  The arc tangent is

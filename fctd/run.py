@@ -22,6 +22,9 @@ Array = NDArray[np.float64]
 # The string is settled when no force is out of balance by more than this share of its weight.
 SETTLED = 1e-6
 LONGEST_SETTLING = 400.0  # [s] simulated
+# Beyond these a run would take hours or not fit into memory: a slip in the case, not a wish.
+MOST_STEPS = 100_000_000
+MOST_RECORDS = 1_000_000
 
 
 class UnstableError(Exception):
@@ -77,6 +80,11 @@ class Run:
         cosine = np.sum(axes[1:] * axes[:-1], axis=1)
         if (cosine < 0).any():
             raise UnstableError(f"the string has folded at segment {int(np.argmin(cosine)) + 2}")
+        turns = np.stack([state.row(self.S, q, n) for q in (state.QW, state.QX, state.QY, state.QZ)], axis=1)
+        half = np.sum(turns[1:] * turns[:-1], axis=1)
+        if (half < 0).any():
+            at = int(np.argmin(half)) + 2
+            raise UnstableError(f"segment {at} is twisted by more than half a turn against the one above: too long")
 
 
 def prepare(case: Case) -> tuple[Run, list[Stretch]]:
@@ -94,10 +102,16 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
     if not case.operations:
         raise InputError("at least one operation to simulate", key="operations", value=[])
     case.check_depths()
-    hole = build_wellbore(case)
     first, shallowest, deepest = depth_range(case)
-    fed = deepest > shallowest
-    string = lay_out(case, shallowest, fed)
+    for i, depth in enumerate(case.record.profile_at):
+        if not shallowest <= depth <= deepest:
+            raise InputError(
+                f"a bit depth that the operations reach, {shallowest:g} to {deepest:g} m",
+                key=f"record.profile_at[{i}]",
+                value=f"{depth:g} m",
+            )
+    hole = build_wellbore(case)
+    string = lay_out(case, shallowest, deepest)
     check_fit(case, string, hole, deepest)
     string = string.lengthened(first - shallowest)
 
@@ -116,6 +130,17 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
         settling=0.0,
     )
     limit = _step_limit(S, case, string, hole, pipe, shallowest - first)
+    duration = sum(s.motion.duration for s in stretches)
+    if (duration + LONGEST_SETTLING) / limit > MOST_STEPS:
+        raise InputError(
+            f"masses, stiffnesses, speeds and durations that need at most {MOST_STEPS:.0g} steps",
+            key="solver.step",
+            value=f"a stable step of {limit:.3g} s for {duration:g} s",
+        )
+    if duration / case.record.interval > MOST_RECORDS:
+        raise InputError(
+            f"at most {MOST_RECORDS:.0g} records", key="record.interval", value=f"{case.record.interval:g} s"
+        )
     step = AUTO_SHARE * limit if case.solver.step == "auto" else case.solver.step
     if step > limit * (1 + 1e-9):
         raise InputError(f"'auto' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s")
@@ -176,6 +201,8 @@ def _transported(axes: Array) -> Array:
 def settle(run: Run, tolerance: float = SETTLED) -> float:
     """Relax the frictionless string at rest; returns the largest force out of balance over the weight.
 
+    Raises UnstableError when the string does not come to rest or leaves the hole.
+
     Damping proportional to mass, a few times critical for the slowest swing of the hanging string: damping
     critical for its stretching would leave the swing creeping for minutes.
     """
@@ -193,9 +220,11 @@ def settle(run: Run, tolerance: float = SETTLED) -> float:
         # What moves a body is the imbalance of all forces but the artificial drag.
         pull = (after - before) / run.step + laws.settling * after
         residual = float(np.abs(state.row(run.S, state.MASS, n) * pull).max()) / weight
-        if not np.isfinite(residual) or residual < tolerance:
-            break
-    return residual
+        run.refresh()
+        run.check()
+        if residual < tolerance:
+            return residual
+    raise UnstableError(f"forces are out of balance by {residual:.2g} of the weight after {LONGEST_SETTLING:g} s")
 
 
 def forget_start(run: Run) -> None:

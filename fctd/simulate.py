@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -9,11 +10,13 @@ from fctd import topdrive
 from fctd.case import Case
 from fctd.record import Recorder
 from fctd.results import SimulationResult
-from fctd.run import SETTLED, UnstableError, forget_start, prepare, settle
+from fctd.run import UnstableError, forget_start, prepare, settle
 from fctd.topdrive import Motion
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
+# A ledger that is off by more than this share of the work gets a word of warning with the result.
+DOUBTFUL = 0.01
 
 
 def simulate(case: Case, progress: Progress | None = None) -> SimulationResult:
@@ -23,16 +26,16 @@ def simulate(case: Case, progress: Progress | None = None) -> SimulationResult:
     Raises InputError for a case that cannot be simulated.
     """
     run, stretches = prepare(case)
-    status, message = "completed", ""
-    residual = settle(run)
+    try:
+        residual = settle(run)
+    except UnstableError as error:
+        return Recorder(run).result("unsettled", f"before the start: {error}", 0.0, float("nan"))
     forget_start(run)
     recorder = Recorder(run)
+    status, message = "completed", ""
     total = sum(s.motion.duration for s in stretches)
     began = time.perf_counter()
     try:
-        if not residual < SETTLED:
-            status, message = "unsettled", f"out of balance by {residual:.2g} of the weight before the start"
-            stretches = []
         for motion, operation in stretches:
             for end in _records(motion, case.record.interval):
                 run.advance(motion, end - run.top[topdrive.TOP_TIME])
@@ -47,7 +50,11 @@ def simulate(case: Case, progress: Progress | None = None) -> SimulationResult:
     except KeyboardInterrupt:
         status, message = "interrupted", f"at {run.top[topdrive.TOP_TIME]:.4g} s"
     wall = time.perf_counter() - began
-    return recorder.result(status, message, wall, residual)
+    result = recorder.result(status, message, wall, residual)
+    if status == "completed" and not result.run["energy_error"] < DOUBTFUL:
+        off = f"the energy ledger is off by {100 * result.run['energy_error']:.2g} %"
+        return replace(result, message=f"{off}: try a smaller solver.step, shorter segments, or arcs")
+    return result
 
 
 def _records(motion: Motion, interval: float) -> list[float]:

@@ -131,32 +131,20 @@ def long_segment_energy(S):
 
 
 @njit(error_model="numpy")
-def move_top_drive(S, top, motion, pipe, dt):
-    """Update the top drive's angle, feed and clamp velocity for this step; returns dL [m] and dθ [rad]."""
-    now = top[TOP_TIME]
+def planned_speeds(top, motion, dt):
+    """Feed [m/s] and rotation [rad/s] of the top drive during this step, taken at its middle."""
+    now = top[TOP_TIME] + 0.5 * dt
     feed = ramp(now, motion.start, motion.duration, motion.feed_from, motion.feed_to)
     rate = ramp(now, motion.start, motion.duration, motion.spin_from, motion.spin_to)
-    if feed != 0:
-        # The energy that longer pipe holds, by a central difference about the length at which this step's
-        # loads are taken: a one-sided one would leave ½k dL² of every step in the ledger.
-        top[TOP_LENGTH] += dt * feed
-        set_long_segment(S, top[TOP_LENGTH] - 0.5 * dt * feed, pipe)
-        before = long_segment_energy(S)
-        set_long_segment(S, top[TOP_LENGTH] + 0.5 * dt * feed, pipe)
-        top[FED_ENERGY] += long_segment_energy(S) - before
-        set_long_segment(S, top[TOP_LENGTH], pipe)
-    top[TOP_TIME] += dt
-    w, x, y, z = quaternion(S, 0)
-    S[QW], S[QX], S[QY], S[QZ] = turned(w, x, y, z, 0.0, 0.0, dt * rate)
-    ax, ay, az = axis(S, 0)
-    S[VX], S[VY], S[VZ] = feed * ax, feed * ay, feed * az
-    S[GX], S[GY], S[GZ] = rate * ax, rate * ay, rate * az
-    return dt * feed, dt * rate
+    return feed, rate
 
 
 @njit(error_model="numpy")
 def read_top_drive(S, top, pipe, fed, turned_by, dt):
-    """Update the sums of hook load, torque and work, given the loads of joint 1."""
+    """Update the sums of hook load and torque, work and fed energy, given the loads of joint 1.
+
+    fed [m], turned_by [rad] : what the top drive will do in this step.
+    """
     ax, ay, az = axis(S, 0)
     fx, fy, fz = joint_force(S, 1)
     # The half of the long segment's weight that is not lumped below hangs on the top drive itself.
@@ -165,10 +153,18 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
     torque = -(S[UX + 1] * ax + S[UY + 1] * ay + S[UZ + 1] * az)
     top[SUM_HOOKLOAD] += dt * hookload
     top[SUM_TOP_TORQUE] += dt * torque
-    # The pipe passes the clamp stretched, (1 + T/EA) times its unstretched length.
-    raised = hookload * fed * (1 + tension / pipe.EA)
-    top[TOP_WORK] += torque * turned_by - raised
-    top[FED_ENERGY] += raised
+    top[TOP_WORK] += torque * turned_by
+    if fed != 0:
+        # The pipe passes the clamp stretched, (1 + T/EA) times its unstretched length.
+        raised = hookload * fed * (1 + tension / pipe.EA)
+        top[TOP_WORK] -= raised
+        # The energy that longer pipe holds, by a central difference about the length at which the loads were
+        # taken: a one-sided one would leave ½k dL² of every step in the ledger.
+        set_long_segment(S, top[TOP_LENGTH] - 0.5 * fed, pipe)
+        before = long_segment_energy(S)
+        set_long_segment(S, top[TOP_LENGTH] + 0.5 * fed, pipe)
+        top[FED_ENERGY] += raised + long_segment_energy(S) - before
+        set_long_segment(S, top[TOP_LENGTH], pipe)
     # Quaternions hold twist within two turns: a whole turn is moved into TURNS long before, and the top
     # drive's quaternion changes sign, as it does by turning once.
     held = joint_twist(S, 1) - S[TURNS + 1]
@@ -176,3 +172,17 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
         S[TURNS + 1] += 2 * math.pi if held > 0 else -2 * math.pi
         w, x, y, z = quaternion(S, 0)
         S[QW], S[QX], S[QY], S[QZ] = -w, -x, -y, -z
+
+
+@njit(error_model="numpy")
+def move_top_drive(S, top, pipe, feed, rate, dt):
+    """Move the top drive with the bodies: clock, feed [m/s], rotation [rad/s] and the pipe's speed in the clamp."""
+    top[TOP_TIME] += dt
+    if feed != 0:
+        top[TOP_LENGTH] += dt * feed
+        set_long_segment(S, top[TOP_LENGTH], pipe)
+    w, x, y, z = quaternion(S, 0)
+    S[QW], S[QX], S[QY], S[QZ] = turned(w, x, y, z, 0.0, 0.0, dt * rate)
+    ax, ay, az = axis(S, 0)
+    S[VX], S[VY], S[VZ] = feed * ax, feed * ay, feed * az
+    S[GX], S[GY], S[GZ] = rate * ax, rate * ay, rate * az

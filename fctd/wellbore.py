@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 RUN_OUT = 10.0
 # Straight hole needs no short cylinders, but neighbours in the table should stay neighbours in space [m].
 LONGEST_CYLINDER = 30.0
+# More would not fit into memory, or take longer to lay out than to run.
+MOST_CYLINDERS = 2_000_000
 # Below this inclination the high side is north [rad].
 VERTICAL = np.radians(0.1)
 
@@ -131,42 +133,39 @@ def hole_frame(direction: Array) -> tuple[Array, Array]:
 def build_wellbore(case: Case) -> Wellbore:
     """The hole of a case.
 
-    Raises InputError for intervals that end above the survey, or an overlap longer than a cylinder.
+    Raises InputError for an overlap longer than a cylinder, for too many pieces, or for stations that no arc
+    joins.
     """
     hole = case.wellbore
     stations = survey.to_radians(hole.read_stations())
-    depth = stations[-1, 0]
-    curved = hole.survey_method == "minimum_curvature"
-    try:
-        courses = survey.minimum_curvature(stations)
-    except ValueError as error:
-        raise InputError("stations that a circular arc can join", key="wellbore.survey", value=str(error)) from None
-    ends = [i.to_md for i in hole.intervals if i.to_md < depth]
-    geometry = OPEN if not case.contact.enabled else ARCS if hole.geometry == "arcs" else CYLINDERS
+    intervals = np.array([[i.to_md, 0.5 * i.diameter] for i in hole.intervals])
+    ends = intervals[intervals[:, 0] < stations[-1, 0], 0]
+    courses = _courses(stations) if hole.survey_method == "minimum_curvature" else None
     if hole.geometry == "arcs":
+        assert courses is not None  # the case makes sure of the method
         # Where the hole changes, a shoe as long as the overlap of cylinders leads from one size to the next.
-        shoes = [min(end + hole.overlap, depth) for end in ends]
-        md = np.union1d(stations[:, 0], [*ends, *shoes])
-        pieces = _arcs(hole, courses, md)
+        shoes = np.minimum(ends + hole.overlap, stations[-1, 0])
+        md = np.union1d(stations[:, 0], np.concatenate([ends, shoes]))
+        points, directions = survey.along_courses(courses, md)
+        geometry, pieces = ARCS, _arcs(hole, courses, md)
     else:
-        md = _cylinder_ends(hole, stations, np.asarray(ends, dtype=float))
-        if curved:
+        md = _cylinder_ends(hole, stations, ends)
+        if courses is not None:
             points = survey.along_courses(courses, md)[0]
         else:
             points = survey.average_angle(survey.interpolate_angles(stations, md))
-        pieces = _cylinders(hole, md, points)
-    starts = pieces[1:-1] if hole.geometry == "arcs" else pieces
-    directions = starts[:, contact.DIRECTION : contact.DIRECTION + 3]
-    points = survey.along_courses(courses, md)[0] if hole.geometry == "arcs" else points
-    return Wellbore(
-        pieces=pieces,
-        geometry=geometry,
-        md=md,
-        points=points,
-        directions=np.vstack([directions, directions[-1:]]),
-        intervals=np.array([[i.to_md, 0.5 * i.diameter] for i in hole.intervals]),
-        courses=courses if hole.geometry == "arcs" else None,
-    )
+        geometry, pieces = CYLINDERS, _cylinders(hole, md, points)
+        directions = pieces[:, contact.DIRECTION : contact.DIRECTION + 3]
+        directions = np.vstack([directions, directions[-1:]])
+    exact = courses if geometry == ARCS else None
+    return Wellbore(pieces, geometry if case.contact.enabled else OPEN, md, points, directions, intervals, exact)
+
+
+def _courses(stations: Array) -> survey.Courses:
+    try:
+        return survey.minimum_curvature(stations)
+    except ValueError as error:
+        raise InputError("stations that a circular arc can join", key="wellbore.survey", value=str(error)) from None
 
 
 def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
@@ -188,8 +187,14 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
         )
     breaks = np.union1d(stations[:, 0], ends)
     course = np.searchsorted(stations[:, 0], breaks[:-1], side="right") - 1
-    counts = np.maximum(np.ceil(np.diff(breaks) / wanted[course] - 1e-9).astype(int), 1)
-    parts = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)]
+    counts = np.maximum(np.ceil(np.diff(breaks) / wanted[course] - 1e-9), 1)
+    if counts.sum() > MOST_CYLINDERS:
+        raise InputError(
+            f"a hole of at most {MOST_CYLINDERS} cylinders",
+            key="wellbore.chord_tolerance" if hole.cylinder_length is None else "wellbore.cylinder_length",
+            value=f"{counts.sum():.3g} cylinders",
+        )
+    parts = [np.linspace(a, b, int(n), endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)]
     return np.append(np.concatenate(parts), breaks[-1])
 
 
@@ -266,7 +271,8 @@ def _lead_into_next(hole: WellboreSpec, pieces: Array, md: Array, middle: Array)
         (shoe,) = np.nonzero((middle > interval.to_md) & (middle < interval.to_md + hole.overlap))
         if not len(shoe):
             continue
-        gain = pieces[np.ix_(shoe, values)] - pieces[shoe[0] - 1, values]
         share = (start[shoe] - interval.to_md) / hole.overlap
-        pieces[np.ix_(shoe, values)] -= (1 - share[:, None]) * gain
-        pieces[np.ix_(shoe, gains)] = gain * pieces[shoe, contact.LENGTH, None] / hole.overlap
+        for value, gain in zip(values, gains, strict=True):
+            change = pieces[shoe, value] - pieces[shoe[0] - 1, value]
+            pieces[shoe, value] -= (1 - share) * change
+            pieces[shoe, gain] = change * pieces[shoe, contact.LENGTH] / hole.overlap

@@ -34,7 +34,7 @@ def soft_string(case: Case, operation: str, bit_depth: float) -> SoftString:
     the torque follows μ/√(1 + μ²); law ``paper`` has no such side force.
     """
     hole = build_wellbore(case)
-    string = lay_out(case, bit_depth, fed=False)
+    string = lay_out(case, bit_depth)
     joints = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)])
     count = int(np.ceil((bit_depth - string.top_md) / ELEMENT))
     md = np.linspace(string.top_md, bit_depth, count + 1)

@@ -31,13 +31,10 @@ def make_case(
     )
 
 
-def pipe(length: float | None, segments: int, outer: float = 0.127, **more: Any) -> dict[str, Any]:
-    """A component of 5 inch drill pipe, or of another outer diameter [m]."""
-    given = {} if length is None else {"length": length}
-    return {
-        "name": "pipe", **given, "outer_diameter": outer, "inner_diameter": 0.07,
-        "segments": segments, **more,
-    }  # fmt: skip
+def pipe(length: float | None, segments: int | None, outer: float = 0.127, **more: Any) -> dict[str, Any]:
+    """A component of 5 inch drill pipe, or of another outer diameter [m]; None leaves a key out."""
+    given = {"name": "pipe", "length": length, "outer_diameter": outer, "inner_diameter": 0.07, "segments": segments}
+    return {key: value for key, value in given.items() if value is not None} | more
 
 
 def rotation(at: float, duration: float, rpm: float = 60.0, ramp: float = 5.0) -> dict[str, Any]:

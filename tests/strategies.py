@@ -277,7 +277,7 @@ def components(draw: st.DrawFn, last: bool) -> dict[str, Any]:
                     "linear_mass": st.just("19.5 lb/ft"),
                     "youngs_modulus": st.just("206.8 GPa"),
                     "poisson_ratio": positive(0, 0.5),
-                    "density": positive(1000, 9000),
+                    "density": positive(2000, 9000),
                     "axial_stiffness": positive(1e6, 1e10),
                     "bending_stiffness": positive(1e4, 1e8),
                     "torsional_stiffness": st.just("1e6 N*m^2"),

@@ -27,7 +27,7 @@ def test_buoyancy_lowers_weight_and_not_mass() -> None:
 
 def test_components_are_laid_from_the_bit_and_the_top_takes_the_remainder() -> None:
     case = make_case(components=[pipe(100, 10, outer=0.159), pipe(500, 20), pipe(1000, 40)])
-    string = lay_out(case, 810.0, fed=False)
+    string = lay_out(case, 810.0)
     assert string.bit_depth == pytest.approx(810)
     np.testing.assert_allclose(string.length[-10:], 10)
     np.testing.assert_allclose(string.length[-30:-10], 25)
@@ -38,7 +38,7 @@ def test_components_are_laid_from_the_bit_and_the_top_takes_the_remainder() -> N
 
 @pytest.mark.parametrize("depth", [1000.0, 990.0, 976.0, 975.0, 963.0])
 def test_remainder_is_between_half_and_one_and_a_half(depth: float) -> None:
-    string = lay_out(make_case(components=[pipe(1000, 40)]), depth, fed=False)
+    string = lay_out(make_case(components=[pipe(1000, 40)]), depth)
     assert 12.5 - 1e-9 <= string.length[0] < 37.5
     assert string.length.sum() == pytest.approx(depth)
 
@@ -46,13 +46,13 @@ def test_remainder_is_between_half_and_one_and_a_half(depth: float) -> None:
 def test_segment_length_instead_of_count() -> None:
     component = pipe(1000, 1)
     del component["segments"]
-    string = lay_out(make_case(components=[{**component, "segment_length": 25.0}]), 1000, fed=False)
+    string = lay_out(make_case(components=[{**component, "segment_length": 25.0}]), 1000)
     assert string.segments == 40
 
 
 def test_unlike_neighbours_are_in_series_and_the_clamp_is_half_a_segment_away() -> None:
     case = make_case(components=[pipe(100, 2, outer=0.159), pipe(900, 9)])
-    string = lay_out(case, 1000.0, fed=False)
+    string = lay_out(case, 1000.0)
     stiffness = string.joints("EA")
     collar, tube = string.sections[0].EA, string.sections[1].EA
     assert stiffness[0] == pytest.approx(2 * tube / 100)
@@ -63,7 +63,7 @@ def test_unlike_neighbours_are_in_series_and_the_clamp_is_half_a_segment_away() 
 
 def test_long_segment_puts_its_whole_length_at_the_top() -> None:
     case = make_case(components=[pipe(500, 10), pipe(None, 1)])
-    string = lay_out(case, 1000.0, fed=True)
+    string = lay_out(case, 1000.0, 1100.0)
     assert string.long_segment
     stiffness = string.joints("GJ")
     assert stiffness[0] == pytest.approx(string.sections[1].GJ / 500)
@@ -72,7 +72,7 @@ def test_long_segment_puts_its_whole_length_at_the_top() -> None:
 
 def test_contact_radius_is_the_larger_at_unlike_neighbours() -> None:
     case = make_case(components=[pipe(50, 2, outer=0.159), pipe(950, 10, contact_diameter=0.168)])
-    string = lay_out(case, 1000.0, fed=False)
+    string = lay_out(case, 1000.0)
     np.testing.assert_allclose(string.contact_radius()[-3:], [0.084, 0.0795, 0.0795])
 
 
@@ -148,3 +148,46 @@ def test_a_fed_top_segment_must_stay_in_vertical_hole() -> None:
 def test_a_case_without_operations_cannot_be_simulated() -> None:
     with pytest.raises(InputError, match=r"operations.*at least one operation"):
         prepare(make_case())
+
+
+@pytest.mark.parametrize(
+    ("components", "operation"),
+    [
+        ([pipe(700, 28)], trip(600, 900)),  # more string than there is
+        ([pipe(100, 10, outer=0.159), pipe(500, 20), pipe(1000, 40)], trip(590, 900)),  # of the wrong component
+    ],
+)
+def test_a_trip_feeds_one_component_and_no_more_than_there_is(components: list, operation: dict) -> None:
+    with pytest.raises(InputError, match=r"string\.components\[\d\]\.length.*to reach a bit depth of 900 m"):
+        prepare(make_case(components=components, operations=[operation]))
+
+
+@pytest.mark.parametrize(
+    ("sections", "pattern"),
+    [
+        ({"record": {"profile_at": [5000]}}, r"record\.profile_at\[0\].*5000 m.*1000 to 1000 m"),
+        ({"record": {"interval": 1e-9}}, r"record\.interval.*at most"),
+        ({"wellbore": {"stiffness": 1e15}}, r"solver\.step.*stable step.*at most"),
+        ({"wellbore": {"cylinder_length": 1e-6, "overlap": 0}}, r"wellbore\.cylinder_length.*cylinders"),
+    ],
+)
+def test_what_would_run_for_hours_is_refused(sections: dict, pattern: str) -> None:
+    with pytest.raises(InputError, match=pattern):
+        prepare(make_case(operations=[rotation(1000, 60)], **sections))
+
+
+def test_mud_must_be_lighter_than_the_string() -> None:
+    with pytest.raises(Exception, match="a density below the string's, 7850"):
+        make_case(mud={"density": 7850})
+
+
+def test_section_by_hand() -> None:
+    """5 in 19.5 lb/ft pipe: numbers worked out from the formulas of a hollow circle."""
+    component = make_case(components=[pipe(1000, 20)]).string.components[0]
+    section = section_of(component, 0.0)
+    b, a = 0.0635, 0.035
+    assert pytest.approx(206.8e9 * 8.819236e-3, rel=1e-6) == section.EA
+    assert pytest.approx(206.8e9 * np.pi * (b**4 - a**4) / 4) == section.EI
+    assert pytest.approx(206.8e9 / 2.6 * np.pi * (b**4 - a**4) / 2) == section.GJ
+    assert section.axial_inertia == pytest.approx(7850 * np.pi * (b**4 - a**4) / 2)
+    assert section.weight == pytest.approx(7850 * 8.819236e-3 * 9.80665, rel=1e-6)

@@ -48,7 +48,7 @@ def test_hanging_chain_stretches_by_the_closed_form(top_segments: int) -> None:
     )  # fmt: skip
     run, _ = prepare(case)
     assert run.string.long_segment == (top_segments == 1)
-    settle(run, tolerance=1e-13)
+    settle(run, tolerance=6e-10)
     run.refresh()
     below, stretch = 0.0, 0.0
     for length, section in ((150.0, run.string.sections[0]), (850.0, run.string.sections[1])):
@@ -166,13 +166,12 @@ def test_friction_opposes_sliding_and_at_most_stops_it(law, limit: float) -> Non
     S[state.RADIUS + 1], S[state.ARM_CONTACT + 1] = 0.06, 5.0
     motion = np.array([0.0, 0.3, 0.7, 0.0, 0.0, -4.0])  # across, along and spinning
     change = np.array(law(S, 1, *motion, 1.0, 0.0, 0.0, limit))
-    after = motion + change[:6]
+    after = motion + change
 
     def kinetic(m: np.ndarray) -> float:
         return float(200 * (m[:3] ** 2).sum() + 1500 * (m[3:5] ** 2).sum() + 0.5 * m[5] ** 2)
 
     assert kinetic(after) < kinetic(motion)
-    assert change[6] >= -1e-12
     if law is friction.paper_impulse:
         assert after[2] * motion[2] >= -1e-12
         assert after[5] * motion[5] >= -1e-12

@@ -12,7 +12,7 @@ from fctd.operations import schedule
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [400, 0, 0], [850, 90, 0], [1200, 90, 0]]
-STRING = [pipe(700, 28, outer=0.102)]
+STRING = [pipe(None, None, outer=0.102, segment_length=25.0)]
 
 
 def build_case(operation: dict | list, **sections):

@@ -42,6 +42,10 @@ def one(geometry: str, law: str, operation: str, softer: float) -> tuple[dict[st
         contact__friction_law=law,
         operations=SCHEDULES[operation],
         string__components__0__bending_stiffness=bending,
+        # Segments of 25 m whatever the bit depth, and pipe enough to trip in.
+        string__components__0__length=None,
+        string__components__0__segments=None,
+        string__components__0__segment_length=25.0,
     )
     result = simulate(case)
     end = last_seconds(result, WINDOW)
