@@ -10,7 +10,7 @@ from fctd import state, topdrive
 from fctd.case import Case
 from fctd.energy import energy_of, penetration
 from fctd.results import SimulationResult
-from fctd.run import Run
+from fctd.run import Run, contact_points
 from fctd.wellbore import hole_frame
 
 Array = NDArray[np.float64]
@@ -144,9 +144,7 @@ class Recorder:
 
     def _walls(self) -> tuple[Array, Array]:
         """Contact points (n, 3) [m] and the walls beside them (Wellbore.walls)."""
-        arm = self.rows(state.ARM_CONTACT)
-        pairs = ((state.X, state.AX), (state.Y, state.AY), (state.Z, state.AZ))
-        points = np.stack([self.rows(p) + arm * self.rows(a) for p, a in pairs], axis=1)
+        points = contact_points(self.run.S, self.run.segments)
         return points, self.run.hole.walls(points, self.run.owner[1 : self.run.segments + 1])
 
     def _balance(self) -> dict[str, float]:

@@ -144,8 +144,10 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
     step = AUTO_SHARE * limit if case.solver.step == "auto" else case.solver.step
     if step > limit * (1 + 1e-9):
         raise InputError(f"'auto' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s")
-    run = Run(case, hole, string, pipe, S, top, np.zeros(n + 2, np.int64), step, laws)
-    return run, stretches
+    # A walk from the top would stop at the first slab a point lies in, which past 90° may be a far one's.
+    owner = np.zeros(n + 2, np.int64)
+    owner[1 : n + 1] = hole.owners(contact_points(S, n))
+    return Run(case, hole, string, pipe, S, top, owner, step, laws), stretches
 
 
 def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float) -> float:
@@ -155,6 +157,13 @@ def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerM
     if string.long_segment:
         topdrive.set_long_segment(probe, string.length[0] + shrinks, pipe)
     return stable_step(stiffest_mode(probe, string.segments, hole.stiffest_wall), case.solver.joint_damping, spin)
+
+
+def contact_points(S: Array, n: int) -> Array:
+    """Contact points of the segments (n, 3) [m], given axes."""
+    arm = state.row(S, state.ARM_CONTACT, n)
+    pairs = ((state.X, state.AX), (state.Y, state.AY), (state.Z, state.AZ))
+    return np.stack([state.row(S, p, n) + arm * state.row(S, a, n) for p, a in pairs], axis=1)
 
 
 def lie_on_axis(S: Array, string: String, hole: Wellbore) -> None:

@@ -169,6 +169,17 @@ def test_true_tension_is_effective_less_buoyancy() -> None:
     assert bit.true_tension_N == pytest.approx(-1200 * 9.80665 * 1000 * area, rel=1e-3)
 
 
+@pytest.mark.parametrize("inclination", [120.0, 170.0])
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+def test_a_hole_that_turns_back_upwards(inclination: float, geometry: str) -> None:
+    """Past 90 degrees the hook carries the vertical reach, less what the leg beyond the lowest point pushes."""
+    stations = [[0, 0, 0], [500, 0, 0], [1500, inclination, 0], [2300, inclination, 0]]
+    case = make_case(stations, [pipe(2200, 88)], [rotation(2200, 20)], wellbore={"geometry": geometry})
+    weight = fctd.drillstring.section_of(case.string.components[0], 0.0).weight
+    depth = fctd.build_wellbore(case).at(np.array([2200.0]))[0][0, 2]
+    assert steady(simulate(case), 5).hookload_N == pytest.approx(weight * depth, abs=1e-3 * weight * 2200)
+
+
 def test_without_walls_nothing_touches() -> None:
     result = simulate(make_case(operations=[rotation(1000, 1, ramp=1)], contact={"enabled": False}))
     assert result.history.contact_count.max() == 0

@@ -9,6 +9,9 @@ from fctd.run import prepare
 from validation.cases import load, rotation, trip
 from validation.study import Check, Context, Outcome, Study
 
+# A build of 60° in 50 m, turning by 30°: far sharper than wells are drilled.
+SHARP = [[0, 0, 0], [1700, 0, 350], [1750, 60, 20], [2600, 60, 20]]
+SHARPEST = "chain in a 36°/30 m bend, picking up, cylinders"
 # Name, case file and what is changed.  Trips of the paper's well feed pipe in at the top.
 RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     "chain, rotating, arcs": (
@@ -23,9 +26,22 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
         "paper_well",
         {"wellbore__geometry": "arcs", "operations": trip(2100.0, 2150.0, 0.5, ramp=10.0)},
     ),
+    "chain in mud, rotating, arcs": (
+        "curved_chain",
+        {
+            "wellbore__geometry": "arcs",
+            "operations": rotation(2450.0, 40.0, ramp=15.0),
+            "mud__rotational_damping": 0.5,
+            "mud__lateral_damping": 5.0,
+        },
+    ),
     "paper-well, tripping in, cylinders": (
         "paper_well",
         {"operations": trip(2100.0, 2150.0, 0.5, ramp=10.0)},
+    ),
+    SHARPEST: (
+        "curved_chain",
+        {"wellbore__stations": SHARP, "operations": trip(2450.0, 2440.0, 0.2, ramp=10.0)},
     ),
 }
 
@@ -55,7 +71,7 @@ def run(context: Context) -> Outcome:
                 }
             )
     table = pd.DataFrame(closure)
-    at_default = table[table["step_fraction"] == 1.0]
+    at_default = table[table["step_fraction"] == 1.0].set_index("case")["relative_residual"]
     residual = table[table["case"].str.endswith("arcs")].pivot_table(
         index="case", columns="step_fraction", values="residual_J"
     )
@@ -63,7 +79,9 @@ def run(context: Context) -> Outcome:
     return Outcome(
         tables={"ledger": pd.DataFrame(ledger), "closure": table},
         checks=[
-            Check("residual over work at the default step, largest", float(at_default["relative_residual"].max()),
+            Check("residual over work at the default step, largest", float(at_default.drop(SHARPEST).max()),
+                  1e-3, "at_most", "", "target: 0.1 %"),
+            Check("residual over work in cylinders of a very sharp bend", float(at_default[SHARPEST]),
                   1e-3, "at_most", "", "target: 0.1 %"),
             Check("residual at a quarter of the step over that at the default, arcs", shrinks, 0.6, "at_most", "",
                   "the stepper is of first order"),
