@@ -184,7 +184,7 @@ def contact_point(S, j):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def follow_cylinders(S, n):
-    """Update PT of every point from the cylinder it remembers; OX + j is reached only through this file.
+    """Update PT of every point from the cylinder it remembers.
 
     Leaves the distance along the cylinder in END_ALONG.
     """

@@ -65,7 +65,7 @@ class Run:
     def refresh(self) -> None:
         """Bring axes and walls up to the present positions."""
         dynamics.update_axes(self.S, self.segments)
-        update_walls(self.S, self.owner, self.segments, self.segments, self.hole.pieces, self.hole.geometry)
+        update_walls(self.S, self.owner, self.segments, self.segments, self.hole.pieces, self.laws.geometry)
 
     def check(self) -> None:
         """Raise UnstableError when the state is no longer finite, or has left the hole or the joint law."""
@@ -122,7 +122,7 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
     lie_on_axis(S, string, hole)
     stretches = schedule(case.operations)
     laws = state.Laws(
-        geometry=hole.geometry,
+        geometry=hole.geometry if case.contact.enabled else state.OPEN,
         friction=state.PAPER if case.contact.friction_law == "paper" else state.COULOMB,
         friction_scale=1.0,
         contact_damping=case.contact.damping,
@@ -156,7 +156,8 @@ def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerM
     probe = S.copy()
     if string.long_segment:
         topdrive.set_long_segment(probe, string.length[0] + shrinks, pipe)
-    return stable_step(stiffest_mode(probe, string.segments, hole.stiffest_wall), case.solver.joint_damping, spin)
+    wall = hole.stiffest_wall if case.contact.enabled else 0.0
+    return stable_step(stiffest_mode(probe, string.segments, wall), case.solver.joint_damping, spin)
 
 
 def contact_points(S: Array, n: int) -> Array:

@@ -67,14 +67,14 @@ NX, NY, NZ = 60 * STRIDE, 61 * STRIDE, 62 * STRIDE
 CURVE, END_COS, END_SIN, END_ALONG = 63 * STRIDE, 64 * STRIDE, 65 * STRIDE, 66 * STRIDE
 MARGIN_TOP, MARGIN_END = 67 * STRIDE, 68 * STRIDE
 # Arcs: 1 while the remembered wall is the same all along the piece, 0 sends the point to the table.
-HOLD = 79 * STRIDE
+HOLD = 69 * STRIDE
 
 # Sums over the steps since the last record: impulses of the wall's normal force [N s], of the friction
 # torque Σ r F_t, of Σ r μ F_n and of the mud torque [N m s], of joint tension [N s] and torque [N m s].
-SUM_NORMAL, SUM_FRICTION_TORQUE, SUM_R_MU_N = 69 * STRIDE, 70 * STRIDE, 71 * STRIDE
-SUM_MUD_TORQUE, SUM_TENSION, SUM_TORQUE = 72 * STRIDE, 73 * STRIDE, 74 * STRIDE
+SUM_NORMAL, SUM_FRICTION_TORQUE, SUM_R_MU_N = 70 * STRIDE, 71 * STRIDE, 72 * STRIDE
+SUM_MUD_TORQUE, SUM_TENSION, SUM_TORQUE = 73 * STRIDE, 74 * STRIDE, 75 * STRIDE
 # Energy lost since the start of the run [J]: friction, contact damping, mud, joint damping.
-LOST_FRICTION, LOST_CONTACT, LOST_MUD, LOST_JOINT = 75 * STRIDE, 76 * STRIDE, 77 * STRIDE, 78 * STRIDE
+LOST_FRICTION, LOST_CONTACT, LOST_MUD, LOST_JOINT = 76 * STRIDE, 77 * STRIDE, 78 * STRIDE, 79 * STRIDE
 
 ROWS = 80
 

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from fctd import contact, survey
 from fctd.case import Case, IntervalSpec, WellboreSpec
 from fctd.errors import InputError
-from fctd.state import ARCS, CYLINDERS, OPEN
+from fctd.state import ARCS, CYLINDERS
 
 Array = NDArray[np.float64]
 
@@ -39,7 +39,7 @@ class Contacts(NamedTuple):
 class Wellbore:
     """A hole ready for queries.
 
-    pieces : (m, COLUMNS) table of contact.py; geometry : CYLINDERS, ARCS or OPEN.
+    pieces : (m, COLUMNS) table of contact.py; geometry : CYLINDERS or ARCS.
     md (k,) [m], points (k, 3) [m], directions (k, 3): axis sampled at the ends of the pieces.
     """
 
@@ -53,8 +53,8 @@ class Wellbore:
 
     @property
     def stiffest_wall(self) -> float:
-        """Largest wall stiffness [N/m a point, or N/m/m]; 0 without walls."""
-        return 0.0 if self.geometry == OPEN else float(self.pieces[:, contact.STIFFNESS].max())
+        """Largest wall stiffness [N/m a point, or N/m/m]."""
+        return float(self.pieces[:, contact.STIFFNESS].max())
 
     @property
     def total_depth(self) -> float:
@@ -157,8 +157,7 @@ def build_wellbore(case: Case) -> Wellbore:
         geometry, pieces = CYLINDERS, _cylinders(hole, md, points)
         directions = pieces[:, contact.DIRECTION : contact.DIRECTION + 3]
         directions = np.vstack([directions, directions[-1:]])
-    exact = courses if geometry == ARCS else None
-    return Wellbore(pieces, geometry if case.contact.enabled else OPEN, md, points, directions, intervals, exact)
+    return Wellbore(pieces, geometry, md, points, directions, intervals, courses if geometry == ARCS else None)
 
 
 def _courses(stations: Array) -> survey.Courses:

@@ -200,7 +200,7 @@ def test_real_surveys(
 ) -> None:
     """Counts and last stations are read off the files."""
     if not (DATA / name).is_file():
-        pytest.skip(f"{DATA / name} is missing: public well surveys, folder from FCTD_DATA (shared/data/SOURCES.md)")
+        pytest.skip(f"{DATA / name} is missing: public well surveys, folder from FCTD_DATA, see README")
     stations = read_stations(DATA / name, columns)
     assert len(stations) == count
     assert stations[-1] == pytest.approx(last, rel=1e-12)
