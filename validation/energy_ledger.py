@@ -11,7 +11,7 @@ from validation.study import Check, Context, Outcome, Study
 
 # A build of 60° in 50 m, turning by 30°: far sharper than wells are drilled.
 SHARP = [[0, 0, 0], [1700, 0, 350], [1750, 60, 20], [2600, 60, 20]]
-SHARPEST = "chain in a 36°/30 m bend, picking up, cylinders"
+SHARPEST = "chain in a sharp bend, picking up, cylinders"
 # Name, case file and what is changed.  Trips of the paper's well feed pipe in at the top.
 RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     "chain, rotating, arcs": (

@@ -24,7 +24,7 @@ def closure(tables: Tables) -> Canvas:
     ax.set(xscale="log", yscale="log", xlabel="time step, ms", ylabel="|residual| / work")
     style.plain_log_ticks(ax.xaxis)
     style.slopes(ax, table["step_s"].to_numpy(float) * 1e3, np.abs(table["relative_residual"].to_numpy(float)))
-    style.legend_above(ax, columns=3)
+    style.legend_above(ax, columns=2)
     return canvas
 
 
