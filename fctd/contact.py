@@ -269,8 +269,8 @@ def update_walls(S, owner, n, packed, C, geometry):
     """Update owners and the wall beside every contact point, given positions (stages 2 and 3).
 
     n, packed : bodies, and columns that fill whole packed operations.
-    owner : int64 (n + 2,), remembered piece of each point.  A fresh buffer (zeros) sends every point to
-    the table.
+    owner : int64 (n + 2,), remembered piece of each point, near the right one to begin with.  A fresh buffer
+    (zeros) sends every point to the table.
     """
     if geometry == CYLINDERS:
         follow_cylinders(S, packed)

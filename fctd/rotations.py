@@ -24,12 +24,6 @@ def rotation_columns(w, x, y, z):
 
 
 @njit(forceinline=True)
-def body_axis(w, x, y, z):
-    """Global components of the body's z axis."""
-    return 2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)
-
-
-@njit(forceinline=True)
 def turned(w, x, y, z, a, b, c):
     """Quaternion after a further rotation by the body-frame vector (a, b, c) [rad], renormalised.
 

@@ -1,6 +1,6 @@
 """A run before its first step: hole, string, step, and the string settled at its start."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -35,7 +35,7 @@ class UnstableError(Exception):
 class Run:
     """Everything the stepper works on, and the step it takes.
 
-    S, top, owner : state buffers (state.py, dynamics.py, contact.py); segments n; step [s].
+    S, top, owner : state buffers (state.py, topdrive.py, contact.py); step [s].
     """
 
     case: Case
@@ -48,10 +48,11 @@ class Run:
     step: float
     laws: state.Laws
     steps: int = 0
-    segments: int = field(init=False)
 
-    def __post_init__(self) -> None:
-        self.segments = self.string.segments
+    @property
+    def segments(self) -> int:
+        """Number of segments."""
+        return self.string.segments
 
     def advance(self, motion: Motion, duration: float, laws: state.Laws | None = None) -> None:
         """Advance by ``duration`` [s] in equal steps no longer than the run's."""

@@ -172,11 +172,6 @@ class Quantity(Number):
             raise InputError(self.expected, value=value) from error
 
 
-def parse_quantity(value: object, dimension: Dimension) -> float:
-    """A quantity of the dimension in SI, or an InputError without file and key."""
-    return Quantity(dimension=dimension).parse(value)
-
-
 Bare = Annotated[float, Number(noun="a bare number")]
 Count = Annotated[int, Whole(at_least=1)]
 Friction = Annotated[float, Number(noun="a friction factor", at_least=0.0)]

@@ -358,7 +358,7 @@ def test_a_corrupted_case_is_accepted_or_refused(raw: dict[str, Any], tmp_path_f
     ],
 )
 def test_quantity(text: object, dimension: units.Dimension, value: float) -> None:
-    assert units.parse_quantity(text, dimension) == pytest.approx(value, rel=1e-14)
+    assert units.Quantity(dimension=dimension).parse(text) == pytest.approx(value, rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -371,10 +371,10 @@ def test_quantity(text: object, dimension: units.Dimension, value: float) -> Non
 )
 def test_no_quantity(value: object) -> None:
     with pytest.raises(InputError, match="expected a length such as '12 m' or '40 ft'"):
-        units.parse_quantity(value, units.LENGTH)
+        units.Quantity(dimension=units.LENGTH).parse(value)
 
 
 @given(text=st.text(max_size=12) | st.from_regex(r"\A[0-9]{1,3} [a-zµ°]{1,5}([*/^]{1,2}[a-z0-9]{1,3})?\Z"))
 def test_any_text_is_a_length_or_refused(text: str) -> None:
     with contextlib.suppress(InputError):
-        assert math.isfinite(units.parse_quantity(text, units.LENGTH))
+        assert math.isfinite(units.Quantity(dimension=units.LENGTH).parse(text))

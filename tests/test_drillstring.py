@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fctd import state
 from fctd.drillstring import lay_out, section_of, shear_coefficient
 from fctd.errors import InputError
 from fctd.run import prepare
@@ -87,14 +88,10 @@ def test_a_short_component_touches_at_its_middle() -> None:
     radius = run.string.contact_radius()
     assert radius[k] == 0.1
     assert radius[k - 1] == pytest.approx(0.0635)  # the joints beside it are the pipe's
-    from fctd import state
-
     assert run.S[state.ARM_CONTACT + k + 1] == 0
 
 
 def test_tributary_length_for_stiffness_per_metre() -> None:
-    from fctd import state
-
     case = make_case(
         components=[pipe(100, 10, outer=0.159), pipe(900, 30)],
         wellbore={"stiffness_per_length": 1e6},
@@ -179,6 +176,20 @@ def test_what_would_run_for_hours_is_refused(sections: dict, pattern: str) -> No
 def test_mud_must_be_lighter_than_the_string() -> None:
     with pytest.raises(Exception, match="a density below the string's, 7850"):
         make_case(mud={"density": 7850})
+
+
+def test_inertia_of_a_segment_by_hand() -> None:
+    """A rigid hollow cylinder: m (L²/12 + (a² + b²)/4) across, m (a² + b²)/2 along."""
+    run, _ = prepare(make_case(components=[pipe(1000, 500)], operations=[rotation(1000, 1)]))
+    mass = 7850 * 8.819236e-3 * 2
+    square = 0.0635**2 + 0.035**2
+    for row, inverse, expected in (
+        (state.MASS, state.INVERSE_MASS, mass),
+        (state.J_TRANSVERSE, state.INVERSE_JT, mass * (4 / 12 + square / 4)),
+        (state.J_AXIAL, state.INVERSE_JA, mass * square / 2),
+    ):
+        np.testing.assert_allclose(state.row(run.S, row, 500), expected, rtol=1e-6)
+        np.testing.assert_allclose(state.row(run.S, inverse, 500), 1 / expected, rtol=1e-6)
 
 
 def test_section_by_hand() -> None:

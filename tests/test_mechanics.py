@@ -94,9 +94,9 @@ def test_bending_moment_in_a_build_is_EI_over_R() -> None:  # noqa: N802
     assert inside.bending_moment_N_m.mean() == pytest.approx(section.EI * np.radians(90) / 900, rel=5e-3)
 
 
-def test_a_string_turning_clockwise_climbs_to_the_left_and_its_offset_says_so() -> None:
-    """Looking downhole, clockwise rotation rolls the string up the left side of the low side: angle between 90
-    and 180 would be right.  Law ``coulomb`` puts it at 180° − atan μ, on the right."""
+def test_a_string_turning_clockwise_climbs_to_the_right_and_its_offset_says_so() -> None:
+    """Looking downhole the string's underside moves left, so the wall pushes it right: law ``coulomb`` lets it
+    rest at 180° − atan μ, and a positive offset is to the right."""
     result = simulate(make_case(HORIZONTAL, [pipe(500, 50)], [rotation(500, 30)], mud={"lateral_damping": 50.0}))
     inner = result.profile.iloc[5:-5]
     clearance = 0.10795 - 0.0635

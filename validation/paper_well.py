@@ -101,7 +101,7 @@ def run(context: Context) -> Outcome:
             "resonates. Other cylinder lengths take it away and arcs remove its cause.",
         ],
         display={
-            "runs": "Runs on one core, compile time excluded",
+            "runs": "Runs on one core; compile time and settling excluded",
             "swing": "Standing out: the hook load of well b swings while tripping in, and why",
         },
     )  # fmt: skip
