@@ -1,6 +1,6 @@
 """A case file: TOML to a frozen, validated `Case` in which every float is SI.
 
-The models are the tables of the file; `load_case` reads, overrides and validates.
+The operations and the case as a whole; `load_case` reads, overrides and validates.
 """
 
 from __future__ import annotations
@@ -10,198 +10,15 @@ import tomllib
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Final, Literal, Self, get_args
+from typing import Annotated, Any, ClassVar, Final, Literal, Self
 
-import numpy as np
-from numpy.typing import NDArray
-from pydantic import Field, StrictBool, ValidationError, ValidationInfo, field_validator, model_validator
+from pydantic import Field, ValidationError, field_validator, model_validator
 
 from fctd import units
-from fctd.errors import MISSING, InputError, Table, exclusive, explain, known_keys, look_up, nearest, set_key
-from fctd.survey_file import StationKey, check_stations, read_stations
+from fctd.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
+from fctd.specs import BitSpec, ContactSpec, MudSpec, RecordSpec, RigSpec, SolverSpec, StringSpec, WellboreSpec
 
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
-
-
-class IntervalSpec(Table):
-    """A stretch of hole of one size, from the end of the one above to `to_md` [m]."""
-
-    to_md: units.PositiveLength
-    diameter: units.PositiveLength
-    friction: units.Friction
-    name: str | None = None
-    stiffness: units.PositiveStiffness | None = None
-    stiffness_per_length: units.PositiveStiffnessPerLength | None = None
-
-
-class WellboreSpec(Table):
-    """Where the hole runs, how wide it is, and how its wall answers.
-
-    One of `survey` and `stations` is set; so is one of `cylinder_length` [m] and `chord_tolerance` [m],
-    and one of `stiffness` [N/m, a contact point] and `stiffness_per_length` [N/m/m].
-    """
-
-    survey: Path | None = None
-    stations: tuple[tuple[units.Bare, units.Bare, units.Bare], ...] | None = None
-    columns: dict[StationKey, str] | None = None
-    survey_method: Literal["average_angle", "minimum_curvature"] = "minimum_curvature"
-    geometry: Literal["cylinders", "arcs"] = "cylinders"
-    cylinder_length: units.PositiveLength | None = None
-    chord_tolerance: units.PositiveLength | None = Field(
-        default_factory=lambda given: 0.002 if given["cylinder_length"] is None else None
-    )
-    overlap: units.Length = 0.2
-    stiffness_per_length: units.PositiveStiffnessPerLength | None = None
-    stiffness: units.PositiveStiffness | None = Field(
-        default_factory=lambda given: 1e7 if given["stiffness_per_length"] is None else None
-    )
-    intervals: tuple[IntervalSpec, ...] = Field(description="tables [[wellbore.intervals]]")
-
-    @field_validator("columns", mode="before")
-    @classmethod
-    def _check_columns(cls, raw: Any) -> Any:
-        return known_keys(raw, get_args(StationKey)) if isinstance(raw, Mapping) else raw
-
-    @field_validator("survey")
-    @classmethod
-    def _find_survey(cls, survey: Path | None, info: ValidationInfo) -> Path | None:
-        """The survey, relative to the folder of the case file while one is loaded."""
-        if survey is None or info.context is None:
-            return survey
-        path: Path = info.context["folder"] / survey
-        if not os.path.isfile(path):  # Path.is_file raises on names too long for the file system
-            raise InputError(f"a survey file that exists, looked for {path}")
-        return path
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        exclusive(self, "survey", "stations", required=True)
-        exclusive(self, "cylinder_length", "chord_tolerance")
-        exclusive(self, "stiffness", "stiffness_per_length")
-        if self.columns is not None and self.survey is None:
-            raise InputError("columns only beside survey", key="columns")
-        if self.geometry == "arcs" and self.survey_method != "minimum_curvature":
-            raise InputError("cylinders, since arcs need survey_method minimum_curvature", key="geometry")
-        if self.stations is not None:
-            self.read_stations()
-        if not self.intervals:
-            raise InputError("at least one", key="intervals")
-        kinds = ("stiffness", "stiffness_per_length")
-        kind, other = kinds if self.stiffness is not None else reversed(kinds)
-        for i, interval in enumerate(self.intervals):
-            if getattr(interval, other) is not None:
-                raise InputError(f"{kind}, the kind of the whole wellbore", key=f"intervals[{i}].{other}")
-        for i, (above, here) in enumerate(pairwise(self.intervals), start=1):
-            if here.to_md <= above.to_md:
-                raise InputError("a depth below the interval above", key=f"intervals[{i}].to_md")
-        return self
-
-    def read_stations(self) -> NDArray[np.float64]:
-        """Stations (n, 3) of survey file or case: measured depth [m], inclination [deg], azimuth [deg]."""
-        if self.survey is not None:
-            return read_stations(self.survey, self.columns)
-        stations = np.array(self.stations or (), dtype=float).reshape(-1, 3)
-        try:
-            return check_stations(stations, lambda row, column: (f"[{row}][{column}]", MISSING))
-        except InputError as error:
-            raise error.at("stations") from None
-
-
-class ComponentSpec(Table):
-    """A run of equal pipe. One of `segments` and `segment_length` [m] sets how finely it is cut."""
-
-    name: str = Field(description="a name in quotes")
-    length: units.PositiveLength | None = None
-    outer_diameter: units.PositiveLength
-    inner_diameter: units.Length
-    contact_diameter: units.PositiveLength = Field(default_factory=lambda given: given["outer_diameter"])
-    segments: units.Count | None = None
-    segment_length: units.PositiveLength | None = None
-    linear_mass: units.PositiveLinearMass | None = None
-    youngs_modulus: units.PositiveStress = 206.8e9
-    poisson_ratio: units.PoissonRatio = 0.3
-    density: units.PositiveDensity = 7850.0
-    axial_stiffness: units.PositiveAxialStiffness | None = None  # EA
-    bending_stiffness: units.PositiveBendingStiffness | None = None  # EI
-    torsional_stiffness: units.PositiveBendingStiffness | None = None  # GJ
-    shear_stiffness: units.PositiveAxialStiffness | None = None  # κGA
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        exclusive(self, "segments", "segment_length", required=True)
-        if self.inner_diameter >= self.outer_diameter:
-            raise InputError("a diameter below outer_diameter", key="inner_diameter")
-        if self.contact_diameter < self.outer_diameter:
-            raise InputError("at least outer_diameter", key="contact_diameter")
-        return self
-
-
-class StringSpec(Table):
-    """The string, from the bit upwards. Without a length the last component reaches `top_md` [m]."""
-
-    top_md: units.Length = 0.0
-    components: tuple[ComponentSpec, ...] = Field(description="tables [[string.components]]")
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        if not self.components:
-            raise InputError("at least one", key="components")
-        for i, component in enumerate(self.components[:-1]):
-            if component.length is None:
-                raise InputError("a length, which only the last may omit", key=f"components[{i}].length")
-        return self
-
-
-class MudSpec(Table):
-    """Density [kg/m^3] and what the mud resists per metre of string: [N*s/m^2], rotation [N*s]."""
-
-    density: units.Density = 0.0
-    axial_damping: units.DampingPerLength = 0.0
-    lateral_damping: units.DampingPerLength = 0.0
-    rotational_damping: units.RotationalDamping = 0.0
-
-
-class RigSpec(Table):
-    """What the rig's sensors see beside the string: block weight [N], torque offset [N*m]."""
-
-    block_weight: units.Force = 0.0
-    sheave_efficiency: units.Efficiency = 1.0
-    torque_offset: units.Torque = 0.0
-
-
-class ContactSpec(Table):
-    """The law of friction, and the damping of a contact point [N*s/m]; not `enabled`: no wall at all."""
-
-    enabled: StrictBool = True
-    friction_law: Literal["coulomb", "paper"] = "coulomb"
-    damping: units.Damping = 1e4
-
-
-class SolverSpec(Table):
-    """The time step [s], and joint damping as a multiple of joint stiffness [s].
-
-    The default damps like steel, a loss of 0.2 % at 30 Hz: enough to keep sliding segments from chattering.
-    """
-
-    step: float | Literal["auto"] = "auto"
-    joint_damping: units.Time = 1e-5
-
-    @field_validator("step", mode="before")
-    @classmethod
-    def _read_step(cls, raw: Any) -> Any:
-        if raw == "auto":
-            return raw
-        try:
-            return units.Quantity(dimension=units.TIME, above=0.0).parse(raw)
-        except InputError as error:
-            raise InputError(f'"auto" or {error.expected}', value=raw) from None
-
-
-class RecordSpec(Table):
-    """How often the history has a row [s], and the bit depths [m] at which a profile is kept."""
-
-    interval: units.PositiveTime = 1.0
-    profile_at: tuple[units.Length, ...] = ()
 
 
 class _Operation(Table):
@@ -273,13 +90,32 @@ class RotateOffBottom(_Operation):
     speed: ClassVar[float] = 0.0
 
 
-Operation = TripIn | TripOut | BackReam | RotateOffBottom
+class DrillRotating(_Move):
+    """Ahead with the bit on bottom, the whole string rotating; `speed` is the rate of penetration."""
+
+    kind: Literal["drill_rotating"]
+    downwards = True
+    rpm: units.PositiveRpm
+
+
+class DrillSliding(_Move):
+    """Ahead with the bit on bottom, turned by a motor while the string slides."""
+
+    kind: Literal["drill_sliding"]
+    downwards = True
+    rpm: ClassVar[float] = 0.0
+
+
+Operation = TripIn | TripOut | BackReam | RotateOffBottom | DrillRotating | DrillSliding
 KINDS: Final[dict[str, type[Operation]]] = {
     "trip_in": TripIn,
     "trip_out": TripOut,
     "rotate_off_bottom": RotateOffBottom,
     "back_ream": BackReam,
+    "drill_rotating": DrillRotating,
+    "drill_sliding": DrillSliding,
 }
+DRILLING: Final = ("drill_rotating", "drill_sliding")
 
 
 class Case(Table):
@@ -290,6 +126,7 @@ class Case(Table):
     string: StringSpec = Field(description="a table [string]")
     mud: MudSpec = MudSpec()
     rig: RigSpec = RigSpec()
+    bit: BitSpec = BitSpec()
     contact: ContactSpec = ContactSpec()
     solver: SolverSpec = SolverSpec()
     record: RecordSpec = RecordSpec()

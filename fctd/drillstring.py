@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd import state
-from fctd.case import Case, ComponentSpec
+from fctd.case import Case
 from fctd.errors import InputError
+from fctd.specs import ComponentSpec
 from fctd.topdrive import GRAVITY, PerMetre, set_long_segment
 from fctd.wellbore import Wellbore
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd import dynamics, state, topdrive
-from fctd.case import Case
+from fctd.case import DRILLING, Case
 from fctd.contact import update_walls
 from fctd.drillstring import String, check_fit, fill, lay_out
 from fctd.energy import penetration
@@ -102,6 +102,7 @@ def prepare(case: Case) -> tuple[Run, list[Stretch]]:
 def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
     if not case.operations:
         raise InputError("at least one operation to simulate", key="operations", value=[])
+    _check_dynamic(case)
     case.check_depths()
     first, shallowest, deepest = depth_range(case)
     for i, depth in enumerate(case.record.profile_at):
@@ -149,6 +150,21 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
     owner = np.zeros(n + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
     return Run(case, hole, string, pipe, S, top, owner, step, laws), stretches
+
+
+def _check_dynamic(case: Case) -> None:
+    """Raise InputError for what only the steady solver knows: a bit on bottom, a bent housing."""
+    steady = "(fctd equilibrium and fctd chart know more)"
+    for i, operation in enumerate(case.operations):
+        if operation.kind in DRILLING:
+            raise InputError(
+                f"an operation off bottom to simulate {steady}", key=f"operations[{i}].kind", value=operation.kind
+            )
+    for i, component in enumerate(case.string.components):
+        if component.bend:
+            raise InputError(
+                f"no bend to simulate {steady}", key=f"string.components[{i}].bend", value=f"{component.bend:g} rad"
+            )
 
 
 def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float) -> float:

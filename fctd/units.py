@@ -45,6 +45,7 @@ TIME: Final = Dimension("a time", "s", "'10 s' or '2 min'")
 SPEED: Final = Dimension("a speed", "m/s", "'0.5 m/s' or '60 ft/min'")
 FORCE: Final = Dimension("a force", "N", "'50 kN' or '12 klbf'")
 TORQUE: Final = Dimension("a torque", "N*m", "'0.5 kN*m' or '400 ft*lbf'")
+ANGLE: Final = Dimension("an angle", "rad", "'1.5 deg'")
 STRESS: Final = Dimension("a stress", "Pa", "'206.8 GPa' or '30e6 psi'")
 DENSITY: Final = Dimension("a density", "kg/m^3", "'1200 kg/m^3' or '10 ppg'")
 LINEAR_MASS: Final = Dimension("a mass per length", "kg/m", "'36.8 kg/m' or '19.5 lb/ft'")
@@ -186,6 +187,9 @@ PositiveTime = Annotated[float, Quantity(dimension=TIME, above=0.0)]
 PositiveSpeed = Annotated[float, Quantity(dimension=SPEED, above=0.0)]
 Force = Annotated[float, Quantity(dimension=FORCE, at_least=0.0)]
 Torque = Annotated[float, Quantity(dimension=TORQUE)]
+PositiveOrZeroTorque = Annotated[float, Quantity(dimension=TORQUE, at_least=0.0)]
+Angle = Annotated[float, Quantity(dimension=ANGLE)]
+Bend = Annotated[float, Quantity(dimension=ANGLE, at_least=0.0, at_most=0.1)]
 PositiveStress = Annotated[float, Quantity(dimension=STRESS, above=0.0)]
 Density = Annotated[float, Quantity(dimension=DENSITY, at_least=0.0)]
 PositiveDensity = Annotated[float, Quantity(dimension=DENSITY, above=0.0)]

@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from fctd import contact, survey
-from fctd.case import Case, IntervalSpec, WellboreSpec
+from fctd.case import Case
 from fctd.errors import InputError
+from fctd.specs import IntervalSpec, WellboreSpec
 from fctd.state import ARCS, CYLINDERS
 
 Array = NDArray[np.float64]
