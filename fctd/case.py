@@ -26,6 +26,7 @@ class _Operation(Table):
 
     start_key: ClassVar[str]
     end_key: ClassVar[str]
+    downwards: ClassVar[bool] = False
     ramp_time: units.PositiveTime = 10.0
 
     @property
@@ -44,7 +45,6 @@ class _Move(_Operation):
 
     start_key = "from_md"
     end_key = "to_md"
-    downwards: ClassVar[bool] = False
     from_md: units.Length
     to_md: units.Length
     speed: units.PositiveSpeed
@@ -166,24 +166,34 @@ class Case(Table):
             raise InputError(f"a density below the string's, {lightest:g} kg/m^3", key="mud.density")
         return self
 
+    @property
+    def depths(self) -> tuple[float, float]:
+        """Top of the string, and the deepest that survey and intervals let the bit be [m]. Reads the survey."""
+        deepest = min(float(self.wellbore.read_stations()[-1, 0]), self.wellbore.intervals[-1].to_md)
+        return self.string.top_md, deepest
+
     def check_depths(self, raw: Mapping[str, Any] | None = None) -> None:
         """Refuse a bit above the top of the string, or deeper than survey or intervals.
 
         Reads the survey, so it is no part of validation: a stored case can be read without its files.
         raw: the case as it was written, to quote it.
         """
-        top = self.string.top_md
-        bottom = min(float(self.wellbore.read_stations()[-1, 0]), self.wellbore.intervals[-1].to_md)
+        top, bottom = self.depths
         for i, operation in enumerate(self.operations):
             for key in (operation.start_key, operation.end_key):
                 md = getattr(operation, key)
-                if not top < md <= bottom + _SAME_DEPTH:
-                    written = look_up(raw, "operations", i, key)
-                    raise InputError(
-                        f"a depth below string.top_md, {top:g} m, within survey and intervals, {bottom:g} m",
-                        key=f"operations[{i}].{key}",
-                        value=f"{md:g} m" if written is MISSING else written,
-                    )
+                written = look_up(raw, "operations", i, key)
+                check_bit_depth(
+                    md, top, bottom, f"operations[{i}].{key}", f"{md:g} m" if written is MISSING else written
+                )
+
+
+def check_bit_depth(md: float, top: float, bottom: float, key: str, value: object) -> None:
+    """Raise InputError unless a bit depth lies below the top of the string and in the hole, all [m]."""
+    if not top < md <= bottom + _SAME_DEPTH:
+        raise InputError(
+            f"a depth below string.top_md, {top:g} m, within survey and intervals, {bottom:g} m", key=key, value=value
+        )
 
 
 def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Case:

@@ -13,7 +13,9 @@ piece, or in an overlap, goes back to the table.
 import numpy as np
 from numba import njit
 
+from fctd.dual import reciprocal, root
 from fctd.joints import cross
+from fctd.rotations import arctan_ratio
 from fctd.state import (
     ARCS,
     ARM_CONTACT,
@@ -112,14 +114,14 @@ def cylinder_wall(C, i, x, y, z):
     hole, stiffness, friction = C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR]
     md = C[i, START_MD] + s
     into = s - C[i, LENGTH] + C[i, OVERLAP]
-    if into > 0 and i < C.shape[0] - 1:
+    if into.real > 0 and i < C.shape[0] - 1:
         qx, qy, qz, along = axis_offset(C, i + 1, x, y, z)
         v = into / C[i, OVERLAP]
         u = 1 - v
-        excess = u * (np.sqrt(px * px + py * py + pz * pz) - hole)
-        excess += v * (np.sqrt(qx * qx + qy * qy + qz * qz) - C[i + 1, HOLE_RADIUS])
+        excess = u * (root(px * px + py * py + pz * pz) - hole)
+        excess += v * (root(qx * qx + qy * qy + qz * qz) - C[i + 1, HOLE_RADIUS])
         px, py, pz = u * px + v * qx, u * py + v * qy, u * pz + v * qz
-        hole = np.sqrt(px * px + py * py + pz * pz) - excess
+        hole = root(px * px + py * py + pz * pz) - excess
         stiffness = u * stiffness + v * C[i + 1, STIFFNESS]
         friction = u * friction + v * C[i + 1, FACTOR]
         md = u * md + v * (C[i + 1, START_MD] + along)
@@ -132,13 +134,13 @@ def arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz):
 
     u, v, w : T − A along the tangent, towards the centre and along the binormal [m]; k : curvature κ [1/m].
     With ρ the distance from the centre over the radius, the offset towards the centre is
-    (1 − ρ)/κ = (2v − κ(u² + v²))/(1 + ρ).  Returns PT [m] and the sine and cosine (times ρ) of the angle.
+    (1 − ρ)/κ = (2v − κ(u² + v²))/(1 + ρ).  Returns PT [m], the sine and cosine (times ρ) of the angle, and ρ.
     """
     cosine, sine = 1 - k * v, k * u
-    rho = np.sqrt(cosine * cosine + sine * sine)
-    inward = (2 * v - k * (u * u + v * v)) / (rho + rho * rho)
+    rho = root(cosine * cosine + sine * sine)
+    inward = (2 * v - k * (u * u + v * v)) * reciprocal(rho + rho * rho)
     p, q = -inward * sine, inward * cosine
-    return p * tx + q * nx + w * bx, p * ty + q * ny + w * by, p * tz + q * nz + w * bz, sine, cosine
+    return p * tx + q * nx + w * bx, p * ty + q * ny + w * by, p * tz + q * nz + w * bz, sine, cosine, rho
 
 
 @njit(forceinline=True)
@@ -152,18 +154,46 @@ def arc_wall(C, i, x, y, z):
     u = dx * tx + dy * ty + dz * tz
     v = dx * nx + dy * ny + dz * nz
     w = dx * bx + dy * by + dz * bz
-    px, py, pz, sine, cosine = arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz)
-    # Arc length s = atan2(sine, cosine)/κ; its series avoids 0/0 on a straight piece.
-    if k * C[i, LENGTH] > 1e-6:
-        s = np.arctan2(sine, cosine) / k
-    else:
-        ratio = sine / cosine
-        s = u / cosine * (1 - ratio * ratio / 3)
-    share = min(max(s / C[i, LENGTH], 0.0), 1.0)
+    px, py, pz, _, cosine, rho = arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz)
+    # Arc length s = atan2(sine, cosine)/κ, by the tangent of a quarter of the angle so that κ may be 0.
+    along = u * reciprocal(cosine + rho)
+    along = along * reciprocal(1 + root(1 + k * along * k * along))
+    s = 4 * along * arctan_ratio(k * along * k * along)
+    share = s / C[i, LENGTH]
+    share = 0 * share if share.real < 0 else share
+    share = 1 + 0 * share if share.real > 1 else share
     hole = C[i, HOLE_RADIUS] + share * C[i, RADIUS_GAIN]
     stiffness = C[i, STIFFNESS] + share * C[i, STIFFNESS_GAIN]
     friction = C[i, FACTOR] + share * C[i, FACTOR_GAIN]
     return px, py, pz, hole, stiffness, friction, C[i, START_MD] + s
+
+
+@njit(forceinline=True)
+def cylinder_direction(C, i, x, y, z):
+    """Unit vector along cylinder i; in an overlap between its own direction and the next one's."""
+    tx, ty, tz = C[i, DIRECTION] + 0 * x, C[i, DIRECTION + 1] + 0 * x, C[i, DIRECTION + 2] + 0 * x
+    into = distance_along(C, i, x, y, z) - C[i, LENGTH] + C[i, OVERLAP]
+    if into.real > 0 and i < C.shape[0] - 1:
+        v = into / C[i, OVERLAP]
+        tx = (1 - v) * tx + v * C[i + 1, DIRECTION]
+        ty = (1 - v) * ty + v * C[i + 1, DIRECTION + 1]
+        tz = (1 - v) * tz + v * C[i + 1, DIRECTION + 2]
+        k = reciprocal(root(tx * tx + ty * ty + tz * tz))
+        tx, ty, tz = k * tx, k * ty, k * tz
+    return tx, ty, tz
+
+
+@njit(forceinline=True)
+def arc_direction(C, i, x, y, z):
+    """Unit vector along arc i at its point nearest to (x, y, z)."""
+    dx, dy, dz = x - C[i, START], y - C[i, START + 1], z - C[i, START + 2]
+    tx, ty, tz = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
+    nx, ny, nz = C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
+    sine = C[i, CURVATURE] * (dx * tx + dy * ty + dz * tz)
+    cosine = 1 - C[i, CURVATURE] * (dx * nx + dy * ny + dz * nz)
+    k = reciprocal(root(cosine * cosine + sine * sine))
+    sine, cosine = k * sine, k * cosine
+    return cosine * tx + sine * nx, cosine * ty + sine * ny, cosine * tz + sine * nz
 
 
 @njit(forceinline=True)
@@ -233,7 +263,7 @@ def follow_arcs(S, n):
         u = dx * tx + dy * ty + dz * tz
         v = dx * nx + dy * ny + dz * nz
         w = dx * bx + dy * by + dz * bz
-        px, py, pz, _, _ = arc_offset(u, v, w, S[CURVE + j], tx, ty, tz, nx, ny, nz, bx, by, bz)
+        px, py, pz, _, _, _ = arc_offset(u, v, w, S[CURVE + j], tx, ty, tz, nx, ny, nz, bx, by, bz)
         S[PX + j], S[PY + j], S[PZ + j] = px, py, pz
         S[MARGIN_TOP + j] = u
         S[MARGIN_END + j] = u * S[END_COS + j] + v * S[END_SIN + j] - S[END_ALONG + j]

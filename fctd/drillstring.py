@@ -230,17 +230,16 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
     grown = string.lengthened(deepest - string.bit_depth) if string.long_segment else string
     bottom = grown.top_md + np.cumsum(grown.length)
     top = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]])
+    radius = string.of("contact_radius")
     starts = np.concatenate([[0.0], hole.intervals[:-1, 0]])
-    for k, (first, last) in enumerate(zip(top, bottom, strict=True)):
-        passes = (starts < last) & (hole.intervals[:, 0] > first)
-        narrowest = hole.intervals[passes, 1].min() if passes.any() else np.inf
-        radius = string.of("contact_radius")[k]
-        if radius > narrowest:
-            i = int(string.component[k])
+    for start, (to_md, hole_radius) in zip(starts, hole.intervals, strict=True):
+        tight = (start < bottom) & (to_md > top) & (radius > hole_radius)
+        if tight.any():
+            k = int(np.argmax(tight))
             raise InputError(
-                f"at most the hole's {2e3 * narrowest:.4g} mm",
-                key=f"string.components[{i}].contact_diameter",
-                value=f"{2e3 * radius:.4g} mm",
+                f"at most the hole's {2e3 * hole_radius:.4g} mm",
+                key=f"string.components[{int(string.component[k])}].contact_diameter",
+                value=f"{2e3 * radius[k]:.4g} mm",
             )
     if string.long_segment:
         tilt = hole.inclination(np.linspace(grown.top_md, bottom[0], 200)).max()

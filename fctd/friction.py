@@ -61,6 +61,13 @@ def normal_impulse(S, j, u, v, w, a, b, nx, ny, nz, penetration, damping, dt):
 
 
 @njit(forceinline=True)
+def along_wall(sx, sy, sz, nx, ny, nz):
+    """The part of a velocity that slides along the wall of normal n."""
+    into = sx * nx + sy * ny + sz * nz
+    return sx - into * nx, sy - into * ny, sz - into * nz
+
+
+@njit(forceinline=True)
 def coulomb_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     """Law ``coulomb``: one impulse against the sliding velocity at the wall side of the string.
 
@@ -73,8 +80,7 @@ def coulomb_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     sx = u + b * rz - c * ry
     sy = v + c * rx - a * rz
     sz = w + a * ry - b * rx
-    into = sx * nx + sy * ny + sz * nz
-    sx, sy, sz = sx - into * nx, sy - into * ny, sz - into * nz
+    sx, sy, sz = along_wall(sx, sy, sz, nx, ny, nz)
     mx, my, mz = ry * sz - rz * sy, rz * sx - rx * sz, rx * sy - ry * sx
     square = sx * sx + sy * sy + sz * sz
     speed = np.sqrt(square)

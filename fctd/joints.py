@@ -13,9 +13,9 @@ no work, and the torque about each body's own axis is k_t τ whatever the bend.
 
 import math
 
-import numpy as np
 from numba import njit
 
+from fctd.dual import reciprocal, root
 from fctd.rotations import angle_over_sine, twist_angle
 from fctd.state import (
     ARM_BOTTOM,
@@ -62,7 +62,7 @@ def joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt):
     """
     c = ax * bx + ay * by + az * bz
     sx, sy, sz = ax + bx, ay + by, az + bz
-    inverse = 1 / np.sqrt(2 + 2 * c + TINY)
+    inverse = reciprocal(root(2 + 2 * c + TINY))
     tx, ty, tz = sx * inverse, sy * inverse, sz * inverse
     stretch = tx * dx + ty * dy + tz * dz
     px, py, pz = dx - stretch * tx, dy - stretch * ty, dz - stretch * tz
@@ -100,7 +100,7 @@ def joint_damping(ax, ay, az, bx, by, bz, dx, dy, dz, rx, ry, rz, wx, wy, wz, ca
     moment on the upper and lower body and the power lost [W]: ten scalars.
     """
     c = ax * bx + ay * by + az * bz
-    inverse = 1 / np.sqrt(2 + 2 * c + TINY)
+    inverse = reciprocal(root(2 + 2 * c + TINY))
     tx, ty, tz = (ax + bx) * inverse, (ay + by) * inverse, (az + bz) * inverse
     along = tx * rx + ty * ry + tz * rz
     fx = -cs * rx - (ca - cs) * along * tx
@@ -117,18 +117,21 @@ def joint_damping(ax, ay, az, bx, by, bz, dx, dy, dz, rx, ry, rz, wx, wy, wz, ca
 
 
 @njit(forceinline=True)
+def gap(ex, ey, ez, ax, ay, az, bx, by, bz, bottom, top):
+    """Gap from the hinge point of the upper body to that of the lower [m].
+
+    e : from centre to centre [m]; a, b : unit axes; bottom, top : arms to the joint along them [m].
+    """
+    return ex - top * bx - bottom * ax, ey - top * by - bottom * ay, ez - top * bz - bottom * az
+
+
+@njit(forceinline=True)
 def hinge_gap(S, j):
     """Gap at joint j from the hinge point of body j - 1 to that of body j [m], global."""
     x0, y0, z0 = position(S, j - 1)
     x1, y1, z1 = position(S, j)
-    ax, ay, az = axis(S, j - 1)
-    bx, by, bz = axis(S, j)
     bottom, top = S[ARM_BOTTOM + j - 1], S[ARM_TOP + j]
-    return (
-        (x1 - x0) - top * bx - bottom * ax,
-        (y1 - y0) - top * by - bottom * ay,
-        (z1 - z0) - top * bz - bottom * az,
-    )
+    return gap(x1 - x0, y1 - y0, z1 - z0, *axis(S, j - 1), *axis(S, j), bottom, top)
 
 
 @njit(forceinline=True)

@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.case import Case, Operation
+from fctd.case import KINDS, Case, Operation
+from fctd.errors import InputError, nearest
 from fctd.topdrive import Motion
 
 
@@ -60,3 +61,53 @@ def depth_range(case: Case) -> tuple[float, float, float]:
     """Bit depth at the start, shallowest and deepest of the schedule [m]."""
     depths = [d for operation in case.operations for d in (operation.start_md, operation.end_md)]
     return depths[0], min(depths), max(depths)
+
+
+def sensors(case: Case, kind: str, hookload: float, torque: float) -> tuple[float, float]:
+    """Weight indicator [N] and drive torque [N m]: what the rig reads for the string's own reactions.
+
+    Sheave friction lowers the dead line's tension when the block is hoisted and raises it when lowered.
+    """
+    rig = case.rig
+    hoisting = {"trip_out": 1, "back_ream": 1, "trip_in": -1}.get(kind, 0)
+    indicator = (hookload + rig.block_weight) * rig.sheave_efficiency**hoisting
+    return indicator, torque + rig.torque_offset
+
+
+class SteadyRates(NamedTuple):
+    """A steady operation: speed along the hole, downwards [m/s], and rotation [rad/s]."""
+
+    speed: float
+    spin: float
+
+
+# Speed [m/s] and rotation [rev/min] of a steady operation of which neither call nor case says more.
+DEFAULT_RATES = {
+    "trip_in": (0.3, 0.0),
+    "trip_out": (0.3, 0.0),
+    "rotate_off_bottom": (0.0, 60.0),
+    "back_ream": (0.1, 60.0),
+    "drill_rotating": (0.003, 120.0),
+    "drill_sliding": (0.003, 0.0),
+}
+
+
+def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float | None = None) -> SteadyRates:
+    """Rates of an operation: as given, else as the case's first operation of that kind, else DEFAULT_RATES.
+
+    speed [m/s] and rpm are not negative; the kind sets the direction.  Raises InputError for an unknown kind
+    and for rates that are not of its kind.
+    """
+    if kind not in KINDS:
+        raise InputError(nearest(kind, KINDS, "kind"), key="operation", value=kind)
+    own = next((o for o in case.operations if o.kind == kind), None)
+    defaults = DEFAULT_RATES[kind] if own is None else (own.speed, own.rpm)
+    moves, turns = DEFAULT_RATES[kind][0] > 0, DEFAULT_RATES[kind][1] > 0
+    may_turn = turns or kind.startswith("trip")
+    speed, rpm = defaults[0] if speed is None else speed, defaults[1] if rpm is None else rpm
+    if not (np.isfinite(speed) and (speed > 0 if moves else speed == 0)):
+        raise InputError(f"a speed {'above 0' if moves else 'of 0'} for {kind}", key="speed", value=speed)
+    if not (np.isfinite(rpm) and (rpm > 0 if turns else rpm >= 0 if may_turn else rpm == 0)):
+        wanted = "above 0" if turns else "at least 0" if may_turn else "of 0"
+        raise InputError(f"rev/min {wanted} for {kind}", key="rpm", value=rpm)
+    return SteadyRates(speed if KINDS[kind].downwards else -speed, rad_per_s(rpm))

@@ -7,11 +7,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import state, topdrive
-from fctd.case import Case
 from fctd.energy import energy_of, penetration
+from fctd.operations import sensors
+from fctd.profile import Loads, profile_table
 from fctd.results import SimulationResult
 from fctd.run import Run, contact_points
-from fctd.wellbore import hole_frame
 
 Array = NDArray[np.float64]
 
@@ -26,24 +26,6 @@ LOSSES = {
     "lost_mud_J": state.LOST_MUD,
     "lost_joints_J": state.LOST_JOINT,
 }
-
-
-def sensors(case: Case, kind: str, hookload: float, torque: float) -> tuple[float, float]:
-    """Weight indicator [N] and drive torque [N m]: what the rig reads for the string's own reactions.
-
-    Sheave friction lowers the dead line's tension when the block is hoisted and raises it when lowered.
-    """
-    rig = case.rig
-    hoisting = {"trip_out": 1, "back_ream": 1, "trip_in": -1}.get(kind, 0)
-    indicator = (hookload + rig.block_weight) * rig.sheave_efficiency**hoisting
-    return indicator, torque + rig.torque_offset
-
-
-def _at_contacts(joints: Array, middle: NDArray[np.bool_]) -> Array:
-    """What the n joints carry, at the top and at the n contact points: the joint there, or the mean of the two
-    beside a contact in the middle of its segment."""
-    below = np.append(joints[1:], 0.0)
-    return np.append(joints[0], np.where(middle, 0.5 * (joints + below), below))
 
 
 def _work(energy: pd.DataFrame) -> float:
@@ -164,36 +146,18 @@ class Recorder:
 
         A row per contact point and one for the top.
         """
-        run, string = self.run, self.run.string
+        run = self.run
         points, walls = self._walls()
-        offset, md = walls[:, :3], walls[:, 6]
-        _, direction = run.hole.at(md)
-        high, right = hole_frame(direction)
-        up, aside = np.sum(offset * high, axis=1), np.sum(offset * right, axis=1)
-        middle = string.mid_contact()
-        # Buoyed weight carries effective tension; the steel's own follows from the pressure of equal mud
-        # inside and outside at the depth of the joint.
-        depth = np.append(run.S[state.Z], points[:, 2])
-        steel = np.pi * (string.of("outer") ** 2 - string.of("inner") ** 2)
-        pressure = run.case.mud.density * topdrive.GRAVITY * depth
         axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
         turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
-        tension = _at_contacts(self.mean[state.SUM_TENSION], middle)
-        bending = self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0))
-        top_inclination = run.hole.inclination(np.array([string.top_md]))
-        return pd.DataFrame(
-            {
-                "bit_depth_m": self.bit_depth,
-                "operation": self.history[-1]["operation"],
-                "md_m": np.append(string.top_md, md),
-                "inclination_deg": np.degrees(np.append(top_inclination, run.hole.inclination(md))),
-                "effective_tension_N": tension,
-                "true_tension_N": tension - pressure * np.append(steel[0], steel),
-                "torque_N_m": _at_contacts(self.mean[state.SUM_TORQUE], middle),
-                "contact_force_N": np.append(0.0, self.mean[state.SUM_NORMAL]),
-                "contact_angle_deg": np.append(0.0, np.degrees(np.arctan2(aside, up)) % 360),
-                "bending_moment_N_m": _at_contacts(bending, middle),
-                "offset_high_m": np.append(0.0, up),
-                "offset_right_m": np.append(0.0, aside),
-            }
+        loads = Loads(
+            tension=self.mean[state.SUM_TENSION],
+            torque=self.mean[state.SUM_TORQUE],
+            bending=self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0)),
+            normal=self.mean[state.SUM_NORMAL],
         )
+        top = run.S[[state.X, state.Y, state.Z]]
+        table = profile_table(run.hole, run.string, run.case.mud.density, top, points, walls, loads)
+        table.insert(0, "operation", self.history[-1]["operation"])
+        table.insert(0, "bit_depth_m", self.bit_depth)
+        return table

@@ -1,0 +1,118 @@
+"""Linear equations whose matrix is block tridiagonal, as of a chain of bodies: block Thomas elimination."""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+from scipy.linalg import solve_banded
+
+Array = NDArray[np.float64]
+SIZE = 6
+# A block whose pivots differ by more than this has lost the digits that matter.
+WORST_PIVOTS = 1e-13
+
+
+@njit(error_model="numpy")
+def eliminate(D, A, U, R, n, W):
+    """Solve the system of n blocks in rows 1..n in place; returns False when a block is near singular.
+
+    D, A, U (n + 1, 6, 6) : diagonal, lower and upper blocks, U[j] in row j − 1; R (n + 1, 6) : right-hand side
+    in, solution out.  W (n + 1, 6, 7) : work.  Gaussian elimination with partial pivoting inside the blocks.
+    """
+    sound = True
+    M = np.empty((SIZE, 2 * SIZE + 1))
+    for j in range(1, n + 1):
+        # Row j with the solution of row j − 1 put in: [diagonal | upper block | right-hand side].
+        for r in range(SIZE):
+            for c in range(SIZE):
+                M[r, c] = D[j, r, c]
+                M[r, SIZE + c] = U[j + 1, r, c] if j < n else 0.0
+            M[r, 2 * SIZE] = R[j, r]
+        if j > 1:
+            for r in range(SIZE):
+                for k in range(SIZE):
+                    factor = A[j, r, k]
+                    for c in range(SIZE):
+                        M[r, c] -= factor * W[j - 1, k, c]
+                    M[r, 2 * SIZE] -= factor * W[j - 1, k, SIZE]
+        least, most = np.inf, 0.0
+        for p in range(SIZE):
+            best = p
+            for r in range(p + 1, SIZE):
+                if abs(M[r, p]) > abs(M[best, p]):
+                    best = r
+            if best != p:
+                for c in range(p, 2 * SIZE + 1):
+                    M[p, c], M[best, c] = M[best, c], M[p, c]
+            size = abs(M[p, p])
+            least, most = min(least, size), max(most, size)
+            inverse = 1 / M[p, p]
+            for c in range(p + 1, 2 * SIZE + 1):
+                M[p, c] *= inverse
+            for r in range(SIZE):
+                if r != p:
+                    factor = M[r, p]
+                    for c in range(p + 1, 2 * SIZE + 1):
+                        M[r, c] -= factor * M[p, c]
+        sound = sound and least > WORST_PIVOTS * most
+        for r in range(SIZE):
+            for c in range(SIZE + 1):
+                W[j, r, c] = M[r, SIZE + c]
+    for r in range(SIZE):
+        R[n, r] = W[n, r, SIZE]
+    for j in range(n - 1, 0, -1):
+        for r in range(SIZE):
+            total = W[j, r, SIZE]
+            for c in range(SIZE):
+                total -= W[j, r, c] * R[j + 1, c]
+            R[j, r] = total
+    return sound
+
+
+@njit(error_model="numpy", cache=True)
+def negative_pivots(D, A, U, n):
+    """Number of negative eigenvalues of the symmetric part of the matrix, by the signs of its pivots.
+
+    Sylvester: the pivots of an elimination without exchanges have the signs of the eigenvalues.
+    """
+    count = 0
+    M = np.empty((SIZE, 2 * SIZE))
+    last = np.zeros((SIZE, SIZE))  # what row j − 1 takes from row j: Uᵀ D⁻¹ U
+    for j in range(1, n + 1):
+        for r in range(SIZE):
+            for c in range(SIZE):
+                M[r, c] = 0.5 * (D[j, r, c] + D[j, c, r]) - last[r, c]
+                M[r, SIZE + c] = 0.5 * (U[j + 1, r, c] + A[j + 1, c, r]) if j < n else 0.0
+        upper = M[:, SIZE:].copy()
+        for p in range(SIZE):
+            count += M[p, p] < 0
+            inverse = 1 / M[p, p]
+            for c in range(p + 1, 2 * SIZE):
+                M[p, c] *= inverse
+            for r in range(SIZE):
+                if r != p:
+                    factor = M[r, p]
+                    for c in range(p + 1, 2 * SIZE):
+                        M[r, c] -= factor * M[p, c]
+        for r in range(SIZE):
+            for c in range(SIZE):
+                total = 0.0
+                for k in range(SIZE):
+                    total += upper[k, r] * M[k, SIZE + c]
+                last[r, c] = total
+    return count
+
+
+def solve_with_pivoting(D: Array, A: Array, U: Array, R: Array, n: int) -> Array:
+    """The same solution (n, 6) with pivoting across blocks (LAPACK), for systems that ``eliminate`` finds unsound.
+
+    Raises LinAlgError when the matrix is singular.
+    """
+    width = 2 * SIZE - 1
+    banded = np.zeros((2 * width + 1, n * SIZE))
+    for offset, blocks, first in ((0, D[1 : n + 1], 0), (-SIZE, A[2 : n + 1], 1), (SIZE, U[2 : n + 1], 0)):
+        for r in range(SIZE):
+            for c in range(SIZE):
+                rows = (first + np.arange(len(blocks))) * SIZE + r
+                columns = rows + offset - r + c
+                banded[width + rows - columns, columns] = blocks[:, r, c]
+    return np.asarray(solve_banded((width, width), banded, R[1 : n + 1].ravel())).reshape(n, SIZE)

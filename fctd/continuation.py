@@ -1,0 +1,111 @@
+"""Newton's method for a steady string, led by pseudo-transient continuation.
+
+A step solves (K + M/τ²) Δ = R: over a pseudo-time τ the bodies' own masses hold a string back that is far from
+balance.  τ grows with every step that needs no shortening, until the steps are Newton's own (Kelley & Keyes
+1998; their rule, growth as the residual falls, trips over the wall: a point that touches it for the first time
+raises the residual by orders of magnitude and is brought back by the next step).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from fctd.block_thomas import eliminate
+from fctd.rotations import rotation_columns, turned
+from fctd.state import ARM_CONTACT, J_AXIAL, J_TRANSVERSE, MASS, TINY
+from fctd.tangent import assemble
+
+CONVERGED, MAX_ITERATIONS, NOT_FINITE, UNSOUND = range(4)
+
+
+class Pace(NamedTuple):
+    """How boldly to step, and when to stop.
+
+    iterations : at most.  tau : first pseudo-time [s]; growth : its factor a step.
+    shift [m], turn [rad] : a body's largest lateral step and largest rotation.
+    force [N], moment [N m] : largest imbalance of a body when converged.
+    """
+
+    iterations: int
+    tau: float
+    growth: float
+    shift: float
+    turn: float
+    force: float
+    moment: float
+
+
+@njit(error_model="numpy")
+def imbalance(R, n, pace):
+    """Largest force and moment out of balance over what is allowed: converged at 1, NaN when not finite."""
+    worst = 0.0
+    for j in range(1, n + 1):
+        force = np.sqrt(R[j, 0] ** 2 + R[j, 1] ** 2 + R[j, 2] ** 2)
+        moment = np.sqrt(R[j, 3] ** 2 + R[j, 4] ** 2 + R[j, 5] ** 2)
+        if not force + moment < np.inf:
+            return np.nan
+        worst = max(worst, force / pace.force, moment / pace.moment)
+    return worst
+
+
+@njit(error_model="numpy")
+def hold_back(S, n, tau, D):
+    """Add the masses over τ² to the diagonal blocks."""
+    k = 1 / (tau * tau)
+    for j in range(1, n + 1):
+        for i in range(3):
+            D[j, i, i] += k * S[MASS + j]
+        D[j, 3, 3] += k * S[J_TRANSVERSE + j]
+        D[j, 4, 4] += k * S[J_TRANSVERSE + j]
+        D[j, 5, 5] += k * S[J_AXIAL + j]
+
+
+@njit(error_model="numpy")
+def allowed_share(S, n, P, X, pace):
+    """Share of the step X (n + 1, 6) that moves no contact point sideways and turns no body too far."""
+    share = 1.0
+    for j in range(1, n + 1):
+        xx, xy, xz, yx, yy, yz, _, _, _ = rotation_columns(P[j, 3], P[j, 4], P[j, 5], P[j, 6])
+        arm, a, b = S[ARM_CONTACT + j], X[j, 3], X[j, 4]
+        u = xx * X[j, 0] + xy * X[j, 1] + xz * X[j, 2] + arm * b
+        v = yx * X[j, 0] + yy * X[j, 1] + yz * X[j, 2] - arm * a
+        sideways, turn = np.sqrt(u * u + v * v), np.sqrt(a * a + b * b)
+        share = min(share, pace.shift / (sideways + TINY), pace.turn / (turn + TINY))
+    return share
+
+
+@njit(error_model="numpy")
+def take_step(P, n, X, share):
+    """Move the bodies by a share of the step X (n + 1, 6)."""
+    for j in range(1, n + 1):
+        for i in range(3):
+            P[j, i] += share * X[j, i]
+        P[j, 3], P[j, 4], P[j, 5], P[j, 6] = turned(
+            P[j, 3], P[j, 4], P[j, 5], P[j, 6], share * X[j, 3], share * X[j, 4], 0.0
+        )
+        P[j, 7] += share * X[j, 5]
+
+
+@njit(error_model="numpy", cache=True)
+def converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, tau):
+    """Iterate from pose P towards balance; returns status, iterations and the last pseudo-time.
+
+    R then holds what is out of balance and, in row 0, the reactions of the top drive.  ``UNSOUND`` : the
+    elimination lost its digits; `assemble` and `hold_back` build the system again for another solver.
+    """
+    for k in range(pace.iterations):
+        assemble(S, n, P, kinks, C, owner, laws, R, D, A, U)
+        error = imbalance(R, n, pace)
+        if not error < np.inf:
+            return NOT_FINITE, k, tau
+        if error <= 1:
+            return CONVERGED, k, tau
+        hold_back(S, n, tau, D)
+        if not eliminate(D, A, U, R, n, W):
+            return UNSOUND, k, tau
+        share = allowed_share(S, n, P, R, pace)
+        take_step(P, n, R, share)
+        if share == 1:
+            tau *= pace.growth
+    return MAX_ITERATIONS, pace.iterations, tau

@@ -1,0 +1,250 @@
+"""The steady string by root finding: where it lies, what it carries and what the rig reads, in milliseconds.
+
+The string slides or turns at constant rates while its shape stands still; the forces are the stepper's own
+(tangent.py), the solution is Newton's from a soft string's guess (first_guess.py, continuation.py).
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fctd import state, tangent
+from fctd.block_thomas import SIZE, negative_pivots, solve_with_pivoting
+from fctd.case import DRILLING, Case, check_bit_depth
+from fctd.contact import START_MD
+from fctd.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, converge, hold_back, take_step
+from fctd.drillstring import String, check_fit, fill, lay_out
+from fctd.errors import InputError
+from fctd.first_guess import MD, NODE, guess
+from fctd.operations import SteadyRates, sensors, steady_rates
+from fctd.profile import Loads, profile_table
+from fctd.tangent import POSE, Steady, assemble, frictionless_tangent, read_loads
+from fctd.wellbore import Wellbore, build_wellbore, hole_frame
+
+Array = NDArray[np.float64]
+
+STATUSES = ("converged", "max_iterations", "diverged", "not_finite", "locked_up", "unstable")
+# What is left out of balance at a body, over the weight of the string.
+TOLERANCE = 1e-7
+# Imperfection of a first guess, so that a straight string may buckle [m].
+SEED = 1e-4
+# Bold steps converge in some eight iterations; a string that buckles may need smaller ones, once or twice.
+# Iterations, first pseudo-time [s], its growth, largest lateral step [m].
+ATTEMPTS = ((40, 0.2, 3.0, 0.05), (80, 0.1, 1.5, 0.02), (300, 0.1, 1.1, 0.01))
+LARGEST_TURN = 0.1  # [rad] a step
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A steady string with the bit at one depth.
+
+    status : one of STATUSES; ``locked_up`` (the top would have to be pushed with more than the block weight)
+    and ``unstable`` (a balance that the string would not keep) are answers, the others but ``converged`` are
+    none.  bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque,
+    drive_torque [N m]; sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
+    """
+
+    case: Case
+    operation: str
+    bit_depth: float
+    status: str
+    message: str
+    iterations: int
+    hookload: float
+    surface_torque: float
+    weight_indicator: float
+    drive_torque: float
+    total_contact_force: float
+    sum_r_ft: float
+    sum_r_mu_fn: float
+    imbalance: float
+    _shape: "Shape" = field(repr=False)
+
+    @property
+    def answered(self) -> bool:
+        """Whether the numbers are those of a balance."""
+        return self.status in ("converged", "locked_up", "unstable")
+
+    @cached_property
+    def profile(self) -> pd.DataFrame:
+        """The string from the top to the bit, a row per contact point; columns as of ``profile_table``."""
+        shape = self._shape
+        walls = shape.hole.walls(shape.contacts[:, :3], shape.owner)
+        loads = Loads(*shape.joints.T, shape.contacts[:, 3], shape.bit_tension, shape.bit_torque)
+        return profile_table(
+            shape.hole, shape.string, self.case.mud.density, shape.top, shape.contacts[:, :3], walls, loads
+        )
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a profile is made of: rows of ``tangent.read_loads`` (n, ...), and where the string hangs."""
+
+    hole: Wellbore
+    string: String
+    top: Array
+    joints: Array
+    contacts: Array
+    owner: NDArray[np.int64]
+    bit_tension: float
+    bit_torque: float
+
+
+class Workspace:
+    """The solver's arrays, made once for a whole chart.
+
+    S : engine's buffer, for the constants of bodies and joints; P (n + 1, POSE) pose; G (n + 1, NODE) guess;
+    R (n + 1, 6) imbalance; D, A, U (n + 1, 6, 6) tangent; W elimination; owner (n + 2,) pieces of the hole.
+    """
+
+    def __init__(self, segments: int) -> None:
+        rows = segments + 2
+        self.segments = segments
+        self.S = state.new_state(segments)
+        self.P, self.G, self.R = np.zeros((rows, POSE)), np.zeros((rows, NODE)), np.zeros((rows, SIZE))
+        self.D, self.A, self.U = (np.zeros((rows, SIZE, SIZE)) for _ in range(3))
+        self.W = np.zeros((rows, SIZE, SIZE + 1))
+        self.owner = np.zeros(rows, np.int64)
+
+
+class Solver:
+    """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth."""
+
+    def __init__(self, case: Case) -> None:
+        self.case = case
+        self.hole = build_wellbore(case)
+        self.depths = case.depths
+        self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
+        self.law = state.PAPER if case.contact.friction_law == "paper" else state.COULOMB
+        self.work = Workspace(0)
+
+    def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
+        """The steady string; raises InputError when string and hole do not fit at this depth."""
+        case, hole = self.case, self.hole
+        check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
+        string = lay_out(case, bit_depth)
+        check_fit(case, string, hole, bit_depth)
+        n = string.segments
+        if self.work.segments < n:
+            self.work = Workspace(n)
+        pipe = fill(self.work.S, string, case)
+        on_bottom = operation in DRILLING
+        weight_on_bit = case.bit.weight_on_bit if on_bottom else 0.0
+        _, (downhole,) = hole.at(np.array([bit_depth]))
+        laws = Steady(
+            self.geometry, self.law, 1.0, rates.speed, rates.spin, *(float(-weight_on_bit * d) for d in downhole),
+            case.bit.torque if on_bottom else 0.0,
+        )  # fmt: skip
+        weight = float(string.of("weight") @ string.length) + weight_on_bit
+        code, iterations, kinks = self._balance(string, laws, weight_on_bit, TOLERANCE * weight)
+
+        w = self.work
+        joints, contacts = np.zeros((n + 1, 3)), np.zeros((n + 1, 6))
+        read_loads(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, joints, contacts)
+        top_axis = hole.at(np.array([string.top_md]))[1][0]
+        # The half of a long segment's weight that is not lumped below hangs on the top drive itself.
+        held = 0.5 * pipe.weight * string.length[0] if string.long_segment else 0.0
+        hookload, torque = float(w.R[0, :3] @ top_axis) + held, -float(w.R[0, 5])
+        imbalance = float(np.linalg.norm(w.R[1 : n + 1, :3], axis=1).max())
+        status, message = self._judge(code, n, kinks, laws, hookload, contacts)
+        indicator, drive = sensors(case, operation, hookload, torque)
+        shape = Shape(
+            hole, string, w.P[0, :3].copy(), joints[1:], contacts[1:], w.owner[1 : n + 1].copy(),
+            -weight_on_bit, laws.bit_torque,
+        )  # fmt: skip
+        return Equilibrium(
+            case, operation, bit_depth, status, message, iterations, hookload, torque, indicator, drive,
+            *(float(contacts[:, k].sum()) for k in (3, 4, 5)), imbalance, shape,
+        )  # fmt: skip
+
+    def _balance(self, string: String, laws: Steady, weight_on_bit: float, force: float) -> tuple[int, int, Array]:
+        """Iterate to balance, more carefully with every attempt; returns code, iterations and bends."""
+        w, n, pieces = self.work, string.segments, self.hole.pieces
+        kinks = np.zeros((n + 2, 4))
+        kinks[:, 0] = 1.0
+        total, code = 0, NOT_FINITE
+        for iterations, tau, growth, shift in ATTEMPTS:
+            guess(w.S, n, pieces, laws, string.top_md, -weight_on_bit, SEED, w.G, w.P)
+            self._bend(string, kinks)
+            w.owner[1 : n + 1] = np.searchsorted(pieces[:, START_MD], w.G[1 : n + 1, MD], side="right") - 1
+            pace = Pace(iterations, tau, growth, shift, LARGEST_TURN, force, force)
+            code, done = self._iterate(n, kinks, laws, pace)
+            total += done
+            if code == CONVERGED:
+                break
+        return code, total, kinks
+
+    def _iterate(self, n: int, kinks: Array, laws: Steady, pace: Pace) -> tuple[int, int]:
+        """Run the compiled iteration, and take the steps by hand whose equations it cannot solve soundly."""
+        w, pieces = self.work, self.hole.pieces
+        done, tau = 0, pace.tau
+        while True:
+            code, k, tau = converge(
+                w.S, n, w.P, kinks, pieces, w.owner, laws, pace._replace(iterations=pace.iterations - done),
+                w.R, w.D, w.A, w.U, w.W, tau,
+            )  # fmt: skip
+            done += k
+            if code != UNSOUND:
+                return code, done
+            assemble(w.S, n, w.P, kinks, pieces, w.owner, laws, w.R, w.D, w.A, w.U)
+            hold_back(w.S, n, tau, w.D)
+            try:
+                w.R[1 : n + 1] = solve_with_pivoting(w.D, w.A, w.U, w.R, n)
+            except (np.linalg.LinAlgError, ValueError):
+                return NOT_FINITE, done
+            take_step(w.P, n, w.R, 1.0)
+            done += 1
+
+    def _bend(self, string: String, kinks: Array) -> None:
+        """Write the bent housings into ``kinks``, given the pose of the laid-out string."""
+        for k, component in enumerate(self.case.string.components[: len(string.sections)]):
+            # The joint above the component's uppermost segment; at the top drive there is nothing to bend.
+            j = int(np.argmax(string.component == k)) + 1
+            if component.bend == 0 or j == 1:
+                continue
+            _, direction = self.hole.at(self.work.G[j - 1 : j, MD])
+            (high,), (right,) = hole_frame(direction)
+            towards = np.cos(component.toolface) * high + np.sin(component.toolface) * right
+            x, y, _ = tangent.in_frame(*self.work.P[j - 1, 3:7], *towards)
+            half = 0.5 * component.bend
+            kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
+
+    def _judge(
+        self, code: int, n: int, kinks: Array, laws: Steady, hookload: float, contacts: Array
+    ) -> tuple[str, str]:
+        """Status and message of a solution."""
+        w, hole = self.work, self.hole
+        if code == NOT_FINITE:
+            return "not_finite", "a force is not finite"
+        if self.geometry != state.OPEN:
+            walls = hole.walls(contacts[1:, :3], w.owner[1 : n + 1])
+            outside = np.linalg.norm(walls[:, :3], axis=1) > 2 * walls[:, 3]
+            if outside.any():
+                return "diverged", f"segment {int(np.argmax(outside)) + 1} has left the hole"
+        if code != CONVERGED:
+            return "max_iterations", "forces out of balance"
+        frictionless_tangent(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, w.R, w.D, w.A, w.U)
+        negative = negative_pivots(w.D, w.A, w.U, n)
+        if negative:
+            return "unstable", f"a balance that {negative} modes of the string would leave without friction"
+        if hookload < -self.case.rig.block_weight:
+            return "locked_up", "the top would have to be pushed with more than the block weight"
+        return "converged", ""
+
+
+def equilibrium(
+    case: Case, operation: str, bit_depth: float, speed: float | None = None, rpm: float | None = None
+) -> Equilibrium:
+    """The steady string of an operation with the bit at ``bit_depth`` [m].
+
+    operation : a kind of operation.  speed [m/s], rpm : else those of the case's operation of that kind, else
+    ``operations.DEFAULT_RATES``.  Weight on bit and bit torque are the case's.  Raises InputError for input
+    that cannot be used; a string that finds no balance is told by ``status``.
+    """
+    try:
+        return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm), bit_depth)
+    except InputError as error:
+        raise (error if case.file is None else error.in_file(case.file)) from None

@@ -1,0 +1,179 @@
+"""Where a steady string may lie: on the side of the hole that a soft string presses on.
+
+Newton's method converges in a few iterations from a chain that touches the right side of the hole, is
+stretched by about the right tension and wound up by about the right torque.
+"""
+
+import numpy as np
+from numba import njit
+
+from fctd.contact import CURVATURE, DIRECTION, FACTOR, HOLE_RADIUS, NORMAL, START, START_MD, STIFFNESS
+from fctd.joints import cross
+from fctd.state import (
+    ARCS,
+    ARM_BOTTOM,
+    ARM_TOP,
+    COULOMB,
+    K_AXIAL,
+    K_TWIST,
+    MUD_AXIAL,
+    MUD_SPIN,
+    OPEN,
+    RADIUS,
+    TINY,
+    TRIBUTARY,
+    WEIGHT,
+)
+
+# Columns of what is known at a node, the lower end of a body: tension [N], torque [N m] just above it, offset
+# from the hole axis (global) [m], measured depth [m].
+TENSION, TORQUE, OFFSET, MD = 0, 1, 2, 5
+NODE = 6
+
+
+@njit(error_model="numpy")
+def piece_at(C, i, md):
+    """Index of the piece that holds a measured depth, walking from piece i."""
+    while i > 0 and md < C[i, START_MD]:
+        i -= 1
+    while i < C.shape[0] - 1 and md >= C[i + 1, START_MD]:
+        i += 1
+    return i
+
+
+@njit(error_model="numpy")
+def axis_at(C, geometry, i, md):
+    """Point of the hole axis [m] and unit tangent at a measured depth in piece i: six scalars."""
+    s = md - C[i, START_MD]
+    x, y, z = C[i, START], C[i, START + 1], C[i, START + 2]
+    tx, ty, tz = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
+    k = C[i, CURVATURE] if geometry == ARCS else 0.0
+    angle = k * s
+    if angle * angle < 1e-16:
+        return x + s * tx, y + s * ty, z + s * tz, tx, ty, tz
+    nx, ny, nz = C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
+    sine, cosine = np.sin(angle), np.cos(angle)
+    u, v = sine / k, 2 * np.sin(0.5 * angle) ** 2 / k
+    return (
+        x + u * tx + v * nx, y + u * ty + v * ny, z + u * tz + v * nz,
+        cosine * tx + sine * nx, cosine * ty + sine * ny, cosine * tz + sine * nz,
+    )  # fmt: skip
+
+
+@njit(forceinline=True)
+def sliding_shares(laws, radius):
+    """Shares of the friction factor that act along the string, downwards, and around it: each −1 to 1."""
+    if laws.friction == COULOMB:
+        turning = radius * laws.spin
+        speed = np.sqrt(laws.speed * laws.speed + turning * turning) + TINY
+        return laws.speed / speed, turning / speed
+    return np.sign(laws.speed), np.sign(laws.spin)
+
+
+@njit(error_model="numpy")
+def soft_string(S, n, C, laws, top_md, bit_tension, G):
+    """Fill G (n + 1, NODE) with tension, torque and offset of a soft string, node by node from the bit up."""
+    md = top_md
+    G[0, MD] = md
+    for j in range(1, n + 1):
+        md += S[ARM_TOP + j] + S[ARM_BOTTOM + j]
+        G[j, MD] = md
+    i = piece_at(C, C.shape[0] - 1, md)
+    bx, by, bz = 0.0, 0.0, 0.0
+    tension, torque = bit_tension, laws.bit_torque
+    for j in range(n, 0, -1):
+        i = piece_at(C, i, G[j, MD])
+        x, y, z, tx, ty, tz = axis_at(C, laws.geometry, i, G[j, MD])
+        k = piece_at(C, i, G[j - 1, MD])
+        x0, y0, z0, _, _, _ = axis_at(C, laws.geometry, k, G[j - 1, MD])
+        length = np.sqrt((x - x0) ** 2 + (y - y0) ** 2 + (z - z0) ** 2)
+        ax, ay, az = (x - x0) / length, (y - y0) / length, (z - z0) / length
+        # Half the weight of either neighbour presses on the node, and the tension on its bend.
+        weight = 0.5 * S[WEIGHT + j] + (0.5 * S[WEIGHT + j + 1] if j < n else 0.0)
+        turn = 0.0 if j == n else tension
+        qx = turn * (bx - ax) - weight * tz * tx
+        qy = turn * (by - ay) - weight * tz * ty
+        qz = turn * (bz - az) + weight * (1 - tz * tz)
+        inline = qx * tx + qy * ty + qz * tz
+        qx, qy, qz = qx - inline * tx, qy - inline * ty, qz - inline * tz
+        side = np.sqrt(qx * qx + qy * qy + qz * qz)
+        mu = laws.friction_scale * C[i, FACTOR]
+        along, around = sliding_shares(laws, S[RADIUS + j])
+        if laws.geometry == OPEN or side == 0:
+            side, ux, uy, uz = 0.0, 0.0, 0.0, 0.0
+        else:
+            # With law coulomb a turning string climbs the wall until friction and normal force together bear
+            # the load.
+            climb = mu * around if laws.friction == COULOMB else 0.0
+            norm = 1 / np.sqrt(1 + climb * climb)
+            ux, uy, uz = norm * qx / side, norm * qy / side, norm * qz / side
+            cx, cy, cz = cross(tx, ty, tz, ux, uy, uz)
+            ux, uy, uz = ux - climb * cx, uy - climb * cy, uz - climb * cz
+            side *= norm
+        out = C[i, HOLE_RADIUS] - S[RADIUS + j] + side / (C[i, STIFFNESS] * S[TRIBUTARY + j])
+        G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2] = out * ux, out * uy, out * uz
+        tension -= along * mu * side
+        torque += around * mu * side * S[RADIUS + j] + S[MUD_SPIN + j] * laws.spin
+        G[j, TENSION], G[j, TORQUE] = tension, torque
+        tension += S[WEIGHT + j] * az - S[MUD_AXIAL + j] * laws.speed
+        bx, by, bz = ax, ay, az
+    G[0, TENSION], G[0, TORQUE] = tension, torque
+
+
+@njit(error_model="numpy")
+def lay_chain(S, n, C, geometry, G, seed, P):
+    """Fill P (n + 1, POSE): each body from the node above to its own, stretched by the tension, twist-free.
+
+    The chain's length is kept in the bend and on the wall: the lower node slides along the hole until it fits.
+    seed : lateral imperfection [m], so that a straight string may buckle.
+    """
+    i = piece_at(C, 0, G[0, MD])
+    x, y, z, ax, ay, az = axis_at(C, geometry, i, G[0, MD])
+    norm = np.sqrt(2 + 2 * az)
+    P[0, 0], P[0, 1], P[0, 2] = x, y, z
+    if norm > 1e-6:
+        P[0, 3], P[0, 4], P[0, 5], P[0, 6] = (1 + az) / norm, -ay / norm, ax / norm, 0.0
+    else:
+        P[0, 3], P[0, 4], P[0, 5], P[0, 6] = 0.0, 1.0, 0.0, 0.0
+    P[0, 7] = 0.0
+    for j in range(1, n + 1):
+        length = S[ARM_TOP + j] + S[ARM_BOTTOM + j]
+        stretch = G[j - 1, TENSION] / S[K_AXIAL + j]
+        wanted = length + stretch
+        md = G[j - 1, MD] + wanted
+        nx, ny, nz, bx, by, bz, have = x, y, z, ax, ay, az, wanted
+        for _ in range(3):
+            i = piece_at(C, i, md)
+            nx, ny, nz, tx, ty, tz = axis_at(C, geometry, i, md)
+            ox, oy, oz = G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2]
+            along = ox * tx + oy * ty + oz * tz
+            # A spiral of the seed's size, a turn in some twenty bodies, favours no direction.
+            nx += ox - along * tx + seed * np.cos(0.3 * j)
+            ny += oy - along * ty + seed * np.sin(0.3 * j)
+            nz += oz - along * tz
+            bx, by, bz = nx - x, ny - y, nz - z
+            have = np.sqrt(bx * bx + by * by + bz * bz)
+            md += wanted - have
+        G[j, MD] = md
+        bx, by, bz = bx / have, by / have, bz / have
+        arm = S[ARM_BOTTOM + j]
+        P[j, 0], P[j, 1], P[j, 2] = nx - arm * bx, ny - arm * by, nz - arm * bz
+        # The shortest rotation from the axis above to this one keeps the frame without twist.
+        w = 1 + ax * bx + ay * by + az * bz
+        cx, cy, cz = cross(ax, ay, az, bx, by, bz)
+        pw, px, py, pz = P[j - 1, 3], P[j - 1, 4], P[j - 1, 5], P[j - 1, 6]
+        qw = w * pw - cx * px - cy * py - cz * pz
+        qx = w * px + cx * pw + cy * pz - cz * py
+        qy = w * py - cx * pz + cy * pw + cz * px
+        qz = w * pz + cx * py - cy * px + cz * pw
+        norm = 1 / np.sqrt(qw * qw + qx * qx + qy * qy + qz * qz)
+        P[j, 3], P[j, 4], P[j, 5], P[j, 6] = norm * qw, norm * qx, norm * qy, norm * qz
+        P[j, 7] = P[j - 1, 7] - G[j - 1, TORQUE] / S[K_TWIST + j]
+        x, y, z, ax, ay, az = nx, ny, nz, bx, by, bz
+
+
+@njit(error_model="numpy", cache=True)
+def guess(S, n, C, laws, top_md, bit_tension, seed, G, P):
+    """Fill nodes G (n + 1, NODE) and pose P (n + 1, POSE) with a first guess of the steady string."""
+    soft_string(S, n, C, laws, top_md, bit_tension, G)
+    lay_chain(S, n, C, laws.geometry, G, seed, P)

@@ -1,0 +1,102 @@
+"""The string from the top to the bit: loads, where it touches, stress, and how near it is to buckling."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fctd.drillstring import String
+from fctd.topdrive import GRAVITY
+from fctd.wellbore import Wellbore, hole_frame
+
+Array = NDArray[np.float64]
+
+
+class Loads(NamedTuple):
+    """What the string carries.
+
+    tension (effective) [N], torque, bending [N m] : of the n joints; normal (n,) [N] : of the contact points;
+    bit_tension [N], bit_torque [N m] : at the lower end.
+    """
+
+    tension: Array
+    torque: Array
+    bending: Array
+    normal: Array
+    bit_tension: float = 0.0
+    bit_torque: float = 0.0
+
+
+def buckling_limits(EI: Array, weight: Array, inclination: Array, clearance: Array) -> tuple[Array, Array]:
+    """Compression [N] at which a string lying in a straight hole buckles sinusoidally and helically.
+
+    EI [N m²]; buoyed weight [N/m]; inclination [rad]; clearance [m]: arrays (n,).  Inclined: 2√(EI w sin θ/r)
+    (Dawson & Paslay 1984) and 2√2 times √(EI w sin θ/r) (Chen, Lin & Cheatham 1990).  In vertical hole these
+    are zero and the pipe's own weight sets the limit: 1.94 and 5.55 times (EI w²)^⅓ (Lubinski 1950; Wu &
+    Juvkam-Wold 1995); the larger of both holds.  Without clearance a string cannot buckle: infinite.
+    """
+    with np.errstate(divide="ignore"):
+        lying = np.sqrt(EI * np.maximum(weight * np.sin(inclination), 0.0) / np.maximum(clearance, 0.0))
+    lying = np.where(clearance > 0, lying, np.inf)
+    hanging = np.cbrt(EI * weight**2)
+    return np.maximum(2 * lying, 1.94 * hanging), np.maximum(2 * np.sqrt(2) * lying, 5.55 * hanging)
+
+
+def _at_contacts(joints: Array, middle: NDArray[np.bool_], end: float) -> Array:
+    """What the n joints carry, at the top and at the n contact points: the joint there, or the mean of the two
+    beside a contact in the middle of its segment."""
+    below = np.append(joints[1:], end)
+    return np.append(joints[0], np.where(middle, 0.5 * (joints + below), below))
+
+
+def profile_table(
+    hole: Wellbore, string: String, mud_density: float, top: Array, points: Array, walls: Array, loads: Loads
+) -> pd.DataFrame:
+    """A row for the top and one per contact point.
+
+    top (3,), points (n, 3) : upper end and contact points [m]; walls (n, 7) : as of Wellbore.walls.
+    """
+    offset, md = walls[:, :3], walls[:, 6]
+    _, direction = hole.at(md)
+    high, right = hole_frame(direction)
+    up, aside = np.sum(offset * high, axis=1), np.sum(offset * right, axis=1)
+    inclination = hole.inclination(np.append(string.top_md, md))
+    middle = string.mid_contact()
+
+    def of(name: str) -> Array:
+        values = string.of(name)
+        return np.append(values[0], values)
+
+    outer, inner = of("outer"), of("inner")
+    steel, second = np.pi * (outer**2 - inner**2), np.pi / 4 * (outer**4 - inner**4)
+    tension = _at_contacts(loads.tension, middle, loads.bit_tension)
+    torque = _at_contacts(loads.torque, middle, loads.bit_torque)
+    bending = _at_contacts(loads.bending, middle, 0.0)
+    # Buoyed weight carries effective tension; the steel's own follows from the pressure of equal mud inside
+    # and outside.
+    pressure = mud_density * GRAVITY * np.append(top[2], points[:, 2])
+    # At the outer fibre; what equal pressure all around adds to every normal stress has no share in it.
+    axial = np.abs(tension) / steel + bending * outer / second
+    shear = torque * outer / (2 * second)
+    clearance = walls[:, 3] - string.contact_radius()
+    sinusoidal, helical = buckling_limits(of("EI"), of("weight"), inclination, np.append(clearance[0], clearance))
+    return pd.DataFrame(
+        {
+            "md_m": np.append(string.top_md, md),
+            "inclination_deg": np.degrees(inclination),
+            "effective_tension_N": tension,
+            "true_tension_N": tension - pressure * steel,
+            "torque_N_m": torque,
+            "contact_force_N": np.append(0.0, loads.normal),
+            "contact_angle_deg": np.append(0.0, np.degrees(np.arctan2(aside, up)) % 360),
+            "bending_moment_N_m": bending,
+            "offset_high_m": np.append(0.0, up),
+            "offset_right_m": np.append(0.0, aside),
+            "clearance_m": np.append(clearance[0], clearance),
+            "von_mises_Pa": np.sqrt(axial**2 + 3 * shear**2),
+            "sinusoidal_limit_N": sinusoidal,
+            "helical_limit_N": helical,
+            "buckling": np.select([tension < -helical, tension < -sinusoidal], ["helical", "sinusoidal"], "none"),
+        }
+    )

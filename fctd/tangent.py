@@ -1,0 +1,350 @@
+"""Forces out of balance on a steady string and their derivative, by a complex step through the engine's helpers.
+
+A steady string slides along the hole at one speed or turns at one rate while its shape stands still.  The
+unknowns of a body are the position of its centre of mass, a rotation of its frame and its spin about its own
+axis; the frames themselves never spin, so a string may be wound up by many turns.  A complex step of 1e-30
+differentiates without subtracting: the derivative is exact to rounding and there is no second copy of the
+physics (Squire & Trapp 1998).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from fctd.contact import (
+    arc_direction,
+    arc_owner,
+    arc_wall,
+    cylinder_direction,
+    cylinder_owner,
+    cylinder_wall,
+)
+from fctd.dual import reciprocal, root
+from fctd.friction import along_wall
+from fctd.joints import cross, gap, joint_loads
+from fctd.rotations import rotation_columns, twist_angle
+from fctd.state import (
+    ARCS,
+    ARM_BOTTOM,
+    ARM_CONTACT,
+    ARM_TOP,
+    K_AXIAL,
+    K_BEND,
+    K_SHEAR,
+    K_TWIST,
+    MUD_AXIAL,
+    MUD_SPIN,
+    OPEN,
+    PAPER,
+    RADIUS,
+    TINY,
+    TRIBUTARY,
+    WEIGHT,
+)
+
+# Columns of a pose, one row a body, row 0 the top drive: centre of mass [m], frame without spin
+# (quaternion), spin about the own axis [rad].
+POSE = 8
+STEP = 1e-30
+UNIT = 1 / STEP
+# Imaginary parts that step through the unknowns one by one.
+ONE_BY_ONE = STEP * np.eye(8)
+
+
+class Steady(NamedTuple):
+    """What a steady string does and what it is given at the bit.
+
+    geometry, friction : as in Laws.  friction_scale : multiplies every friction factor.
+    speed : along the hole, downwards [m/s]; spin [rad/s].
+    bit_x, bit_y, bit_z : force on the bit [N], global; bit_torque : torque that holds the bit back [N m].
+    """
+
+    geometry: int
+    friction: int
+    friction_scale: float
+    speed: float
+    spin: float
+    bit_x: float
+    bit_y: float
+    bit_z: float
+    bit_torque: float
+
+
+@njit(forceinline=True)
+def stepped(w, x, y, z, a, b):
+    """Quaternion after an infinitesimal tilt (a, b) in its own frame."""
+    return (
+        w - 0.5 * (x * a + y * b),
+        x + 0.5 * (w * a - z * b),
+        y + 0.5 * (w * b + z * a),
+        z + 0.5 * (x * b - y * a),
+    )
+
+
+@njit(forceinline=True)
+def times(aw, ax, ay, az, bw, bx, by, bz):
+    """Product of two quaternions."""
+    return (
+        aw * bw - ax * bx - ay * by - az * bz,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+    )
+
+
+@njit(forceinline=True)
+def in_frame(w, x, y, z, gx, gy, gz):
+    """A global vector in the frame of a body."""
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
+    return xx * gx + xy * gy + xz * gz, yx * gx + yy * gy + yz * gz, zx * gx + zy * gy + zz * gz
+
+
+@njit(forceinline=True)
+def pair_loads(ex, ey, ez, aw, ax, ay, az, bw, bx, by, bz, kw, kx, ky, kz, spin, bottom, top, ka, ks, kb, kt):
+    """Loads of a joint on its two bodies.
+
+    e : from the centre of the upper body to that of the lower [m]; a, b : their frames; k : bend of the upper
+    body's end (quaternion in its frame); spin : what the lower body is turned further [rad].
+    Returns force on the lower body [N], global, and the moment about the centre of the upper and of the lower
+    body, each in its own frame [N m]: nine scalars.
+    """
+    _, _, _, _, _, _, ux, uy, uz = rotation_columns(aw, ax, ay, az)
+    _, _, _, _, _, _, lx, ly, lz = rotation_columns(bw, bx, by, bz)
+    dx, dy, dz = gap(ex, ey, ez, ux, uy, uz, lx, ly, lz, bottom, top)
+    qw, qx, qy, qz = times(aw, ax, ay, az, kw, kx, ky, kz)
+    _, _, _, _, _, _, vx, vy, vz = rotation_columns(qw, qx, qy, qz)
+    twist = twist_angle(qw, qx, qy, qz, bw, bx, by, bz) + spin
+    fx, fy, fz, px, py, pz, mx, my, mz, _ = joint_loads(vx, vy, vz, lx, ly, lz, dx, dy, dz, twist, ka, ks, kb, kt)
+    ox, oy, oz = cross(ux, uy, uz, fx, fy, fz)
+    hx, hy, hz = cross(lx, ly, lz, fx, fy, fz)
+    pa, pb, pc = in_frame(aw, ax, ay, az, px - bottom * ox, py - bottom * oy, pz - bottom * oz)
+    ma, mb, mc = in_frame(bw, bx, by, bz, mx - top * hx, my - top * hy, mz - top * hz)
+    return fx, fy, fz, pa, pb, pc, ma, mb, mc
+
+
+@njit(error_model="numpy")
+def wall_loads(C, i, laws, x, y, z, w, qx, qy, qz, arm, radius, tributary):
+    """Loads of the wall on a body with its centre at (x, y, z) and its frame q.
+
+    Returns force [N], global; moment about the centre [N m], in the body's frame; normal force [N] and
+    friction torque r F_t about the axis [N m], r μ F_n [N m]: nine scalars.
+    """
+    _, _, _, _, _, _, ax, ay, az = rotation_columns(w, qx, qy, qz)
+    px, py, pz = x + arm * ax, y + arm * ay, z + arm * az
+    zero = 0 * px
+    if laws.geometry == ARCS:
+        rx, ry, rz, hole, stiffness, factor, _ = arc_wall(C, i, px, py, pz)
+        tx, ty, tz = arc_direction(C, i, px, py, pz)
+    else:
+        rx, ry, rz, hole, stiffness, factor, _ = cylinder_wall(C, i, px, py, pz)
+        tx, ty, tz = cylinder_direction(C, i, px, py, pz)
+    distance = root(rx * rx + ry * ry + rz * rz)
+    penetration = distance - hole + radius
+    if penetration.real < 0:
+        return zero, zero, zero, zero, zero, zero, zero, zero, zero
+    k = reciprocal(distance + TINY)
+    nx, ny, nz = k * rx, k * ry, k * rz
+    normal = stiffness * tributary * penetration
+    limit = laws.friction_scale * factor * normal
+    if laws.friction == PAPER:
+        # Eqs 15-16: axial drag and a couple about the axis, each in full.
+        drag = -limit * np.sign(laws.speed)
+        fx, fy, fz = drag * ax, drag * ay, drag * az
+        torque = -radius * limit * np.sign(laws.spin)
+        mx, my, mz = torque * ax, torque * ay, torque * az
+    else:
+        # One force against the sliding of the string's side that touches, acting there.
+        cx, cy, cz = cross(ax, ay, az, nx, ny, nz)
+        turning = laws.spin * radius
+        sx, sy, sz = along_wall(
+            laws.speed * tx + turning * cx, laws.speed * ty + turning * cy, laws.speed * tz + turning * cz, nx, ny, nz
+        )
+        share = limit * reciprocal(root(sx * sx + sy * sy + sz * sz) + TINY)
+        fx, fy, fz = -share * sx, -share * sy, -share * sz
+        mx, my, mz = cross(radius * nx, radius * ny, radius * nz, fx, fy, fz)
+        torque = mx * ax + my * ay + mz * az
+    fx, fy, fz = fx - normal * nx, fy - normal * ny, fz - normal * nz
+    ox, oy, oz = cross(arm * ax, arm * ay, arm * az, fx, fy, fz)
+    ma, mb, mc = in_frame(w, qx, qy, qz, mx + ox, my + oy, mz + oz)
+    return fx, fy, fz, ma, mb, mc, normal, -torque, radius * limit
+
+
+@njit(forceinline=True)
+def move_lower(L, k, column, j, D, U):
+    """Add derivative k of a joint's loads as one by an unknown of the lower body."""
+    for i in range(3):
+        D[j, i, column] -= L[8 * i + k]
+        D[j, 3 + i, column] -= L[48 + 8 * i + k]
+        U[j, i, column] += L[8 * i + k]
+        U[j, 3 + i, column] -= L[24 + 8 * i + k]
+
+
+@njit(forceinline=True)
+def move_upper(L, k, column, sign, j, D, A):
+    """Add derivative k of a joint's loads, times ``sign``, as one by an unknown of the upper body."""
+    for i in range(3):
+        D[j - 1, i, column] += sign * L[8 * i + k]
+        D[j - 1, 3 + i, column] -= sign * L[24 + 8 * i + k]
+        A[j, i, column] -= sign * L[8 * i + k]
+        A[j, 3 + i, column] -= sign * L[48 + 8 * i + k]
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def differentiate_joint(S, j, P, kinks, L):
+    """Fill L (18 × 8, flat): the nine loads of joint j differentiated by eight unknowns, and nine rows of the loads.
+
+    Unknowns : shift of the lower body, tilt of the upper, tilt and spin of the lower.  The loop over them packs.
+    """
+    bottom, top = S[ARM_BOTTOM + j - 1], S[ARM_TOP + j]
+    ka, ks, kb, kt = S[K_AXIAL + j], S[K_SHEAR + j], S[K_BEND + j], S[K_TWIST + j]
+    x, y, z = P[j, 0] - P[j - 1, 0], P[j, 1] - P[j - 1, 1], P[j, 2] - P[j - 1, 2]
+    aw, ax, ay, az = P[j - 1, 3], P[j - 1, 4], P[j - 1, 5], P[j - 1, 6]
+    bw, bx, by, bz = P[j, 3], P[j, 4], P[j, 5], P[j, 6]
+    kw, kx, ky, kz = kinks[j, 0], kinks[j, 1], kinks[j, 2], kinks[j, 3]
+    spin = P[j, 7] - P[j - 1, 7]
+    for k in range(8):
+        fx, fy, fz, pa, pb, pc, ma, mb, mc = pair_loads(
+            complex(x, ONE_BY_ONE[0, k]), complex(y, ONE_BY_ONE[1, k]), complex(z, ONE_BY_ONE[2, k]),
+            *stepped(aw, ax, ay, az, complex(0.0, ONE_BY_ONE[3, k]), complex(0.0, ONE_BY_ONE[4, k])),
+            *stepped(bw, bx, by, bz, complex(0.0, ONE_BY_ONE[5, k]), complex(0.0, ONE_BY_ONE[6, k])),
+            kw, kx, ky, kz, complex(spin, ONE_BY_ONE[7, k]), bottom, top, ka, ks, kb, kt,
+        )  # fmt: skip
+        L[0 + k], L[8 + k], L[16 + k] = fx.imag * UNIT, fy.imag * UNIT, fz.imag * UNIT
+        L[24 + k], L[32 + k], L[40 + k] = pa.imag * UNIT, pb.imag * UNIT, pc.imag * UNIT
+        L[48 + k], L[56 + k], L[64 + k] = ma.imag * UNIT, mb.imag * UNIT, mc.imag * UNIT
+        L[72 + k], L[80 + k], L[88 + k] = fx.real, fy.real, fz.real
+        L[96 + k], L[104 + k], L[112 + k] = pa.real, pb.real, pc.real
+        L[120 + k], L[128 + k], L[136 + k] = ma.real, mb.real, mc.real
+
+
+@njit(error_model="numpy")
+def add_joint(S, j, P, kinks, R, D, A, U, L):
+    """Add joint j to the forces out of balance R and to the blocks of the tangent −∂R/∂(unknowns).
+
+    D (n + 1, 6, 6) : bodies on themselves; A : body j against body j − 1; U : body j − 1 against body j.
+    """
+    differentiate_joint(S, j, P, kinks, L)
+    for k in range(3):  # a shift of the lower body is one of the upper the other way
+        move_lower(L, k, k, j, D, U)
+        move_upper(L, k, k, -1.0, j, D, A)
+    for k in range(2):
+        move_upper(L, 3 + k, 3 + k, 1.0, j, D, A)
+        move_lower(L, 5 + k, 3 + k, j, D, U)
+    move_lower(L, 7, 5, j, D, U)  # and so is its spin
+    move_upper(L, 7, 5, -1.0, j, D, A)
+    for i in range(3):
+        R[j, i] += L[72 + 8 * i]
+        R[j, 3 + i] += L[120 + 8 * i]
+        R[j - 1, i] -= L[72 + 8 * i]
+        R[j - 1, 3 + i] += L[96 + 8 * i]
+
+
+@njit(error_model="numpy")
+def add_wall(S, j, P, C, owner, laws, R, D):
+    """Add the wall beside contact point j to the forces out of balance and to the tangent."""
+    x, y, z = P[j, 0], P[j, 1], P[j, 2]
+    w, qx, qy, qz = P[j, 3], P[j, 4], P[j, 5], P[j, 6]
+    arm = S[ARM_CONTACT + j]
+    _, _, _, _, _, _, ax, ay, az = rotation_columns(w, qx, qy, qz)
+    tx, ty, tz = x + arm * ax, y + arm * ay, z + arm * az
+    if laws.geometry == ARCS:
+        owner[j] = arc_owner(C, owner[j], tx, ty, tz)
+        rx, ry, rz, hole, _, _, _ = arc_wall(C, owner[j], tx, ty, tz)
+    else:
+        owner[j] = cylinder_owner(C, owner[j], tx, ty, tz)
+        rx, ry, rz, hole, _, _, _ = cylinder_wall(C, owner[j], tx, ty, tz)
+    if np.sqrt(rx * rx + ry * ry + rz * rz) < hole - S[RADIUS + j]:
+        return
+    for k in range(5):  # spin about the own axis changes nothing
+        loads = wall_loads(
+            C, owner[j], laws,
+            complex(x, ONE_BY_ONE[0, k]), complex(y, ONE_BY_ONE[1, k]), complex(z, ONE_BY_ONE[2, k]),
+            *stepped(w, qx, qy, qz, complex(0.0, ONE_BY_ONE[3, k]), complex(0.0, ONE_BY_ONE[4, k])),
+            arm, S[RADIUS + j], S[TRIBUTARY + j],
+        )  # fmt: skip
+        for i in range(6):
+            D[j, i, k] -= loads[i].imag * UNIT
+            if k == 0:
+                R[j, i] += loads[i].real
+
+
+@njit(error_model="numpy")
+def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
+    """Fill R (n + 1, 6) with forces [N] and moments [N m] out of balance and D, A, U with the tangent −∂R.
+
+    Forces and shifts are global, moments and rotations in the frame of the body.  Row 0 belongs to the top
+    drive, whose reactions it holds.  C : table of the hole; kinks (n + 2, 4) : bend above each joint.
+    """
+    for B in (D[: n + 1], A[: n + 1], U[: n + 1]):
+        B[:] = 0.0
+    R[: n + 1] = 0.0
+    L = np.empty(18 * 8)
+    for j in range(1, n + 1):
+        add_joint(S, j, P, kinks, R, D, A, U, L)
+        R[j, 2] += S[WEIGHT + j]
+        # Mud drags a sliding string along its own axis and a turning one about it.
+        drag = -S[MUD_AXIAL + j] * laws.speed
+        w, x, y, z = P[j, 3], P[j, 4], P[j, 5], P[j, 6]
+        xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
+        R[j, 0] += drag * zx
+        R[j, 1] += drag * zy
+        R[j, 2] += drag * zz
+        R[j, 5] -= S[MUD_SPIN + j] * laws.spin
+        # A tilt (a, b) turns the axis by a (−y) + b x.
+        for i, dx, dy in ((0, xx, yx), (1, xy, yy), (2, xz, yz)):
+            D[j, i, 3] += drag * dy
+            D[j, i, 4] -= drag * dx
+        if laws.geometry != OPEN:
+            add_wall(S, j, P, C, owner, laws, R, D)
+    R[n, 0] += laws.bit_x
+    R[n, 1] += laws.bit_y
+    R[n, 2] += laws.bit_z
+    # The force acts at the bit, an arm away from the centre of the last body.
+    arm = S[ARM_BOTTOM + n]
+    w, x, y, z = P[n, 3], P[n, 4], P[n, 5], P[n, 6]
+    fa, fb, fc = in_frame(w, x, y, z, laws.bit_x, laws.bit_y, laws.bit_z)
+    R[n, 3] -= arm * fb
+    R[n, 4] += arm * fa
+    R[n, 5] -= laws.bit_torque
+    D[n, 3, 3] += arm * fc
+    D[n, 4, 4] += arm * fc
+
+
+@njit(error_model="numpy", cache=True)
+def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
+    """Fill D, A, U with the tangent of springs, weight and wall alone: symmetric, positive when stable."""
+    bare = Steady(laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque)
+    assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
+
+
+@njit(error_model="numpy", cache=True)
+def read_loads(S, n, P, kinks, C, owner, laws, joints, contacts):
+    """Fill the loads of a steady string.
+
+    joints (n + 1, 3) : tension [N], torque [N m], bending moment [N m] of joint j.
+    contacts (n + 1, 6) : contact point [m], global; normal force [N], r F_t and r μ F_n [N m].
+    """
+    for j in range(1, n + 1):
+        aw, ax, ay, az = P[j - 1, 3], P[j - 1, 4], P[j - 1, 5], P[j - 1, 6]
+        bw, bx, by, bz = P[j, 3], P[j, 4], P[j, 5], P[j, 6]
+        _, _, _, _, _, _, ux, uy, uz = rotation_columns(aw, ax, ay, az)
+        _, _, _, _, _, _, lx, ly, lz = rotation_columns(bw, bx, by, bz)
+        qw, qx, qy, qz = times(aw, ax, ay, az, kinks[j, 0], kinks[j, 1], kinks[j, 2], kinks[j, 3])
+        _, _, _, _, _, _, vx, vy, vz = rotation_columns(qw, qx, qy, qz)
+        ex, ey, ez = P[j, 0] - P[j - 1, 0], P[j, 1] - P[j - 1, 1], P[j, 2] - P[j - 1, 2]
+        dx, dy, dz = gap(ex, ey, ez, ux, uy, uz, lx, ly, lz, S[ARM_BOTTOM + j - 1], S[ARM_TOP + j])
+        twist = twist_angle(qw, qx, qy, qz, bw, bx, by, bz) + P[j, 7] - P[j - 1, 7]
+        kb, kt = S[K_BEND + j], S[K_TWIST + j]
+        joints[j, 0] = joint_loads(vx, vy, vz, lx, ly, lz, dx, dy, dz, twist, S[K_AXIAL + j], S[K_SHEAR + j], kb, kt)[9]
+        joints[j, 1] = -kt * twist
+        cx, cy, cz = cross(vx, vy, vz, lx, ly, lz)
+        joints[j, 2] = kb * np.arctan2(np.sqrt(cx * cx + cy * cy + cz * cz), vx * lx + vy * ly + vz * lz)
+        arm = S[ARM_CONTACT + j]
+        contacts[j, 0], contacts[j, 1], contacts[j, 2] = P[j, 0] + arm * lx, P[j, 1] + arm * ly, P[j, 2] + arm * lz
+        contacts[j, 3:] = 0.0
+        if laws.geometry != OPEN:
+            loads = wall_loads(
+                C, owner[j], laws, P[j, 0], P[j, 1], P[j, 2], bw, bx, by, bz, arm, S[RADIUS + j], S[TRIBUTARY + j]
+            )
+            contacts[j, 3], contacts[j, 4], contacts[j, 5] = loads[6], loads[7], loads[8]
