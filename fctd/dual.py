@@ -11,6 +11,9 @@ from numba.extending import overload
 
 from fctd.state import TINY
 
+# As of the kernels that use them; inlined by LLVM, which cannot pack a loop with calls.
+INLINED = {"forceinline": True, "error_model": "numpy"}
+
 
 def root(x):
     """√x."""
@@ -22,7 +25,7 @@ def reciprocal(x):
     return 1 / x
 
 
-@overload(root, inline="always")
+@overload(root, jit_options=INLINED)
 def _root(x):
     if isinstance(x, types.Complex):
 
@@ -34,7 +37,7 @@ def _root(x):
     return lambda x: np.sqrt(x)
 
 
-@overload(reciprocal, inline="always")
+@overload(reciprocal, jit_options=INLINED)
 def _reciprocal(x):
     if isinstance(x, types.Complex):
 
