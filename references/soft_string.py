@@ -195,11 +195,10 @@ def _pieces(case: Case, operation: str, bit_depth: float, speed: float | None, r
     if not (np.isfinite(bit_depth) and bit_depth <= bottom + SAME_DEPTH):
         raise InputError(f"a depth within survey and intervals, {bottom:g} m", key="bit_depth", value=bit_depth)
     string = lay_out(case, bit_depth)
-    joints = string.top_md + np.cumsum(string.length)
-    ends = joints[np.append(np.diff(string.component) != 0, True)]
-    components = string.component[np.append(np.diff(string.component) != 0, True)]
+    last = np.append(np.diff(string.component) != 0, True)  # segments at the lower end of their component
+    ends, components = (string.top_md + np.cumsum(string.length))[last], string.component[last]
     breaks = np.unique(np.concatenate([[string.top_md], stations, to_md, ends]))
-    breaks = breaks[(breaks >= string.top_md) & (breaks <= string.bit_depth)]
+    breaks = breaks[(breaks >= string.top_md) & (breaks <= ends[-1])]
     breaks = breaks[np.append(np.diff(breaks) > SAME_DEPTH, True)]
     pieces = []
     for top, bottom in pairwise(breaks):

@@ -135,7 +135,8 @@ def test_a_build_whose_wall_force_changes_side_is_refused_and_done_in_two_parts(
     ]
     expected = closed(case, [horizontal, *parts, kick_off], motion)
     assert closed(case, [horizontal, (bend_in_parts, curve), kick_off], motion) == pytest.approx(expected, rel=1e-12)
-    assert answer[:3] == pytest.approx(expected, rel=1e-8, abs=1e-6)
+    # Measured: 2e-10 at worst where the integration begins anew at the kink, 9e-10 across it.
+    assert answer[:3] == pytest.approx(expected, rel=5e-10, abs=1e-6)
     # The kink spoils the recursion's expansion, not its order: elements short enough agree as well.
     fine = soft_string(case, operation, 1150.0, speed=speed, rpm=rpm, element=0.25)
     assert fine[:3] == pytest.approx(expected, rel=1e-6, abs=1e-6)
@@ -173,16 +174,18 @@ def test_a_drop_in_compression_and_a_build_beyond_horizontal_may_change_side_mor
         drop(-30e3, -0.2, **steep)
     assert drop(30e3, -0.2, **steep).tension_above > 30e3
     long = {"weight": 200.0, "radius": 300.0, "inclination_below": 175 * DEG, "inclination_above": 5 * DEG}
-    places = []
+    places, loads = [], []
     tension, below = 10e3, long["inclination_below"]
     for _ in range(2):
         with pytest.raises(SideChangeError) as refusal:
             build(tension, 0.1, **(long | {"inclination_below": below}))
         tension, below = refusal.value.tension, refusal.value.inclination
         places.append(below / DEG)
+        loads.append(refusal.value.load)
         assert tension == pytest.approx(200.0 * 300.0 * np.sin(below), rel=1e-9)
     assert places[0] > 90 > places[1]
-    assert build(tension, 0.1, **(long | {"inclination_below": below})).load > 0
+    last = build(tension, 0.1, **(long | {"inclination_below": below}))
+    assert bend_in_parts(10e3, 0.1, **long) == pytest.approx((last.tension_above, sum(loads) + last.load))
 
 
 def test_a_capstan_is_any_bend_without_weight() -> None:

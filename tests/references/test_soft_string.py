@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from fctd import survey
 from fctd.case import Case
-from fctd.drillstring import check_fit, lay_out
+from fctd.drillstring import check_fit, lay_out, section_of
 from fctd.errors import InputError
 from fctd.wellbore import build_wellbore
 from references.soft_string import SoftString, soft_string, soft_string_ode
@@ -29,7 +29,7 @@ MOTIONS: dict[str, dict[str, float]] = {
 SPATIAL = [[0, 5, 350], [400, 30, 20], [800, 60, 340], [1200, 40, 10], [1700, 95, 60]]
 
 
-def well(stations: list[list[float]], law: str = "coulomb", **more: Any) -> Case:
+def well(stations: list[list[float]], law: str = "coulomb", top_md: float = 0.0, **more: Any) -> Case:
     """Two pipes in two kinds of hole, with something for the bit to do."""
     end = stations[-1][0]
     hole = {
@@ -44,7 +44,7 @@ def well(stations: list[list[float]], law: str = "coulomb", **more: Any) -> Case
         pipe(None, None, outer=0.1, segment_length=20.0),
     ]
     return make_case(
-        stations, components, wellbore=hole, contact={"friction_law": law}, mud={"density": 1300.0},
+        stations, components, top_md=top_md, wellbore=hole, contact={"friction_law": law}, mud={"density": 1300.0},
         bit={"weight_on_bit": "40 kN", "torque": "2 kN*m"},
     )  # fmt: skip
 
@@ -151,6 +151,25 @@ def holes(draw: st.DrawFn) -> dict[str, Any]:
 
 
 @settings(max_examples=25)
+@given(holes(), st.floats(0.3, 1.0), st.floats(0.0, 0.2))
+def test_rotating_in_place_the_hook_carries_the_weight_of_the_vertical_reach(
+    hole: dict[str, Any], part: float, top: float
+) -> None:
+    """Friction has no part along the hole then: Σ w ΔTVD of the two pipes, whatever the contact."""
+    end = hole["stations"][-1][0]
+    case = well(**hole | {"survey_method": "minimum_curvature"}, top_md=top * end)
+    depth = part * end
+    joint = max(depth - 0.3 * end, top * end)
+    courses = survey.minimum_curvature(survey.to_radians(case.wellbore.read_stations()))
+    down = survey.along_courses(courses, np.array([top * end, joint, depth]))[0][:, 2]
+    below, above = (section_of(component, 1300.0).weight for component in case.string.components)
+    expected = above * (down[1] - down[0]) + below * (down[2] - down[1])
+    scale = above * end
+    assert soft_string_ode(case, "rotate_off_bottom", depth).hookload == pytest.approx(expected, abs=1e-9 * scale)
+    assert soft_string(case, "rotate_off_bottom", depth).hookload == pytest.approx(expected, abs=1e-5 * scale)
+
+
+@settings(max_examples=25)
 @given(holes(), st.sampled_from(list(MOTIONS)), st.floats(0.5, 1.0))
 def test_in_any_hole_both_summations_agree(hole: dict[str, Any], operation: str, part: float) -> None:
     case = well(**hole)
@@ -186,6 +205,30 @@ def test_bit_loads_pass_to_the_surface() -> None:
     for operation in ("drill_rotating", "drill_sliding"):
         answer = soft_string_ode(case, operation, 1000.0, **MOTIONS[operation])
         assert answer[:3] == pytest.approx((weight - 40e3, 2e3, 0.0), abs=1e-3)
+
+
+@pytest.mark.parametrize("summation", [soft_string, soft_string_ode])
+def test_every_metre_has_the_friction_of_its_hole_and_the_weight_and_radius_of_its_pipe(summation: Any) -> None:
+    """Slant at 60 deg, by hand: shoe at 400 m, joint of the pipes at 630 m with the bit at 930 m of 1000 m."""
+    case = well([[0, 60, 0], [1000, 60, 0]], "paper")
+    pipe_below, pipe_above = (section_of(component, 1300.0) for component in case.string.components)
+    # metres, pipe, friction: from the bit upwards
+    stretches = [(300, pipe_below, 0.3), (230, pipe_above, 0.3), (400, pipe_above, 0.15)]
+    across = np.sin(np.pi / 3)
+    weight = sum(length * part.weight * 0.5 for length, part, _ in stretches)
+    drag = sum(length * part.weight * across * factor for length, part, factor in stretches)
+    arm = sum(length * part.weight * across * factor * part.contact_radius for length, part, factor in stretches)
+    assert pipe_below.contact_radius == 0.085
+    expected = {
+        "trip_out": (weight + drag, 0.0),
+        "trip_in": (weight - drag, 0.0),
+        "rotate_off_bottom": (weight, arm),
+        "back_ream": (weight + drag, arm),
+        "drill_rotating": (weight - drag - 40e3, arm + 2e3),
+        "drill_sliding": (weight - drag - 40e3, 2e3),
+    }
+    for operation, loads in expected.items():
+        assert summation(case, operation, 930.0, **MOTIONS[operation])[:2] == pytest.approx(loads, rel=1e-9)
 
 
 def test_speed_and_rpm_come_from_the_arguments_or_from_the_case() -> None:
