@@ -1,8 +1,8 @@
 """Closed forms of the soft string for one section of hole: vertical, hold, build, drop, side turn, capstan.
 
-Derived here from the differential form in `soft_string`; Aadnøy & Andersen 2001 and Aadnøy, Fazaelizadeh &
-Hareland 2010 give the same results for pick-up and slack-off.  Every function climbs one section of constant
-weight w [N/m], curvature 1/R and friction from its lower to its upper end:
+Derived here from the differential form in `soft_string` (Sheppard, Wick & Burgess 1987); Aadnøy & Andersen 2001
+treat the same sections for pick-up and slack-off.  Every function climbs one section of constant weight w [N/m],
+curvature 1/R and friction from its lower to its upper end:
 
     tension_below, drag, geometry  →  Climb(tension_above, load),
 
