@@ -1,73 +1,244 @@
-"""Johancsik's soft string: a cable without bending stiffness or clearance, summed from the bit upwards.
+"""The soft string: a cable without bending stiffness that follows the hole without clearance.
 
-Johancsik, Friesen & Dawson 1984, here with the side force of an element as the length of a vector: the
-turn of the hole times tension, plus the weight across the hole.  In a plane build in slack-off the two
-oppose each other and the wall force changes side; the length of the vector handles that.
+With md s along the hole, tangent t(s), effective tension T and buoyed weight w per metre, the load across
+the hole that the wall has to carry is the vector
+
+    q = T t′ + w (e − (e·t) t),          e straight down,
+
+the turn of the hole times tension plus the weight across it, whatever plane they lie in.  Counted from the bit
+upwards, with the factors of `sliding.Friction`,
+
+    −dT/ds = w e·t + drag |q|,    −dM/ds = r turning |q|,    contact force per metre N = normal |q|.
+
+Two ways to sum it up: the recursion of Johancsik, Friesen & Dawson 1984 over short elements, its side force
+written with vectors, and the differential form of Sheppard, Wick & Burgess 1987, integrated.  Both start at
+the bit with −WOB and the bit torque while drilling, and with nothing off bottom.
+
+In a plane build in slack-off the two parts of q oppose each other and the wall force changes side, where |q|
+has a kink.  A law that gives the wall force a side friction (``coulomb`` while turning) lets the string climb
+the wall until both balance q; without clearance that moves nothing, so only the factors change.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
 
 from fctd import survey
 from fctd.case import Case
 from fctd.drillstring import lay_out
-from fctd.wellbore import build_wellbore
+from fctd.errors import InputError
+from references.sliding import Friction, loads_at_bit, motion_of, split_friction
+
+Array = NDArray[np.float64]
+# Tangent and its derivative (…, 3) at measured depths (…) [m] of a course between stations.
+Axis = Callable[[Array | float, int], tuple[Array, Array]]
 
 ELEMENT = 1.0  # [m]
-PULL = {"trip_out": 1.0, "trip_in": -1.0, "rotate_off_bottom": 0.0}
+DOWN = np.array([0.0, 0.0, 1.0])
+RELATIVE, ABSOLUTE = 1e-11, 1e-6  # tolerances of the integration; [N], [N m]
+STRAIGHT = 1e-9  # [rad]: less turn than this is rounding
+SAME_DEPTH = 1e-6  # [m]
+
+
+class Profile(NamedTuple):
+    """Along the string, from the top: md [m], effective tension [N], torque [N m], side force N [N/m]; (n,) each."""
+
+    md: Array
+    tension: Array
+    torque: Array
+    side_force: Array
 
 
 class SoftString(NamedTuple):
-    """Hook load [N], surface torque [N m] and summed side force [N]."""
+    """Hook load [N], surface torque [N m], summed side force [N], and the profile in the middle of elements."""
 
     hookload: float
     surface_torque: float
     total_contact_force: float
+    profile: Profile
 
 
-def soft_string(case: Case, operation: str, bit_depth: float) -> SoftString:
-    """Steady sliding or rotating string off bottom; ``operation`` is a key of PULL.
+class Piece(NamedTuple):
+    """A stretch where all is smooth: no station, interval or component ends inside.
 
-    Rotating, law ``coulomb`` climbs the wall until weight balances normal force and friction together, so
-    the torque follows μ/√(1 + μ²); law ``paper`` has no such side force.
+    top, bottom [m]; course: between which stations; weight [N/m]; radius [m].
     """
-    hole = build_wellbore(case)
+
+    top: float
+    bottom: float
+    course: int
+    weight: float
+    radius: float
+    friction: Friction
+
+
+def soft_string(
+    case: Case,
+    operation: str,
+    bit_depth: float,
+    *,
+    speed: float | None = None,
+    rpm: float | None = None,
+    element: float = ELEMENT,
+) -> SoftString:
+    """Johancsik's recursion from the bit upwards, in elements of at most ``element`` [m]; second order in it.
+
+    An element's load is taken with the tension in its middle, which depends on the load: a quadratic equation.
+    speed [m/s] and rpm [1/min] as in `sliding.motion_of`.
+    Raises InputError for what `motion_of` and `lay_out` refuse, and for a depth beyond survey or intervals.
+    """
+    axis = _axis(case)
+    tension, torque = loads_at_bit(case, operation)
+    contact, rows = 0.0, []
+    for piece in reversed(_pieces(case, operation, bit_depth, speed, rpm)):
+        ends = _divide(piece, element)
+        tangents = axis(ends, piece.course)[0]
+        length = float(ends[1] - ends[0])
+        normal, drag, turning = piece.friction
+        for k in range(len(ends) - 2, -1, -1):
+            mean = 0.5 * (tangents[k] + tangents[k + 1])
+            turn = tangents[k + 1] - tangents[k]
+            along = piece.weight * length * float(mean[2])
+            # |fixed + load·share| = load
+            fixed = (tension + 0.5 * along) * turn + piece.weight * length * (DOWN - mean[2] * mean)
+            share = 0.5 * drag * turn
+            both, rest = float(fixed @ share), 1.0 - float(share @ share)
+            load = (both + np.sqrt(both**2 + rest * float(fixed @ fixed))) / rest
+            gain, twist = along + drag * load, piece.radius * turning * load
+            middle = 0.5 * (ends[k] + ends[k + 1])
+            rows.append((middle, tension + 0.5 * gain, torque + 0.5 * twist, normal * load / length))
+            tension, torque, contact = tension + gain, torque + twist, contact + normal * load
+    return SoftString(float(tension), float(torque), float(contact), Profile(*np.array(rows[::-1]).T))
+
+
+def soft_string_ode(
+    case: Case, operation: str, bit_depth: float, *, speed: float | None = None, rpm: float | None = None
+) -> SoftString:
+    """The differential form, integrated from the bit upwards, arguments and errors as `soft_string`.
+
+    Piece by piece where all is smooth, and within a piece anew from where the wall force changes side.
+    """
+    axis = _axis(case)
+    state = np.array([*loads_at_bit(case, operation), 0.0])
+    parts = []
+    for piece in reversed(_pieces(case, operation, bit_depth, speed, rpm)):
+        ends = _divide(piece, ELEMENT)
+        middles = 0.5 * (ends[1:] + ends[:-1])
+        for climb in _climb(piece, axis, state):
+            state = climb.y[:, -1]
+            md = middles[(middles > climb.t[-1]) & (middles <= climb.t[0])]
+            if len(md):
+                tension, torque, _ = climb.sol(md)
+                load = np.linalg.norm(_load_across(piece, axis, md, tension), axis=-1)
+                parts.append((md, tension, torque, piece.friction.normal * load))
+    profile = Profile(*(np.concatenate(column) for column in zip(*reversed(parts), strict=True)))
+    return SoftString(float(state[0]), float(state[1]), float(state[2]), profile)
+
+
+def _climb(piece: Piece, axis: Axis, state: Array) -> Iterator[Any]:
+    """Integrate tension, torque and contact force (3,) up a piece: scipy's result between changes of side."""
+    normal, drag, turning = piece.friction
+
+    def slope(md: float, state: Array) -> Array:
+        load = float(np.linalg.norm(_load_across(piece, axis, md, state[0])))
+        along = piece.weight * float(axis(md, piece.course)[0][2])
+        return -np.array([along + drag * load, piece.radius * turning * load, normal * load])
+
+    def side(md: float, state: Array) -> float:
+        """Load towards the inside of the bend: the wall force changes side where it changes sign."""
+        return float(_load_across(piece, axis, md, state[0]) @ axis(md, piece.course)[1])
+
+    start, length = piece.bottom, piece.bottom - piece.top
+    events = None
+    if float(np.linalg.norm(axis(start, piece.course)[1])) * length > STRAIGHT:
+        # The side a hair above the lower end: at the end itself the load may be nothing.
+        hair = 1e-6 * length
+        side.direction = -np.sign(side(start - hair, state - hair * slope(start, state)))  # type: ignore[attr-defined]
+        side.terminal = True  # type: ignore[attr-defined]
+        events = side
+    while start > piece.top:
+        climb = solve_ivp(
+            slope, (start, piece.top), state, "DOP853", events=events, dense_output=True, rtol=RELATIVE, atol=ABSOLUTE
+        )
+        if not climb.success:
+            raise RuntimeError(f"soft string above {start:g} m: {climb.message}")
+        yield climb
+        start, state = climb.t[-1], climb.y[:, -1]
+        if events is not None:
+            side.direction *= -1  # type: ignore[attr-defined]
+
+
+def _load_across(piece: Piece, axis: Axis, md: Array | float, tension: Array | float) -> Array:
+    """Load across the hole q (…, 3) [N/m] at depths (…) [m] under tensions (…) [N]."""
+    tangent, bend = axis(md, piece.course)
+    across = DOWN - tangent[..., 2:] * tangent
+    return np.asarray(np.asarray(tension)[..., None] * bend + piece.weight * across)
+
+
+def _divide(piece: Piece, element: float) -> Array:
+    """Ends of equal elements of at most ``element`` [m], from the top of a piece."""
+    if not element > 0:
+        raise InputError("a length above 0", key="element", value=element)
+    return np.linspace(piece.top, piece.bottom, int(np.ceil((piece.bottom - piece.top) / element - 1e-9)) + 1)
+
+
+def _pieces(case: Case, operation: str, bit_depth: float, speed: float | None, rpm: float | None) -> list[Piece]:
+    """Smooth pieces of hole and string from top to bit."""
+    motion = motion_of(case, operation, speed, rpm)
+    stations = case.wellbore.read_stations()[:, 0]
+    to_md = np.array([interval.to_md for interval in case.wellbore.intervals])
+    bottom = min(stations[-1], to_md[-1])
+    if not (np.isfinite(bit_depth) and bit_depth <= bottom + SAME_DEPTH):
+        raise InputError(f"a depth within survey and intervals, {bottom:g} m", key="bit_depth", value=bit_depth)
     string = lay_out(case, bit_depth)
-    joints = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)])
-    count = int(np.ceil((bit_depth - string.top_md) / ELEMENT))
-    md = np.linspace(string.top_md, bit_depth, count + 1)
-    middle = 0.5 * (md[1:] + md[:-1])
-    segment = np.clip(np.searchsorted(joints, middle) - 1, 0, string.segments - 1)
-    tangents = _tangents(case, md)
-    friction = hole.walls(hole.at(middle)[0])[:, 5]
-    weight, radius = string.of("weight")[segment], string.of("contact_radius")[segment]
-    length = md[1] - md[0]
-    pull = PULL[operation]
-    down = np.array([0.0, 0.0, 1.0])
-
-    tension = torque = contact = 0.0
-    for k in range(count - 1, -1, -1):
-        mean = 0.5 * (tangents[k] + tangents[k + 1])
-        turn = tangents[k + 1] - tangents[k]
-        across = weight[k] * length * (down - mean[2] * mean)
-        along = weight[k] * length * mean[2]
-        half = tension + 0.5 * along
-        for _ in range(3):  # the side force depends on the tension in the middle of the element
-            side = float(np.linalg.norm(half * turn + across))
-            half = tension + 0.5 * (along + pull * friction[k] * side)
-        if pull == 0 and case.contact.friction_law == "coulomb":
-            side /= float(np.sqrt(1 + friction[k] ** 2))
-        tension += along + pull * friction[k] * side
-        torque += (pull == 0) * friction[k] * radius[k] * side
-        contact += side
-    return SoftString(tension, torque, contact)
+    last = np.append(np.diff(string.component) != 0, True)  # segments at the lower end of their component
+    ends, components = (string.top_md + np.cumsum(string.length))[last], string.component[last]
+    breaks = np.unique(np.concatenate([[string.top_md], stations, to_md, ends]))
+    breaks = breaks[(breaks >= string.top_md) & (breaks <= ends[-1])]
+    breaks = breaks[np.append(np.diff(breaks) > SAME_DEPTH, True)]
+    pieces = []
+    for top, bottom in pairwise(breaks):
+        middle = 0.5 * (top + bottom)
+        section = string.sections[components[np.searchsorted(ends, middle)]]
+        factor = case.wellbore.intervals[int(np.searchsorted(to_md, middle))].friction
+        friction = split_friction(case.contact.friction_law, factor, motion, section.contact_radius)
+        course = int(np.searchsorted(stations, middle)) - 1
+        pieces.append(Piece(float(top), float(bottom), course, section.weight, section.contact_radius, friction))
+    return pieces
 
 
-def _tangents(case: Case, md: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Directions of the hole itself, not of the cylinders that stand for it, at measured depths (n,) [m]."""
+def _axis(case: Case) -> Axis:
+    """Tangent of the hole itself, not of the cylinders that stand for it, and its derivative [1/m]."""
     stations = survey.to_radians(case.wellbore.read_stations())
     if case.wellbore.survey_method == "minimum_curvature":
-        return survey.along_courses(survey.minimum_curvature(stations), md)[1]
-    return survey.tangents(survey.interpolate_angles(stations, md))
+        try:
+            courses = survey.minimum_curvature(stations)
+        except ValueError as error:
+            raise InputError("stations that a circular arc can join", key="wellbore", value=str(error)) from None
+
+        def arc(md: Array | float, course: int) -> tuple[Array, Array]:
+            tangent, normal, curvature = courses.tangent[course], courses.normal[course], courses.curvature[course]
+            angle = curvature * (np.asarray(md) - courses.md[course])[..., None]
+            sine, cosine = np.sin(angle), np.cos(angle)
+            return cosine * tangent + sine * normal, curvature * (cosine * normal - sine * tangent)
+
+        return arc
+
+    def even(md: Array | float, course: int) -> tuple[Array, Array]:
+        """Inclination I and unwrapped azimuth A linear in md."""
+        start, rate = stations[course], np.diff(stations[course : course + 2], axis=0)[0]
+        _, per_inc, per_azi = rate / rate[0]
+        past = np.asarray(md) - start[0]
+        inc, azi = start[1] + past * per_inc, start[2] + past * per_azi
+        si, ci, sa, ca = np.sin(inc), np.cos(inc), np.sin(azi), np.cos(azi)
+        tangent = np.stack([si * ca, si * sa, ci], axis=-1)
+        bend = np.stack(
+            [per_inc * ci * ca - per_azi * si * sa, per_inc * ci * sa + per_azi * si * ca, -per_inc * si], axis=-1
+        )
+        return tangent, bend
+
+    return even

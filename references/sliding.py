@@ -1,0 +1,103 @@
+"""How friction splits along and around a string that slides, turns, or both: one set of factors for each law.
+
+The wall carries the load across the hole q [N/m]: tension times turn of the hole, plus the weight across it.
+With the contact moving along the hole at V and around it at rΩ, tan ψ = rΩ/V:
+
+- law ``coulomb``: one force μN against the sliding velocity.  Its part around the hole, μN sin ψ, stands
+  across the hole as well and at right angles to the wall's N, so q² = N² + (μN sin ψ)²:
+      N = q/√(1 + μ² sin²ψ),   drag = μ cos ψ N,   side friction = μ sin ψ N.
+  Sliding gives N = q and drag μq; rotating in place N = q/√(1 + μ²) and torque r μq/√(1 + μ²).
+- law ``paper`` (Eqs 15–16): N = q, drag μN when it slides, torque rμN when it turns, each in full.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fctd.case import DRILLING, Case
+from fctd.errors import InputError, nearest
+from fctd.operations import rad_per_s
+
+# Which way friction pulls at the string: down the hole (+1), up (−1), or not at all along it.
+DRAG_SIGN = {
+    "trip_in": -1.0,
+    "trip_out": 1.0,
+    "rotate_off_bottom": 0.0,
+    "back_ream": 1.0,
+    "drill_rotating": -1.0,
+    "drill_sliding": -1.0,
+}
+TURNING = ("rotate_off_bottom", "back_ream", "drill_rotating")
+
+
+class Friction(NamedTuple):
+    """What a load q across the hole gives, each per q.
+
+    normal : wall force N; drag : axial friction, > 0 where it adds to tension upwards (pick-up);
+    turning : friction around the hole, > 0, torque over radius.
+    """
+
+    normal: float
+    drag: float
+    turning: float
+
+
+class Motion(NamedTuple):
+    """What the whole string does: drag_sign of `DRAG_SIGN`, speed ≥ 0 [m/s], spin ≥ 0 [rad/s]."""
+
+    drag_sign: float
+    speed: float
+    spin: float
+
+
+def split_friction(law: str, factor: float, motion: Motion, radius: float) -> Friction:
+    """Friction of a law (``coulomb`` or ``paper``) with a factor μ at a contact radius [m]."""
+    around = radius * motion.spin
+    if law == "paper":
+        return Friction(1.0, factor * motion.drag_sign, factor * float(around > 0))
+    resultant = float(np.hypot(motion.speed, around))
+    sine, cosine = around / resultant, motion.speed / resultant
+    normal = 1 / float(np.sqrt(1 + (factor * sine) ** 2))
+    return Friction(normal, factor * cosine * normal * motion.drag_sign, factor * sine * normal)
+
+
+def motion_of(case: Case, operation: str, speed: float | None = None, rpm: float | None = None) -> Motion:
+    """The motion of an operation, from the arguments or else from the case's first operation of that kind.
+
+    speed [m/s]; rpm [1/min].  Friction depends on the direction of sliding alone, so what slides without
+    turning, or turns without sliding, needs no number; a trip turns only where something says so.
+    Raises InputError for an unknown operation, and for a speed or rpm that is missing or not the operation's.
+    """
+    if operation not in DRAG_SIGN:
+        raise InputError(nearest(operation, DRAG_SIGN, "operation"), key="operation", value=operation)
+    planned = next((o for o in case.operations if o.kind == operation), None)
+    moves, turns = DRAG_SIGN[operation] != 0, operation in TURNING
+    if speed is None:
+        speed = planned.speed if planned else None if moves else 0.0
+    if rpm is None:
+        rpm = planned.rpm if planned else None if turns else 0.0
+    if speed is None and rpm == 0:
+        speed = 1.0
+    if rpm is None and not moves:
+        rpm = 1.0
+    _check("rpm", rpm, needed=turns, allowed=operation != "drill_sliding")
+    _check("speed", speed, needed=moves, allowed=moves)
+    assert speed is not None
+    assert rpm is not None
+    return Motion(DRAG_SIGN[operation], speed, rad_per_s(rpm))
+
+
+def _check(key: str, value: float | None, *, needed: bool, allowed: bool) -> None:
+    """Refuse a speed or rpm that is missing, no number, zero where it is needed, or not zero where it is not."""
+    expected = "0 for this operation" if not allowed else f"a number {'above' if needed else 'at least'} 0"
+    if value is None:
+        raise InputError(f"{expected}, as an argument or in an operation of the case", key=key)
+    if not np.isfinite(value) or value < 0 or (needed and value == 0) or (value > 0 and not allowed):
+        raise InputError(expected, key=key, value=value)
+
+
+def loads_at_bit(case: Case, operation: str) -> tuple[float, float]:
+    """Effective tension [N] and torque [N m] at the bit: −WOB and the bit torque on bottom, else none."""
+    if operation in DRILLING:
+        return -case.bit.weight_on_bit, case.bit.torque
+    return 0.0, 0.0
