@@ -2,8 +2,10 @@
 
     case = fctd.load_case("well.toml")
     result = fctd.simulate(case)
+    point = fctd.equilibrium(case, operation="trip_out", bit_depth=2450)
+    chart = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
 
-Units are SI; x is north, y east, z down.  See ``simulate`` and ``find_contacts``.
+Units are SI; x is north, y east, z down.
 """
 
 import hashlib
@@ -28,19 +30,24 @@ def _cache_folder() -> Path:
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
 
 from fctd.case import Case, load_case  # noqa: E402
+from fctd.equilibrium import Equilibrium, equilibrium  # noqa: E402
 from fctd.errors import InputError  # noqa: E402
 from fctd.results import SimulationResult  # noqa: E402
 from fctd.simulate import simulate  # noqa: E402
+from fctd.torque_drag import torque_drag  # noqa: E402
 from fctd.wellbore import Contacts, Wellbore, build_wellbore, find_contacts  # noqa: E402
 
 __all__ = [
     "Case",
     "Contacts",
+    "Equilibrium",
     "InputError",
     "SimulationResult",
     "Wellbore",
     "build_wellbore",
+    "equilibrium",
     "find_contacts",
     "load_case",
     "simulate",
+    "torque_drag",
 ]

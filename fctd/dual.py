@@ -5,6 +5,8 @@ from packing.  A complex step of 1e-30 needs none of it: the first-order rule is
 these are the plain operations.
 """
 
+from typing import Any
+
 import numpy as np
 from numba import types
 from numba.extending import overload
@@ -12,7 +14,7 @@ from numba.extending import overload
 from fctd.state import TINY
 
 # As of the kernels that use them; inlined by LLVM, which cannot pack a loop with calls.
-INLINED = {"forceinline": True, "error_model": "numpy"}
+INLINED: Any = {"forceinline": True, "error_model": "numpy"}
 
 
 def root(x):

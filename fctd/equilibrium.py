@@ -73,7 +73,8 @@ class Equilibrium:
         """The string from the top to the bit, a row per contact point; columns as of ``profile_table``."""
         shape = self._shape
         walls = shape.hole.walls(shape.contacts[:, :3], shape.owner)
-        loads = Loads(*shape.joints.T, shape.contacts[:, 3], shape.bit_tension, shape.bit_torque)
+        tension, torque, bending = shape.joints.T
+        loads = Loads(tension, torque, bending, shape.contacts[:, 3], shape.bit_tension, shape.bit_torque)
         return profile_table(
             shape.hole, shape.string, self.case.mud.density, shape.top, shape.contacts[:, :3], walls, loads
         )
@@ -134,8 +135,9 @@ class Solver:
         on_bottom = operation in DRILLING
         weight_on_bit = case.bit.weight_on_bit if on_bottom else 0.0
         _, (downhole,) = hole.at(np.array([bit_depth]))
+        push = [float(-weight_on_bit * d) for d in downhole]
         laws = Steady(
-            self.geometry, self.law, 1.0, rates.speed, rates.spin, *(float(-weight_on_bit * d) for d in downhole),
+            self.geometry, self.law, 1.0, rates.speed, rates.spin, push[0], push[1], push[2],
             case.bit.torque if on_bottom else 0.0,
         )  # fmt: skip
         weight = float(string.of("weight") @ string.length) + weight_on_bit
@@ -155,9 +157,10 @@ class Solver:
             hole, string, w.P[0, :3].copy(), joints[1:], contacts[1:], w.owner[1 : n + 1].copy(),
             -weight_on_bit, laws.bit_torque,
         )  # fmt: skip
+        normal, r_ft, r_mu_n = (float(contacts[:, k].sum()) for k in (3, 4, 5))
         return Equilibrium(
             case, operation, bit_depth, status, message, iterations, hookload, torque, indicator, drive,
-            *(float(contacts[:, k].sum()) for k in (3, 4, 5)), imbalance, shape,
+            normal, r_ft, r_mu_n, imbalance, shape,
         )  # fmt: skip
 
     def _balance(self, string: String, laws: Steady, weight_on_bit: float, force: float) -> tuple[int, int, Array]:

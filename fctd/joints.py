@@ -130,8 +130,10 @@ def hinge_gap(S, j):
     """Gap at joint j from the hinge point of body j - 1 to that of body j [m], global."""
     x0, y0, z0 = position(S, j - 1)
     x1, y1, z1 = position(S, j)
+    ax, ay, az = axis(S, j - 1)
+    bx, by, bz = axis(S, j)
     bottom, top = S[ARM_BOTTOM + j - 1], S[ARM_TOP + j]
-    return gap(x1 - x0, y1 - y0, z1 - z0, *axis(S, j - 1), *axis(S, j), bottom, top)
+    return gap(x1 - x0, y1 - y0, z1 - z0, ax, ay, az, bx, by, bz, bottom, top)
 
 
 @njit(forceinline=True)

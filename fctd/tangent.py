@@ -204,11 +204,12 @@ def differentiate_joint(S, j, P, kinks, L):
     kw, kx, ky, kz = kinks[j, 0], kinks[j, 1], kinks[j, 2], kinks[j, 3]
     spin = P[j, 7] - P[j - 1, 7]
     for k in range(8):
+        cw, cx, cy, cz = stepped(aw, ax, ay, az, complex(0.0, ONE_BY_ONE[3, k]), complex(0.0, ONE_BY_ONE[4, k]))
+        dw, dx, dy, dz = stepped(bw, bx, by, bz, complex(0.0, ONE_BY_ONE[5, k]), complex(0.0, ONE_BY_ONE[6, k]))
         fx, fy, fz, pa, pb, pc, ma, mb, mc = pair_loads(
             complex(x, ONE_BY_ONE[0, k]), complex(y, ONE_BY_ONE[1, k]), complex(z, ONE_BY_ONE[2, k]),
-            *stepped(aw, ax, ay, az, complex(0.0, ONE_BY_ONE[3, k]), complex(0.0, ONE_BY_ONE[4, k])),
-            *stepped(bw, bx, by, bz, complex(0.0, ONE_BY_ONE[5, k]), complex(0.0, ONE_BY_ONE[6, k])),
-            kw, kx, ky, kz, complex(spin, ONE_BY_ONE[7, k]), bottom, top, ka, ks, kb, kt,
+            cw, cx, cy, cz, dw, dx, dy, dz, kw, kx, ky, kz, complex(spin, ONE_BY_ONE[7, k]),
+            bottom, top, ka, ks, kb, kt,
         )  # fmt: skip
         L[0 + k], L[8 + k], L[16 + k] = fx.imag * UNIT, fy.imag * UNIT, fz.imag * UNIT
         L[24 + k], L[32 + k], L[40 + k] = pa.imag * UNIT, pb.imag * UNIT, pc.imag * UNIT
@@ -257,11 +258,11 @@ def add_wall(S, j, P, C, owner, laws, R, D):
     if np.sqrt(rx * rx + ry * ry + rz * rz) < hole - S[RADIUS + j]:
         return
     for k in range(5):  # spin about the own axis changes nothing
+        cw, cx, cy, cz = stepped(w, qx, qy, qz, complex(0.0, ONE_BY_ONE[3, k]), complex(0.0, ONE_BY_ONE[4, k]))
         loads = wall_loads(
             C, owner[j], laws,
             complex(x, ONE_BY_ONE[0, k]), complex(y, ONE_BY_ONE[1, k]), complex(z, ONE_BY_ONE[2, k]),
-            *stepped(w, qx, qy, qz, complex(0.0, ONE_BY_ONE[3, k]), complex(0.0, ONE_BY_ONE[4, k])),
-            arm, S[RADIUS + j], S[TRIBUTARY + j],
+            cw, cx, cy, cz, arm, S[RADIUS + j], S[TRIBUTARY + j],
         )  # fmt: skip
         for i in range(6):
             D[j, i, k] -= loads[i].imag * UNIT
