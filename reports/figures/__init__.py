@@ -25,6 +25,10 @@ MODULES: dict[str, str] = {
     "energy_ledger": "reports.figures.energy_ledger",
     "overlap": "reports.figures.overlap",
     "cylinder_error": "reports.figures.cylinder_error",
+    "steady_state": "reports.figures.steady_state",
+    "soft_limit": "reports.figures.soft_limit",
+    "beam_in_hole": "reports.figures.beam_in_hole",
+    "real_chart": "reports.figures.real_chart",
     "real_survey": "reports.figures.real_survey",
 }
 

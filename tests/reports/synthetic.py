@@ -206,6 +206,62 @@ def real_survey() -> dict[str, pd.DataFrame]:
     }
 
 
+def _chart() -> pd.DataFrame:
+    depth = np.arange(500.0, 2500.0, 100.0)
+    kinds = ["trip_in", "trip_out", "rotate_off_bottom", "drill_rotating"]
+    return pd.concat(
+        pd.DataFrame(
+            {
+                "operation": kind,
+                "bit_depth_m": depth,
+                "hookload_N": (200 + 20 * k) * depth,
+                "surface_torque_N_m": 3 * depth * (k > 1),
+                "status": ["converged"] * (len(depth) - 1) + ["unstable"],
+            }
+        )
+        for k, kind in enumerate(kinds)
+    )
+
+
+def steady_state() -> dict[str, pd.DataFrame]:
+    compared = pd.DataFrame(
+        {
+            "operation": ["trip_in", "rotate_off_bottom"],
+            "bit_depth_m": [2000.0, 2000.0],
+            "hookload_stepped_kN": [400.0, 480.0],
+            "torque_stepped_kN_m": [0.0, 6.0],
+        }
+    )
+    return {"chart": _chart(), "compared": compared}
+
+
+def soft_limit() -> dict[str, pd.DataFrame]:
+    return {
+        "ladder": pd.DataFrame(
+            {
+                "string": ["as it is", "as it is", "soft", "soft"],
+                "operation": ["pick-up", "rotation"] * 2,
+                "hookload_off_percent": [0.5, 0.1, 0.02, 0.01],
+                "torque_off_percent": [0.0, 1.2, 0.0, 0.1],
+            }
+        )
+    }
+
+
+def beam_in_hole() -> dict[str, pd.DataFrame]:
+    segment = np.array([0.1, 0.5, 1.0])
+    return {
+        "beams": pd.concat(
+            pd.DataFrame({"beam": beam, "segment_m": segment, "off_percent": sign * segment**2})
+            for beam, sign in (("cantilever", 1.0), ("pendulum", -0.3))
+        )
+    }
+
+
+def real_chart() -> dict[str, pd.DataFrame]:
+    return {"chart": _chart().assign(geometry="arcs")}
+
+
 STUDIES = {
     function.__name__: function
     for function in (
@@ -215,6 +271,10 @@ STUDIES = {
         overlap,
         cylinder_error,
         ownership,
+        steady_state,
+        soft_limit,
+        beam_in_hole,
         real_survey,
+        real_chart,
     )
 }
