@@ -1,6 +1,6 @@
 """A run before its first step: hole, string, step, and the string settled at its start."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -16,6 +16,7 @@ from fctd.operations import Stretch, depth_range, rad_per_s, schedule
 from fctd.rotations import quaternion_from_axis
 from fctd.stability import AUTO_SHARE, stable_step, stiffest_mode
 from fctd.topdrive import Motion, PerMetre
+from fctd.wall_query import QueriedWall, WallQuery
 from fctd.wellbore import Wellbore, build_wellbore
 
 Array = NDArray[np.float64]
@@ -47,6 +48,7 @@ class Run:
     owner: NDArray[np.int64]
     step: float
     laws: state.Laws
+    queried: QueriedWall | None = None  # the wall as another contact method sees it, in place of the hole's
     steps: int = 0
 
     @property
@@ -57,15 +59,22 @@ class Run:
     def advance(self, motion: Motion, duration: float, laws: state.Laws | None = None) -> None:
         """Advance by ``duration`` [s] in equal steps no longer than the run's."""
         steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
-        dynamics.advance(
-            self.S, self.top, self.owner, self.segments, self.hole.pieces, laws or self.laws,
-            motion, self.pipe, duration / steps, steps,
-        )  # fmt: skip
+        laws = laws or self.laws
+        if self.queried is not None:
+            self.queried.advance(self.S, self.top, laws, motion, self.pipe, duration / steps, steps)
+        else:
+            dynamics.advance(
+                self.S, self.top, self.owner, self.segments, self.hole.pieces, laws,
+                motion, self.pipe, duration / steps, steps,
+            )  # fmt: skip
         self.steps += steps
 
     def refresh(self) -> None:
         """Bring axes and walls up to the present positions."""
         dynamics.update_axes(self.S, self.segments)
+        if self.queried is not None:
+            self.queried.refresh(self.S)
+            return
         update_walls(self.S, self.owner, self.segments, self.segments, self.hole.pieces, self.laws.geometry)
 
     def check(self) -> None:
@@ -88,13 +97,19 @@ class Run:
             raise UnstableError(f"segment {at} is twisted by more than half a turn against the one above: too long")
 
 
-def prepare(case: Case) -> tuple[Run, list[Stretch]]:
+def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Stretch]]:
     """Build hole and string of a case, lay the string on the axis of the hole and choose the step.
 
-    Raises InputError for a case that cannot be simulated.
+    contact : answers for the wall in place of the hole's own pieces.  Raises InputError for a case that cannot
+    be simulated.
     """
     try:
-        return _prepare(case)
+        run, stretches = _prepare(case)
+        if contact is not None:
+            if not case.contact.enabled:
+                raise InputError("true, since another contact method is to be run", key="contact.enabled", value=False)
+            run.queried = QueriedWall(contact, run.hole, run.segments)
+        return run, stretches
     except InputError as error:
         raise (error if case.file is None else error.in_file(case.file)) from None
 
@@ -212,11 +227,14 @@ def _transported(axes: Array) -> Array:
 def settle(run: Run, tolerance: float = SETTLED) -> float:
     """Relax the frictionless string at rest; returns the largest force out of balance over the weight.
 
-    Raises UnstableError when the string does not come to rest or leaves the hole.
+    Another contact method takes over a string that the hole's own pieces have settled, which saves it most of
+    the steps.  Raises UnstableError when the string does not come to rest or leaves the hole.
 
     Damping proportional to mass, a few times critical for the slowest swing of the hanging string: damping
     critical for its stretching would leave the swing creeping for minutes.
     """
+    if run.queried is not None:
+        settle(replace(run, queried=None), tolerance)
     n, string = run.segments, run.string
     weight = float((string.of("weight") * string.length).sum())
     rate = 12 * np.sqrt(topdrive.GRAVITY / float(string.length.sum()))
