@@ -90,9 +90,7 @@ class QueriedWall:
         self._segments = segments
         self._points = np.empty((segments, 3))
 
-    def advance(
-        self, S: Array, top: Array, laws: Laws, motion: Motion, pipe: PerMetre, dt: float, steps: int
-    ) -> None:
+    def advance(self, S: Array, top: Array, laws: Laws, motion: Motion, pipe: PerMetre, dt: float, steps: int) -> None:
         """Advance by ``steps`` steps of ``dt`` [s]."""
         n, radii = self._segments, self._radii(S)
         for _ in range(steps):

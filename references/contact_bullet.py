@@ -1,7 +1,6 @@
 """Bullet's collision detection through pybullet: closest points of a sphere and a concave mesh, no dynamics.
 
-Traps: a client left connected is never freed; the sphere has to be its body's own shape, centred, since one that is
-offset is not seen by a concave mesh; the answer names no triangle.
+Traps: a client left connected is never freed; the answer names no triangle.
 """
 
 import weakref

@@ -82,7 +82,9 @@ class Tube:
         outwards = self.normals[faces]
         side = np.where(np.sum(to_wall * outwards, axis=1) < 0, -1.0, 1.0)
         reliable = distance > 1e-9
-        normal = np.where(reliable[:, None], side[:, None] * to_wall / np.where(reliable, distance, 1.0)[:, None], outwards)
+        normal = np.where(
+            reliable[:, None], side[:, None] * to_wall / np.where(reliable, distance, 1.0)[:, None], outwards
+        )
         return Contacts(radii - side * distance, normal, self.md_of(faces, points))
 
     @cached_property
@@ -107,7 +109,9 @@ def build_tube(case: Case, options: TubeOptions) -> Tube:
     md = _ring_depths(hole, options.ring_spacing)
     if 2.0 * options.facets * len(md) > MOST_TRIANGLES:
         raise InputError(
-            f"at most {MOST_TRIANGLES:.0g} triangles", key="facets", value=f"{2.0 * options.facets * len(md):.3g} triangles"
+            f"at most {MOST_TRIANGLES:.0g} triangles",
+            key="facets",
+            value=f"{2.0 * options.facets * len(md):.3g} triangles",
         )
     centres, across, aside = _ring_frames(hole, md)
     knots = hole.wall_along()
@@ -136,7 +140,9 @@ def check_tube(tube: Tube) -> None:
     middle = 0.5 * (tube.centres[ring] + tube.centres[ring + 1])
     inwards = np.sum((mesh.triangles_center - middle) * tube.normals, axis=1) <= 0
     if not mesh.is_winding_consistent or inwards.any():
-        raise InputError("normals that all point out of the hole", key="mesh", value=f"{int(inwards.sum())} that do not")
+        raise InputError(
+            "normals that all point out of the hole", key="mesh", value=f"{int(inwards.sum())} that do not"
+        )
 
 
 def _ring_depths(hole: Wellbore, spacing: float) -> Array:
