@@ -1,6 +1,6 @@
 """What goes wrong when the libraries are asked in the obvious way, each measured on a short bent tube.
 
-Every function returns one number that would be 0 (or a share of contacts that would be 100 %) if the obvious way worked.
+Every function returns one number that would be 0 if the obvious way worked.
 """
 
 from collections.abc import Callable
@@ -172,7 +172,13 @@ TRAPS = (
     Trap("one contact asked for (the default)", "fcl", fcl_first_contact, "mm", "all contacts, the deepest taken"),
     Trap("distance of a penetrating sphere", "fcl", fcl_penetrating_distance, "%", "distance of its centre"),
     Trap("distance of a penetrating sphere", "coal", coal_penetrating_distance, "mm", "distance of its centre"),
-    Trap("a sphere off its body's origin", "bullet", bullet_offset_sphere, "%", "none needed: a query sees it, stepping may not"),
+    Trap(
+        "a sphere off its body's origin",
+        "bullet",
+        bullet_offset_sphere,
+        "%",
+        "nothing: queries see it, steps may not",
+    ),
     Trap("fixed (mocap) spheres", "mujoco", mujoco_fixed_sphere, "%", "bodies with free joints, set by hand"),
 )
 

@@ -1,4 +1,4 @@
-"""Every contact method asked about the same points beside the wall: what it misses, how far it is off, what it costs."""
+"""Every contact method asked about the same points beside the wall: what it misses, its errors, its cost."""
 
 from typing import Any
 
@@ -138,7 +138,7 @@ def run(context: Context) -> Outcome:
     # Cylinders and arcs are built by the engine itself; each mesh method at its own defaults.
     builds = []
     for name in context.progress(base.METHODS, "memory"):
-        if name not in skipped and not (context.quick and name not in ("cylinders", "fcl", "mujoco")):
+        if name not in skipped and not (context.quick and name not in ("cylinders", "fcl")):
             memory, seconds = footprint(name, case)
             builds.append(
                 {"method": name, "pieces": base.build(name, case).pieces, "memory_MB": memory, "build_s": seconds}
@@ -185,7 +185,7 @@ def checks(errors: pd.DataFrame, tried: pd.DataFrame) -> list[Check]:
         Check("largest error of penetration over its geometric bound", float(excess.max()), 1.02, "at_most", "",
               "sagitta of facets r(1 − cos π/n), of chords and rings κℓ²/8"),
         Check("largest error of the normal over its geometric bound", float(errors["angle_over_bound"].max()), 1.02,
-              "at_most", "", "half a facet, half a chord, and the bound of penetration over the distance from the axis"),
+              "at_most", "", "half a facet, half a chord, and the bound above over the distance from the axis"),
         Check("missed contacts deeper than the geometric bound", float(late.max()), 1e-3, "at_most", "mm",
               "the same formulas"),
     ]  # fmt: skip

@@ -7,5 +7,7 @@ STUDIES: dict[str, str] = {
     "cylinder_error": "validation.cylinder_error",
     "overlap": "validation.overlap",
     "ownership": "validation.ownership",
+    "contact_accuracy": "validation.contact_accuracy",
+    "contact_swap": "validation.contact_swap",
     "real_survey": "validation.real_survey",
 }

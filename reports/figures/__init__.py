@@ -25,6 +25,8 @@ MODULES: dict[str, str] = {
     "energy_ledger": "reports.figures.energy_ledger",
     "overlap": "reports.figures.overlap",
     "cylinder_error": "reports.figures.cylinder_error",
+    "contact_accuracy": "reports.figures.contact_accuracy",
+    "contact_swap": "reports.figures.contact_swap",
     "real_survey": "reports.figures.real_survey",
 }
 

@@ -7,7 +7,7 @@ from fctd.errors import InputError
 from fctd.wellbore import build_wellbore, find_contacts
 from references import base
 
-from .wells import RADIUS, REGIONS, beside_the_wall, bent_case
+from .wells import RADIUS, REGIONS, bent_case, beside_the_wall
 
 CASE = bent_case()
 # Mesh methods are asked twice, so that an error that ignores the resolution shows.
@@ -78,7 +78,7 @@ def test_contacts_only_say_nothing_of_a_clear_point(method: base.ContactMethod) 
 
 
 def test_each_point_has_its_own_radius(method: base.ContactMethod) -> None:
-    points, offset = beside_the_wall("turn", 60)
+    points, _ = beside_the_wall("turn", 60)
     radii = np.where(np.arange(60) % 2, RADIUS, RADIUS + 0.02)
     hits, same = method.query(points, radii), method.query(points, np.full(60, RADIUS + 0.02))
     wide = radii > RADIUS

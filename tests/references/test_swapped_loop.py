@@ -94,7 +94,7 @@ def test_a_method_that_answers_nonsense_stops_the_run_and_keeps_its_rows() -> No
 
 def test_an_answer_of_the_wrong_shape_is_an_error() -> None:
     case = turning()
-    with pytest.raises(ValueError, match="faulty.*25 points"):
+    with pytest.raises(ValueError, match=r"faulty.*25 points"):
         simulate(case, contact=Faulty(case, lambda hits: hits._replace(md=hits.md[:-1])))
 
 
