@@ -84,15 +84,20 @@ def build(name: str, case: Case, **options: Any) -> ContactMethod:
 
 def need(module: str, method: type[ContactMethod]) -> Any:
     """Import the package of a method; InputError naming it when it is not installed."""
+    return import_or_tell(module, method.distribution, method.name)
+
+
+def import_or_tell(module: str, distribution: str, wanted_for: str) -> Any:
+    """Import a module of an optional package; InputError naming the package when it is not installed."""
     try:
         return importlib.import_module(module)
     except ModuleNotFoundError as error:
         if error.name is None or error.name.partition(".")[0] != module.partition(".")[0]:
             raise
         raise InputError(
-            f"package {method.distribution}, which is not installed (it is part of the extra 'suite')",
+            f"package {distribution}, which is not installed (it is part of the extra 'suite')",
             key="contact",
-            value=method.name,
+            value=wanted_for,
         ) from None
 
 

@@ -1,6 +1,6 @@
 """Bullet's collision detection through pybullet: closest points of a sphere and a concave mesh, no dynamics.
 
-Traps: a client left connected is never freed; the answer names no triangle.
+Traps: a client left connected is never freed; a mesh has at most 174 762 triangles; the answer names no triangle.
 """
 
 import weakref
@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case import Case
-from fctd.errors import Table
+from fctd.errors import InputError, Table
 from fctd.wellbore import Contacts
 from references.base import need
 from references.tube_mesh import Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
+# The bindings take no more indices than this in one shape.
+MOST_TRIANGLES = 524_288 // 3
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 # Fields of a closest point: normal on the mesh towards the sphere, distance (negative is penetration).
 NORMAL, DISTANCE = 7, 8
@@ -34,6 +36,12 @@ class Bullet:
     def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:
         self._bullet = bullet = need("pybullet", type(self))
         self.tube = build_tube(case, options) if tube is None else tube
+        if self.tube.triangles > MOST_TRIANGLES:
+            raise InputError(
+                f"at most the {MOST_TRIANGLES} triangles that bullet takes",
+                key="facets",
+                value=f"{self.tube.triangles} triangles",
+            )
         self._client = client = bullet.connect(bullet.DIRECT)
         weakref.finalize(self, bullet.disconnect, client)
         shape = bullet.createCollisionShape(

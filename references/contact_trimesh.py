@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from fctd.case import Case
 from fctd.errors import Table
 from fctd.wellbore import Contacts
-from references.base import need
+from references.base import import_or_tell, need
 from references.tube_mesh import Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
@@ -24,7 +24,7 @@ class TriMesh:
     Options: ClassVar[type[Table]] = TubeOptions
 
     def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:
-        need("rtree", type(self))
+        import_or_tell("rtree", "rtree", self.name)
         self._proximity = need("trimesh.proximity", type(self))
         self.tube = build_tube(case, options) if tube is None else tube
         # The tree is made at first use: here, so that no query pays for it.

@@ -16,6 +16,7 @@ from fctd import units
 from fctd.case import Case
 from fctd.errors import InputError, Table
 from fctd.wellbore import RUN_OUT, Contacts, Wellbore, build_wellbore
+from references.base import import_or_tell
 
 Array = NDArray[np.float64]
 
@@ -98,8 +99,7 @@ def build_tube(case: Case, options: TubeOptions) -> Tube:
 
     Raises InputError for a ring spacing longer than the hole, or for more triangles than fit into memory.
     """
-    import trimesh
-
+    trimesh = import_or_tell("trimesh", "trimesh", "a triangle mesh")
     hole = build_wellbore(case)
     reach = hole.total_depth - hole.md[0]
     if options.ring_spacing > reach:

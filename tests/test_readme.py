@@ -32,6 +32,19 @@ def test_the_command_line_example_runs(tmp_path: Path) -> None:
     assert (tmp_path / "out" / "history.csv").exists()
 
 
+def test_the_example_of_another_contact_method_runs(tmp_path: Path) -> None:
+    (example,) = blocks("py")
+    done = subprocess.run([sys.executable, "-W", "error", "-c", example], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    command = next(b for b in blocks("sh") if "references simulate" in b)
+    command = command.replace(".venv/bin/python ", "").replace("\\\n", " ").replace("fcl-run", str(tmp_path / "out"))
+    command = command.replace("--contact fcl --option facets=96", "--contact arcs")  # installed or not
+    for line in command.strip().splitlines():
+        done = subprocess.run([sys.executable, *shlex.split(line)], cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+    assert (tmp_path / "out" / "history.parquet").exists()
+
+
 def test_every_folder_of_the_map_is_there() -> None:
     for folder in re.findall(r"^\| `(\w+)/` \|", (ROOT / "README.md").read_text(), re.MULTILINE):
         assert (ROOT / folder).is_dir()

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd import Case, build_wellbore, find_contacts
+from fctd import Case, InputError, build_wellbore, find_contacts
 from fctd.wellbore import hole_frame
 from references import base, traps
 from references.footprint import footprint
@@ -114,13 +114,17 @@ def run(context: Context) -> Outcome:
     """Errors by region, then one race of all settings, then memory and build time in processes of their own."""
     case = the_case()
     points = points_in(case, 250 if context.quick else 2500)
-    rows, methods, skipped = [], {}, []
+    rows, methods, skipped, refused = [], {}, [], []
     for name, options in context.progress(settings(context.quick), "methods"):
         if base.installed_version(name) is None:
             skipped.append(name)
             continue
         key = label(name, options)
-        methods[key] = base.build(name, case, **options)
+        try:
+            methods[key] = base.build(name, case, **options)
+        except InputError as error:
+            refused.append({"setting": key, "why": str(error)})
+            continue
         rows += [{"setting": key, "method": name} | row for row in errors_of(methods[key], points, case)]
     errors = pd.DataFrame(rows)
 
@@ -163,6 +167,7 @@ def run(context: Context) -> Outcome:
             "cost": cost,
             "builds": pd.DataFrame(builds),
             "traps": pd.DataFrame(tried),
+            "refused": pd.DataFrame(refused, columns=["setting", "why"]),
             "machine": pd.DataFrame(machine().items(), columns=["what", "value"]),
         },
         checks=checks(errors, pd.DataFrame(tried)),
@@ -171,6 +176,7 @@ def run(context: Context) -> Outcome:
             "cost": "Cost of a point beside the largest error in bends; all settings raced in turns",
             "builds": "Memory and build time at default settings, each in a process of its own",
             "traps": "The obvious way to ask, and what comes of it",
+            "refused": "Settings that a library does not take",
             "machine": "What the times depend on",
         },
     )

@@ -86,7 +86,8 @@ FIGURES = [
     Figure(
         "facets",
         "Why a mesh gives more torque: a string that rests in the corner between two facets is held by both of them. "
-        "The wide grey line is the excess of two facets at an angle of 2π/n over a round wall.",
+        "The wide grey line is the excess of two facets at an angle of 2π/n over a round wall; a string on the "
+        "flat of a facet has none.",
         facets,
     ),
 ]

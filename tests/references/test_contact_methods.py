@@ -124,6 +124,7 @@ def test_every_name_of_the_registry_is_the_class_it_says(name: str) -> None:
             {"ring_spacing": "300 m"},
             'ring_spacing = "300 m": expected at most the length of the hole, 240 m',
         ),
+        ("bullet", {"facets": 400, "ring_spacing": 0.5}, "at most the 174762 triangles that bullet takes"),
         ("fcl", {"query": "guess"}, "fcl.query"),
         ("fcl", {"ring": 1}, "ring_spacing"),
         ("arcs", {"facets": 4}, "facets"),
@@ -131,6 +132,8 @@ def test_every_name_of_the_registry_is_the_class_it_says(name: str) -> None:
     ],
 )
 def test_bad_options_are_told(name: str, options: dict, expected: str) -> None:
+    if name in base.METHODS and base.installed_version(name) is None:
+        pytest.skip(f"package {base.method_class(name).distribution} is not installed")
     with pytest.raises(InputError) as told:
         base.build(name, CASE, **options)
     assert expected in str(told.value)
