@@ -90,7 +90,7 @@ def errors_of(method: base.ContactMethod, points: pd.DataFrame, case: Case) -> l
         error = found[known] - truth[known]
         cosine = np.sum(hits.normal[chosen] * exact.normal[chosen], axis=1)[known]
         direction = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
-        turned = np.degrees(turn + depth / points["offset"].to_numpy()[chosen][known])
+        turned = np.degrees(turn + np.arcsin(np.minimum(depth / points["offset"].to_numpy()[chosen][known], 1)))
         missed, false = (truth > 0) & (found <= 0), (truth <= 0) & (found > 0)
         rows.append(
             {

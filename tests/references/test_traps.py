@@ -5,6 +5,8 @@ import pytest
 from fctd.errors import InputError
 from references import base, traps
 
+pytest.importorskip("trimesh")
+
 # Least number found where the obvious way fails: far above what geometry explains (2 mm of facets and chords).
 FAILS = {
     ("fcl", "a capsule along the string"): 0.1,
