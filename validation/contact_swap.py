@@ -28,15 +28,15 @@ QUERIES: dict[str, tuple[str, dict[str, Any], float]] = {
     "cylinders": ("cylinders", {}, 3e-7),
     "arcs": ("arcs", {}, 3e-7),
     "FOR-loop": ("for_loop", {}, 6e-7),
-    "fcl": ("fcl", {}, 15e-6),
+    "fcl, distance": ("fcl", {}, 15e-6),
     "fcl, collide": ("fcl", {"query": "collide"}, 20e-6),
-    "coal": ("coal", {}, 12e-6),
+    "coal, distance": ("coal", {}, 12e-6),
     "coal, collide": ("coal", {"query": "collide"}, 12e-6),
     "bullet": ("bullet", {}, 15e-6),
     "mujoco": ("mujoco", {}, 50e-6),
     "trimesh": ("trimesh", {}, 200e-6),
 }
-QUICK = ("cylinders", "FOR-loop", "fcl", "coal")
+QUICK = ("cylinders", "FOR-loop", "fcl, distance", "coal, collide")
 BASELINE = "no contact, compiled"
 # The window of Fig. 13: a trip over the last metres above each depth, at the speed of the whole trip.
 SPEED, RAMP = 0.5, 2.0
@@ -133,22 +133,22 @@ def ratios(cost: pd.DataFrame) -> pd.DataFrame:
             "contains": "contact, if cost grows with the count alone and steps were equal",
         },
     ]
-    for name in ("fcl, from Python", "coal, from Python", "FOR-loop, compiled"):
-        if (60, name) not in at.index:
-            continue
-        for many, few, what in (
-            (170, 60, "contact, segment count, shorter step of shorter segments, calls from Python"),
-            (60, 60, "contact and calls from Python alone"),
-        ):
-            rows.append(
-                {
-                    "ratio": f"ours: {name}, {many} segments : cylinders, compiled, {few}",
-                    "value": per_second[many, name] / per_second[few, "cylinders, compiled"],
-                    "contains": what
-                    if "Python" in name
-                    else what.removesuffix(", calls from Python").removesuffix(" and calls from Python alone"),
-                }
-            )
+    others = {
+        "contact and calls from Python": ("fcl, distance", "fcl, collide", "coal, distance", "coal, collide"),
+        "contact": ("FOR-loop",),
+    }
+    for contains, names in others.items():
+        for name in names:
+            loop = f"{name}, compiled" if name == "FOR-loop" else f"{name}, from Python"
+            for many in SEGMENTS if (60, loop) in at.index else ():
+                more = "" if many == 60 else ", segment count, shorter step of shorter segments"
+                rows.append(
+                    {
+                        "ratio": f"ours: {loop}, {many} segments : cylinders, compiled, 60",
+                        "value": per_second[many, loop] / per_second[60, "cylinders, compiled"],
+                        "contains": contains + more,
+                    }
+                )
     rows.append(
         {
             "ratio": "ours: cylinders, compiled : no contact, compiled, 60 segments each",
@@ -253,7 +253,8 @@ def run(context: Context) -> Outcome:
         tables |= figure_13(context, "fcl")
         display["figure_13"] = "Fig. 13: Σ rμF_n while tripping in, FCL and FCTD over the same windows"
         display["times"] = "The trip of Fig. 13: FCTD measured, FCL in windows and extrapolated"
-        slower = _ratio(cost, "fcl, from Python") / _ratio(cost, "cylinders, compiled")
+        cheapest = min(_ratio(cost, loop) for loop in cost["loop"].unique() if loop.startswith("fcl"))
+        slower = cheapest / _ratio(cost, "cylinders, compiled")
         below = tables["figure_13"]["bit_depth_m"] > 1900
         difference = tables["figure_13"].loc[below, "difference_percent"].abs()
         checks += [

@@ -28,7 +28,13 @@ def figure_13(tables: Tables) -> Canvas:
     windows, trip = tables["figure_13"], tables["trip"]
     canvas = style.figure(4.6)
     above, below = canvas.subplots(2, 1, sharex=True, height_ratios=[2, 1])
-    above.plot(trip["bit_depth_m"], trip["sum_r_mu_fn_N_m"] / 1e3, **style.line(3), label="FCTD, the whole trip")
+    above.plot(
+        trip["bit_depth_m"],
+        trip["sum_r_mu_fn_N_m"] / 1e3,
+        color=style.QUIET,
+        linewidth=1.2,
+        label="FCTD, the whole trip",
+    )
     above.plot(windows["bit_depth_m"], windows["FCTD_kN_m"], **style.dots(0), markersize=8, label="FCTD, windows")
     above.plot(
         windows["bit_depth_m"], windows["fcl_kN_m"], **style.dots(1, filled=False), markersize=5, label="FCL, windows"
