@@ -213,7 +213,8 @@ def notes(skipped: list[str]) -> list[str]:
         "rings, towards the inside of the bend: contacts are found early on the outside of a bend and late on its "
         "inside.",
         "fcl and coal are asked for the distance of the centre, which gives the clearance too; their collision queries "
-        "have the same errors, and their costs stand in the study contact_swap. bullet and mujoco report contacts alone.",
+        "have the same errors, and their costs stand in the study contact_swap. bullet and mujoco report contacts "
+        "alone.",
         "Cylinders and arcs answer from Python like the others. Points that are asked about again remember their "
         "piece, as in the engine's loop; the trees of the meshes have no use for such memory.",
         "The sphere set off its body's origin, reported elsewhere to fall through a mesh in Bullet's own time steps, "

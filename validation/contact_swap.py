@@ -156,6 +156,16 @@ def ratios(cost: pd.DataFrame) -> pd.DataFrame:
             "contains": "all that contact costs: search, normal, friction",
         }
     )
+    asked, free = at["ratio"].xs(60, level="segments"), "no contact, asked from Python"
+    for name in others["contact and calls from Python"]:
+        if (60, f"{name}, from Python") in at.index:
+            rows.append(
+                {
+                    "ratio": f"ours: {name} : cylinders, 60 segments, each less its own loop without contact",
+                    "value": (asked[f"{name}, from Python"] - asked[free]) / (asked["cylinders, compiled"] - 1),
+                    "contains": "contact alone, with the price of a call for each point",
+                }
+            )
     return pd.DataFrame(rows)
 
 
