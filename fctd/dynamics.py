@@ -224,7 +224,7 @@ def update_motion(S, n, laws, dt):
         move_with_coulomb(S, n, laws, dt)
 
 
-@njit(error_model="numpy")
+@njit(forceinline=True)
 def update_loads(S, top, packed, laws, motion, pipe, dt):
     """Update axes, joint loads and the top drive's readings; returns its feed [m/s] and rotation [rad/s]."""
     update_axes(S, packed)
@@ -234,14 +234,14 @@ def update_loads(S, top, packed, laws, motion, pipe, dt):
     return feed, rate
 
 
-@njit(error_model="numpy")
+@njit(forceinline=True)
 def update_positions(S, top, packed, laws, pipe, feed, rate, dt):
     """Update the motion of bodies and top drive, given loads and walls."""
     update_motion(S, packed, laws, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)
 
 
-@njit(error_model="numpy")
+@njit(forceinline=True)
 def whole_operations(n):
     """Columns of ``n`` bodies rounded up to whole packed operations."""
     return (n + LANES - 1) // LANES * LANES

@@ -41,7 +41,7 @@ class ContactMethod(Protocol):
     name: str
     distribution: ClassVar[str]
     does: ClassVar[str]
-    gives_clearance: ClassVar[bool]
+    gives_clearance: bool
     Options: ClassVar[type[Table]]
 
     def __init__(self, case: Case, options: Any) -> None:

@@ -30,7 +30,7 @@ class Bullet:
     name = "bullet"
     distribution: ClassVar[str] = "pybullet"
     does: ClassVar[str] = "axis-aligned tree over a triangle mesh (Bullet), contacts only, no clearance"
-    gives_clearance: ClassVar[bool] = False
+    gives_clearance = False
     Options: ClassVar[type[Table]] = TubeOptions
 
     def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:

@@ -31,7 +31,6 @@ class Coal:
     name = "coal"
     distribution: ClassVar[str] = "coal"
     does: ClassVar[str] = "bounding-volume tree over a triangle mesh (successor of FCL)"
-    gives_clearance: ClassVar[bool] = True
     Options: ClassVar[type[Table]] = CoalOptions
 
     def __init__(self, case: Case, options: CoalOptions, tube: Tube | None = None) -> None:
@@ -44,6 +43,7 @@ class Coal:
             faces.append(coal.Triangle(a, b, c))
         # The tree is built for the query: OBB is the faster one to collide with, RSS bounds distances.
         self._collide = options.query == "collide"
+        self.gives_clearance = not self._collide
         self._wall = coal.BVHModelOBB() if self._collide else coal.BVHModelOBBRSS()
         self._wall.beginModel(len(faces), len(vertices))
         self._wall.addSubModel(vertices, faces)

@@ -36,7 +36,6 @@ class Fcl:
     name = "fcl"
     distribution: ClassVar[str] = "python-fcl"
     does: ClassVar[str] = "bounding-volume tree over a triangle mesh (FCL)"
-    gives_clearance: ClassVar[bool] = True
     Options: ClassVar[type[Table]] = FclOptions
 
     def __init__(self, case: Case, options: FclOptions, tube: Tube | None = None) -> None:
@@ -51,6 +50,7 @@ class Fcl:
         self._point = fcl.CollisionObject(fcl.Sphere(POINT), fcl.Transform())
         self._spheres: dict[float, Any] = {}
         self._collide = options.query == "collide"
+        self.gives_clearance = not self._collide
         self._distance_request = fcl.DistanceRequest(enable_nearest_points=True)
         self._request = fcl.CollisionRequest(num_max_contacts=MOST_CONTACTS, enable_contact=True)
 

@@ -28,7 +28,7 @@ class MuJoCo:
     name = "mujoco"
     distribution: ClassVar[str] = "mujoco"
     does: ClassVar[str] = "bounding-volume tree over a triangle mesh (flex), contacts only, no clearance"
-    gives_clearance: ClassVar[bool] = False
+    gives_clearance = False
     Options: ClassVar[type[Table]] = TubeOptions
 
     def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:

@@ -84,7 +84,7 @@ class _Remembered:
     """Points that remember their piece of hole from query to query, as in the engine's loop."""
 
     distribution: ClassVar[str] = "fctd"
-    gives_clearance: ClassVar[bool] = True
+    gives_clearance = True
 
     def __init__(self, hole: Wellbore) -> None:
         self.hole = hole
@@ -145,7 +145,7 @@ class ForLoop:
     name = "for_loop"
     distribution: ClassVar[str] = "fctd"
     does: ClassVar[str] = "point in cylinder with overlap, searched from the top at every query (the paper)"
-    gives_clearance: ClassVar[bool] = True
+    gives_clearance = True
     Options: ClassVar[type[Table]] = CylinderOptions
 
     def __init__(self, case: Case, options: CylinderOptions) -> None:

@@ -20,7 +20,7 @@ class TriMesh:
     name = "trimesh"
     distribution: ClassVar[str] = "trimesh"
     does: ClassVar[str] = "closest points on a triangle mesh through an R-tree, written in Python"
-    gives_clearance: ClassVar[bool] = True
+    gives_clearance = True
     Options: ClassVar[type[Table]] = TubeOptions
 
     def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:

@@ -7,7 +7,7 @@ from fctd.errors import InputError
 from fctd.wellbore import build_wellbore, find_contacts
 from references import base
 
-from .wells import RADIUS, REGIONS, bent_case, beside_the_wall
+from .wells import HOLE, RADIUS, REGIONS, bent_case, beside_the_wall
 
 CASE = bent_case()
 # Mesh methods are asked twice, so that an error that ignores the resolution shows.
@@ -73,8 +73,42 @@ def test_contacts_only_say_nothing_of_a_clear_point(method: base.ContactMethod) 
     hits = method.query(points, np.full(60, RADIUS))
     clear = hits.penetration <= 0
     assert clear.any()
-    assert np.isfinite(hits.penetration[clear]).all() == method.gives_clearance or not np.isfinite(hits.md[clear]).any()
-    assert not np.isnan(hits.penetration).any()
+    for part in hits:
+        assert np.isfinite(part[~clear]).all()
+    if method.gives_clearance:
+        assert np.isfinite(hits.penetration[clear]).all()
+    else:
+        assert (hits.penetration[clear] == -np.inf).all()
+        assert np.isnan(hits.normal[clear]).all()
+        assert np.isnan(hits.md[clear]).all()
+
+
+def test_points_beyond_the_wall_are_deeper_than_their_radius(method: base.ContactMethod) -> None:
+    """A distance has no sign of its own.  Methods that report contacts alone see the overlap of two surfaces."""
+    if not method.gives_clearance:
+        pytest.skip("a sphere whose centre is beyond the wall has no defined depth for this method")
+    points, _ = beside_the_wall("build", 30)
+    exact = truth(points)
+    beyond = points + 0.08 * exact.normal
+    hits = method.query(beyond, np.full(30, RADIUS))
+    depth, _ = method.error_bound(curvature("build"))
+    assert np.abs(hits.penetration - exact.penetration - 0.08).max() <= 1.02 * depth + 1e-6
+    assert (np.sum(hits.normal * exact.normal, axis=1) > 0.9).all()
+
+
+@pytest.mark.parametrize("name", ["cylinders", "arcs"])
+def test_points_that_jump_in_a_well_past_90_degrees_are_looked_up_anew(name: str) -> None:
+    """The slab of a far piece holds them too, and a walk from a piece they remember would stop there."""
+    far = bent_case(
+        stations=[[0, 0, 0], [450, 120, 0], [1000, 120, 0]],
+        intervals=[{"to_md": 1000, "diameter": 2 * HOLE, "friction": 0.2}],
+    )
+    method, hole = base.build(name, far), build_wellbore(far)
+    radii = np.full(40, RADIUS)
+    for top, bottom in ((5.0, 200.0), (700.0, 990.0), (20.0, 400.0)):
+        md = np.linspace(top, bottom, 40)
+        hits = method.query(hole.at(md)[0], radii)
+        np.testing.assert_allclose(hits.md, md, atol=0.01)
 
 
 def test_each_point_has_its_own_radius(method: base.ContactMethod) -> None:
