@@ -35,13 +35,13 @@ class WallQuery(Protocol):
         """
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", cache=True)
 def _points(S, n, points):
     for j in range(1, n + 1):
         points[j - 1] = contact_point(S, j)
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", cache=True)
 def _store(S, n, radii, penetration, normal, md, wall):
     """Write queried walls; hole radius, stiffness and friction come from ``wall`` (Wellbore.wall_along)."""
     last = wall.shape[0] - 1
