@@ -79,7 +79,7 @@ class Wellbore:
         if len(self.intervals) == 1:
             return self.intervals.copy()
         above, below = self.intervals[:-1].copy(), self.intervals[1:].copy()
-        below[:, 0] = above[:, 0] + self.shoe
+        below[:, 0] = np.minimum(above[:, 0] + self.shoe, below[:, 0])  # an interval may be shorter than a shoe
         return np.stack([above, below], axis=1).reshape(-1, 4)
 
     def inclination(self, md: Array) -> Array:
