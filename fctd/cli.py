@@ -2,6 +2,7 @@
 
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,10 +11,11 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
-from fctd.case import load_case, parse_override
+from fctd.case import Case, load_case, parse_override
 from fctd.errors import InputError
 from fctd.results import SimulationResult
 from fctd.simulate import simulate
+from fctd.wall_query import WallQuery
 
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
@@ -32,6 +34,11 @@ Overrides = Annotated[
     typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case, e.g. wellbore.overlap='0.1 m'."),
 ]
 Friction = Annotated[float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")]
+Out = Annotated[
+    Path | None, typer.Option("--out", metavar="FOLDER", help="Where results go; default: CASE-NAME-result.")
+]
+Csv = Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")]
+Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
 
 
 @app.callback()
@@ -42,20 +49,31 @@ def _root() -> None:
 @app.command("simulate")
 def simulate_command(
     case_file: CaseFile,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="FOLDER", help="Where results go; default: CASE-NAME-result."),
-    ] = None,
+    out: Out = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
-    csv: Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="No progress bar.")] = False,
+    csv: Csv = False,
+    quiet: Quiet = False,
 ) -> None:
     """Run the operations of a case and write history, profile and energy tables."""
+    simulate_file(case_file, out, overrides, friction, csv, quiet)
+
+
+def simulate_file(
+    case_file: Path,
+    out: Path | None,
+    overrides: list[str],
+    friction: float | None,
+    csv: bool,
+    quiet: bool,
+    contact: Callable[[Case], WallQuery] | None = None,
+) -> None:
+    """What ``simulate`` does; ``contact`` builds another contact method for the case (see fctd.simulate)."""
     changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
     if friction is not None:
         changes["friction"] = friction
     case = load_case(case_file, changes)
+    method = None if contact is None else contact(case)
     folder = out or Path(re.sub(r"[^\w.-]+", "-", f"{case.name}-result"))
     try:  # before hours of computing, not after
         folder.mkdir(parents=True, exist_ok=True)
@@ -74,7 +92,7 @@ def simulate_command(
         def show(now: float, total: float, factor: float) -> None:
             bar.update(task, description=case.name, total=total, completed=now, factor=f"{factor:.0f}")
 
-        result = simulate(case, progress=show)
+        result = simulate(case, progress=show, contact=method)
     written = result.save(folder, csv=csv)
     _summarise(result)
     screen.print(f"Written: {', '.join(str(p) for p in written)}", soft_wrap=True, highlight=False)
@@ -112,9 +130,14 @@ def _summarise(result: SimulationResult) -> None:
 
 
 def main() -> None:
-    """Entry point: one line for bad input, no traceback."""
+    """Entry point."""
+    run(app)
+
+
+def run(commands: typer.Typer) -> None:
+    """Run a command line: one line for bad input, no traceback."""
     try:
-        app()
+        commands()
     except InputError as error:
         messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
         sys.exit(BAD_INPUT)

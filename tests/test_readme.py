@@ -5,6 +5,12 @@ import shlex
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
+
+import pytest
+
+from fctd import cli
+from references.__main__ import app
 
 ROOT = Path(__file__).parents[1]
 
@@ -30,6 +36,25 @@ def test_the_command_line_example_runs(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, *arguments, "--quiet"], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "out" / "history.csv").exists()
+
+
+def test_the_examples_of_another_contact_method_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In this process, where the loop is compiled already."""
+    monkeypatch.chdir(ROOT)
+    (example,) = blocks("py")
+    names: dict[str, Any] = {}
+    exec(example, names)
+    assert names["result"].status == "completed"
+    assert names["result"].run["contact"] == "for_loop"
+    command = next(b for b in blocks("sh") if "references simulate" in b)
+    command = command.replace("\\\n", " ").replace("fcl-run", str(tmp_path / "out"))
+    command = command.replace("--contact fcl --option facets=96", "--contact for_loop")  # installed or not
+    for line in command.strip().splitlines():
+        monkeypatch.setattr("sys.argv", shlex.split(line.removeprefix(".venv/bin/python -m ")))
+        with pytest.raises(SystemExit) as stopped:
+            cli.run(app)
+        assert not stopped.value.code
+    assert (tmp_path / "out" / "history.parquet").exists()
 
 
 def test_every_folder_of_the_map_is_there() -> None:

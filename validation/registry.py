@@ -11,6 +11,8 @@ STUDIES: dict[str, str] = {
     "soft_limit": "validation.soft_limit",
     "beam_in_hole": "validation.beam_in_hole",
     "johancsik": "validation.johancsik",
+    "contact_accuracy": "validation.contact_accuracy",
+    "contact_swap": "validation.contact_swap",
     "real_survey": "validation.real_survey",
     "real_chart": "validation.real_chart",
 }

@@ -29,6 +29,8 @@ MODULES: dict[str, str] = {
     "soft_limit": "reports.figures.soft_limit",
     "beam_in_hole": "reports.figures.beam_in_hole",
     "real_chart": "reports.figures.real_chart",
+    "contact_accuracy": "reports.figures.contact_accuracy",
+    "contact_swap": "reports.figures.contact_swap",
     "real_survey": "reports.figures.real_survey",
 }
 

@@ -262,6 +262,57 @@ def real_chart() -> dict[str, pd.DataFrame]:
     return {"chart": _chart().assign(geometry="arcs")}
 
 
+def contact_accuracy() -> dict[str, pd.DataFrame]:
+    rows = [("arcs", 60.0, 0.0, 0.0)]
+    for name, cost in (("cylinders", 60.0), ("for_loop", 400.0), ("fcl", 1e4), ("coal", 9e3), ("bullet", 1.2e4)):
+        rows += [(name, cost * growth, error, 2.5 * error) for growth, error in ((1.0, 3.0), (1.3, 0.8), (2.0, 0.1))]
+    columns = ["method", "ns_per_point", "max_penetration_error_mm", "max_angle_error_deg"]
+    return {"cost": pd.DataFrame(rows, columns=columns)}
+
+
+def contact_swap() -> dict[str, pd.DataFrame]:
+    loops = {
+        "no contact, compiled": 14.0,
+        "cylinders, compiled": 22.0,
+        "arcs, compiled": 21.0,
+        "FOR-loop, compiled": 160.0,
+        "no contact, asked from Python": 130.0,
+        "cylinders, from Python": 170.0,
+        "fcl, collide, from Python": 1.1e4,
+        "fcl, from Python": 9e3,
+        "trimesh, from Python": 2e5,
+    }
+    cost = pd.DataFrame(
+        [
+            {"segments": n, "loop": loop, "ns_per_segment_step": ns, "ns_low": 0.95 * ns, "ns_high": 1.2 * ns}
+            for n in (60, 170)
+            for loop, ns in loops.items()
+        ]
+    )
+    depth = np.linspace(1750.0, 2250.0, 400)
+    windows = np.arange(1850.0, 2251.0, 100.0)
+    torque = 1.73 * ((windows - 1750) / 500) ** 1.5
+    return {
+        "cost": cost,
+        "trip": pd.DataFrame({"bit_depth_m": depth, "sum_r_mu_fn_N_m": 1.73e3 * ((depth - 1750) / 500) ** 1.5}),
+        "figure_13": pd.DataFrame(
+            {
+                "bit_depth_m": windows,
+                "fcl_kN_m": 1.003 * torque,
+                "FCTD_kN_m": torque,
+                "difference_percent": 0.3 + 0.1 * np.sin(windows),
+            }
+        ),
+        "facets": pd.DataFrame(
+            {
+                "facets": [np.nan, 12.0, 24.0, 48.0],
+                "wedge_percent": [0.0, 3.5, 0.86, 0.21],
+                "sum_difference_percent": [0.0, 2.4, 0.6, 0.14],
+            }
+        ),
+    }
+
+
 STUDIES = {
     function.__name__: function
     for function in (
@@ -274,6 +325,8 @@ STUDIES = {
         steady_state,
         soft_limit,
         beam_in_hole,
+        contact_accuracy,
+        contact_swap,
         real_survey,
         real_chart,
     )
