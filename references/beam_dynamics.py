@@ -40,9 +40,9 @@ def generalised_alpha(high_frequency: float) -> Scheme:
 class Lowered:
     """What came of a lowering, a row for each of m recorded times.
 
-    time (m,) [s]; states (m, N) at that time; pressure [N/m], md [m] : (m, elements, points), means since the
-    record before, pressure positive on the high side; ledger : energies [J] since the start; iterations : of
-    Newton, in all.
+    time (m,) [s]; states (m, N) and depths of the Gauss points md (m, elements, points) [m] at that time;
+    pressure (m, elements, points) [N/m], positive on the high side, mean since the record before; ledger : energies
+    [J] since the start; iterations : of Newton, in all.
     """
 
     time: Array
@@ -109,15 +109,14 @@ class _Lowering:
         for end in self.times[1:]:
             begin = here.time
             count = max(int(np.ceil((end - begin) / self.step - 1e-9)), 1)
-            pressure, md = np.zeros_like(load.pressure), np.zeros_like(load.pressure)
+            pressure = np.zeros_like(load.pressure)
             for k in range(count):
                 before = here
                 here = self._advance(here, begin + (end - begin) * (k + 1) / count, MOST_HALVINGS)
                 pressure += 0.5 * (before.load.pressure + here.load.pressure) / count
-                md += 0.5 * (before.load.md + here.load.md) / count
             states.append(here.q)
             pressures.append(pressure)
-            depths.append(md)
+            depths.append(here.load.md)
             held = {name: value - start[name] for name, value in self._held_energy(here).items()}
             residual = sum(held.values()) + self.sums["lost_mud_J"] + self.sums["lost_friction_J"]
             ledger.append(

@@ -38,7 +38,8 @@ class PlanarHole:
         planes that part one arc from the next would cut a far part of the hole.
         """
         md, inclination, azimuth = stations.T
-        if np.ptp(azimuth[inclination > 0]) > 1e-9 if (inclination > 0).any() else False:
+        inclined = inclination > 0
+        if inclined.any() and np.ptp(azimuth[inclined]) > 0:
             raise ValueError("a planar hole has one azimuth")
         if np.ptp(inclination) > 90:
             raise ValueError("a planar hole may turn by at most 90 deg")
@@ -49,8 +50,8 @@ class PlanarHole:
         self.normal = np.stack([-np.sin(angle), np.cos(angle)])
         self.start = np.zeros((2, len(md)))
         self.start[0, 0] = md[0]
-        for i, length in enumerate(np.diff(md)):
-            along, aside = _arc(self.curvature[i], length)
+        steps = zip(*_arc(self.curvature[:-1], np.diff(md)), strict=True)
+        for i, (along, aside) in enumerate(steps):
             self.start[:, i + 1] = self.start[:, i] + along * self.tangent[:, i] + aside * self.normal[:, i]
 
     def axis(self, points: Array) -> Axis:
@@ -82,10 +83,8 @@ class PlanarHole:
         return (away * self.tangent[:, piece]).sum(axis=0), (away * self.normal[:, piece]).sum(axis=0)
 
 
-def _arc(curvature: float, length: float) -> tuple[float, float]:
-    """How far an arc goes along its first tangent and towards its centre [m]."""
-    if abs(curvature) < 1e-12:
-        return length, 0.0
-    return float(np.sin(curvature * length) / curvature), float((1 - np.cos(curvature * length)) / curvature)
-
-
+def _arc(curvature: Array, length: Array) -> tuple[Array, Array]:
+    """How far arcs go along their first tangent and towards their centre [m]."""
+    half = 0.5 * curvature * length
+    chord = length * np.sinc(half / np.pi)
+    return chord * np.cos(half), chord * np.sin(half)
