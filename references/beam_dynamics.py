@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
-from references.beam_fe import Beam, ConvergenceError, WallLoad, newton
+from references.beam_fe import Beam, ConvergenceError, WallLoad, newton, statics
 
 Array = NDArray[np.float64]
 
@@ -87,7 +87,7 @@ class _Lowering:
         self.beam, self.top, self.times, self.step, self.scheme = beam, top, times, step, scheme
         self.held = beam.dofs(float(beam.nodes[0]))
         self.free = np.setdiff1d(np.arange(beam.strains.N), self.held)
-        self.scale = max(beam.around.weight * beam.length, 1.0)
+        self.tolerance = beam.tolerance(beam.around.weight * beam.length)
         self.iterations = 0
         self.sums = {"top_work_J": 0.0, "lost_mud_J": 0.0, "lost_friction_J": 0.0}
 
@@ -95,13 +95,7 @@ class _Lowering:
         """Hang the beam, then go from record to record."""
         beam = self.beam
         q = beam.straight(self.top(float(self.times[0])))
-        still = np.zeros_like(q)
-
-        def hanging(trial: Array) -> tuple[Array, csc_matrix]:
-            force, tangent, _ = beam.resistance(trial, still)
-            return force, tangent
-
-        q, _ = newton(hanging, q, self.free, self.scale)
+        q, still = statics(beam, q, self.held), np.zeros_like(q)
         force, _, load = beam.resistance(q, still)
         here = _State(float(self.times[0]), q, still, still.copy(), force, load)
         start = self._held_energy(here)
@@ -119,9 +113,7 @@ class _Lowering:
             depths.append(here.load.md)
             held = {name: value - start[name] for name, value in self._held_energy(here).items()}
             residual = sum(held.values()) + self.sums["lost_mud_J"] + self.sums["lost_friction_J"]
-            ledger.append(
-                {"time_s": here.time, **held, **self.sums, "residual_J": residual - self.sums["top_work_J"]}
-            )
+            ledger.append({"time_s": here.time, **held, **self.sums, "residual_J": residual - self.sums["top_work_J"]})
         return Lowered(
             self.times[1:],
             np.array(states),
@@ -153,7 +145,8 @@ class _Lowering:
         trial = here.q + dt * here.v
         trial[self.held[0]] = self.top(end)
         trial[self.held[1:]] = 0.0
-        last: dict[str, Array | WallLoad] = {}
+        # Newton's evaluations: forces, their sum with inertia, wall. The last one is at the solution.
+        seen: list[tuple[Array, Array, WallLoad]] = []
 
         if scheme is None:
 
@@ -162,7 +155,7 @@ class _Lowering:
 
             def residual(q: Array) -> tuple[Array, csc_matrix]:
                 force, tangent, load = beam.resistance(q, motion(q)[0], 1 / dt)
-                last.update(force=force, load=load, total=force)
+                seen.append((force, force, load))
                 return force, tangent
 
         else:
@@ -176,14 +169,13 @@ class _Lowering:
                 v, a = motion(q)
                 force, tangent, load = beam.resistance(q, v, gamma / (beta * dt))
                 total = (1 - af) * force + af * here.resistance + beam.mass @ ((1 - am) * a + am * here.a)
-                last.update(force=force, load=load, total=total)
+                seen.append((force, total, load))
                 return total, (1 - af) * tangent + (1 - am) / (beta * dt**2) * beam.mass
 
-        q, taken = newton(residual, trial, self.free, self.scale)
+        q, taken = newton(residual, trial, self.free, self.tolerance)
         self.iterations += taken
         v, a = motion(q)
-        force, load, total = last["force"], last["load"], last["total"]
-        assert isinstance(force, np.ndarray) and isinstance(total, np.ndarray) and isinstance(load, WallLoad)
+        force, total, load = seen[-1]
         return _State(end, q, v, a, force, load), total
 
     def _held_energy(self, at: _State) -> dict[str, float]:

@@ -9,7 +9,7 @@ shear nor has a mechanism.  The wall is a penalty per metre at Gauss points of i
 friction acts at the wall's side of the pipe.  All tangents are exact derivatives.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 STRAIN_POINTS = 3  # degree that two Gauss points integrate exactly
 WALL_POINTS = 9  # five Gauss points an element
 MOST_ITERATIONS = 25
-# Newton has converged when no force is out of balance by more than this share of the load that it carries.
+# Newton has converged when no force is out of balance by more than this share of the load, rounding permitting.
 CONVERGED = 1e-7
 
 
@@ -106,37 +106,33 @@ def _integral(w: Any) -> Any:
     return w.density
 
 
-@dataclass(frozen=True)
 class Beam:
     """A beam of one section, its mesh and what surrounds it.
 
-    nodes (n,) [m] : ends of the elements along the unstretched string, from the top.
     A state is a vector of z [m], x [m] and θ [rad] at the nodes, in scikit-fem's order.
     """
 
-    nodes: Array
-    section: Section
-    around: Surroundings = Surroundings()
-    strains: Basis = field(init=False, repr=False)
-    wall: Basis = field(init=False, repr=False)
-    gravity: Array = field(init=False, repr=False)
-    mass: csc_matrix = field(init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        mesh, element = MeshLine(self.nodes), ElementVector(ElementLineP2(), 3)
-        put = object.__setattr__
-        put(self, "strains", Basis(mesh, element, intorder=STRAIN_POINTS))
-        put(self, "wall", Basis(mesh, element, intorder=WALL_POINTS))
-        shape = np.ones(self.wall.dx.shape)
-        zero = 0.0 * shape
-        put(self, "gravity", _distributed.assemble(self.wall, load=np.stack([self.around.weight * shape, zero, zero])))
-        tilt, mass = self.section.tilt_inertia, self.section.mass
-        put(self, "mass", _inertia.assemble(self.wall, mass=mass * shape, tilt=tilt * shape).tocsc())
+    def __init__(self, nodes: Array, section: Section, around: Surroundings) -> None:
+        """nodes (n,) [m] : ends of the elements along the unstretched string, from the top."""
+        self.nodes, self.section, self.around = nodes, section, around
+        mesh, element = MeshLine(nodes), ElementVector(ElementLineP2(), 3)
+        self.strains = Basis(mesh, element, intorder=STRAIN_POINTS)
+        self.wall = Basis(mesh, element, intorder=WALL_POINTS)
+        ones = np.ones(self.wall.dx.shape)
+        weight = np.stack([around.weight * ones, 0 * ones, 0 * ones])
+        self.gravity = _distributed.assemble(self.wall, load=weight)
+        self.mass = _inertia.assemble(self.wall, mass=section.mass * ones, tilt=section.tilt_inertia * ones).tocsc()
 
     @property
     def length(self) -> float:
         """Unstretched length [m]."""
         return float(self.nodes[-1] - self.nodes[0])
+
+    def tolerance(self, load: float) -> float:
+        """Largest force out of balance of a converged state [N]: a share of the load, or what rounding leaves."""
+        finest = float(np.diff(self.nodes).min())
+        rounding = 16 * np.finfo(float).eps * self.section.EA * self.length / finest
+        return max(CONVERGED * load, rounding)
 
     def dofs(self, at: float) -> NDArray[np.int64]:
         """Numbers of z, x and θ in a state at the node nearest to ``at`` [m] along the string."""
@@ -286,26 +282,26 @@ def _add_friction(
 
 
 def newton(
-    residual: Any, q: Array, free: NDArray[np.int64], scale: float, iterations: int = MOST_ITERATIONS
+    residual: Callable[[Array], tuple[Array, csc_matrix]], q: Array, free: NDArray[np.int64], tolerance: float
 ) -> tuple[Array, int]:
     """Solve ``residual(q) = (r, tangent)`` for the free dofs; returns the solution and the iterations it took.
 
-    scale [N] : the load that the residual is measured against.  Raises ConvergenceError.
+    tolerance [N] : largest r of a solution.  Raises ConvergenceError.
     """
     q = q.copy()
     size = np.inf
-    for iteration in range(iterations):
+    for iteration in range(MOST_ITERATIONS):
         r, tangent = residual(q)
         size = float(np.abs(r[free]).max())
         if not np.isfinite(size):
             break
-        if size < CONVERGED * scale:
+        if size < tolerance:
             return q, iteration
         q[free] -= splu(tangent[free][:, free].tocsc()).solve(r[free])
-    raise ConvergenceError(f"forces are out of balance by {size:.2g} N after {iterations} iterations")
+    raise ConvergenceError(f"forces are out of balance by {size:.2g} N after {MOST_ITERATIONS} iterations")
 
 
-def statics(beam: Beam, q: Array, held: NDArray[np.int64], load: Array | None = None, scale: float = 1.0) -> Array:
+def statics(beam: Beam, q: Array, held: NDArray[np.int64], load: Array | None = None) -> Array:
     """Equilibrium nearest to q, its held dofs as they are, under gravity, wall and a nodal load.
 
     Raises ConvergenceError.
@@ -317,4 +313,5 @@ def statics(beam: Beam, q: Array, held: NDArray[np.int64], load: Array | None = 
         force, tangent, _ = beam.resistance(trial, still)
         return force - extra, tangent
 
-    return newton(residual, q, free, scale)[0]
+    carried = beam.around.weight * beam.length + float(np.abs(extra).sum())
+    return newton(residual, q, free, beam.tolerance(carried))[0]

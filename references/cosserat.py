@@ -33,7 +33,7 @@ class RestingRod(NamedTuple):
     steps: int
 
 
-class _Surroundings(elastica.NoForces):  # type: ignore[misc]
+class _Surroundings(elastica.NoForces[Any]):
     """Wall, weight and clamp.
 
     The wall is a penalty per metre at the nodes, each for the length of rod that is its own.  The clamp is half an
@@ -62,14 +62,13 @@ class _Surroundings(elastica.NoForces):  # type: ignore[misc]
         system.external_forces += self.force
         system.external_forces[2] += self.weight
 
-
     def apply_torques(self, system: Any, time: Any = 0.0) -> None:
         """Add the clamp's moment to the first element, in its own frame (called by PyElastica)."""
         directors = system.director_collection[:, :, 0]
         system.external_torques[:, 0] += directors @ (self.clamp * np.cross(directors[2], self.held))
 
 
-class _Simulator(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing, elastica.Damping):  # type: ignore[misc]
+class _Simulator(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing, elastica.Damping):
     """What the rod needs of PyElastica's modules."""
 
 
