@@ -47,7 +47,7 @@ def displacement(tables: Tables) -> Canvas:
     for side, name, up in ((clearance, "high side", "bottom"), (-clearance, "low side", "top")):
         offset.axhline(side, color=style.QUIET, linewidth=1)
         offset.annotate(
-            name, (1.0, side), xycoords=("axes fraction", "data"), ha="right", va=up, color=style.QUIET, fontsize=9
+            name, (0.5, side), xycoords=("axes fraction", "data"), ha="center", va=up, color=style.QUIET, fontsize=9
         )
     offset.set_ylim(-1.4 * clearance, 1.4 * clearance)
     whole.set_ylabel("horizontal displacement, m")
@@ -60,7 +60,7 @@ def convergence(tables: Tables) -> Canvas:
     """Differences from the finite elements against the number of segments."""
     table = tables["segments"]
     own = table[table["geometry"] == table["geometry"].iloc[0]].sort_values("segments")
-    canvas = style.figure(3.4)
+    canvas = style.figure(3.6)
     left, right = canvas.subplots(1, 2)
     left.plot(own["segments"], own["total_rms_percent"], **style.line(0), marker="o", label="RMS of total force")
     left.axhline(3.0, color=style.QUIET, linewidth=1, linestyle=(0, (1, 1.5)))
@@ -76,12 +76,12 @@ def convergence(tables: Tables) -> Canvas:
     right.axhline(1.0, color=style.QUIET, linewidth=1, linestyle=(0, (1, 1.5)))
     right.set_ylabel("displacement, % of the clearance")
     for ax in (left, right):
-        ax.set(xscale="log", yscale="log", xlabel="number of segments, –")
+        ax.set(xscale="log", yscale="log", xlabel="segments, count")
         style.plain_log_ticks(ax.xaxis)
         style.plain_log_ticks(ax.yaxis)
         ax.set_xticks(own["segments"], [str(count) for count in own["segments"]])
     style.legend_above(left)
-    style.legend_above(right, columns=3)
+    style.legend_above(right)
     return canvas
 
 
