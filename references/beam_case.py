@@ -22,11 +22,11 @@ END_FINER = 3
 GUIDE_ELEMENT = 2.0  # [m], where the pipe hangs without touching
 
 
-def beam_of(case: Case, element: float, fine: float, creep: float = 1e-3) -> Beam:
+def beam_of(case: Case, element: float, fine: float, like_segments: bool = False) -> Beam:
     """The whole string of a case at its deepest, in elements of length ``element`` [m].
 
     fine [m] : length above the bit that has such elements; above them they are GUIDE_ELEMENT long.
-    creep [m/s] : see Surroundings.
+    like_segments : no shorter elements at the bit, and the wall is felt at the ends of elements alone.
     Raises InputError for a case that is no single pipe in a planar hole of one size.
     """
     parts, hole = case.string.components, case.wellbore
@@ -48,7 +48,7 @@ def beam_of(case: Case, element: float, fine: float, creep: float = 1e-3) -> Bea
     parted = [
         np.linspace(0.0, length - fine, _count(length - fine, GUIDE_ELEMENT), endpoint=False),
         np.linspace(length - fine, length - END, _count(fine - END, element), endpoint=False),
-        np.linspace(length - END, length, _count(END, element / END_FINER) + 1),
+        np.linspace(length - END, length, _count(END, element if like_segments else element / END_FINER) + 1),
     ]
     around = Surroundings(
         hole=axis,
@@ -56,12 +56,11 @@ def beam_of(case: Case, element: float, fine: float, creep: float = 1e-3) -> Bea
         stiffness=hole.stiffness_per_length,
         friction=interval.friction,
         radius=section.contact_radius,
-        creep=creep,
         lateral_damping=case.mud.lateral_damping,
         axial_damping=case.mud.axial_damping,
         weight=section.weight,
     )
-    return Beam(np.concatenate(parted), section, around)
+    return Beam(np.concatenate(parted), section, around, at_ends=like_segments)
 
 
 def _count(length: float, element: float) -> int:

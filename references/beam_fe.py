@@ -112,16 +112,21 @@ class Beam:
     A state is a vector of z [m], x [m] and θ [rad] at the nodes, in scikit-fem's order.
     """
 
-    def __init__(self, nodes: Array, section: Section, around: Surroundings) -> None:
-        """nodes (n,) [m] : ends of the elements along the unstretched string, from the top."""
+    def __init__(self, nodes: Array, section: Section, around: Surroundings, at_ends: bool = False) -> None:
+        """nodes (n,) [m] : ends of the elements along the unstretched string, from the top.
+
+        at_ends : feel wall and mud at the ends of the elements alone, each for the length that is its own.
+        """
         self.nodes, self.section, self.around = nodes, section, around
         mesh, element = MeshLine(nodes), ElementVector(ElementLineP2(), 3)
         self.strains = Basis(mesh, element, intorder=STRAIN_POINTS)
-        self.wall = Basis(mesh, element, intorder=WALL_POINTS)
-        ones = np.ones(self.wall.dx.shape)
+        whole = Basis(mesh, element, intorder=WALL_POINTS)
+        ends = np.array([[0.0, 1.0]]), np.array([0.5, 0.5])
+        self.wall = Basis(mesh, element, quadrature=ends) if at_ends else whole
+        ones = np.ones(whole.dx.shape)
         weight = np.stack([around.weight * ones, 0 * ones, 0 * ones])
-        self.gravity = _distributed.assemble(self.wall, load=weight)
-        self.mass = _inertia.assemble(self.wall, mass=section.mass * ones, tilt=section.tilt_inertia * ones).tocsc()
+        self.gravity = _distributed.assemble(whole, load=weight)
+        self.mass = _inertia.assemble(whole, mass=section.mass * ones, tilt=section.tilt_inertia * ones).tocsc()
 
     @property
     def length(self) -> float:

@@ -44,10 +44,10 @@ def displacement(tables: Tables) -> Canvas:
         few = index == 1
         marker = {"marker": "s", "markersize": 3.5, "markerfacecolor": "white"} if few else {}
         offset.plot(rows["md_m"], 1e3 * rows["offset_high_m"], **_look(index) | marker)
-    for side, name, up in ((clearance, "high side", "bottom"), (-clearance, "low side", "top")):
+    for side, name, at, up in ((clearance, "high side", 0.15, "bottom"), (-clearance, "low side", 0.5, "top")):
         offset.axhline(side, color=style.QUIET, linewidth=1)
         offset.annotate(
-            name, (0.5, side), xycoords=("axes fraction", "data"), ha="center", va=up, color=style.QUIET, fontsize=9
+            name, (at, side), xycoords=("axes fraction", "data"), ha="center", va=up, color=style.QUIET, fontsize=9
         )
     offset.set_ylim(-1.4 * clearance, 1.4 * clearance)
     whole.set_ylabel("horizontal displacement, m")

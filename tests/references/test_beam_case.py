@@ -23,6 +23,12 @@ def test_beam_is_the_whole_string_at_its_deepest():
     assert beam.gravity.sum() == pytest.approx(beam.section.weight * 44.0)
 
 
+def test_elements_like_segments():
+    beam = beam_of(load("scaled_section"), 0.6, 18.0, like_segments=True)
+    assert np.diff(beam.nodes)[-30:] == pytest.approx(0.6)
+    assert beam.wall.dx.shape[1] == 2
+
+
 def test_top_goes_down_as_the_engine_feeds():
     top, duration = top_of(load("scaled_section"))
     assert duration == pytest.approx(25.0)  # 12 m at 0.5 m/s, and half of the ramp of 2 s

@@ -133,6 +133,19 @@ def test_pipe_lies_on_the_low_side_of_an_inclined_hole():
     assert model.integrate(load.pressure) == pytest.approx(-30 * np.sin(np.pi / 3) * 20, rel=1e-6)
 
 
+def test_a_wall_at_the_ends_alone_is_the_trapezoidal_rule():
+    hole = PlanarHole(np.array([[0, 0, 0], [40, 0, 0]], dtype=float))
+    around = Surroundings(hole, clearance=0.05, stiffness=1e3, weight=3.0)
+    coarse = Beam(np.array([0.0, 0.6, 1.0]), section(1e4, 1.0, 4e3), around, at_ends=True)
+    q, (s, numbers) = coarse.straight(0.0), coarse.points()
+    q[numbers[:, 1]] = 0.1 * s
+    load = coarse.wall_load(q, np.zeros_like(q))
+    assert coarse.integrate(load.pressure) == pytest.approx(1e3 * ((0.06 - 0.05) * 0.5 + (0.1 - 0.05) * 0.2))
+    assert coarse.gravity.sum() == pytest.approx(3.0)
+    fine = Beam(coarse.nodes, coarse.section, around)
+    assert coarse.mass.toarray() == pytest.approx(fine.mass.toarray())
+
+
 def test_newton_says_when_it_fails():
     model = beam(2)
     with pytest.raises(ConvergenceError, match="out of balance"):
