@@ -144,7 +144,6 @@ class _Lowering:
         beam, dt, scheme = self.beam, end - here.time, self.scheme
         trial = here.q + dt * here.v
         trial[self.held[0]] = self.top(end)
-        trial[self.held[1:]] = 0.0
         # Newton's evaluations: forces, their sum with inertia, wall. The last one is at the solution.
         seen: list[tuple[Array, Array, WallLoad]] = []
 

@@ -133,6 +133,29 @@ def test_pipe_lies_on_the_low_side_of_an_inclined_hole():
     assert model.integrate(load.pressure) == pytest.approx(-30 * np.sin(np.pi / 3) * 20, rel=1e-6)
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_friction_acts_where_the_pipe_touches(side):
+    """A section that turns about the point at the wall slides not, and one that turns in place is held back."""
+    hole = PlanarHole(np.array([[0, 30, 0], [40, 30, 0]], dtype=float))
+    radius, turning, deep = 0.3, 0.7, 1e-3
+    around = Surroundings(hole, 0.05, 1e3, friction=0.5, radius=radius, creep=1e-4)
+    model = Beam(np.array([0.0, 1.0]), section(1e4, 1.0, 4e3), around)
+    along, normal = np.array([np.sqrt(0.75), 0.5]), np.array([-0.5, np.sqrt(0.75)])
+    s, numbers = model.points()
+    q, rolling = np.zeros(model.strains.N), np.zeros(model.strains.N)
+    q[numbers[:, :2]] = s[:, None] * along + side * (0.05 + deep) * normal
+    q[numbers[:, 2]] = np.pi / 6
+    rolling[numbers[:, 2]] = turning
+    # The wall side lies at +side·radius along the normal and turns towards −side·tangent.
+    in_place = model.wall_load(q, rolling)
+    limit = 0.5 * 1e3 * deep
+    assert in_place.resistance[2] == pytest.approx(limit * radius)
+    assert in_place.friction_loss == pytest.approx(limit * radius * turning)
+    assert np.einsum("i,iep->ep", along, in_place.resistance[:2]) == pytest.approx(-side * limit)
+    rolling[numbers[:, :2]] = side * radius * turning * along
+    assert model.wall_load(q, rolling).friction_loss == pytest.approx(0.0, abs=1e-9)
+
+
 def test_a_wall_at_the_ends_alone_is_the_trapezoidal_rule():
     hole = PlanarHole(np.array([[0, 0, 0], [40, 0, 0]], dtype=float))
     around = Surroundings(hole, clearance=0.05, stiffness=1e3, weight=3.0)
