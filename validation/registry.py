@@ -3,6 +3,7 @@
 STUDIES: dict[str, str] = {
     "paper_well": "validation.paper_well",
     "curved_chain": "validation.curved_chain",
+    "scaled_section": "validation.scaled_section",
     "energy_ledger": "validation.energy_ledger",
     "cylinder_error": "validation.cylinder_error",
     "overlap": "validation.overlap",

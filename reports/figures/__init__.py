@@ -22,6 +22,7 @@ class Figure:
 MODULES: dict[str, str] = {
     "paper_well": "reports.figures.paper_well",
     "curved_chain": "reports.figures.curved_chain",
+    "scaled_section": "reports.figures.scaled_section",
     "energy_ledger": "reports.figures.energy_ledger",
     "overlap": "reports.figures.overlap",
     "cylinder_error": "reports.figures.cylinder_error",

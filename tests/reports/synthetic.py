@@ -108,6 +108,46 @@ def curved_chain() -> dict[str, pd.DataFrame]:
     return {"numbers": pd.DataFrame(rows), "profiles": pd.concat(profiles)}
 
 
+def scaled_section() -> dict[str, pd.DataFrame]:
+    time, md = np.linspace(0.2, 25, 125), np.linspace(26, 44, 31)
+    models = ("finite elements", "30 segments", "240 segments")
+    rise = 1 / (1 + np.exp(8 - time))
+    shares = {"guide_low_N": 300.0, "bend_high_N": 950.0, "bit_low_N": 650.0}
+    force, string = [], []
+    for index, model in enumerate(models):
+        parts = {side: size * rise * (1 + 0.02 * index) for side, size in shares.items()}
+        force.append(pd.DataFrame({"time_s": time, "total_N": sum(parts.values()), **parts, "model": model}))
+        offset = 0.024 * np.sin(md - 26) * (1 - 0.05 * index)
+        string.append(
+            pd.DataFrame(
+                {
+                    "above_bit_m": 44 - md,
+                    "md_m": md,
+                    "horizontal_m": np.maximum(md - 32, 0) ** 2 / 57 + offset,
+                    "offset_high_m": offset,
+                    "model": model,
+                    "clearance_m": 0.025,
+                }
+            )
+        )
+    count = np.array([10, 30, 60, 120, 240, 30])
+    size = 30.0 / count
+    return {
+        "force": pd.concat(force),
+        "string": pd.concat(string),
+        "segments": pd.DataFrame(
+            {
+                "segments": count,
+                "geometry": ["cylinders"] * 5 + ["arcs"],
+                "total_rms_percent": 2 * size,
+                "displacement_max_percent": 16 * size,
+                "displacement_above_end_percent": 9 * size,
+                "displacement_rms_percent": 4 * size**2,
+            }
+        ),
+    }
+
+
 def energy_ledger() -> dict[str, pd.DataFrame]:
     fraction = np.array([1.0, 0.5, 0.25, 0.125])
     closure = pd.concat(
@@ -318,6 +358,7 @@ STUDIES = {
     for function in (
         paper_well,
         curved_chain,
+        scaled_section,
         energy_ledger,
         overlap,
         cylinder_error,
