@@ -93,7 +93,7 @@ def times(aw, ax, ay, az, bw, bx, by, bz):
     )
 
 
-@njit(forceinline=True)
+@njit(forceinline=True, cache=True)
 def in_frame(w, x, y, z, gx, gy, gz):
     """A global vector in the frame of a body."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
@@ -270,7 +270,7 @@ def add_wall(S, j, P, C, owner, laws, R, D):
                 R[j, i] += loads[i].real
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", cache=True)
 def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """Fill R (n + 1, 6) with forces [N] and moments [N m] out of balance and D, A, U with the tangent −∂R.
 
