@@ -1,21 +1,30 @@
-"""The command line: ``fctd simulate CASE``; also ``python -m fctd``."""
+"""The command line, also ``python -m fctd``: the application, and ``fctd simulate CASE``."""
 
 import re
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
-from fctd.case import load_case, parse_override
+from fctd.cli_options import (
+    BAD_INPUT,
+    FAILED,
+    INTERRUPTED,
+    CaseFile,
+    Friction,
+    Overrides,
+    Quiet,
+    messages,
+    read_case,
+    screen,
+)
+from fctd.cli_steady import chart_command, equilibrium_command
 from fctd.errors import InputError
 from fctd.results import SimulationResult
 from fctd.simulate import simulate
-
-DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -23,20 +32,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Fast contact torque and drag of a stiff drill string.",
 )
-# Results go to standard output; progress and errors to standard error, so that neither spoils the other.
-screen, messages = Console(), Console(stderr=True)
-
-CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]
-Overrides = Annotated[
-    list[str],
-    typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case, e.g. wellbore.overlap='0.1 m'."),
-]
-Friction = Annotated[float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")]
-
-
-@app.callback()
-def _root() -> None:
-    """Keep ``simulate`` a named command although it is the only one so far."""
 
 
 @app.command("simulate")
@@ -49,13 +44,10 @@ def simulate_command(
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
     csv: Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="No progress bar.")] = False,
+    quiet: Quiet = False,
 ) -> None:
     """Run the operations of a case and write history, profile and energy tables."""
-    changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
-    if friction is not None:
-        changes["friction"] = friction
-    case = load_case(case_file, changes)
+    case = read_case(case_file, overrides, friction)
     folder = out or Path(re.sub(r"[^\w.-]+", "-", f"{case.name}-result"))
     try:  # before hours of computing, not after
         folder.mkdir(parents=True, exist_ok=True)
@@ -109,6 +101,10 @@ def _summarise(result: SimulationResult) -> None:
         f"energy error {run['energy_error']:.1e}",
         highlight=False, soft_wrap=True,
     )  # fmt: skip
+
+
+app.command("equilibrium")(equilibrium_command)
+app.command("chart")(chart_command)
 
 
 def main() -> None:
