@@ -2,8 +2,8 @@
 
 A step solves (K + M/τ²) Δ = R: over a pseudo-time τ the bodies' own masses hold a string back that is far from
 balance.  τ grows with every step that needs no shortening, until the steps are Newton's own (Kelley & Keyes
-1998; their rule, growth as the residual falls, trips over the wall: a point that touches it for the first time
-raises the residual by orders of magnitude and is brought back by the next step).
+1998; their rule, growth as the residual falls, often trips over the wall: a point that touches it for the first
+time raises the residual by orders of magnitude and is brought back by the next step).
 """
 
 from typing import NamedTuple
@@ -22,7 +22,8 @@ CONVERGED, MAX_ITERATIONS, NOT_FINITE, UNSOUND = range(4)
 class Pace(NamedTuple):
     """How boldly to step, and when to stop.
 
-    iterations : at most.  tau : first pseudo-time [s]; growth : its factor a step.
+    iterations : at most.  tau : first pseudo-time [s]; growth : its factor after a step that was not shortened;
+    relent : its factor after a step that made things ten times worse (1 : never mind).
     shift [m], turn [rad] : a body's largest lateral step and largest rotation.
     force [N], moment [N m] : largest imbalance of a body when converged.
     """
@@ -30,6 +31,7 @@ class Pace(NamedTuple):
     iterations: int
     tau: float
     growth: float
+    relent: float
     shift: float
     turn: float
     force: float
@@ -94,6 +96,8 @@ def converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, tau):
     R then holds what is out of balance and, in row 0, the reactions of the top drive.  ``UNSOUND`` : the
     elimination lost its digits; `assemble` and `hold_back` build the system again for another solver.
     """
+    before = np.inf
+    share = 0.0
     for k in range(pace.iterations):
         assemble(S, n, P, kinks, C, owner, laws, R, D, A, U)
         error = imbalance(R, n, pace)
@@ -101,11 +105,14 @@ def converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, tau):
             return NOT_FINITE, k, tau
         if error <= 1:
             return CONVERGED, k, tau
+        if error > 10 * before:
+            tau *= pace.relent
+        if share == 1 and (error < before or pace.relent == 1):
+            tau *= pace.growth
+        before = error
         hold_back(S, n, tau, D)
         if not eliminate(D, A, U, R, n, W):
             return UNSOUND, k, tau
         share = allowed_share(S, n, P, R, pace)
         take_step(P, n, R, share)
-        if share == 1:
-            tau *= pace.growth
     return MAX_ITERATIONS, pace.iterations, tau

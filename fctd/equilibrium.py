@@ -31,9 +31,15 @@ STATUSES = ("converged", "max_iterations", "diverged", "not_finite", "locked_up"
 TOLERANCE = 1e-7
 # Imperfection of a first guess, so that a straight string may buckle [m].
 SEED = 1e-4
-# Bold steps converge in some eight iterations; a string that buckles may need smaller ones, once or twice.
-# Iterations, first pseudo-time [s], its growth, largest lateral step [m].
-ATTEMPTS = ((40, 0.2, 3.0, 0.05), (80, 0.1, 1.5, 0.02), (300, 0.1, 1.1, 0.01))
+# Bold steps converge in some eight iterations.  A string that hardly fits its hole needs steps that mind the
+# imbalance, one that buckles needs small ones, to converge at all or to find a stable shape.
+# Iterations, first pseudo-time [s], growth, relent, largest lateral step [m]: as of Pace.
+ATTEMPTS = (
+    (25, 0.2, 3.0, 1.0, 0.05),
+    (60, 0.05, 3.0, 0.3, 0.02),
+    (80, 0.1, 1.5, 1.0, 0.02),
+    (200, 0.1, 1.1, 1.0, 0.01),
+)
 LARGEST_TURN = 0.1  # [rad] a step
 
 
@@ -141,9 +147,10 @@ class Solver:
             case.bit.torque if on_bottom else 0.0,
         )  # fmt: skip
         weight = float(string.of("weight") @ string.length) + weight_on_bit
-        code, iterations, kinks = self._balance(string, laws, weight_on_bit, TOLERANCE * weight)
+        code, iterations, negative, kinks = self._balance(string, laws, weight_on_bit, TOLERANCE * weight)
 
         w = self.work
+        assemble(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, w.R, w.D, w.A, w.U)
         joints, contacts = np.zeros((n + 1, 3)), np.zeros((n + 1, 6))
         read_loads(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, joints, contacts)
         top_axis = hole.at(np.array([string.top_md]))[1][0]
@@ -151,7 +158,7 @@ class Solver:
         held = 0.5 * pipe.weight * string.length[0] if string.long_segment else 0.0
         hookload, torque = float(w.R[0, :3] @ top_axis) + held, -float(w.R[0, 5])
         imbalance = float(np.linalg.norm(w.R[1 : n + 1, :3], axis=1).max())
-        status, message = self._judge(code, n, kinks, laws, hookload, contacts)
+        status, message = self._judge(code, negative, hookload, contacts)
         indicator, drive = sensors(case, operation, hookload, torque)
         shape = Shape(
             hole, string, w.P[0, :3].copy(), joints[1:], contacts[1:], w.owner[1 : n + 1].copy(),
@@ -163,22 +170,34 @@ class Solver:
             normal, r_ft, r_mu_n, imbalance, shape,
         )  # fmt: skip
 
-    def _balance(self, string: String, laws: Steady, weight_on_bit: float, force: float) -> tuple[int, int, Array]:
-        """Iterate to balance, more carefully with every attempt; returns code, iterations and bends."""
+    def _balance(self, string: String, laws: Steady, weight_on_bit: float, force: float) -> tuple[int, int, int, Array]:
+        """Iterate to a stable balance, more carefully with every attempt, or else to the first balance found.
+
+        Returns code, iterations, number of unstable modes and bends; leaves the pose in the workspace.
+        """
         w, n, pieces = self.work, string.segments, self.hole.pieces
         kinks = np.zeros((n + 2, 4))
         kinks[:, 0] = 1.0
-        total, code = 0, NOT_FINITE
-        for iterations, tau, growth, shift in ATTEMPTS:
+        total, code, negative = 0, NOT_FINITE, 0
+        unstable: tuple[int, Array, NDArray[np.int64]] | None = None
+        for iterations, tau, growth, relent, shift in ATTEMPTS:
             guess(w.S, n, pieces, laws, string.top_md, -weight_on_bit, SEED, w.G, w.P)
             self._bend(string, kinks)
             w.owner[1 : n + 1] = np.searchsorted(pieces[:, START_MD], w.G[1 : n + 1, MD], side="right") - 1
-            pace = Pace(iterations, tau, growth, shift, LARGEST_TURN, force, force)
+            pace = Pace(iterations, tau, growth, relent, shift, LARGEST_TURN, force, force)
             code, done = self._iterate(n, kinks, laws, pace)
             total += done
-            if code == CONVERGED:
-                break
-        return code, total, kinks
+            if code != CONVERGED:
+                continue
+            frictionless_tangent(w.S, n, w.P, kinks, pieces, w.owner, laws, w.R, w.D, w.A, w.U)
+            negative = negative_pivots(w.D, w.A, w.U, n)
+            if negative == 0:
+                return code, total, 0, kinks
+            if unstable is None:
+                unstable = negative, w.P.copy(), w.owner.copy()
+        if unstable is not None:
+            code, (negative, w.P[:], w.owner[:]) = CONVERGED, unstable
+        return code, total, negative, kinks
 
     def _iterate(self, n: int, kinks: Array, laws: Steady, pace: Pace) -> tuple[int, int]:
         """Run the compiled iteration, and take the steps by hand whose equations it cannot solve soundly."""
@@ -215,22 +234,17 @@ class Solver:
             half = 0.5 * component.bend
             kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
 
-    def _judge(
-        self, code: int, n: int, kinks: Array, laws: Steady, hookload: float, contacts: Array
-    ) -> tuple[str, str]:
+    def _judge(self, code: int, negative: int, hookload: float, contacts: Array) -> tuple[str, str]:
         """Status and message of a solution."""
-        w, hole = self.work, self.hole
         if code == NOT_FINITE:
             return "not_finite", "a force is not finite"
         if self.geometry != state.OPEN:
-            walls = hole.walls(contacts[1:, :3], w.owner[1 : n + 1])
+            walls = self.hole.walls(contacts[1:, :3], self.work.owner[1 : len(contacts)])
             outside = np.linalg.norm(walls[:, :3], axis=1) > 2 * walls[:, 3]
             if outside.any():
                 return "diverged", f"segment {int(np.argmax(outside)) + 1} has left the hole"
         if code != CONVERGED:
-            return "max_iterations", "forces out of balance"
-        frictionless_tangent(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, w.R, w.D, w.A, w.U)
-        negative = negative_pivots(w.D, w.A, w.U, n)
+            return "max_iterations", "forces are out of balance"
         if negative:
             return "unstable", f"a balance that {negative} modes of the string would leave without friction"
         if hookload < -self.case.rig.block_weight:

@@ -125,7 +125,7 @@ def lay_chain(S, n, C, geometry, G, seed, P):
     """Fill P (n + 1, POSE): each body from the node above to its own, stretched by the tension, twist-free.
 
     The chain's length is kept in the bend and on the wall: the lower node slides along the hole until it fits.
-    seed : lateral imperfection [m], so that a straight string may buckle.
+    seed : lateral imperfection [m], so that a straight string may buckle; less where there is no room for it.
     """
     i = piece_at(C, 0, G[0, MD])
     x, y, z, ax, ay, az = axis_at(C, geometry, i, G[0, MD])
@@ -148,8 +148,9 @@ def lay_chain(S, n, C, geometry, G, seed, P):
             ox, oy, oz = G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2]
             along = ox * tx + oy * ty + oz * tz
             # A spiral of the seed's size, a turn in some twenty bodies, favours no direction.
-            nx += ox - along * tx + seed * np.cos(0.3 * j)
-            ny += oy - along * ty + seed * np.sin(0.3 * j)
+            room = min(seed, max(0.1 * (C[i, HOLE_RADIUS] - S[RADIUS + j]), 0.001 * seed))
+            nx += ox - along * tx + room * np.cos(0.3 * j)
+            ny += oy - along * ty + room * np.sin(0.3 * j)
             nz += oz - along * tz
             bx, by, bz = nx - x, ny - y, nz - z
             have = np.sqrt(bx * bx + by * by + bz * bz)

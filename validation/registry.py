@@ -7,5 +7,6 @@ STUDIES: dict[str, str] = {
     "cylinder_error": "validation.cylinder_error",
     "overlap": "validation.overlap",
     "ownership": "validation.ownership",
+    "soft_limit": "validation.soft_limit",
     "real_survey": "validation.real_survey",
 }
