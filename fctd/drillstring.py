@@ -111,18 +111,24 @@ class String:
         """The same string with ``by`` metres more in its top segment."""
         return replace(self, length=np.concatenate([self.length[:1] + by, self.length[1:]]))
 
-    def mid_contact(self) -> NDArray[np.bool_]:
-        """Segments that touch at their middle: a component of one segment shorter than its neighbours."""
-        longer = np.concatenate([[False], self.length[1:] < self.length[:-1] - 1e-9])
-        longer &= np.concatenate([self.length[:-1] < self.length[1:] - 1e-9, [False]])
+    def _short(self) -> NDArray[np.bool_]:
+        """Components of one segment that is shorter than its neighbours: a stabiliser, a bit."""
+        longer_above = np.concatenate([[False], self.length[1:] < self.length[:-1] - 1e-9])
+        longer_below = np.concatenate([self.length[:-1] < self.length[1:] - 1e-9, [True]])
         alone = np.bincount(self.component, minlength=len(self.sections))[self.component] == 1
-        return np.asarray(longer & alone)
+        return np.asarray(longer_above & longer_below & alone)
+
+    def mid_contact(self) -> NDArray[np.bool_]:
+        """Segments that touch at their middle: short components, but for the bit, which touches at its end."""
+        short = self._short()
+        short[-1] = False
+        return short
 
     def contact_radius(self) -> Array:
-        """Radius at each contact point [m]: at unlike neighbours the larger, clear of the middle ones."""
-        own, middle = self.of("contact_radius"), self.mid_contact()
-        below = np.append(np.where(middle, 0.0, own)[1:], 0.0)
-        return np.asarray(np.where(middle, own, np.maximum(own, below)))
+        """Radius at each contact point [m]: at unlike neighbours the larger, but a short component's is its own."""
+        own = self.of("contact_radius")
+        below = np.append(np.where(self._short(), 0.0, own)[1:], 0.0)
+        return np.asarray(np.where(self.mid_contact(), own, np.maximum(own, below)))
 
     def joints(self, name: str) -> Array:
         """Stiffness of the n joints for a section stiffness (Eqs 17–19): half segments in series.

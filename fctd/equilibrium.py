@@ -147,7 +147,10 @@ class Solver:
             case.bit.torque if on_bottom else 0.0,
         )  # fmt: skip
         weight = float(string.of("weight") @ string.length) + weight_on_bit
-        code, iterations, negative, kinks = self._balance(string, laws, weight_on_bit, TOLERANCE * weight)
+        # Positions are rounded: the shortest, stiffest segments turn that into force.
+        rounding = np.finfo(float).eps * bit_depth * float(state.row(self.work.S, state.K_AXIAL, n).max())
+        allowed = max(TOLERANCE * weight, 16 * rounding)
+        code, iterations, negative, kinks = self._balance(string, laws, weight_on_bit, allowed)
 
         w = self.work
         assemble(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, w.R, w.D, w.A, w.U)
@@ -158,7 +161,9 @@ class Solver:
         held = 0.5 * pipe.weight * string.length[0] if string.long_segment else 0.0
         hookload, torque = float(w.R[0, :3] @ top_axis) + held, -float(w.R[0, 5])
         imbalance = float(np.linalg.norm(w.R[1 : n + 1, :3], axis=1).max())
-        status, message = self._judge(code, negative, hookload, contacts)
+        # A string that lies level pulls neither way, to rounding.
+        pushed = -hookload - case.rig.block_weight > n * allowed
+        status, message = self._judge(code, negative, pushed, contacts)
         indicator, drive = sensors(case, operation, hookload, torque)
         shape = Shape(
             hole, string, w.P[0, :3].copy(), joints[1:], contacts[1:], w.owner[1 : n + 1].copy(),
@@ -234,7 +239,7 @@ class Solver:
             half = 0.5 * component.bend
             kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
 
-    def _judge(self, code: int, negative: int, hookload: float, contacts: Array) -> tuple[str, str]:
+    def _judge(self, code: int, negative: int, pushed: bool, contacts: Array) -> tuple[str, str]:
         """Status and message of a solution."""
         if code == NOT_FINITE:
             return "not_finite", "a force is not finite"
@@ -247,7 +252,7 @@ class Solver:
             return "max_iterations", "forces are out of balance"
         if negative:
             return "unstable", f"a balance that {negative} modes of the string would leave without friction"
-        if hookload < -self.case.rig.block_weight:
+        if pushed:
             return "locked_up", "the top would have to be pushed with more than the block weight"
         return "converged", ""
 

@@ -7,6 +7,10 @@ STUDIES: dict[str, str] = {
     "cylinder_error": "validation.cylinder_error",
     "overlap": "validation.overlap",
     "ownership": "validation.ownership",
+    "steady_state": "validation.steady_state",
     "soft_limit": "validation.soft_limit",
+    "beam_in_hole": "validation.beam_in_hole",
+    "johancsik": "validation.johancsik",
     "real_survey": "validation.real_survey",
+    "real_chart": "validation.real_chart",
 }

@@ -1,0 +1,53 @@
+"""Charts of all operations on a real survey of eight kilometres: every depth must have an answer."""
+
+import time
+from typing import Any
+
+import pandas as pd
+
+from fctd import torque_drag
+from fctd.case import KINDS
+from validation.cases import load
+from validation.study import Check, Context, Outcome, Study
+
+LEGAL = ("converged", "locked_up", "unstable")
+
+
+def run(context: Context) -> Outcome:
+    """K05-ENC-05-S1, 5 in pipe in 8.5 in hole, 10 m segments, every 250 m; with and without weight on bit."""
+    assert context.data is not None  # the study needs it, so the runner has looked
+    fine: dict[str, Any] = {
+        "wellbore__survey": context.data / "surveys" / "nlog_K05-ENC-05-S1.csv",
+        "string__components__0__segments": None,
+        "string__components__0__segment_length": "10 m",
+        "bit__weight_on_bit": "50 kN",
+        "bit__torque": "5 kN*m",
+    }
+    depths = [float(depth) for depth in range(500, 8162, 1000 if context.quick else 250)]
+    parts = []
+    for geometry in context.progress(["cylinders", "arcs"], "hole"):
+        case = load("nlog_k05", wellbore__geometry=geometry, **fine)
+        torque_drag(case, "trip_in", depths[:1])  # compile
+        began = time.perf_counter()
+        chart = torque_drag(case, list(KINDS), depths)
+        milliseconds = 1e3 * (time.perf_counter() - began) / len(chart)
+        parts.append(chart.assign(geometry=geometry, mean_ms=milliseconds))
+    chart = pd.concat(parts, ignore_index=True)
+    counts = chart.groupby(["geometry", "operation", "status"], sort=False).agg(
+        rows=("iterations", "size"), most_iterations=("iterations", "max"), mean_ms=("mean_ms", "first")
+    )
+    return Outcome(
+        tables={"chart": chart, "counts": counts.reset_index()},
+        checks=[
+            Check("rows without an answer", float((~chart["status"].isin(LEGAL)).sum()), 0, "at_most", "",
+                  "every row converged, locked up or unstable"),
+        ],
+        notes=[
+            "Hole, string, mud, friction (0.2) and bit loads are assumed, the survey is real: 568 stations, "
+            "8,161 m, up to 816 segments.",
+        ],
+        display={"counts": "Rows by status"},
+    )  # fmt: skip
+
+
+STUDY = Study("real_chart", "Has every depth of a real well an answer?", run, reproduce=False, needs=("data",))

@@ -1,0 +1,135 @@
+"""The steady solver on the paper's well: a whole chart, the stepper's answer beside it, and what a depth costs."""
+
+import statistics
+import time
+from typing import Any
+
+import pandas as pd
+
+from fctd import Case, simulate, torque_drag
+from fctd.case import KINDS
+from fctd.equilibrium import Solver
+from fctd.operations import steady_rates
+from validation.cases import load, rotation, trip
+from validation.steady import last_seconds
+from validation.study import Check, Context, Outcome, Study
+
+DRILLING = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
+DEPTHS = [float(depth) for depth in range(1750, 2451, 10)]
+COMPARED = [1900.0, 2050.0, 2200.0, 2330.0, 2450.0]
+SPEED = 0.2  # [m/s] of the trips
+WINDOW = 20.0  # [s] of a trip that are read, the bit passing the depth in the middle
+
+
+def schedule(kind: str, depth: float) -> list[dict[str, Any]]:
+    """A run of the stepper that is steady when its last seconds are read."""
+    if kind == "rotate_off_bottom":
+        return rotation(depth, duration=90.0, ramp=20.0)
+    past = SPEED * WINDOW / 2
+    return (
+        trip(depth + 8.0, depth - past, SPEED, 10.0)
+        if kind == "trip_out"
+        else trip(depth - 8.0, depth + past, SPEED, 10.0)
+    )
+
+
+def stepped(kind: str, depth: float) -> pd.Series:
+    """The stepper's steady state at a depth."""
+    result = simulate(load("paper_well", operations=schedule(kind, depth), record__interval=0.25))
+    return last_seconds(result, 50.0 if kind == "rotate_off_bottom" else WINDOW)
+
+
+def compare(chart: pd.DataFrame, depths: list[float], context: Context) -> pd.DataFrame:
+    """Steady solver and stepper side by side; differences in percent of the value and of the chart's maximum."""
+    rows = []
+    for kind in ("trip_out", "trip_in", "rotate_off_bottom"):
+        of_kind = chart[chart["operation"] == kind]
+        for depth in context.progress(depths, f"stepper: {kind}"):
+            late, steady = stepped(kind, depth), of_kind[of_kind["bit_depth_m"] == depth].iloc[0]
+            row: dict[str, Any] = {"operation": kind, "bit_depth_m": depth}
+            for column, name, unit in (("hookload_N", "hookload", "kN"), ("surface_torque_N_m", "torque", "kN_m")):
+                solver, stepper = steady[column] / 1e3, late[column] / 1e3
+                largest = chart[column].abs().max() / 1e3
+                off = abs(solver - stepper)
+                row |= {
+                    f"{name}_steady_{unit}": solver,
+                    f"{name}_stepped_{unit}": stepper,
+                    # Whichever is kinder: 0.5 % of the value is worth 0.1 % of the largest.
+                    f"{name}_off_of_allowed": min(
+                        off / (0.005 * abs(stepper)) if stepper else float("inf"), off / (0.001 * largest)
+                    ),
+                }
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def cost(segments: int, repeats: int) -> dict[str, Any]:
+    """Milliseconds a depth, layout and all, compiled code warm: median over repeats at 2450 m."""
+    case: Case = load("paper_well", **DRILLING)
+    if segments != 61:
+        case = load(
+            "paper_well",
+            string__components__0__segments=round(200 / 2450 * segments),
+            string__components__1__segments=round(1500 / 2450 * segments),
+            string__components__2__segments=None,
+            string__components__2__segment_length=2450 / segments,
+        )
+    solver, row = Solver(case), {"segments": 0.0}
+    for kind in KINDS:
+        rates = steady_rates(case, kind)
+        point = solver.solve(kind, rates, 2450.0)
+        row["segments"] = float(len(point.profile) - 1)
+        times = []
+        for _ in range(repeats):
+            began = time.perf_counter()
+            solver.solve(kind, rates, 2450.0)
+            times.append(1e3 * (time.perf_counter() - began))
+        row[f"{kind}_ms"] = statistics.median(times)
+    return row
+
+
+def run(context: Context) -> Outcome:
+    """Chart of six operations, five depths of three of them stepped, cost at three segment counts."""
+    case = load("paper_well", **DRILLING)
+    torque_drag(case, list(KINDS), DEPTHS[:1])  # compile
+    began = time.perf_counter()
+    chart = torque_drag(case, list(KINDS), DEPTHS)
+    spent = (time.perf_counter() - began) / len(KINDS)
+    compared = compare(chart, COMPARED[-1:] if context.quick else COMPARED, context)
+    costs = pd.DataFrame([cost(n, 5 if context.quick else 21) for n in (61, 250, 500)])
+    milliseconds = costs.filter(like="_ms").max(axis=1)
+    growth = (milliseconds.iloc[2] / milliseconds.iloc[1]) / (costs["segments"].iloc[2] / costs["segments"].iloc[1])
+    return Outcome(
+        tables={"chart": chart, "compared": compared, "cost": costs},
+        checks=[
+            Check("rows of the chart that did not converge", float((chart["status"] != "converged").sum()), 0,
+                  "at_most", "", "six operations at 71 depths"),
+            Check("hook load, steady against stepped, over what is allowed",
+                  float(compared["hookload_off_of_allowed"].max()), 1.0, "at_most", "",
+                  "0.5 % of the value or 0.1 % of the chart's largest"),
+            Check("torque, steady against stepped, over what is allowed",
+                  float(compared["torque_off_of_allowed"].max()), 1.0, "at_most", "",
+                  "0.5 % of the value or 0.1 % of the chart's largest"),
+            Check("a depth at 61 segments, slowest operation", float(milliseconds.iloc[0]), 1.5, "at_most", "ms",
+                  "issue: 1.5 ms, one core, warm"),
+            Check("a depth at 500 segments, slowest operation", float(milliseconds.iloc[2]), 15.0, "at_most", "ms",
+                  "issue: 15 ms, one core, warm"),
+            Check("cost of a segment at 500 over that at 250", float(growth), 1.3, "at_most", "",
+                  "linear in segments; noise of the machine allowed for"),
+        ],
+        notes=[
+            f"A chart of 71 depths took {1e3 * spent:.0f} ms an operation on this machine, layout of every depth "
+            "included, compile excluded.",
+            "Both use the same well, string, segments, friction and wall. The stepper trips at 0.2 m/s past the depth "
+            "and rotates at 60 rev/min; the steady solver has no inertia and no damping.",
+        ],
+        display={"compared": "Steady solver and stepper", "cost": "Milliseconds a depth, bit at 2450 m"},
+    )  # fmt: skip
+
+
+STUDY = Study(
+    "steady_state",
+    "Does the steady solver find what the stepper settles to, everywhere, and in milliseconds?",
+    run,
+    reproduce=True,
+)
