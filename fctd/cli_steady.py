@@ -224,7 +224,8 @@ def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
         from fctd import plots
     except ModuleNotFoundError as error:
         key, path = next(iter(wanted.items()))
-        raise InputError(f"{error.name} to be installed: pip install 'fctd[plot]'", key=key, value=str(path)) from None
+        expected = f"the package {error.name} for pictures (pip install matplotlib, or the extra fctd[plot])"
+        raise InputError(expected, key=key, value=str(path)) from None
     return plots
 
 
