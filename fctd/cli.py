@@ -2,19 +2,22 @@
 
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
 
 import typer
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
+from fctd.case import Case
 from fctd.cli_options import (
     BAD_INPUT,
     FAILED,
     INTERRUPTED,
     CaseFile,
+    Csv,
     Friction,
+    Out,
     Overrides,
     Quiet,
     messages,
@@ -25,6 +28,7 @@ from fctd.cli_steady import chart_command, equilibrium_command
 from fctd.errors import InputError
 from fctd.results import SimulationResult
 from fctd.simulate import simulate
+from fctd.wall_query import WallQuery
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -37,17 +41,28 @@ app = typer.Typer(
 @app.command("simulate")
 def simulate_command(
     case_file: CaseFile,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="FOLDER", help="Where results go; default: CASE-NAME-result."),
-    ] = None,
+    out: Out = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
-    csv: Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")] = False,
+    csv: Csv = False,
     quiet: Quiet = False,
 ) -> None:
     """Run the operations of a case and write history, profile and energy tables."""
+    simulate_file(case_file, out, overrides, friction, csv, quiet)
+
+
+def simulate_file(
+    case_file: Path,
+    out: Path | None,
+    overrides: list[str],
+    friction: float | None,
+    csv: bool,
+    quiet: bool,
+    contact: Callable[[Case], WallQuery] | None = None,
+) -> None:
+    """What ``simulate`` does; ``contact`` builds another contact method for the case (see fctd.simulate)."""
     case = read_case(case_file, overrides, friction)
+    method = None if contact is None else contact(case)
     folder = out or Path(re.sub(r"[^\w.-]+", "-", f"{case.name}-result"))
     try:  # before hours of computing, not after
         folder.mkdir(parents=True, exist_ok=True)
@@ -66,7 +81,7 @@ def simulate_command(
         def show(now: float, total: float, factor: float) -> None:
             bar.update(task, description=case.name, total=total, completed=now, factor=f"{factor:.0f}")
 
-        result = simulate(case, progress=show)
+        result = simulate(case, progress=show, contact=method)
     written = result.save(folder, csv=csv)
     _summarise(result)
     screen.print(f"Written: {', '.join(str(p) for p in written)}", soft_wrap=True, highlight=False)
@@ -108,9 +123,14 @@ app.command("chart")(chart_command)
 
 
 def main() -> None:
-    """Entry point: one line for bad input, no traceback."""
+    """Entry point."""
+    run(app)
+
+
+def run(commands: typer.Typer) -> None:
+    """Run a command line: one line for bad input, no traceback."""
     try:
-        app()
+        commands()
     except InputError as error:
         messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
         sys.exit(BAD_INPUT)

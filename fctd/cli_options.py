@@ -23,6 +23,10 @@ Overrides = Annotated[
     typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case, e.g. wellbore.overlap='0.1 m'."),
 ]
 Friction = Annotated[float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")]
+Out = Annotated[
+    Path | None, typer.Option("--out", metavar="FOLDER", help="Where results go; default: CASE-NAME-result.")
+]
+Csv = Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")]
 Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
 
 

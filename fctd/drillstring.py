@@ -238,7 +238,7 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
     top = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]])
     radius = string.of("contact_radius")
     starts = np.concatenate([[0.0], hole.intervals[:-1, 0]])
-    for start, (to_md, hole_radius) in zip(starts, hole.intervals, strict=True):
+    for start, (to_md, hole_radius) in zip(starts, hole.intervals[:, :2], strict=True):
         tight = (start < bottom) & (to_md > top) & (radius > hole_radius)
         if tight.any():
             k = int(np.argmax(tight))

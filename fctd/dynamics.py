@@ -224,17 +224,36 @@ def update_motion(S, n, laws, dt):
         move_with_coulomb(S, n, laws, dt)
 
 
-@njit(error_model="numpy")
-def step(S, top, owner, n, C, laws, motion, pipe, dt):
-    """Advance the string by one step: the algorithm of §4 and Fig. 7 in order."""
-    packed = (n + LANES - 1) // LANES * LANES
+@njit(forceinline=True)
+def update_loads(S, top, packed, laws, motion, pipe, dt):
+    """Update axes, joint loads and the top drive's readings; returns its feed [m/s] and rotation [rad/s]."""
     update_axes(S, packed)
     update_joint_loads(S, packed, laws.joint_damping, dt)
     feed, rate = planned_speeds(top, motion, dt)
     read_top_drive(S, top, pipe, dt * feed, dt * rate, dt)
-    update_walls(S, owner, n, packed, C, laws.geometry)
+    return feed, rate
+
+
+@njit(forceinline=True)
+def update_positions(S, top, packed, laws, pipe, feed, rate, dt):
+    """Update the motion of bodies and top drive, given loads and walls."""
     update_motion(S, packed, laws, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)
+
+
+@njit(forceinline=True)
+def whole_operations(n):
+    """Columns of ``n`` bodies rounded up to whole packed operations."""
+    return (n + LANES - 1) // LANES * LANES
+
+
+@njit(error_model="numpy")
+def step(S, top, owner, n, C, laws, motion, pipe, dt):
+    """Advance the string by one step: the algorithm of §4 and Fig. 7 in order."""
+    packed = whole_operations(n)
+    feed, rate = update_loads(S, top, packed, laws, motion, pipe, dt)
+    update_walls(S, owner, n, packed, C, laws.geometry)
+    update_positions(S, top, packed, laws, pipe, feed, rate, dt)
 
 
 @njit(error_model="numpy", cache=True)

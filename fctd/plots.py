@@ -251,7 +251,8 @@ def _label(ax: Axes, column: str, units: System) -> None:
 
 
 def _title(figure: Figure, text: str) -> None:
-    figure.suptitle(text, x=0.01, ha="left", fontsize=10.5, fontweight="bold")
+    """A heading; what a case is called is no formula."""
+    figure.suptitle(text.replace("$", r"\$"), x=0.01, ha="left", fontsize=10.5, fontweight="bold")
 
 
 def _handle(kind: str, status: str = "converged") -> Line2D:

@@ -36,9 +36,10 @@ def buckling_limits(EI: Array, weight: Array, inclination: Array, clearance: Arr
     are zero and the pipe's own weight sets the limit: 1.94 and 5.55 times (EI w²)^⅓ (Lubinski 1950; Wu &
     Juvkam-Wold 1995); the larger of both holds.  Without clearance a string cannot buckle: infinite.
     """
-    with np.errstate(divide="ignore"):
-        lying = np.sqrt(EI * np.maximum(weight * np.sin(inclination), 0.0) / np.maximum(clearance, 0.0))
-    lying = np.where(clearance > 0, lying, np.inf)
+    load = EI * np.maximum(weight * np.sin(inclination), 0.0)
+    lying = np.full_like(load, np.inf)
+    np.divide(load, clearance, out=lying, where=clearance > 0)
+    lying = np.sqrt(lying)
     hanging = np.cbrt(EI * weight**2)
     return np.maximum(2 * lying, 1.94 * hanging), np.maximum(2 * np.sqrt(2) * lying, 5.55 * hanging)
 

@@ -111,6 +111,7 @@ class Recorder:
         numbers = {
             "segments": run.segments,
             "pieces_of_hole": len(run.hole.pieces),
+            "contact": run.case.wellbore.geometry if run.queried is None else run.queried.method.name,
             "step_s": run.step,
             "steps": run.steps,
             "simulated_s": self.last_time,

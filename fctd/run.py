@@ -1,6 +1,6 @@
 """A run before its first step: hole, string, step, and the string settled at its start."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -16,12 +16,17 @@ from fctd.operations import Stretch, depth_range, rad_per_s, schedule
 from fctd.rotations import quaternion_from_axis
 from fctd.stability import AUTO_SHARE, stable_step, stiffest_mode
 from fctd.topdrive import Motion, PerMetre
+from fctd.wall_query import QueriedWall, WallQuery
 from fctd.wellbore import Wellbore, build_wellbore
 
 Array = NDArray[np.float64]
 # The string is settled when no force is out of balance by more than this share of its weight.
 SETTLED = 1e-6
 LONGEST_SETTLING = 400.0  # [s] simulated
+# The same for another contact method's wall, averaged over a window, and the least number of windows.
+HANDED_OVER, LEAST_WINDOWS = 1e-3, 3
+STILL = Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+VELOCITY, PLACE = (state.VX, state.VY, state.VZ), (state.X, state.Y, state.Z)
 # Beyond these a run would take hours or not fit into memory: a slip in the case, not a wish.
 MOST_STEPS = 100_000_000
 MOST_RECORDS = 1_000_000
@@ -47,6 +52,7 @@ class Run:
     owner: NDArray[np.int64]
     step: float
     laws: state.Laws
+    queried: QueriedWall | None = None  # the wall as another contact method sees it, in place of the hole's
     steps: int = 0
 
     @property
@@ -57,15 +63,22 @@ class Run:
     def advance(self, motion: Motion, duration: float, laws: state.Laws | None = None) -> None:
         """Advance by ``duration`` [s] in equal steps no longer than the run's."""
         steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
-        dynamics.advance(
-            self.S, self.top, self.owner, self.segments, self.hole.pieces, laws or self.laws,
-            motion, self.pipe, duration / steps, steps,
-        )  # fmt: skip
+        laws = laws or self.laws
+        if self.queried is not None:
+            self.queried.advance(self.S, self.top, laws, motion, self.pipe, duration / steps, steps)
+        else:
+            dynamics.advance(
+                self.S, self.top, self.owner, self.segments, self.hole.pieces, laws,
+                motion, self.pipe, duration / steps, steps,
+            )  # fmt: skip
         self.steps += steps
 
     def refresh(self) -> None:
         """Bring axes and walls up to the present positions."""
         dynamics.update_axes(self.S, self.segments)
+        if self.queried is not None:
+            self.queried.refresh(self.S)
+            return
         update_walls(self.S, self.owner, self.segments, self.segments, self.hole.pieces, self.laws.geometry)
 
     def check(self) -> None:
@@ -88,13 +101,19 @@ class Run:
             raise UnstableError(f"segment {at} is twisted by more than half a turn against the one above: too long")
 
 
-def prepare(case: Case) -> tuple[Run, list[Stretch]]:
+def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Stretch]]:
     """Build hole and string of a case, lay the string on the axis of the hole and choose the step.
 
-    Raises InputError for a case that cannot be simulated.
+    contact : answers for the wall in place of the hole's own pieces.  Raises InputError for a case that cannot
+    be simulated.
     """
     try:
-        return _prepare(case)
+        run, stretches = _prepare(case)
+        if contact is not None:
+            if not case.contact.enabled:
+                raise InputError("true, since another contact method is to be run", key="contact.enabled", value=False)
+            run.queried = QueriedWall(contact, run.hole, run.segments)
+        return run, stretches
     except InputError as error:
         raise (error if case.file is None else error.in_file(case.file)) from None
 
@@ -233,25 +252,56 @@ def settle(run: Run, tolerance: float = SETTLED) -> float:
     Damping proportional to mass, a few times critical for the slowest swing of the hanging string: damping
     critical for its stretching would leave the swing creeping for minutes.
     """
-    n, string = run.segments, run.string
-    weight = float((string.of("weight") * string.length).sum())
-    rate = 12 * np.sqrt(topdrive.GRAVITY / float(string.length.sum()))
-    laws = run.laws._replace(friction_scale=0.0, settling=rate)
-    still = Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+    if run.queried is not None:
+        settle(replace(run, queried=None), tolerance)
+        return _hand_over(run)
+    laws, weight = _relaxing(run)
     residual = np.inf
-    for _ in range(int(LONGEST_SETTLING * rate)):
-        run.advance(still, 1 / rate, laws)
-        before = np.stack([state.row(run.S, v, n) for v in (state.VX, state.VY, state.VZ)])
-        run.advance(still, run.step, laws)
-        after = np.stack([state.row(run.S, v, n) for v in (state.VX, state.VY, state.VZ)])
+    for _ in range(int(LONGEST_SETTLING * laws.settling)):
+        run.advance(STILL, 1 / laws.settling, laws)
+        before = _three(run, VELOCITY)
+        run.advance(STILL, run.step, laws)
+        after = _three(run, VELOCITY)
         # What moves a body is the imbalance of all forces but the artificial drag.
         pull = (after - before) / run.step + laws.settling * after
-        residual = float(np.abs(state.row(run.S, state.MASS, n) * pull).max()) / weight
+        residual = float(np.abs(state.row(run.S, state.MASS, run.segments) * pull).max()) / weight
         run.refresh()
         run.check()
         if residual < tolerance:
             return residual
     raise UnstableError(f"forces are out of balance by {residual:.2g} of the weight after {LONGEST_SETTLING:g} s")
+
+
+def _hand_over(run: Run) -> float:
+    """Relax a string that the hole's own pieces have settled once more, against another contact method's wall.
+
+    Returns the imbalance as ``settle``, but of forces averaged over a window: in the corner between two facets
+    of a mesh the one contact of a point jumps from side to side, and no single step is ever in balance.
+    """
+    laws, weight = _relaxing(run)
+    residual, window = np.inf, 1 / laws.settling
+    for k in range(int(LONGEST_SETTLING * laws.settling)):
+        speed, place = _three(run, VELOCITY), _three(run, PLACE)
+        run.advance(STILL, window, laws)
+        pull = (_three(run, VELOCITY) - speed + laws.settling * (_three(run, PLACE) - place)) / window
+        residual = float(np.abs(state.row(run.S, state.MASS, run.segments) * pull).max()) / weight
+        run.refresh()
+        run.check()
+        if residual < HANDED_OVER and k + 1 >= LEAST_WINDOWS:
+            return residual
+    raise UnstableError(f"forces are out of balance by {residual:.2g} of the weight after {LONGEST_SETTLING:g} s")
+
+
+def _relaxing(run: Run) -> tuple[state.Laws, float]:
+    """The laws under which a string settles, and its weight [N]."""
+    weight = float((run.string.of("weight") * run.string.length).sum())
+    rate = 12 * np.sqrt(topdrive.GRAVITY / float(run.string.length.sum()))
+    return run.laws._replace(friction_scale=0.0, settling=rate), weight
+
+
+def _three(run: Run, rows: tuple[int, int, int]) -> Array:
+    """A vector of every segment (3, n), copied."""
+    return np.stack([state.row(run.S, row, run.segments) for row in rows])
 
 
 def forget_start(run: Run) -> None:

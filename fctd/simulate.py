@@ -12,6 +12,7 @@ from fctd.record import Recorder
 from fctd.results import SimulationResult
 from fctd.run import UnstableError, forget_start, prepare, settle
 from fctd.topdrive import Motion
+from fctd.wall_query import WallQuery
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
@@ -19,13 +20,16 @@ Progress = Callable[[float, float, float], None]
 DOUBTFUL = 0.01
 
 
-def simulate(case: Case, progress: Progress | None = None) -> SimulationResult:
+def simulate(case: Case, progress: Progress | None = None, *, contact: WallQuery | None = None) -> SimulationResult:
     """Simulate a case's operations.
+
+    contact : another contact method, built for the hole of this case, that answers for the wall at every step;
+    friction, force law and step stay the same.
 
     Returns whatever was reached: ``status`` is ``completed``, or says why it stopped and ``message`` when.
     Raises InputError for a case that cannot be simulated.
     """
-    run, stretches = prepare(case)
+    run, stretches = prepare(case, contact)
     try:
         residual = settle(run)
     except UnstableError as error:

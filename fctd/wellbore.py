@@ -49,7 +49,8 @@ class Wellbore:
     md: Array
     points: Array
     directions: Array
-    intervals: Array = field(repr=False)  # columns: to_md [m], radius [m]
+    intervals: Array = field(repr=False)  # (k, 4) to_md, radius [m], stiffness, friction
+    shoe: float  # length over which the hole leads from one interval to the next [m]
     courses: survey.Courses | None = None
 
     @property
@@ -70,6 +71,17 @@ class Wellbore:
         i = np.clip(np.searchsorted(self.md, md, side="right") - 1, 0, len(self.md) - 2)
         direction = self.directions[i]
         return self.points[i] + (md - self.md[i])[:, None] * direction, direction
+
+    def wall_along(self) -> Array:
+        """The wall over measured depth, linear between rows: (k, 4) md, hole radius [m], stiffness, friction.
+
+        An interval leads into the next over one overlap below its end, as cylinders and arcs do.
+        """
+        if len(self.intervals) == 1:
+            return self.intervals.copy()
+        above, below = self.intervals[:-1].copy(), self.intervals[1:].copy()
+        below[:, 0] = np.minimum(above[:, 0] + self.shoe, below[:, 0])  # an interval may be shorter than a shoe
+        return np.stack([above, below], axis=1).reshape(-1, 4)
 
     def inclination(self, md: Array) -> Array:
         """Inclination of the axis [rad] at measured depths (n,) [m]."""
@@ -139,7 +151,7 @@ def build_wellbore(case: Case) -> Wellbore:
     """
     hole = case.wellbore
     stations = survey.to_radians(hole.read_stations())
-    intervals = np.array([[i.to_md, 0.5 * i.diameter] for i in hole.intervals])
+    intervals = np.array([[i.to_md, 0.5 * i.diameter, _stiffness(hole, i), i.friction] for i in hole.intervals])
     ends = intervals[intervals[:, 0] < stations[-1, 0], 0]
     courses = _courses(stations) if hole.survey_method == "minimum_curvature" else None
     if hole.geometry == "arcs":
@@ -158,7 +170,8 @@ def build_wellbore(case: Case) -> Wellbore:
         geometry, pieces = CYLINDERS, _cylinders(hole, md, points)
         directions = pieces[:, contact.DIRECTION : contact.DIRECTION + 3]
         directions = np.vstack([directions, directions[-1:]])
-    return Wellbore(pieces, geometry, md, points, directions, intervals, courses if geometry == ARCS else None)
+    kept = courses if geometry == ARCS else None
+    return Wellbore(pieces, geometry, md, points, directions, intervals, hole.overlap, kept)
 
 
 def _courses(stations: Array) -> survey.Courses:

@@ -4,18 +4,25 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd.contact import LENGTH, distance_along
+from fctd.contact import LENGTH, contact_point, cylinder_wall, distance_along, store_wall
+from fctd.dynamics import update_loads, update_positions, whole_operations
+from fctd.state import RADIUS
+
+
+@njit(error_model="numpy")
+def for_loop_owner(C, x, y, z):  # type: ignore[no-untyped-def]
+    """First cylinder from the top with 0 ≤ Q ≤ |AB|², −1 where there is none."""
+    for i in range(C.shape[0]):
+        s = distance_along(C, i, x, y, z)
+        if 0 <= s <= C[i, LENGTH]:
+            return i
+    return -1
 
 
 @njit(error_model="numpy", cache=True)
 def _loop(C, points, owners):  # type: ignore[no-untyped-def]
     for k in range(points.shape[0]):
-        x, y, z = points[k]
-        for i in range(C.shape[0]):
-            s = distance_along(C, i, x, y, z)
-            if 0 <= s <= C[i, LENGTH]:
-                owners[k] = i
-                break
+        owners[k] = for_loop_owner(C, points[k, 0], points[k, 1], points[k, 2])
 
 
 def for_loop_owners(pieces: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -23,3 +30,20 @@ def for_loop_owners(pieces: NDArray[np.float64], points: NDArray[np.float64]) ->
     owners = np.full(len(points), -1, dtype=np.int64)
     _loop(pieces, np.ascontiguousarray(points, dtype=float), owners)
     return owners
+
+
+@njit(error_model="numpy", cache=True)
+def advance_with_for_loop(S, top, n, C, laws, motion, pipe, dt, steps):  # type: ignore[no-untyped-def]
+    """The engine's ``dynamics.advance``, compiled as a whole, with the FOR-loop in place of its search."""
+    packed = whole_operations(n)
+    for _ in range(steps):
+        feed, rate = update_loads(S, top, packed, laws, motion, pipe, dt)
+        for j in range(1, n + 1):
+            x, y, z = contact_point(S, j)
+            i = for_loop_owner(C, x, y, z)
+            if i < 0:  # no cylinder, no wall
+                store_wall(S, j, 0.0, 0.0, 0.0, S[RADIUS + j] + 1.0, 0.0, 0.0)
+            else:
+                px, py, pz, hole, stiffness, friction, _md = cylinder_wall(C, i, x, y, z)
+                store_wall(S, j, px, py, pz, hole, stiffness, friction)
+        update_positions(S, top, packed, laws, pipe, feed, rate, dt)

@@ -139,7 +139,7 @@ def test_an_unknown_option_is_exit_code_2(
 
 
 def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def stopped(case: object, progress: object) -> object:
+    def stopped(case: object, **more: object) -> object:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(cli, "simulate", stopped)

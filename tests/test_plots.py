@@ -172,7 +172,7 @@ def test_a_profile_marks_where_the_string_is_beyond_its_buckling_limits(points: 
 @pytest.mark.parametrize("units", ["si", "field"])
 def test_no_text_covers_another(points: list[Equilibrium], units: Any) -> None:
     table = chart(list(KINDS), [0.1, 0.2, 0.3], {"max_iterations": "trip_in", "unstable": "drill_sliding"})
-    assert texts_that_overlap(plots.chart_figure(table, units, "a well of a rather long name")) == []
+    assert texts_that_overlap(plots.chart_figure(table, units, "a well of a rather long name, $1 \\frac 5$")) == []
     assert texts_that_overlap(plots.chart_figure(chart(["trip_in"], [float("nan")]), units, "well")) == []
     assert texts_that_overlap(plots.profile_figure(points, units)) == []
     for point in points:

@@ -1,12 +1,55 @@
-"""The profile of a string: what its rows say agrees with the loads at its ends."""
+"""What a profile says of stress and buckling, against hand calculation."""
 
+import math
+
+import numpy as np
 import pytest
 
-from fctd.equilibrium import equilibrium
-from fctd.simulate import simulate
+from fctd import equilibrium, simulate
+from fctd.profile import buckling_limits
 from tests.cases import make_case, pipe, rotation, trip
 
 LONG = [pipe(100, 4), pipe(None, 1)]
+
+
+def test_buckling_limits_are_the_published_ones() -> None:
+    """2√(EI w sin θ/r), √2 times that for the helix, and Lubinski's in vertical hole."""
+    EI, weight, inclination, clearance = (np.array([x]) for x in (2e6, 250.0, math.radians(80), 0.04))
+    sinusoidal, helical = buckling_limits(EI, weight, inclination, clearance)
+    assert sinusoidal[0] == pytest.approx(2 * math.sqrt(2e6 * 250 * math.sin(math.radians(80)) / 0.04), rel=1e-12)
+    assert helical[0] / sinusoidal[0] == pytest.approx(math.sqrt(2), rel=1e-12)
+    sinusoidal, helical = buckling_limits(EI, weight, 0 * inclination, clearance)
+    assert sinusoidal[0] == pytest.approx(1.94 * (2e6 * 250**2) ** (1 / 3), rel=1e-12)
+    assert helical[0] == pytest.approx(5.55 * (2e6 * 250**2) ** (1 / 3), rel=1e-12)
+    sinusoidal, _ = buckling_limits(EI, weight, inclination, 0 * clearance)
+    assert sinusoidal[0] == math.inf
+
+
+def test_loads_and_stress_of_a_hanging_string() -> None:
+    """Vertical string in mud, turned: tension, pressure and torque by hand."""
+    mud = {"density": 1200.0, "rotational_damping": 2.0}
+    case = make_case([[0, 0, 0], [1000, 0, 0]], [pipe(1000, 20)], mud=mud)
+    profile = equilibrium(case, "rotate_off_bottom", 1000.0, rpm=30).profile
+    outer, inner = 0.0635, 0.035
+    area, polar = math.pi * (outer**2 - inner**2), math.pi / 2 * (outer**4 - inner**4)
+    middle = profile.iloc[10]
+    tension = 500 * 9.80665 * area * (7850 - 1200)
+    torque = 500 * 2.0 * math.pi
+    assert middle["effective_tension_N"] == pytest.approx(tension, rel=1e-6)
+    assert middle["torque_N_m"] == pytest.approx(torque, rel=1e-6)
+    assert middle["true_tension_N"] == pytest.approx(tension - 1200 * 9.80665 * middle["md_m"] * area, rel=1e-6)
+    stress = math.hypot(tension / area, math.sqrt(3) * torque * outer / polar)
+    assert middle["von_mises_Pa"] == pytest.approx(stress, rel=1e-4)
+
+
+def test_contact_angle_and_offset_of_a_string_on_the_low_side() -> None:
+    profile = equilibrium(
+        make_case([[0, 60, 200], [300, 60, 200]], [pipe(None, None, segment_length=10.0)]), "trip_out", 300.0
+    ).profile.iloc[5:-1]
+    np.testing.assert_allclose(profile["contact_angle_deg"], 180.0, atol=0.1)
+    np.testing.assert_allclose(profile["clearance_m"], (0.2159 - 0.127) / 2)
+    assert (profile["offset_high_m"] <= -profile["clearance_m"]).all()
+    assert (profile["buckling"] == "none").all()
 
 
 @pytest.mark.parametrize("components", [[pipe(None, 8)], LONG], ids=["segments", "long segment"])

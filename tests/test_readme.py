@@ -1,13 +1,16 @@
 """What the README promises runs as it stands there."""
 
-import os
 import re
 import shlex
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
+
+from fctd import cli
+from references.__main__ import app
 
 ROOT = Path(__file__).parents[1]
 
@@ -29,16 +32,15 @@ def test_the_python_examples_run(number: int, printed: list[str]) -> None:
         assert part in done.stdout
 
 
-def test_the_command_line_examples_run(tmp_path: Path) -> None:
-    commands = re.findall(r"^\.venv/bin/fctd .*$", "\n".join(blocks("sh")).replace("\\\n", " "), re.MULTILINE)
-    assert [shlex.split(command)[1] for command in commands] == ["simulate", "chart", "equilibrium"]
-    here = {**os.environ, "PYTHONPATH": str(ROOT)}
+def test_the_command_line_examples_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    commands = re.findall(r"^\.venv/bin/(fctd .*)$", "\n".join(blocks("sh")).replace("\\\n", " "), re.MULTILINE)
+    assert [command.split()[1] for command in commands] == ["simulate", "chart", "equilibrium"]
+    monkeypatch.chdir(tmp_path)
     for command in commands:
-        arguments = [str(ROOT / part) if part.startswith("validation/") else part for part in shlex.split(command)[1:]]
-        done = subprocess.run(
-            [sys.executable, "-m", "fctd", *arguments], cwd=tmp_path, env=here, capture_output=True, text=True
-        )
-        assert done.returncode == 0, done.stderr
+        monkeypatch.setattr("sys.argv", shlex.split(command.replace(" validation/", f" {ROOT}/validation/")))
+        with pytest.raises(SystemExit) as stopped:
+            cli.main()
+        assert not stopped.value.code
     written = {path.name for path in tmp_path.iterdir()}
     assert written == {
         "my-run",
@@ -49,6 +51,25 @@ def test_the_command_line_examples_run(tmp_path: Path) -> None:
         "profile.parquet",
         "profile.svg",
     }
+
+
+def test_the_examples_of_another_contact_method_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In this process, where the loop is compiled already."""
+    monkeypatch.chdir(ROOT)
+    (example,) = blocks("py")
+    names: dict[str, Any] = {}
+    exec(example, names)
+    assert names["result"].status == "completed"
+    assert names["result"].run["contact"] == "for_loop"
+    command = next(b for b in blocks("sh") if "references simulate" in b)
+    command = command.replace("\\\n", " ").replace("fcl-run", str(tmp_path / "out"))
+    command = command.replace("--contact fcl --option facets=96", "--contact for_loop")  # installed or not
+    for line in command.strip().splitlines():
+        monkeypatch.setattr("sys.argv", shlex.split(line.removeprefix(".venv/bin/python -m ")))
+        with pytest.raises(SystemExit) as stopped:
+            cli.run(app)
+        assert not stopped.value.code
+    assert (tmp_path / "out" / "history.parquet").exists()
 
 
 def test_every_folder_of_the_map_is_there() -> None:

@@ -15,6 +15,7 @@ from typing import Any, Literal
 
 import pandas as pd
 
+from references.timing import cpu_name
 from validation.study import ROOT, Check
 
 RESULTS = ROOT / "validation" / "results"
@@ -83,7 +84,7 @@ def provenance() -> Provenance:
     """The code and the machine that this process runs on."""
     versions = {name: metadata.version(name) for name in ("fctd", "numpy", "numba")}
     versions["python"] = platform.python_version()
-    return Provenance(_commit(), versions, _cpu_name(), os.cpu_count() or 1)
+    return Provenance(_commit(), versions, cpu_name(), os.cpu_count() or 1)
 
 
 def write(record: Record, tables: dict[str, pd.DataFrame], results: Path) -> Path:
@@ -171,13 +172,3 @@ def _commit() -> str:
         return "unknown"
     changed = subprocess.run([*git, "diff", "--quiet", "HEAD"], capture_output=True).returncode
     return head.stdout.strip() + (" with changes" if changed else "")
-
-
-def _cpu_name() -> str:
-    """The processor's own name where Linux tells it; elsewhere what Python knows."""
-    cpuinfo = Path("/proc/cpuinfo")
-    if cpuinfo.exists():
-        for line in cpuinfo.read_text().splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    return platform.processor() or platform.machine()

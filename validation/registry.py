@@ -3,6 +3,7 @@
 STUDIES: dict[str, str] = {
     "paper_well": "validation.paper_well",
     "curved_chain": "validation.curved_chain",
+    "scaled_section": "validation.scaled_section",
     "energy_ledger": "validation.energy_ledger",
     "cylinder_error": "validation.cylinder_error",
     "overlap": "validation.overlap",
@@ -11,6 +12,8 @@ STUDIES: dict[str, str] = {
     "soft_limit": "validation.soft_limit",
     "beam_in_hole": "validation.beam_in_hole",
     "johancsik": "validation.johancsik",
+    "contact_accuracy": "validation.contact_accuracy",
+    "contact_swap": "validation.contact_swap",
     "real_survey": "validation.real_survey",
     "real_chart": "validation.real_chart",
 }

@@ -22,9 +22,16 @@ class Figure:
 MODULES: dict[str, str] = {
     "paper_well": "reports.figures.paper_well",
     "curved_chain": "reports.figures.curved_chain",
+    "scaled_section": "reports.figures.scaled_section",
     "energy_ledger": "reports.figures.energy_ledger",
     "overlap": "reports.figures.overlap",
     "cylinder_error": "reports.figures.cylinder_error",
+    "steady_state": "reports.figures.steady_state",
+    "soft_limit": "reports.figures.soft_limit",
+    "beam_in_hole": "reports.figures.beam_in_hole",
+    "real_chart": "reports.figures.real_chart",
+    "contact_accuracy": "reports.figures.contact_accuracy",
+    "contact_swap": "reports.figures.contact_swap",
     "real_survey": "reports.figures.real_survey",
 }
 

@@ -108,6 +108,46 @@ def curved_chain() -> dict[str, pd.DataFrame]:
     return {"numbers": pd.DataFrame(rows), "profiles": pd.concat(profiles)}
 
 
+def scaled_section() -> dict[str, pd.DataFrame]:
+    time, md = np.linspace(0.2, 25, 125), np.linspace(26, 44, 31)
+    models = ("finite elements", "30 segments", "240 segments")
+    rise = 1 / (1 + np.exp(8 - time))
+    shares = {"guide_low_N": 300.0, "bend_high_N": 950.0, "bit_low_N": 650.0}
+    force, string = [], []
+    for index, model in enumerate(models):
+        parts = {side: size * rise * (1 + 0.02 * index) for side, size in shares.items()}
+        force.append(pd.DataFrame({"time_s": time, "total_N": sum(parts.values()), **parts, "model": model}))
+        offset = 0.024 * np.sin(md - 26) * (1 - 0.05 * index)
+        string.append(
+            pd.DataFrame(
+                {
+                    "above_bit_m": 44 - md,
+                    "md_m": md,
+                    "horizontal_m": np.maximum(md - 32, 0) ** 2 / 57 + offset,
+                    "offset_high_m": offset,
+                    "model": model,
+                    "clearance_m": 0.025,
+                }
+            )
+        )
+    count = np.array([10, 30, 60, 120, 240, 30])
+    size = 30.0 / count
+    return {
+        "force": pd.concat(force),
+        "string": pd.concat(string),
+        "segments": pd.DataFrame(
+            {
+                "segments": count,
+                "geometry": ["cylinders"] * 5 + ["arcs"],
+                "total_rms_percent": 2 * size,
+                "displacement_max_percent": 16 * size,
+                "displacement_above_end_percent": 9 * size,
+                "displacement_rms_percent": 4 * size**2,
+            }
+        ),
+    }
+
+
 def energy_ledger() -> dict[str, pd.DataFrame]:
     fraction = np.array([1.0, 0.5, 0.25, 0.125])
     closure = pd.concat(
@@ -206,15 +246,129 @@ def real_survey() -> dict[str, pd.DataFrame]:
     }
 
 
+def _chart() -> pd.DataFrame:
+    depth = np.arange(500.0, 2500.0, 100.0)
+    kinds = ["trip_in", "trip_out", "rotate_off_bottom", "drill_rotating"]
+    return pd.concat(
+        pd.DataFrame(
+            {
+                "operation": kind,
+                "bit_depth_m": depth,
+                "hookload_N": (200 + 20 * k) * depth,
+                "surface_torque_N_m": 3 * depth * (k > 1),
+                "status": ["converged"] * (len(depth) - 1) + ["unstable"],
+            }
+        )
+        for k, kind in enumerate(kinds)
+    )
+
+
+def steady_state() -> dict[str, pd.DataFrame]:
+    compared = pd.DataFrame(
+        {
+            "operation": ["trip_in", "rotate_off_bottom"],
+            "bit_depth_m": [2000.0, 2000.0],
+            "hookload_stepped_kN": [400.0, 480.0],
+            "torque_stepped_kN_m": [0.0, 6.0],
+        }
+    )
+    return {"chart": _chart(), "compared": compared}
+
+
+def soft_limit() -> dict[str, pd.DataFrame]:
+    return {
+        "ladder": pd.DataFrame(
+            {
+                "string": ["as it is", "as it is", "soft", "soft"],
+                "operation": ["pick-up", "rotation"] * 2,
+                "hookload_off_percent": [0.5, 0.1, 0.02, 0.01],
+                "torque_off_percent": [0.0, 1.2, 0.0, 0.1],
+            }
+        )
+    }
+
+
+def beam_in_hole() -> dict[str, pd.DataFrame]:
+    segment = np.array([0.1, 0.5, 1.0])
+    return {
+        "beams": pd.concat(
+            pd.DataFrame({"beam": beam, "segment_m": segment, "off_percent": sign * segment**2})
+            for beam, sign in (("cantilever", 1.0), ("pendulum", -0.3))
+        )
+    }
+
+
+def real_chart() -> dict[str, pd.DataFrame]:
+    return {"chart": _chart().assign(geometry="arcs")}
+
+
+def contact_accuracy() -> dict[str, pd.DataFrame]:
+    rows = [("arcs", 60.0, 0.0, 0.0)]
+    for name, cost in (("cylinders", 60.0), ("for_loop", 400.0), ("fcl", 1e4), ("coal", 9e3), ("bullet", 1.2e4)):
+        rows += [(name, cost * growth, error, 2.5 * error) for growth, error in ((1.0, 3.0), (1.3, 0.8), (2.0, 0.1))]
+    columns = ["method", "ns_per_point", "max_penetration_error_mm", "max_angle_error_deg"]
+    return {"cost": pd.DataFrame(rows, columns=columns)}
+
+
+def contact_swap() -> dict[str, pd.DataFrame]:
+    loops = {
+        "no contact, compiled": 14.0,
+        "cylinders, compiled": 22.0,
+        "arcs, compiled": 21.0,
+        "FOR-loop, compiled": 160.0,
+        "no contact, asked from Python": 130.0,
+        "cylinders, from Python": 170.0,
+        "fcl, collide, from Python": 1.1e4,
+        "fcl, from Python": 9e3,
+        "trimesh, from Python": 2e5,
+    }
+    cost = pd.DataFrame(
+        [
+            {"segments": n, "loop": loop, "ns_per_segment_step": ns, "ns_low": 0.95 * ns, "ns_high": 1.2 * ns}
+            for n in (60, 170)
+            for loop, ns in loops.items()
+        ]
+    )
+    depth = np.linspace(1750.0, 2250.0, 400)
+    windows = np.arange(1850.0, 2251.0, 100.0)
+    torque = 1.73 * ((windows - 1750) / 500) ** 1.5
+    return {
+        "cost": cost,
+        "trip": pd.DataFrame({"bit_depth_m": depth, "sum_r_mu_fn_N_m": 1.73e3 * ((depth - 1750) / 500) ** 1.5}),
+        "figure_13": pd.DataFrame(
+            {
+                "bit_depth_m": windows,
+                "fcl_kN_m": 1.003 * torque,
+                "FCTD_kN_m": torque,
+                "difference_percent": 0.3 + 0.1 * np.sin(windows),
+            }
+        ),
+        "facets": pd.DataFrame(
+            {
+                "facets": [np.nan, 12.0, 24.0, 48.0],
+                "wedge_percent": [0.0, 3.5, 0.86, 0.21],
+                "sum_difference_percent": [0.0, 2.4, 0.6, 0.14],
+            }
+        ),
+    }
+
+
 STUDIES = {
     function.__name__: function
     for function in (
         paper_well,
         curved_chain,
+        scaled_section,
         energy_ledger,
         overlap,
         cylinder_error,
         ownership,
+        steady_state,
+        soft_limit,
+        beam_in_hole,
+        contact_accuracy,
+        contact_swap,
         real_survey,
+        real_chart,
     )
 }

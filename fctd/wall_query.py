@@ -1,0 +1,117 @@
+"""The engine's loop with another contact method in place of its own: only stages 2 and 3 change hands.
+
+One compiled call before the query and one after; the query itself is a Python call per step, which costs some
+microseconds whatever the method does.
+"""
+
+from typing import Protocol
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from fctd import state
+from fctd.contact import contact_point, store_wall
+from fctd.dynamics import update_loads, update_positions, whole_operations
+from fctd.state import Laws
+from fctd.topdrive import Motion, PerMetre
+from fctd.wellbore import Contacts, Wellbore
+
+Array = NDArray[np.float64]
+
+# Where a method reports no contact the wall is put this far beyond the string [m].
+OUT_OF_REACH = 1.0
+
+
+class WallQuery(Protocol):
+    """A contact method as the loop needs it; ``name`` goes into the result."""
+
+    name: str
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """Contacts of points (n, 3) [m] with contact radii (n,) [m].
+
+        penetration (n,) [m]: where it is not above 0, normal (n, 3) and md (n,) are not read and may be nan.
+        """
+
+
+@njit(error_model="numpy", cache=True)
+def _points(S, n, points):
+    for j in range(1, n + 1):
+        points[j - 1] = contact_point(S, j)
+
+
+@njit(error_model="numpy", cache=True)
+def _store(S, n, radii, penetration, normal, md, wall):
+    """Write queried walls; hole radius, stiffness and friction come from ``wall`` (Wellbore.wall_along)."""
+    last = wall.shape[0] - 1
+    for j in range(1, n + 1):
+        k = j - 1
+        if penetration[k] > 0:
+            i = 0
+            while i < last and md[k] > wall[i + 1, 0]:
+                i += 1
+            below = min(i + 1, last)
+            span = wall[below, 0] - wall[i, 0]
+            v = min(max((md[k] - wall[i, 0]) / span, 0.0), 1.0) if span > 0 else 0.0
+            hole = wall[i, 1] + v * (wall[below, 1] - wall[i, 1])
+            stiffness = wall[i, 2] + v * (wall[below, 2] - wall[i, 2])
+            friction = wall[i, 3] + v * (wall[below, 3] - wall[i, 3])
+            distance = hole - radii[k] + penetration[k]
+            store_wall(
+                S, j, distance * normal[k, 0], distance * normal[k, 1], distance * normal[k, 2],
+                hole, stiffness, friction,
+            )  # fmt: skip
+        else:
+            store_wall(S, j, 0.0, 0.0, 0.0, radii[k] + OUT_OF_REACH, 0.0, 0.0)
+
+
+@njit(error_model="numpy", cache=True)
+def _before(S, top, n, laws, motion, pipe, dt, points):
+    """The step up to the query: loads, and the points (n, 3) to ask about; returns feed and rotation."""
+    feed, rate = update_loads(S, top, whole_operations(n), laws, motion, pipe, dt)
+    _points(S, n, points)
+    return feed, rate
+
+
+@njit(error_model="numpy", cache=True)
+def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md, wall):
+    """The step after the query: walls, motion, top drive."""
+    _store(S, n, radii, penetration, normal, md, wall)
+    update_positions(S, top, whole_operations(n), laws, pipe, feed, rate, dt)
+
+
+class QueriedWall:
+    """Runs the loop of ``dynamics.advance`` with a method's answers for the wall."""
+
+    def __init__(self, method: WallQuery, hole: Wellbore, segments: int) -> None:
+        self.method = method
+        self._wall = hole.wall_along()
+        self._segments = segments
+        self._points = np.empty((segments, 3))
+
+    def advance(self, S: Array, top: Array, laws: Laws, motion: Motion, pipe: PerMetre, dt: float, steps: int) -> None:
+        """Advance by ``steps`` steps of ``dt`` [s]."""
+        n, radii = self._segments, self._radii(S)
+        for _ in range(steps):
+            feed, rate = _before(S, top, n, laws, motion, pipe, dt, self._points)
+            hits = self._ask(radii)
+            _after(S, top, n, laws, pipe, feed, rate, dt, radii, *hits, self._wall)
+
+    def refresh(self, S: Array) -> None:
+        """Update the walls for the present positions, given axes."""
+        radii = self._radii(S)
+        _points(S, self._segments, self._points)
+        _store(S, self._segments, radii, *self._ask(radii), self._wall)
+
+    def _radii(self, S: Array) -> Array:
+        return state.row(S, state.RADIUS, self._segments).copy()
+
+    def _ask(self, radii: Array) -> Contacts:
+        """The method's answer; ValueError when its shapes are not those asked for."""
+        n = self._segments
+        hits = self.method.query(self._points, radii)
+        shapes = [part.shape for part in hits]
+        if shapes != [(n,), (n, 3), (n,)]:
+            raise ValueError(f"contact method {self.method.name!r} answered {n} points with shapes {shapes}")
+        return hits

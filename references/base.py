@@ -1,0 +1,109 @@
+"""What a contact method is, and the literal list of those there are.
+
+A method is built for the hole of a case and asked about points.  All share one signature, so that the engine's
+loop and the studies can swap them; what can be set is in the method's own ``Options``.
+"""
+
+import importlib
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any, ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from fctd.case import Case
+from fctd.errors import InputError, Table, explain, nearest
+from fctd.wellbore import Contacts
+
+Array = NDArray[np.float64]
+
+METHODS: dict[str, str] = {
+    "cylinders": "references.contact_own:Cylinders",
+    "arcs": "references.contact_own:Arcs",
+    "for_loop": "references.contact_own:ForLoop",
+    "fcl": "references.contact_fcl:Fcl",
+    "coal": "references.contact_coal:Coal",
+    "bullet": "references.contact_bullet:Bullet",
+    "mujoco": "references.contact_mujoco:MuJoCo",
+    "trimesh": "references.contact_trimesh:TriMesh",
+}
+
+
+class ContactMethod(Protocol):
+    """A way to find where points of given radius touch the wall.
+
+    name : its key in METHODS.  distribution : the package that brings it.  does : one line for users.
+    gives_clearance : whether a penetration below 0 is the true clearance; otherwise it is −inf, and normal and
+    md are nan.
+    """
+
+    name: str
+    distribution: ClassVar[str]
+    does: ClassVar[str]
+    gives_clearance: bool
+    Options: ClassVar[type[Table]]
+
+    def __init__(self, case: Case, options: Any) -> None:
+        """Build what the method needs for the hole of ``case``; InputError for what cannot be built."""
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """Contacts of points (n, 3) [m] with contact radii (n,) [m]; see ``fctd.wellbore.Contacts``."""
+
+    @property
+    def pieces(self) -> int:
+        """Cylinders, arcs or triangles that stand for the hole."""
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """Largest error of penetration [m] and of the normal's direction [rad] in a bend of this curvature
+        [1/m], from the geometry alone."""
+
+
+def method_class(name: str) -> type[ContactMethod]:
+    """The class registered under a name; InputError with the nearest name for another."""
+    if name not in METHODS:
+        raise InputError(nearest(name, METHODS, "contact method"), key="contact", value=name)
+    module, _, attribute = METHODS[name].partition(":")
+    found: type[ContactMethod] = getattr(importlib.import_module(module), attribute)
+    return found
+
+
+def build(name: str, case: Case, **options: Any) -> ContactMethod:
+    """Contact method ``name`` for the hole of ``case``.
+
+    options : keys of the method's ``Options``, quantities as in a case file.  Raises InputError for an unknown
+    name, a bad option or a package that is not installed.
+    """
+    method = method_class(name)
+    try:
+        chosen = method.Options.model_validate(options)
+    except ValidationError as failure:
+        raise explain(failure, options, ()).at(name) from None
+    return method(case, chosen)
+
+
+def need(module: str, method: type[ContactMethod]) -> Any:
+    """Import the package of a method; InputError naming it when it is not installed."""
+    return import_or_tell(module, method.distribution, method.name)
+
+
+def import_or_tell(module: str, distribution: str, wanted_for: str) -> Any:
+    """Import a module of an optional package; InputError naming the package when it is not installed."""
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.partition(".")[0] != module.partition(".")[0]:
+            raise
+        raise InputError(
+            f"package {distribution}, which is not installed (it is part of the extra 'suite')",
+            key="contact",
+            value=wanted_for,
+        ) from None
+
+
+def installed_version(name: str) -> str | None:
+    """Version of the package that brings a method, None where it is not installed."""
+    try:
+        return version(method_class(name).distribution)
+    except PackageNotFoundError:
+        return None

@@ -1,0 +1,322 @@
+"""A geometrically exact planar beam in a hole, by finite elements (scikit-fem): forces, tangents, statics.
+
+Simo–Reissner beam (Simo 1985): position (z, x) and rotation θ of the section along the string, strains
+
+    Γ₁ = z' cos θ + x' sin θ − 1,   Γ₂ = −z' sin θ + x' cos θ,   κ = θ',
+
+with EA, κGA and EI.  Quadratic elements; strains at two Gauss points, where a quadratic beam neither locks in
+shear nor has a mechanism.  The wall is a penalty per metre at Gauss points of its own against the exact bend, and
+friction acts at the wall's side of the pipe.  All tangents are exact derivatives.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
+from skfem import Basis, BilinearForm, ElementLineP2, ElementVector, Functional, LinearForm, MeshLine
+
+from fctd.drillstring import Section
+from references.planar_hole import PlanarHole
+
+Array = NDArray[np.float64]
+
+STRAIN_POINTS = 3  # degree that two Gauss points integrate exactly
+WALL_POINTS = 9  # five Gauss points an element
+MOST_ITERATIONS = 25
+# Newton has converged when no force is out of balance by more than this share of the load, rounding permitting.
+CONVERGED = 1e-7
+
+
+class ConvergenceError(Exception):
+    """Newton's iteration did not converge; its text says how far it came."""
+
+
+class Surroundings(NamedTuple):
+    """What acts on the beam along its length.
+
+    hole : None in the open; clearance [m]; wall stiffness [N/m/m]; friction factor; contact radius [m];
+    creep [m/s] : sliding speed at which friction has reached tanh 1 of its limit;
+    lateral, axial mud damping [N s/m^2]; weight [N/m], along +z.
+    """
+
+    hole: PlanarHole | None = None
+    clearance: float = np.inf
+    stiffness: float = 0.0
+    friction: float = 0.0
+    radius: float = 0.0
+    creep: float = 1e-3
+    lateral_damping: float = 0.0
+    axial_damping: float = 0.0
+    weight: float = 0.0
+
+
+class WallLoad(NamedTuple):
+    """Loads of wall and mud on the beam at Gauss points, shape (elements, points) after the leading axes.
+
+    resistance (3, ...) [N/m, N] against z, x, θ and its derivatives (3, 3, ...) by position and by velocity;
+    pressure (...) [N/m], positive on the high side and negative on the low side; md (...) [m];
+    energy (...) [J/m] stored in the wall; friction_loss, mud_loss (...) [W/m].
+    """
+
+    resistance: Array
+    by_position: Array
+    by_velocity: Array
+    pressure: Array
+    md: Array
+    energy: Array
+    friction_loss: Array
+    mud_loss: Array
+
+
+def _motion(u: Any) -> Array:
+    """(z', x', θ', θ) of a field, shape (4, elements, points)."""
+    return np.concatenate([u.grad[:, 0], u[2:]])
+
+
+@LinearForm  # type: ignore[untyped-decorator]
+def _internal(v: Any, w: Any) -> Any:
+    return (_motion(v) * w.gradient).sum(axis=0)
+
+
+@BilinearForm  # type: ignore[untyped-decorator]
+def _internal_tangent(u: Any, v: Any, w: Any) -> Any:
+    return np.einsum("iep,ijep,jep->ep", _motion(v), w.hessian, _motion(u))
+
+
+@LinearForm  # type: ignore[untyped-decorator]
+def _distributed(v: Any, w: Any) -> Any:
+    return (np.asarray(v) * w.load).sum(axis=0)
+
+
+@BilinearForm  # type: ignore[untyped-decorator]
+def _distributed_tangent(u: Any, v: Any, w: Any) -> Any:
+    return np.einsum("iep,ijep,jep->ep", np.asarray(v), w.tangent, np.asarray(u))
+
+
+@BilinearForm  # type: ignore[untyped-decorator]
+def _inertia(u: Any, v: Any, w: Any) -> Any:
+    return w.mass * (u[0] * v[0] + u[1] * v[1]) + w.tilt * u[2] * v[2]
+
+
+@Functional  # type: ignore[untyped-decorator]
+def _integral(w: Any) -> Any:
+    return w.density
+
+
+class Beam:
+    """A beam of one section, its mesh and what surrounds it.
+
+    A state is a vector of z [m], x [m] and θ [rad] at the nodes, in scikit-fem's order.
+    """
+
+    def __init__(self, nodes: Array, section: Section, around: Surroundings, at_ends: bool = False) -> None:
+        """nodes (n,) [m] : ends of the elements along the unstretched string, from the top.
+
+        at_ends : feel wall and mud at the ends of the elements alone, each for the length that is its own.
+        """
+        self.nodes, self.section, self.around = nodes, section, around
+        mesh, element = MeshLine(nodes), ElementVector(ElementLineP2(), 3)
+        self.strains = Basis(mesh, element, intorder=STRAIN_POINTS)
+        whole = Basis(mesh, element, intorder=WALL_POINTS)
+        ends = np.array([[0.0, 1.0]]), np.array([0.5, 0.5])
+        self.wall = Basis(mesh, element, quadrature=ends) if at_ends else whole
+        ones = np.ones(whole.dx.shape)
+        weight = np.stack([around.weight * ones, 0 * ones, 0 * ones])
+        self.gravity = _distributed.assemble(whole, load=weight)
+        self.mass = _inertia.assemble(whole, mass=section.mass * ones, tilt=section.tilt_inertia * ones).tocsc()
+
+    @property
+    def length(self) -> float:
+        """Unstretched length [m]."""
+        return float(self.nodes[-1] - self.nodes[0])
+
+    def tolerance(self, load: float) -> float:
+        """Largest force out of balance of a converged state [N]: a share of the load, or what rounding leaves."""
+        finest = float(np.diff(self.nodes).min())
+        rounding = 16 * np.finfo(float).eps * self.section.EA * self.length / finest
+        return max(CONVERGED * load, rounding)
+
+    def dofs(self, at: float) -> NDArray[np.int64]:
+        """Numbers of z, x and θ in a state at the node nearest to ``at`` [m] along the string."""
+        s = self.strains.doflocs[0]
+        nearest = s[np.argmin(np.abs(s - at))]
+        (found,) = np.nonzero(s == nearest)
+        return found
+
+    def points(self) -> tuple[Array, NDArray[np.int64]]:
+        """All nodes along the string, middle ones too, (m,) [m], and their numbers in a state (m, 3)."""
+        s = self.strains.doflocs[0]
+        order = np.argsort(s, kind="stable").reshape(-1, 3)
+        return s[order[:, 0]], order
+
+    def straight(self, top: float) -> Array:
+        """The state of the unstretched beam hanging down from z = ``top`` [m]."""
+        s, numbers = self.points()
+        q = np.zeros(self.strains.N)
+        q[numbers[:, 0]] = top + s - self.nodes[0]
+        return q
+
+    def _strains(self, q: Array) -> tuple[Array, Array, Array, Array, Array]:
+        """Γ₁, Γ₂, κ, cos θ and sin θ at the strain points."""
+        state = self.strains.interpolate(q)
+        dz, dx, bend = state.grad[:, 0]
+        cosine, sine = np.cos(state[2]), np.sin(state[2])
+        return dz * cosine + dx * sine - 1, -dz * sine + dx * cosine, bend, cosine, sine
+
+    def internal(self, q: Array) -> tuple[Array, csc_matrix]:
+        """Internal forces of state q and their exact tangent."""
+        stretch, shear, bend, c, s = self._strains(q)
+        section = self.section
+        n, v = section.EA * stretch, section.shear * shear
+        gradient = np.stack([n * c - v * s, n * s + v * c, section.EI * bend, n * shear - v * (1 + stretch)])
+        first, second = np.stack([c, s, 0 * c, shear]), np.stack([-s, c, 0 * c, -(1 + stretch)])
+        hessian = section.EA * first[:, None] * first + section.shear * second[:, None] * second
+        hessian[2, 2] += section.EI
+        # Second derivatives of the strains: only rotation enters them nonlinearly.
+        for row, value in ((0, -n * s - v * c), (1, n * c - v * s)):
+            hessian[row, 3] += value
+            hessian[3, row] += value
+        hessian[3, 3] -= n * (1 + stretch) + v * shear
+        force = _internal.assemble(self.strains, gradient=gradient)
+        return force, _internal_tangent.assemble(self.strains, hessian=hessian).tocsc()
+
+    def strain_energy(self, q: Array) -> float:
+        """Energy of stretching, shear and bending [J]."""
+        stretch, shear, bend, _, _ = self._strains(q)
+        section = self.section
+        density = 0.5 * (section.EA * stretch**2 + section.shear * shear**2 + section.EI * bend**2)
+        return float(_integral.assemble(self.strains, density=density))
+
+    def integrate(self, density: Array) -> float:
+        """Integral along the string of a density at the wall's Gauss points."""
+        return float(_integral.assemble(self.wall, density=density))
+
+    def bending_moment(self, q: Array) -> Array:
+        """EIθ' at the strain points (elements, 2) [N m]."""
+        return np.asarray(self.section.EI * self._strains(q)[2])
+
+    def wall_load(self, q: Array, velocity: Array) -> WallLoad:
+        """Loads of wall and mud in state q that moves with ``velocity``."""
+        state, rate = self.wall.interpolate(q), self.wall.interpolate(velocity)
+        at, v = np.asarray(state), np.asarray(rate)
+        around = self.around
+        blank = np.zeros(at.shape[1:])
+        resistance, loss = np.zeros(at.shape), blank.copy()
+        by_position, by_velocity = np.zeros((3, *at.shape)), np.zeros((3, *at.shape))
+        mud_loss, pressure, md = blank.copy(), blank.copy(), blank.copy()
+        if around.lateral_damping or around.axial_damping:
+            mud_loss = _add_mud(around, at[2], v, resistance, by_position, by_velocity)
+        if around.hole is not None:
+            axis = around.hole.axis(at[:2])
+            md = axis.md
+            side = np.sign(axis.offset)
+            depth = np.maximum(np.abs(axis.offset) - around.clearance, 0.0)
+            pressure = around.stiffness * side * depth
+            n, t = axis.normal, axis.tangent
+            resistance[:2] += pressure * n
+            # The normal turns with the point along the hole: d n = −turn t (t·dr).
+            elastic = around.stiffness * (depth > 0) * n[:, None] * n - pressure * axis.turn * t[:, None] * t
+            by_position[:2, :2] += elastic
+            if around.friction:
+                loss = _add_friction(around, axis.turn, t, n, side, depth, v, resistance, by_position, by_velocity)
+        energy = 0.5 * pressure**2 / around.stiffness if around.stiffness else blank
+        return WallLoad(resistance, by_position, by_velocity, pressure, md, energy, loss, mud_loss)
+
+    def resistance(self, q: Array, velocity: Array, rate: float = 0.0) -> tuple[Array, csc_matrix, WallLoad]:
+        """All forces but inertia that resist a state, less gravity, and their tangent.
+
+        rate [1/s] : change of velocity with q, from the time integration.
+        """
+        force, tangent = self.internal(q)
+        load = self.wall_load(q, velocity)
+        force = force - self.gravity + _distributed.assemble(self.wall, load=load.resistance)
+        by_state = load.by_position + rate * load.by_velocity
+        if by_state.any():
+            tangent = tangent + _distributed_tangent.assemble(self.wall, tangent=by_state).tocsc()
+        return force, tangent, load
+
+
+def _add_mud(
+    around: Surroundings, tilt: Array, v: Array, resistance: Array, by_position: Array, by_velocity: Array
+) -> Array:
+    """Add viscous drag along and across the pipe; returns the power lost [W/m]."""
+    lateral, axial = around.lateral_damping, around.axial_damping
+    t = np.stack([np.cos(tilt), np.sin(tilt)])
+    n = np.stack([-t[1], t[0]])
+    along, across = (t * v[:2]).sum(axis=0), (n * v[:2]).sum(axis=0)
+    resistance[:2] += axial * along * t + lateral * across * n
+    by_velocity[:2, :2] += axial * t[:, None] * t + lateral * n[:, None] * n
+    by_position[:2, 2] += (axial - lateral) * (along * n + across * t)
+    return np.asarray(axial * along**2 + lateral * across**2)
+
+
+def _add_friction(
+    around: Surroundings,
+    turn: Array,
+    t: Array,
+    n: Array,
+    side: Array,
+    depth: Array,
+    v: Array,
+    resistance: Array,
+    by_position: Array,
+    by_velocity: Array,
+) -> Array:
+    """Add regularised Coulomb friction against the sliding of the pipe's wall side; returns the power lost [W/m].
+
+    The wall touches the pipe a contact radius to the side of its axis, where rotation takes part in sliding.
+    """
+    # Sliding speed is arm·(ż, ẋ, θ̇).
+    arm = np.stack([t[0], t[1], -around.radius * side])
+    sliding = (arm * v).sum(axis=0)
+    share = np.tanh(sliding / around.creep)
+    steepness = (1 - share**2) / around.creep
+    limit = around.friction * around.stiffness * depth
+    slope = around.friction * around.stiffness * (depth > 0) * side
+    resistance += limit * share * arm
+    by_velocity += limit * steepness * arm[:, None] * arm
+    by_position[:, :2] += (slope * share) * arm[:, None] * n
+    # The tangent turns with the point: d t = turn n (t·dr).
+    by_position[:2, :2] += limit * share * turn * n[:, None] * t
+    across = (n * v[:2]).sum(axis=0)
+    by_position[:, :2] += limit * steepness * across * turn * arm[:, None] * t
+    return np.asarray(limit * share * sliding)
+
+
+def newton(
+    residual: Callable[[Array], tuple[Array, csc_matrix]], q: Array, free: NDArray[np.int64], tolerance: float
+) -> tuple[Array, int]:
+    """Solve ``residual(q) = (r, tangent)`` for the free dofs; returns the solution and the iterations it took.
+
+    tolerance [N] : largest r of a solution.  Raises ConvergenceError.
+    """
+    q = q.copy()
+    size = np.inf
+    for iteration in range(MOST_ITERATIONS):
+        r, tangent = residual(q)
+        size = float(np.abs(r[free]).max())
+        if not np.isfinite(size):
+            break
+        if size < tolerance:
+            return q, iteration
+        q[free] -= splu(tangent[free][:, free].tocsc()).solve(r[free])
+    raise ConvergenceError(f"forces are out of balance by {size:.2g} N after {MOST_ITERATIONS} iterations")
+
+
+def statics(beam: Beam, q: Array, held: NDArray[np.int64], load: Array | None = None) -> Array:
+    """Equilibrium nearest to q, its held dofs as they are, under gravity, wall and a nodal load.
+
+    Raises ConvergenceError.
+    """
+    free = np.setdiff1d(np.arange(len(q)), held)
+    still, extra = np.zeros_like(q), np.zeros_like(q) if load is None else load
+
+    def residual(trial: Array) -> tuple[Array, csc_matrix]:
+        force, tangent, _ = beam.resistance(trial, still)
+        return force - extra, tangent
+
+    carried = beam.around.weight * beam.length + float(np.abs(extra).sum())
+    return newton(residual, q, free, beam.tolerance(carried))[0]

@@ -1,0 +1,94 @@
+"""Bullet's collision detection through pybullet: closest points of a sphere and a concave mesh, no dynamics.
+
+Traps: a client left connected is never freed; a mesh has at most 174 762 triangles; the answer names no triangle.
+"""
+
+import weakref
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case import Case
+from fctd.errors import InputError, Table
+from fctd.wellbore import Contacts
+from references.base import need
+from references.tube_mesh import Tube, TubeOptions, build_tube
+
+Array = NDArray[np.float64]
+
+# The bindings take no more indices than this in one shape.
+MOST_TRIANGLES = 524_288 // 3
+UPRIGHT = (0.0, 0.0, 0.0, 1.0)
+# Fields of a closest point: normal on the mesh towards the sphere, distance (negative is penetration).
+NORMAL, DISTANCE = 7, 8
+
+
+class Bullet:
+    """A sphere body moved to each point and asked for its closest points on the tube."""
+
+    name = "bullet"
+    distribution: ClassVar[str] = "pybullet"
+    does: ClassVar[str] = "axis-aligned tree over a triangle mesh (Bullet), contacts only, no clearance"
+    gives_clearance = False
+    Options: ClassVar[type[Table]] = TubeOptions
+
+    def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:
+        self._bullet = bullet = need("pybullet", type(self))
+        self.tube = build_tube(case, options) if tube is None else tube
+        if self.tube.triangles > MOST_TRIANGLES:
+            raise InputError(
+                f"at most the {MOST_TRIANGLES} triangles that bullet takes",
+                key="facets",
+                value=f"{self.tube.triangles} triangles",
+            )
+        self._client = client = bullet.connect(bullet.DIRECT)
+        weakref.finalize(self, bullet.disconnect, client)
+        shape = bullet.createCollisionShape(
+            bullet.GEOM_MESH,
+            vertices=np.asarray(self.tube.mesh.vertices).tolist(),
+            indices=np.asarray(self.tube.mesh.faces).ravel().tolist(),
+            flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
+            physicsClientId=client,
+        )
+        self._wall = bullet.createMultiBody(0, shape, physicsClientId=client)
+        self._spheres: dict[float, int] = {}
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """See ``ContactMethod.query``."""
+        closest, move = self._bullet.getClosestPoints, self._bullet.resetBasePositionAndOrientation
+        n = len(points)
+        penetration, normal, md = np.full(n, -np.inf), np.full((n, 3), np.nan), np.full(n, np.nan)
+        for k, (place, radius) in enumerate(zip(points, radii, strict=True)):
+            sphere = self._sphere(radius)
+            move(sphere, place, UPRIGHT, physicsClientId=self._client)
+            hits = closest(sphere, self._wall, 0.0, physicsClientId=self._client)
+            if hits:
+                deepest = min(hits, key=_distance)
+                penetration[k], normal[k] = -deepest[DISTANCE], deepest[NORMAL]
+        touching = penetration > 0
+        md[touching] = self.tube.md_near(points[touching])
+        return Contacts(penetration, -normal, md)
+
+    def _sphere(self, radius: float) -> int:
+        """A body that is a sphere of this radius, made once."""
+        if radius not in self._spheres:
+            shape = self._bullet.createCollisionShape(
+                self._bullet.GEOM_SPHERE, radius=radius, physicsClientId=self._client
+            )
+            self._spheres[radius] = self._bullet.createMultiBody(1, shape, physicsClientId=self._client)
+        return self._spheres[radius]
+
+    @property
+    def pieces(self) -> int:
+        """Number of triangles."""
+        return self.tube.triangles
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """The mesh's own."""
+        return self.tube.error_bound(curvature)
+
+
+def _distance(hit: Any) -> float:
+    distance: float = hit[DISTANCE]
+    return distance

@@ -1,0 +1,101 @@
+"""coal, the faster successor of FCL.
+
+Traps: a sphere that penetrates gets the distance of the first triangle it overlaps, not of the deepest, so the
+query is for its centre; depths are negative; only trees of OBB or OBBRSS take a sphere against a mesh.
+"""
+
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case import Case
+from fctd.errors import Table
+from fctd.wellbore import Contacts
+from references.base import need
+from references.contact_fcl import MOST_CONTACTS, POINT
+from references.tube_mesh import Tube, TubeOptions, build_tube
+
+Array = NDArray[np.float64]
+
+
+class CoalOptions(TubeOptions):
+    """``query``: the distance of the centre from the wall, or the collision of a sphere with it."""
+
+    query: Literal["distance", "collide"] = "distance"
+
+
+class Coal:
+    """A sphere at each point against a bounding-volume tree over the tube; requests and results are reused."""
+
+    name = "coal"
+    distribution: ClassVar[str] = "coal"
+    does: ClassVar[str] = "bounding-volume tree over a triangle mesh (successor of FCL)"
+    Options: ClassVar[type[Table]] = CoalOptions
+
+    def __init__(self, case: Case, options: CoalOptions, tube: Tube | None = None) -> None:
+        self._coal = coal = need("coal", type(self))
+        self.tube = build_tube(case, options) if tube is None else tube
+        vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+        for vertex in np.asarray(self.tube.mesh.vertices):
+            vertices.append(vertex)
+        for a, b, c in np.asarray(self.tube.mesh.faces).tolist():
+            faces.append(coal.Triangle(a, b, c))
+        # The tree is built for the query: OBB is the faster one to collide with, RSS bounds distances.
+        self._collide = options.query == "collide"
+        self.gives_clearance = not self._collide
+        self._wall = coal.BVHModelOBB() if self._collide else coal.BVHModelOBBRSS()
+        self._wall.beginModel(len(faces), len(vertices))
+        self._wall.addSubModel(vertices, faces)
+        self._wall.endModel()
+        self._here, self._there = coal.Transform3s(), coal.Transform3s()
+        self._spheres: dict[float, Any] = {}
+        self._distance_request, self._distance = coal.DistanceRequest(True), coal.DistanceResult()
+        self._request, self._result = coal.CollisionRequest(), coal.CollisionResult()
+        self._request.num_max_contacts = MOST_CONTACTS
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """See ``ContactMethod.query``."""
+        return self._by_collision(points, radii) if self._collide else self._by_distance(points, radii)
+
+    def _by_distance(self, points: Array, radii: Array) -> Contacts:
+        distance, wall, here, there = self._coal.distance, self._wall, self._here, self._there
+        request, result, point = self._distance_request, self._distance, self._sphere(POINT)
+        near, faces = np.empty((len(points), 3)), np.empty(len(points), np.int64)
+        for k, place in enumerate(points):
+            there.setTranslation(place)
+            result.clear()
+            distance(wall, here, point, there, request, result)
+            near[k], faces[k] = result.getNearestPoint1(), result.b1
+        return self.tube.contacts(points, radii, near, faces)
+
+    def _by_collision(self, points: Array, radii: Array) -> Contacts:
+        collide, wall, here, there = self._coal.collide, self._wall, self._here, self._there
+        request, result = self._request, self._result
+        n = len(points)
+        penetration, normal = np.full(n, -np.inf), np.full((n, 3), np.nan)
+        faces = np.zeros(n, np.int64)
+        for k, (place, radius) in enumerate(zip(points, radii, strict=True)):
+            there.setTranslation(place)
+            result.clear()
+            if collide(wall, here, self._sphere(radius), there, request, result):
+                for i in range(result.numContacts()):
+                    contact = result.getContact(i)
+                    if -contact.penetration_depth > penetration[k]:
+                        penetration[k], normal[k], faces[k] = -contact.penetration_depth, contact.normal, contact.b1
+        return Contacts(penetration, -normal, np.where(penetration > 0, self.tube.md_of(faces, points), np.nan))
+
+    def _sphere(self, radius: float) -> Any:
+        """A sphere of this radius, made once."""
+        if radius not in self._spheres:
+            self._spheres[radius] = self._coal.Sphere(radius)
+        return self._spheres[radius]
+
+    @property
+    def pieces(self) -> int:
+        """Number of triangles."""
+        return self.tube.triangles
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """The mesh's own."""
+        return self.tube.error_bound(curvature)

@@ -1,0 +1,103 @@
+"""python-fcl, bindings of the Flexible Collision Library, which descends from RAPID, the contact code of Adams.
+
+Traps: a sphere that penetrates has no valid distance, so the query is for its centre; all contacts have to be
+asked for, since the first ones found are not the deepest; normals point into the hole, depths are negative;
+capsules on the long triangles of a tube report depths that are wrong by decimetres.
+"""
+
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case import Case
+from fctd.errors import Table
+from fctd.wellbore import Contacts
+from references.base import need
+from references.tube_mesh import Tube, TubeOptions, build_tube
+
+Array = NDArray[np.float64]
+
+# A sphere stands for a point; a radius of 0 is not one to the library [m].
+POINT = 1e-6
+# Triangles that one sphere can touch are fewer at any sensible resolution.
+MOST_CONTACTS = 1000
+
+
+class FclOptions(TubeOptions):
+    """``query``: the distance of the centre from the wall, or the collision of a sphere with it."""
+
+    query: Literal["distance", "collide"] = "distance"
+
+
+class Fcl:
+    """A sphere at each point against a bounding-volume tree over the tube."""
+
+    name = "fcl"
+    distribution: ClassVar[str] = "python-fcl"
+    does: ClassVar[str] = "bounding-volume tree over a triangle mesh (FCL)"
+    Options: ClassVar[type[Table]] = FclOptions
+
+    def __init__(self, case: Case, options: FclOptions, tube: Tube | None = None) -> None:
+        self._fcl = fcl = need("fcl", type(self))
+        self.tube = build_tube(case, options) if tube is None else tube
+        vertices, faces = np.asarray(self.tube.mesh.vertices), np.asarray(self.tube.mesh.faces)
+        model = fcl.BVHModel()
+        model.beginModel(len(faces), len(vertices))
+        model.addSubModel(vertices, faces)
+        model.endModel()
+        self._wall = fcl.CollisionObject(model, fcl.Transform())
+        self._point = fcl.CollisionObject(fcl.Sphere(POINT), fcl.Transform())
+        self._spheres: dict[float, Any] = {}
+        self._collide = options.query == "collide"
+        self.gives_clearance = not self._collide
+        self._distance_request = fcl.DistanceRequest(enable_nearest_points=True)
+        self._request = fcl.CollisionRequest(num_max_contacts=MOST_CONTACTS, enable_contact=True)
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """See ``ContactMethod.query``."""
+        return self._by_collision(points, radii) if self._collide else self._by_distance(points, radii)
+
+    def _by_distance(self, points: Array, radii: Array) -> Contacts:
+        fcl, wall, point, request = self._fcl, self._wall, self._point, self._distance_request
+        near, faces = np.empty((len(points), 3)), np.empty(len(points), np.int64)
+        for k, place in enumerate(points):
+            point.setTranslation(place)
+            result = fcl.DistanceResult()
+            fcl.distance(wall, point, request, result)
+            near[k], faces[k] = result.nearest_points[0], result.b1
+        return self.tube.contacts(points, radii, near, faces)
+
+    def _by_collision(self, points: Array, radii: Array) -> Contacts:
+        fcl, wall, request = self._fcl, self._wall, self._request
+        n = len(points)
+        penetration, normal = np.full(n, -np.inf), np.full((n, 3), np.nan)
+        faces = np.zeros(n, np.int64)
+        for k, (place, radius) in enumerate(zip(points, radii, strict=True)):
+            sphere = self._sphere(radius)
+            sphere.setTranslation(place)
+            result = fcl.CollisionResult()
+            if fcl.collide(wall, sphere, request, result):
+                deepest = min(result.contacts, key=_depth)
+                penetration[k], normal[k], faces[k] = -deepest.penetration_depth, deepest.normal, deepest.b1
+        return Contacts(penetration, -normal, np.where(penetration > 0, self.tube.md_of(faces, points), np.nan))
+
+    def _sphere(self, radius: float) -> Any:
+        """A sphere of this radius, made once."""
+        if radius not in self._spheres:
+            self._spheres[radius] = self._fcl.CollisionObject(self._fcl.Sphere(radius), self._fcl.Transform())
+        return self._spheres[radius]
+
+    @property
+    def pieces(self) -> int:
+        """Number of triangles."""
+        return self.tube.triangles
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """The mesh's own."""
+        return self.tube.error_bound(curvature)
+
+
+def _depth(contact: Any) -> float:
+    depth: float = contact.penetration_depth
+    return depth

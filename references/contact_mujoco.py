@@ -1,0 +1,100 @@
+"""MuJoCo's collision detection: sphere bodies against the tube as a flex of the world, no dynamics.
+
+Traps: a mesh geom is replaced by its convex hull, a full bar in place of a hole, so the wall has to be a ``flex``;
+fixed and mocap bodies do not collide with the world, so the spheres have free joints that are set by hand.
+"""
+
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case import Case
+from fctd.errors import Table
+from fctd.wellbore import Contacts
+from references.base import need
+from references.tube_mesh import Tube, TubeOptions, build_tube
+
+Array = NDArray[np.float64]
+
+BATCH = 64  # spheres in the model
+FACE_RADIUS = 1e-6  # a flex has a thickness, which cannot be 0 [m]
+PARKED = 1e5  # height above the well of spheres without a point [m]
+
+
+class MuJoCo:
+    """Spheres moved to the points in batches; one collision pass a batch."""
+
+    name = "mujoco"
+    distribution: ClassVar[str] = "mujoco"
+    does: ClassVar[str] = "bounding-volume tree over a triangle mesh (flex), contacts only, no clearance"
+    gives_clearance = False
+    Options: ClassVar[type[Table]] = TubeOptions
+
+    def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:
+        self._mujoco = mujoco = need("mujoco", type(self))
+        self.tube = build_tube(case, options) if tube is None else tube
+        self._model = mujoco.MjModel.from_xml_string(_model(self.tube))
+        self._data = mujoco.MjData(self._model)
+        # Two views into the library's own memory: positions of the spheres, and their radii.
+        self._places = self._data.qpos.reshape(BATCH, 7)[:, :3]
+        self._park(0)
+        mujoco.mj_fwdPosition(self._model, self._data)  # places the vertices of the flex, once
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """See ``ContactMethod.query``."""
+        n = len(points)
+        penetration, normal = np.full(n, -np.inf), np.full((n, 3), np.nan)
+        faces = np.zeros(n, np.int64)
+        for start in range(0, n, BATCH):
+            batch = slice(start, min(start + BATCH, n))
+            self._collide(points[batch], radii[batch], penetration[batch], normal[batch], faces[batch])
+        return Contacts(penetration, normal, np.where(penetration > 0, self.tube.md_of(faces, points), np.nan))
+
+    def _collide(
+        self, points: Array, radii: Array, penetration: Array, normal: Array, faces: NDArray[np.int64]
+    ) -> None:
+        """Contacts of at most BATCH points, written into the last three."""
+        mujoco, model, data, n = self._mujoco, self._model, self._data, len(points)
+        self._places[:n] = points
+        self._park(n)
+        model.geom_size[:n, 0] = model.geom_rbound[:n] = radii
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_collision(model, data)
+        contacts = data.contact
+        # The last contact written of a point stays: the deepest, after sorting from shallow to deep.
+        order = np.argsort(-contacts.dist)
+        point = contacts.geom[order, 0]
+        penetration[point] = -contacts.dist[order] - FACE_RADIUS
+        normal[point] = contacts.frame[order, :3]
+        faces[point] = contacts.elem[order, 1]
+
+    def _park(self, first: int) -> None:
+        """Put the spheres from ``first`` on out of the way, apart from each other."""
+        self._places[first:] = 0.0
+        self._places[first:, 2] = -PARKED * (1 + np.arange(BATCH - first))
+
+    @property
+    def pieces(self) -> int:
+        """Number of triangles."""
+        return self.tube.triangles
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """The mesh's own."""
+        return self.tube.error_bound(curvature)
+
+
+def _model(tube: Tube) -> str:
+    """MuJoCo's description of the spheres and the wall; contact bits let spheres meet the wall alone."""
+    sphere = '<body><freejoint/><geom type="sphere" size="1" mass="1" contype="1" conaffinity="2"/></body>'
+    vertices = " ".join(map(repr, np.asarray(tube.mesh.vertices).ravel().tolist()))
+    faces = " ".join(map(str, np.asarray(tube.mesh.faces).ravel().tolist()))
+    return f"""<mujoco>
+      <size memory="64M"/>
+      <worldbody>{BATCH * sphere}</worldbody>
+      <deformable>
+        <flex dim="2" body="world" radius="{FACE_RADIUS}" vertex="{vertices}" element="{faces}">
+          <contact contype="2" conaffinity="1" selfcollide="none"/>
+        </flex>
+      </deformable>
+    </mujoco>"""

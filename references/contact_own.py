@@ -1,0 +1,181 @@
+"""The engine's own ways to the wall, asked from Python like the others: cylinders, arcs, the paper's FOR-loop."""
+
+from typing import ClassVar, Literal
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from fctd import contact, units
+from fctd.case import Case
+from fctd.errors import Table, explain
+from fctd.specs import WellboreSpec
+from fctd.state import ARCS
+from fctd.wellbore import Contacts, Wellbore, build_wellbore
+from references.for_loop import for_loop_owner
+
+Array = NDArray[np.float64]
+
+
+@njit(error_model="numpy")
+def _write(j, wall, radius, penetration, normal, md):  # type: ignore[no-untyped-def]
+    px, py, pz, hole, _stiffness, _friction, depth = wall
+    distance = np.sqrt(px * px + py * py + pz * pz)
+    k = 1 / max(distance, 1e-300)
+    penetration[j] = distance - hole + radius
+    normal[j, 0], normal[j, 1], normal[j, 2] = k * px, k * py, k * pz
+    md[j] = depth
+
+
+@njit(error_model="numpy", cache=True)
+def _query(C, geometry, points, radii, owner, penetration, normal, md):  # type: ignore[no-untyped-def]
+    for j in range(points.shape[0]):
+        x, y, z = points[j, 0], points[j, 1], points[j, 2]
+        if geometry == ARCS:
+            owner[j] = contact.arc_owner(C, owner[j], x, y, z)
+            _write(j, contact.arc_wall(C, owner[j], x, y, z), radii[j], penetration, normal, md)
+        else:
+            owner[j] = contact.cylinder_owner(C, owner[j], x, y, z)
+            _write(j, contact.cylinder_wall(C, owner[j], x, y, z), radii[j], penetration, normal, md)
+
+
+@njit(error_model="numpy", cache=True)
+def _query_for_loop(C, points, radii, penetration, normal, md):  # type: ignore[no-untyped-def]
+    for j in range(points.shape[0]):
+        x, y, z = points[j, 0], points[j, 1], points[j, 2]
+        i = for_loop_owner(C, x, y, z)
+        if i < 0:
+            penetration[j] = -np.inf
+            normal[j] = np.nan
+            md[j] = np.nan
+        else:
+            _write(j, contact.cylinder_wall(C, i, x, y, z), radii[j], penetration, normal, md)
+
+
+class CylinderOptions(Table):
+    """Like the keys of [wellbore]; without them the case's own hold [m]."""
+
+    cylinder_length: units.PositiveLength | None = None
+    chord_tolerance: units.PositiveLength | None = None
+    overlap: units.Length | None = None
+
+
+class ArcOptions(Table):
+    """Arcs have no options."""
+
+
+def _hole(case: Case, geometry: Literal["cylinders", "arcs"], options: Table) -> Wellbore:
+    """The hole of a case in a geometry that need not be the case's own."""
+    changes = {**options.model_dump(exclude_none=True), "geometry": geometry}
+    spec = case.wellbore.model_dump(exclude_none=True)
+    if changes.keys() & {"cylinder_length", "chord_tolerance"}:  # the one replaces the other
+        spec = {key: value for key, value in spec.items() if key not in ("cylinder_length", "chord_tolerance")}
+    try:
+        return build_wellbore(case.model_copy(update={"wellbore": WellboreSpec.model_validate(spec | changes)}))
+    except ValidationError as failure:
+        raise explain(failure, spec | changes, ()) from None
+
+
+def _empty(n: int) -> Contacts:
+    return Contacts(np.empty(n), np.empty((n, 3)), np.empty(n))
+
+
+class _Remembered:
+    """Points that remember their piece of hole from query to query, as in the engine's loop."""
+
+    distribution: ClassVar[str] = "fctd"
+    gives_clearance = True
+
+    def __init__(self, hole: Wellbore) -> None:
+        self.hole = hole
+        self._owner = np.empty(0, np.int64)
+        # Nothing of a string is this far outside its hole: the point has been exchanged for another [m].
+        self._wide = 2 * float(hole.intervals[:, 1].max())
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """See ``ContactMethod.query``."""
+        hole, hits = self.hole, _empty(len(points))
+        if len(self._owner) != len(points):
+            self._owner = hole.owners(points)
+        _query(hole.pieces, hole.geometry, points, radii, self._owner, *hits)
+        if (hits.penetration > self._wide).any():
+            self._owner = hole.owners(points)
+            _query(hole.pieces, hole.geometry, points, radii, self._owner, *hits)
+        return hits
+
+    @property
+    def pieces(self) -> int:
+        """Rows of the table."""
+        return len(self.hole.pieces)
+
+
+class Cylinders(_Remembered):
+    """The paper's cylinders with overlap (§4.2–4.4), the owner remembered."""
+
+    name = "cylinders"
+    does: ClassVar[str] = "point in cylinder with overlap, each point remembers its cylinder"
+    Options: ClassVar[type[Table]] = CylinderOptions
+
+    def __init__(self, case: Case, options: CylinderOptions) -> None:
+        super().__init__(_hole(case, "cylinders", options))
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """Sagitta and half the angle of the chord."""
+        return chord_error(self.hole, curvature)
+
+
+class Arcs(_Remembered):
+    """Exact closest points on the arcs of minimum curvature."""
+
+    name = "arcs"
+    does: ClassVar[str] = "closest point on circular arcs, each point remembers its arc"
+    Options: ClassVar[type[Table]] = ArcOptions
+
+    def __init__(self, case: Case, options: ArcOptions) -> None:
+        super().__init__(_hole(case, "arcs", options))
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """Arcs are the hole."""
+        return 0.0, 0.0
+
+
+class ForLoop:
+    """The paper's search: the first cylinder from the top whose slab holds the point."""
+
+    name = "for_loop"
+    distribution: ClassVar[str] = "fctd"
+    does: ClassVar[str] = "point in cylinder with overlap, searched from the top at every query (the paper)"
+    gives_clearance = True
+    Options: ClassVar[type[Table]] = CylinderOptions
+
+    def __init__(self, case: Case, options: CylinderOptions) -> None:
+        self.hole = _hole(case, "cylinders", options)
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """See ``ContactMethod.query``; a point in no slab at all has no contact."""
+        hits = _empty(len(points))
+        _query_for_loop(self.hole.pieces, points, radii, *hits)
+        return hits
+
+    @property
+    def pieces(self) -> int:
+        """Number of cylinders."""
+        return len(self.hole.pieces)
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """As for ``cylinders`` where the loop finds the right one, which past 90° it may not."""
+        return chord_error(self.hole, curvature)
+
+
+def chord_error(hole: Wellbore, curvature: float) -> tuple[float, float]:
+    """Error of penetration [m] and direction [rad] of the longest cylinder that stands for a bend.
+
+    κℓ²/8 and κℓ/2; the cylinders of straight hole, which do not turn against both neighbours, do not count.
+    """
+    turns = np.linalg.norm(np.diff(hole.directions[:-1], axis=0), axis=1) > 1e-9
+    bent = np.append(False, turns) & np.append(turns, False)
+    if curvature == 0 or not bent.any():
+        return 0.0, 0.0
+    length = float(np.diff(hole.md)[bent].max())
+    return curvature * length**2 / 8, 0.5 * curvature * length

@@ -1,0 +1,45 @@
+"""trimesh's own proximity query: an R-tree over the triangles, all points in one call."""
+
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case import Case
+from fctd.errors import Table
+from fctd.wellbore import Contacts
+from references.base import import_or_tell, need
+from references.tube_mesh import Tube, TubeOptions, build_tube
+
+Array = NDArray[np.float64]
+
+
+class TriMesh:
+    """Closest points on the tube."""
+
+    name = "trimesh"
+    distribution: ClassVar[str] = "trimesh"
+    does: ClassVar[str] = "closest points on a triangle mesh through an R-tree, written in Python"
+    gives_clearance = True
+    Options: ClassVar[type[Table]] = TubeOptions
+
+    def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:
+        import_or_tell("rtree", "rtree", self.name)
+        self._proximity = need("trimesh.proximity", type(self))
+        self.tube = build_tube(case, options) if tube is None else tube
+        # The tree is made at first use: here, so that no query pays for it.
+        assert self.tube.mesh.triangles_tree is not None
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """See ``ContactMethod.query``."""
+        near, _, faces = self._proximity.closest_point(self.tube.mesh, points)
+        return self.tube.contacts(points, radii, np.asarray(near), np.asarray(faces))
+
+    @property
+    def pieces(self) -> int:
+        """Number of triangles."""
+        return self.tube.triangles
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """The mesh's own."""
+        return self.tube.error_bound(curvature)

@@ -1,0 +1,167 @@
+"""A Cosserat rod (PyElastica) at rest in a hole: another beam, in three dimensions, to hold the engine against.
+
+The rod is laid on the axis of the hole and relaxed by damping.  Its wall is the hole that it is given; the
+mechanics of the pipe is PyElastica's own (Gazzola and others 2018).
+"""
+
+from typing import Any, NamedTuple
+
+import elastica
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.drillstring import Section
+from fctd.wellbore import Wellbore
+
+Array = NDArray[np.float64]
+
+# Share of the stable step that is taken, and how often forces are looked at [steps].
+STEP_SHARE = 0.5
+LOOK = 2000
+
+
+class UnsettledError(Exception):
+    """The rod did not come to rest; its text says how far it came."""
+
+
+class RestingRod(NamedTuple):
+    """A rod at rest: nodes (n + 1, 3) [m], the wall's force on each (n + 1, 3) [N]; step [s] and steps taken."""
+
+    nodes: Array
+    wall_force: Array
+    step: float
+    steps: int
+
+
+class _Surroundings(elastica.NoForces[Any]):
+    """Wall, weight and clamp.
+
+    The wall is a penalty per metre at the nodes, each for the length of rod that is its own.  The clamp is half an
+    element of pipe above the middle of the first: PyElastica's own fixes that element, which is to clamp the pipe
+    half an element lower.
+    """
+
+    def __init__(self, hole: Wellbore, section: Section, stiffness: float, share: Array, held: Array) -> None:
+        super().__init__()
+        self.held, self.clamp = held, section.EI / share[0]
+        self.hole, self.radius, self.stiffness = hole, section.contact_radius, stiffness * share
+        self.weight = section.weight * share
+        self.owner = np.zeros(len(share), dtype=np.int64)
+        self.force = np.zeros((3, len(share)))
+
+    def find(self, nodes: Array) -> None:
+        """Update the wall's force on nodes (3, n + 1)."""
+        walls = self.hole.walls(nodes.T, self.owner)
+        distance = np.sqrt((walls[:, :3] ** 2).sum(axis=1))
+        depth = np.maximum(distance - walls[:, 3] + self.radius, 0.0)
+        self.force[:] = -(self.stiffness * depth / np.maximum(distance, 1e-12)) * walls[:, :3].T
+
+    def apply_forces(self, system: Any, time: Any = 0.0) -> None:
+        """Add wall and weight to the rod's external forces (called by PyElastica)."""
+        self.find(system.position_collection)
+        system.external_forces += self.force
+        system.external_forces[2] += self.weight
+
+    def apply_torques(self, system: Any, time: Any = 0.0) -> None:
+        """Add the clamp's moment to the first element, in its own frame (called by PyElastica)."""
+        directors = system.director_collection[:, :, 0]
+        system.external_torques[:, 0] += directors @ (self.clamp * np.cross(directors[2], self.held))
+
+
+class _Simulator(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing, elastica.Damping):
+    """What the rod needs of PyElastica's modules."""
+
+
+def _rod(points: Array, length: float, section: Section) -> Any:
+    """A rod of this section through points (n + 1, 3) [m], straight when unloaded."""
+    count = len(points) - 1
+    tangents = np.diff(points, axis=0)
+    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+    # Directors without twist from one element to the next.
+    directors, side = np.zeros((3, 3, count)), np.array([0.0, 1.0, 0.0])
+    for k, tangent in enumerate(tangents):
+        side = side - (side @ tangent) * tangent
+        side /= np.linalg.norm(side)
+        directors[:, :, k] = side, np.cross(tangent, side), tangent
+    rod = elastica.CosseratRod.straight_rod(
+        count,
+        start=points[0],
+        direction=tangents[0],
+        normal=directors[0, :, 0].copy(),
+        base_length=length,
+        base_radius=section.outer,
+        density=section.mass / (np.pi * section.outer**2),
+        youngs_modulus=section.EA / (np.pi * section.outer**2),
+        shear_modulus=section.shear / (np.pi * section.outer**2),
+        position=np.ascontiguousarray(points.T),
+        directors=directors,
+    )
+    # A hollow pipe.  Its rotary inertia is a rigid segment's about its middle: at rest it has no part, and the
+    # pipe's own would ask for steps a hundred times shorter.
+    element = length / count
+    for matrix, values in (
+        (rod.shear_matrix, (section.shear, section.shear, section.EA)),
+        (rod.bend_matrix, (section.EI, section.EI, section.GJ)),
+        (rod.mass_second_moment_of_inertia, (section.mass * element**3 / 12,) * 3),
+        (rod.inv_mass_second_moment_of_inertia, (12 / (section.mass * element**3),) * 3),
+    ):
+        matrix[:] = np.diag(values)[:, :, None]
+    return rod
+
+
+def rest(
+    hole: Wellbore,
+    section: Section,
+    top_md: float,
+    bit_md: float,
+    elements: int,
+    stiffness: float,
+    damping: float,
+    tolerance: float,
+    longest: float,
+) -> RestingRod:
+    """Let pipe from ``top_md`` to ``bit_md`` [m] come to rest, clamped along the hole at its top.
+
+    stiffness [N/m/m] of the wall; damping [1/s] of all motion; tolerance : largest force out of balance over the
+    weight; longest [s] : simulated time.  Raises UnsettledError.
+    """
+    length = bit_md - top_md
+    element = length / elements
+    points = hole.at(np.linspace(top_md, bit_md, elements + 1))[0]
+    share = np.full(elements + 1, element)
+    share[[0, -1]] *= 0.5
+    rod = _rod(points, length, section)
+    # The fastest modes of a chain of such elements: axial, and the element's turning against shear.
+    fastest = np.sqrt(max(4 * section.EA, 12 * section.shear + 4 * stiffness * element**2) / section.mass) / element
+    step = STEP_SHARE * 2 / float(fastest)
+
+    simulator = _Simulator()
+    simulator.append(rod)
+    simulator.constrain(rod).using(
+        elastica.GeneralConstraint,
+        constrained_position_idx=(0,),
+        translational_constraint_selector=np.array([True, True, True]),
+    )
+    around = hole, section, stiffness, share, hole.at(np.array([top_md]))[1][0]
+    simulator.add_forcing_to(rod).using(_Surroundings, *around)
+    simulator.dampen(rod).using(elastica.AnalyticalLinearDamper, uniform_damping_constant=damping, time_step=step)
+    simulator.finalize()
+    stepper, time = elastica.PositionVerlet(), np.float64(0.0)
+    weight, imbalance, steps = section.weight * length, np.inf, 0
+    probe = _Surroundings(*around)
+    while steps * step < longest:
+        for _ in range(LOOK):
+            time = stepper.step(simulator, time, np.float64(step))
+        steps += LOOK
+        before = rod.velocity_collection.copy()
+        time = stepper.step(simulator, time, np.float64(step))
+        steps += 1
+        # What is out of balance moves the nodes: inertia, and the damping that holds it back.
+        pull = rod.mass * ((rod.velocity_collection - before) / step + damping * rod.velocity_collection)
+        imbalance = float(np.abs(pull).max()) / weight
+        if imbalance < tolerance:
+            probe.find(rod.position_collection)
+            return RestingRod(rod.position_collection.T.copy(), probe.force.T.copy(), step, steps)
+        if not np.isfinite(imbalance):
+            break
+    raise UnsettledError(f"forces are out of balance by {imbalance:.2g} of the weight after {steps * step:.3g} s")

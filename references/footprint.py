@@ -1,0 +1,58 @@
+"""Memory and time that building a contact method takes, measured in a process of its own."""
+
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from fctd.case import Case
+from fctd.errors import InputError
+from references.base import build
+
+
+def footprint(name: str, case: Case, **options: Any) -> tuple[float, float]:
+    """Growth of resident memory [MB] and time [s] of building a method for a case, its imports done before.
+
+    Memory is nan where the system does not tell (it does on Linux).  Raises InputError as ``build`` does.
+    """
+    build(name, case, **options)  # what is wrong with it is told here
+    request = json.dumps({"name": name, "case": case.model_dump(mode="json"), "options": options})
+    done = subprocess.run(
+        [sys.executable, "-m", "references.footprint"],
+        input=request, capture_output=True, text=True, check=True, cwd=Path(__file__).parents[1],
+    )  # fmt: skip
+    memory, seconds = json.loads(done.stdout.splitlines()[-1])
+    return float(memory), float(seconds)
+
+
+def _resident() -> float:
+    """Resident memory of this process [MB]."""
+    status = Path("/proc/self/status")
+    if not status.exists():
+        return float("nan")
+    (line,) = (line for line in status.read_text().splitlines() if line.startswith("VmRSS"))
+    return int(line.split()[1]) / 1024
+
+
+def _measure() -> None:
+    """Build once for a short straight hole, so that everything is imported and compiled, then measure."""
+    request = json.load(sys.stdin)
+    case = Case.model_validate(request["case"])
+    short = case.model_copy(
+        update={"wellbore": case.wellbore.model_copy(update={"stations": ((0.0, 0.0, 0.0), (30.0, 0.0, 0.0))})}
+    )
+    small = build(request["name"], short)
+    before, began = _resident(), time.perf_counter()
+    method = build(request["name"], case, **request["options"])
+    seconds = time.perf_counter() - began
+    print(json.dumps([_resident() - before, seconds]))
+    del small, method
+
+
+if __name__ == "__main__":
+    try:
+        _measure()
+    except InputError as error:
+        sys.exit(str(error))

@@ -1,0 +1,68 @@
+"""The one stopwatch of all comparisons: interleaved rounds, medians, ratios, nothing of compiling or building.
+
+On a machine that others use too, times drift by factors within seconds.  Competitors therefore take turns within
+every round, in alternating order, and a ratio is the median of the ratios of the rounds.
+"""
+
+import os
+import platform
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from fctd.results import versions
+from references.base import METHODS, installed_version, method_class
+
+Action = Callable[[], object]
+
+
+def race(actions: Mapping[str, Action], counts: Mapping[str, int], rounds: int, baseline: str) -> pd.DataFrame:
+    """Time each action once a round, after one round that is not counted.
+
+    counts : how many units (points, segment-steps) a call of each action works through.
+    Returns a row per action: name, units, rounds, ns (median per unit), ns_low, ns_high (quartiles), and
+    ratio, ratio_low, ratio_high to the baseline, from the ratios within the rounds.
+    """
+    seconds = {name: np.empty(rounds) for name in actions}
+    order = list(actions)
+    for name in order:
+        actions[name]()
+    for k in range(rounds):
+        for name in order if k % 2 == 0 else reversed(order):
+            began = time.perf_counter()
+            actions[name]()
+            seconds[name][k] = time.perf_counter() - began
+    per_unit = {name: 1e9 * seconds[name] / counts[name] for name in order}
+    rows = []
+    for name in order:
+        low, middle, high = np.percentile(per_unit[name], [25, 50, 75])
+        ratio = np.percentile(per_unit[name] / per_unit[baseline], [25, 50, 75])
+        rows.append(
+            {
+                "name": name, "units": counts[name], "rounds": rounds,
+                "ns": middle, "ns_low": low, "ns_high": high,
+                "ratio": ratio[1], "ratio_low": ratio[0], "ratio_high": ratio[2],
+            }
+        )  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def machine() -> dict[str, str]:
+    """What timings depend on: processor, cores, and the versions of everything that was timed."""
+    found = {"processor": cpu_name(), "cores": str(os.cpu_count()), **versions()}
+    for name in METHODS:
+        found[method_class(name).distribution] = installed_version(name) or "not installed"
+    return found
+
+
+def cpu_name() -> str:
+    """The processor's own name where Linux tells it; elsewhere what Python knows."""
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        for line in cpuinfo.read_text().splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()

@@ -1,0 +1,190 @@
+"""What goes wrong when the libraries are asked in the obvious way, each measured on a short bent tube.
+
+Every function returns one number that would be 0 if the obvious way worked.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case import Case
+from fctd.wellbore import build_wellbore, find_contacts, hole_frame
+from references.base import method_class, need
+from references.tube_mesh import Tube, TubeOptions, build_tube
+
+Array = NDArray[np.float64]
+
+RADIUS = 0.051  # of the string [m]
+STATIONS = ((0.0, 0.0, 0.0), (40.0, 8.0, 0.0))  # a bend of 286 m radius
+HOLE = 0.3112  # diameter [m]
+
+
+class Scene(NamedTuple):
+    """The tube, touching points (n, 3) [m], their depth (n,) [m], normals and tangents of the hole (n, 3)."""
+
+    tube: Tube
+    points: Array
+    depth: Array
+    normal: Array
+    tangent: Array
+
+
+class Trap(NamedTuple):
+    """What was tried, the package it concerns, how to measure it, the unit, and what is done instead."""
+
+    tried: str
+    method: str
+    measure: Callable[[Any, Scene], float]
+    unit: str
+    instead: str
+
+
+def scene(count: int = 150) -> Scene:
+    """A bent tube and seeded points that press up to 10 mm into its wall."""
+    hole_spec = {
+        "stations": STATIONS, "geometry": "arcs",
+        "intervals": [{"to_md": STATIONS[-1][0], "diameter": HOLE, "friction": 0.2}],
+    }  # fmt: skip
+    pipe = {"name": "pipe", "outer_diameter": 2 * RADIUS, "inner_diameter": 0.06, "segments": 4}
+    case = Case.model_validate({"name": "bend", "wellbore": hole_spec, "string": {"components": [pipe]}})
+    hole = build_wellbore(case)
+    rng = np.random.default_rng(11)
+    axis, tangent = hole.at(rng.uniform(3.0, 37.0, count))
+    high, right = hole_frame(tangent)
+    angle = rng.uniform(0, 2 * np.pi, count)[:, None]
+    offset = 0.5 * HOLE - RADIUS + rng.uniform(0.003, 0.010, count)[:, None]
+    points = axis + offset * (np.cos(angle) * high + np.sin(angle) * right)
+    hits = find_contacts(hole, points, RADIUS)
+    return Scene(build_tube(case, TubeOptions()), points, hits.penetration, hits.normal, tangent)
+
+
+def _fcl_wall(fcl: Any, tube: Tube) -> Any:
+    vertices, faces = np.asarray(tube.mesh.vertices), np.asarray(tube.mesh.faces)
+    model = fcl.BVHModel()
+    model.beginModel(len(faces), len(vertices))
+    model.addSubModel(vertices, faces)
+    model.endModel()
+    return fcl.CollisionObject(model, fcl.Transform())
+
+
+def fcl_capsule(fcl: Any, at: Scene) -> float:
+    """Largest error [m] of the depth of a 2 m capsule along the hole; the bend itself accounts for 2 mm."""
+    wall = _fcl_wall(fcl, at.tube)
+    capsule = fcl.CollisionObject(fcl.Capsule(RADIUS, 2.0), fcl.Transform())
+    request, worst = fcl.CollisionRequest(num_max_contacts=1000, enable_contact=True), 0.0
+    for point, depth, normal, tangent in zip(at.points, at.depth, at.normal, at.tangent, strict=True):
+        capsule.setTransform(fcl.Transform(np.stack([normal, np.cross(tangent, normal), tangent], axis=1), point))
+        result = fcl.CollisionResult()
+        fcl.collide(wall, capsule, request, result)
+        deepest = max((abs(c.penetration_depth) for c in result.contacts), default=0.0)
+        worst = max(worst, abs(deepest - depth))
+    return worst
+
+
+def fcl_first_contact(fcl: Any, at: Scene) -> float:
+    """Largest error [mm] of the depth when only one contact is asked for, which is the default."""
+    wall, worst = _fcl_wall(fcl, at.tube), 0.0
+    sphere = fcl.CollisionObject(fcl.Sphere(RADIUS), fcl.Transform())
+    for point, depth in zip(at.points, at.depth, strict=True):
+        sphere.setTranslation(point)
+        result = fcl.CollisionResult()
+        fcl.collide(wall, sphere, fcl.CollisionRequest(enable_contact=True), result)
+        worst = max(worst, abs(-result.contacts[0].penetration_depth - depth))
+    return 1e3 * worst
+
+
+def fcl_penetrating_distance(fcl: Any, at: Scene) -> float:
+    """Share [%] of penetrating spheres that are given a distance that is not negative."""
+    wall = _fcl_wall(fcl, at.tube)
+    sphere, wrong = fcl.CollisionObject(fcl.Sphere(RADIUS), fcl.Transform()), 0
+    for point in at.points:
+        sphere.setTranslation(point)
+        wrong += fcl.distance(wall, sphere, fcl.DistanceRequest(), fcl.DistanceResult()) >= 0
+    return 100 * wrong / len(at.points)
+
+
+def coal_penetrating_distance(coal: Any, at: Scene) -> float:
+    """Largest error [mm] of the distance of a penetrating sphere."""
+    model = coal.BVHModelOBBRSS()
+    vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+    for vertex in np.asarray(at.tube.mesh.vertices):
+        vertices.append(vertex)
+    for a, b, c in np.asarray(at.tube.mesh.faces).tolist():
+        faces.append(coal.Triangle(a, b, c))
+    model.beginModel(len(faces), len(vertices))
+    model.addSubModel(vertices, faces)
+    model.endModel()
+    sphere, there, worst = coal.Sphere(RADIUS), coal.Transform3s(), 0.0
+    for point, depth in zip(at.points, at.depth, strict=True):
+        there.setTranslation(point)
+        found = coal.distance(
+            model, coal.Transform3s(), sphere, there, coal.DistanceRequest(True), coal.DistanceResult()
+        )
+        worst = max(worst, abs(-found - depth))
+    return 1e3 * worst
+
+
+def bullet_offset_sphere(bullet: Any, at: Scene) -> float:
+    """Share [%] of touching spheres that are missed when the sphere stands 5 m off its body's origin."""
+    client = bullet.connect(bullet.DIRECT)
+    try:
+        shape = bullet.createCollisionShape(
+            bullet.GEOM_MESH,
+            vertices=np.asarray(at.tube.mesh.vertices).tolist(),
+            indices=np.asarray(at.tube.mesh.faces).ravel().tolist(),
+            flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
+            physicsClientId=client,
+        )
+        wall = bullet.createMultiBody(0, shape, physicsClientId=client)
+        ball = bullet.createCollisionShape(
+            bullet.GEOM_SPHERE, radius=RADIUS, collisionFramePosition=[0, 0, 5], physicsClientId=client
+        )
+        sphere, seen = bullet.createMultiBody(1, ball, physicsClientId=client), 0
+        for place in at.points - [0, 0, 5]:
+            bullet.resetBasePositionAndOrientation(sphere, place, (0, 0, 0, 1), physicsClientId=client)
+            seen += bool(bullet.getClosestPoints(sphere, wall, 0.0, physicsClientId=client))
+        return 100 - 100 * seen / len(at.points)
+    finally:
+        bullet.disconnect(client)
+
+
+def mujoco_fixed_sphere(mujoco: Any, at: Scene) -> float:
+    """Share [%] of touching spheres that are missed when they are mocap bodies."""
+    vertices = " ".join(map(repr, np.asarray(at.tube.mesh.vertices).ravel().tolist()))
+    faces = " ".join(map(str, np.asarray(at.tube.mesh.faces).ravel().tolist()))
+    bodies = "".join(
+        f'<body mocap="true" pos="{x!r} {y!r} {z!r}"><geom size="{RADIUS}"/></body>' for x, y, z in at.points.tolist()
+    )
+    flex = f'<flex dim="2" body="world" radius="1e-6" vertex="{vertices}" element="{faces}"/>'
+    model = mujoco.MjModel.from_xml_string(
+        f'<mujoco><size memory="64M"/><worldbody>{bodies}</worldbody><deformable>{flex}</deformable></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_fwdPosition(model, data)
+    seen = len(set(data.contact.geom[:, 0].tolist())) if data.ncon else 0
+    return 100 - 100 * seen / len(at.points)
+
+
+TRAPS = (
+    Trap("a capsule along the string", "fcl", fcl_capsule, "m", "a sphere at the contact point"),
+    Trap("one contact asked for (the default)", "fcl", fcl_first_contact, "mm", "all contacts, the deepest taken"),
+    Trap("distance of a penetrating sphere", "fcl", fcl_penetrating_distance, "%", "distance of its centre"),
+    Trap("distance of a penetrating sphere", "coal", coal_penetrating_distance, "mm", "distance of its centre"),
+    Trap(
+        "a sphere off its body's origin",
+        "bullet",
+        bullet_offset_sphere,
+        "%",
+        "nothing: queries see it, steps may not",
+    ),
+    Trap("fixed (mocap) spheres", "mujoco", mujoco_fixed_sphere, "%", "bodies with free joints, set by hand"),
+)
+
+
+def measure(trap: Trap, at: Scene) -> float:
+    """The number of a trap; InputError where its package is not installed."""
+    method = method_class(trap.method)
+    modules = {"fcl": "fcl", "coal": "coal", "bullet": "pybullet", "mujoco": "mujoco"}
+    return trap.measure(need(modules[trap.method], method), at)

@@ -1,0 +1,187 @@
+"""The hole as a triangle mesh: a tube of flat facets between rings on the hole's own axis.
+
+Vertices lie on the wall, so facets lie inside it: by the sagitta r(1 − cos π/n) across and by κℓ²/8 along the
+outside of a bend.  Normals point out of the hole, both ends are open.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from fctd import units
+from fctd.case import Case
+from fctd.errors import InputError, Table
+from fctd.wellbore import RUN_OUT, Contacts, Wellbore, build_wellbore
+from references.base import import_or_tell
+
+Array = NDArray[np.float64]
+
+MOST_TRIANGLES = 20_000_000
+
+
+class TubeOptions(Table):
+    """Facets around the hole, and the largest distance between rings [m]."""
+
+    facets: Annotated[int, units.Whole(at_least=3)] = 48
+    ring_spacing: units.PositiveLength = 2.0
+
+
+@dataclass(frozen=True)
+class Tube:
+    """A mesh of a hole and the axis it was built on.
+
+    mesh : trimesh.Trimesh, faces in order of depth, 2 · facets between two rings.
+    md (k,) [m], centres (k, 3) [m] : the rings.  radius : largest hole radius [m].
+    """
+
+    mesh: Any
+    facets: int
+    ring_spacing: float
+    md: Array
+    centres: Array
+    radius: float
+
+    @cached_property
+    def _rings(self) -> cKDTree:
+        return cKDTree(self.centres)
+
+    @property
+    def triangles(self) -> int:
+        """Number of triangles."""
+        return len(self.mesh.faces)
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """Sagitta of facet and of ring spacing [m]; half the angle of a facet and of a ring spacing [rad]."""
+        half = np.pi / self.facets
+        sagitta = self.radius * (1 - np.cos(half)) + curvature * self.ring_spacing**2 / 8
+        return float(sagitta), float(np.hypot(half, 0.5 * curvature * self.ring_spacing))
+
+    def md_of(self, faces: NDArray[np.int64], points: Array) -> Array:
+        """Measured depths (n,) [m] of points (n, 3) beside faces (n,)."""
+        ring = np.clip(faces // (2 * self.facets), 0, len(self.md) - 2)
+        start, span = self.centres[ring], self.centres[ring + 1] - self.centres[ring]
+        share = np.sum((points - start) * span, axis=1) / np.sum(span * span, axis=1)
+        return np.asarray(self.md[ring] + share * (self.md[ring + 1] - self.md[ring]))
+
+    def md_near(self, points: Array) -> Array:
+        """Measured depths (n,) [m] of points (n, 3) of which no face is known."""
+        _, ring = self._rings.query(points)
+        before = np.clip(ring - 1, 0, None)
+        start = self.centres[ring]
+        ahead = np.sum((points - start) * (start - self.centres[before]), axis=1) >= 0
+        between = np.where(ahead, ring, before)
+        return self.md_of(2 * self.facets * between, points)
+
+    def contacts(self, points: Array, radii: Array, near: Array, faces: NDArray[np.int64]) -> Contacts:
+        """Contacts of points whose nearest points on the mesh (n, 3) and their faces (n,) are known."""
+        to_wall = near - points
+        distance = np.sqrt(np.sum(to_wall * to_wall, axis=1))
+        outwards = self.normals[faces]
+        side = np.where(np.sum(to_wall * outwards, axis=1) < 0, -1.0, 1.0)
+        reliable = distance > 1e-9
+        normal = np.where(
+            reliable[:, None], side[:, None] * to_wall / np.where(reliable, distance, 1.0)[:, None], outwards
+        )
+        return Contacts(radii - side * distance, normal, self.md_of(faces, points))
+
+    @cached_property
+    def normals(self) -> Array:
+        """Unit normals of the faces (m, 3), out of the hole."""
+        return np.asarray(self.mesh.face_normals)
+
+
+def build_tube(case: Case, options: TubeOptions) -> Tube:
+    """The mesh of a case's hole, from 10 m above the first station to 10 m beyond the last.
+
+    Raises InputError for a ring spacing longer than the hole, or for more triangles than fit into memory.
+    """
+    trimesh = import_or_tell("trimesh", "trimesh", "a triangle mesh")
+    hole = build_wellbore(case)
+    reach = hole.total_depth - hole.md[0]
+    if options.ring_spacing > reach:
+        raise InputError(
+            f"at most the length of the hole, {reach:g} m", key="ring_spacing", value=f"{options.ring_spacing:g} m"
+        )
+    md = _ring_depths(hole, options.ring_spacing)
+    if 2.0 * options.facets * len(md) > MOST_TRIANGLES:
+        raise InputError(
+            f"at most {MOST_TRIANGLES:.0g} triangles",
+            key="facets",
+            value=f"{2.0 * options.facets * len(md):.3g} triangles",
+        )
+    centres, across, aside = _ring_frames(hole, md)
+    knots = hole.wall_along()
+    radius = np.interp(md, knots[:, 0], knots[:, 1])
+    angle = 2 * np.pi * np.arange(options.facets) / options.facets
+    spokes = np.cos(angle)[:, None] * across[:, None] + np.sin(angle)[:, None] * aside[:, None]
+    vertices = (centres[:, None] + radius[:, None, None] * spokes).reshape(-1, 3)
+    mesh = trimesh.Trimesh(vertices, _faces(len(md), options.facets), process=False, validate=False)
+    tube = Tube(mesh, options.facets, options.ring_spacing, md, centres, float(radius.max()))
+    check_tube(tube)
+    return tube
+
+
+def check_tube(tube: Tube) -> None:
+    """Raise InputError unless the lateral surface is closed and its normals point out of the hole."""
+    mesh, n = tube.mesh, tube.facets
+    edges = np.sort(mesh.edges, axis=1)
+    _, counts = np.unique(edges, axis=0, return_counts=True)
+    open_edges = int((counts == 1).sum())
+    if open_edges != 2 * n or (counts > 2).any():
+        raise InputError(
+            f"a tube closed but for the {2 * n} edges of its two ends", key="mesh", value=f"{open_edges} open edges"
+        )
+    faces = np.arange(len(mesh.faces))
+    ring = faces // (2 * n)
+    middle = 0.5 * (tube.centres[ring] + tube.centres[ring + 1])
+    inwards = np.sum((mesh.triangles_center - middle) * tube.normals, axis=1) <= 0
+    if not mesh.is_winding_consistent or inwards.any():
+        raise InputError(
+            "normals that all point out of the hole", key="mesh", value=f"{int(inwards.sum())} that do not"
+        )
+
+
+def _ring_depths(hole: Wellbore, spacing: float) -> Array:
+    """Measured depths of the rings: ends of the pieces, changes of size, and enough between them."""
+    knots = hole.wall_along()[:, 0]
+    inside = knots[(knots > hole.md[0]) & (knots < hole.md[-1])]
+    breaks = np.union1d(hole.md, inside)
+    # Depths a rounding error apart would make triangles without area.
+    breaks = breaks[np.concatenate([[True], np.diff(breaks) > 1e-6])]
+    breaks = np.concatenate([[breaks[0] - RUN_OUT], breaks, [breaks[-1] + RUN_OUT]])
+    counts = np.maximum(np.ceil(np.diff(breaks) / spacing - 1e-9).astype(int), 1)
+    parts = [np.linspace(a, b, k, endpoint=False) for a, b, k in zip(breaks, breaks[1:], counts, strict=False)]
+    return np.append(np.concatenate(parts), breaks[-1])
+
+
+def _ring_frames(hole: Wellbore, md: Array) -> tuple[Array, Array, Array]:
+    """Centres and two unit vectors across the hole (k, 3), carried along the axis without twist."""
+    inside = np.clip(md, hole.md[0], hole.md[-1])
+    centres, tangents = hole.at(inside)
+    centres = centres + (md - inside)[:, None] * tangents
+    # Between straight pieces a ring stands halfway between their directions.
+    before = np.vstack([tangents[:1], np.diff(centres, axis=0)])
+    before /= np.linalg.norm(before, axis=1, keepdims=True)
+    after = np.vstack([before[1:], before[-1:]])
+    tangents = before + after
+    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+    across = np.empty_like(tangents)
+    last = np.eye(3)[np.argmin(np.abs(tangents[0]))]
+    for k, tangent in enumerate(tangents):
+        last = last - (last @ tangent) * tangent
+        last /= np.sqrt(last @ last)
+        across[k] = last
+    return centres, across, np.cross(tangents, across)
+
+
+def _faces(rings: int, facets: int) -> NDArray[np.int64]:
+    """Two triangles for each facet between two rings, in order of depth, wound so that normals point outwards."""
+    row = facets * np.arange(rings - 1)[:, None]
+    here = np.arange(facets)[None, :]
+    turn = (here + 1) % facets
+    a, b, c, d = row + here, row + turn, row + facets + here, row + facets + turn
+    return np.stack([np.stack([a, b, c], axis=-1), np.stack([b, d, c], axis=-1)], axis=2).reshape(-1, 3)

@@ -1,0 +1,99 @@
+"""The loop with each contact method, the trip of Fig. 13, and what facets do to the torque."""
+
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+
+def costs(tables: Tables) -> Canvas:
+    """A row for each loop, a dot for each number of segments, on a logarithmic axis."""
+    cost = tables["cost"]
+    loops = list(cost["loop"].unique())
+    canvas = style.figure(1.2 + 0.28 * len(loops))
+    ax = canvas.subplots()
+    for index, (segments, chosen) in enumerate(cost.groupby("segments")):
+        at = chosen.set_index("loop").reindex(loops)
+        height = np.arange(len(loops)) + 0.14 * (2 * index - 1)
+        ax.plot(at["ns_per_segment_step"], height, **style.dots(index), markersize=6, label=f"{segments} segments")
+    ax.set(xscale="log", xlabel="one segment and step, ns")
+    ax.set_yticks(range(len(loops)), loops)
+    ax.set_ylim(len(loops) - 0.5, -0.5)
+    style.legend_above(ax)
+    return canvas
+
+
+def figure_13(tables: Tables) -> Canvas:
+    """Σ rμF_n over depth: the engine's whole trip, both in the windows; below, the difference in the windows."""
+    windows, trip = tables["figure_13"], tables["trip"]
+    canvas = style.figure(4.6)
+    above, below = canvas.subplots(2, 1, sharex=True, height_ratios=[2, 1])
+    above.plot(
+        trip["bit_depth_m"],
+        trip["sum_r_mu_fn_N_m"] / 1e3,
+        color=style.QUIET,
+        linewidth=1.2,
+        label="FCTD, the whole trip",
+    )
+    above.plot(windows["bit_depth_m"], windows["FCTD_kN_m"], **style.dots(0), markersize=8, label="FCTD, windows")
+    above.plot(
+        windows["bit_depth_m"], windows["fcl_kN_m"], **style.dots(1, filled=False), markersize=5, label="FCL, windows"
+    )
+    above.set_ylabel("Σ r μ F_n, kN·m")
+    below.plot(windows["bit_depth_m"], windows["difference_percent"], **style.dots(1, filled=False))
+    below.axhline(0, color=style.QUIET, linewidth=1)
+    below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %")
+    below.set_ylim(*_around_zero(windows["difference_percent"].abs().max()))
+    style.legend_above(above, columns=3)
+    return canvas
+
+
+def _around_zero(largest: float) -> tuple[float, float]:
+    return -1.5 * largest, 1.5 * largest
+
+
+def facets(tables: Tables) -> Canvas:
+    """The difference of contact force times radius between mesh and cylinders, over facets, with the wedge."""
+    meshes = tables["facets"].dropna(subset="facets")
+    canvas = style.figure(3.4)
+    ax = canvas.subplots()
+    ax.plot(
+        meshes["facets"], meshes["wedge_percent"], color=style.QUIET, linewidth=3.5, alpha=0.6, label="1/cos(π/n) − 1"
+    )
+    ax.plot(
+        meshes["facets"],
+        meshes["sum_difference_percent"].abs(),
+        **style.line(1),
+        marker="s",
+        label="|mesh − cylinders|",
+    )
+    ax.set(xscale="log", yscale="log", xlabel="facets around the hole, number", ylabel="difference of Σ r μ F_n, %")
+    style.plain_log_ticks(ax.xaxis)
+    style.plain_log_ticks(ax.yaxis)
+    ax.set_xticks(meshes["facets"].to_list())
+    ax.legend()
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "costs",
+        "What one segment costs in one step of the same loop with each contact method, for 60 and 170 segments. "
+        "Compiled loops need no call from Python; the row that asks and finds nothing is what such calls cost.",
+        costs,
+    ),
+    Figure(
+        "figure_13",
+        "The paper's well tripped into down to 2250 m (its Fig. 13), law paper. FCL contact was run in windows of "
+        "some metres only; the whole trip with it is an extrapolation in the table of times. Below: the difference "
+        "of the two contact methods over the same windows.",
+        figure_13,
+    ),
+    Figure(
+        "facets",
+        "Why a mesh gives more torque: a string that rests in the corner between two facets is held by both of them. "
+        "The wide grey line is the excess of two facets at an angle of 2π/n over a round wall; a string on the "
+        "flat of a facet has none.",
+        facets,
+    ),
+]

@@ -1,0 +1,41 @@
+"""How the stiff string becomes the soft one."""
+
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+ALLOWED = 0.2  # percent
+
+
+def ladder(tables: Tables) -> Canvas:
+    """Largest difference of each rung, a line an operation."""
+    table = tables["ladder"]
+    canvas = style.figure(3.4)
+    axes = canvas.subplots(1, 2, sharey=True)
+    rungs = list(table["string"].unique())
+    for ax, column, label in zip(
+        axes,
+        ("hookload_off_percent", "torque_off_percent"),
+        ("difference in hook load, %", "difference in torque, %"),
+        strict=True,
+    ):
+        for index, operation in enumerate(table["operation"].unique()):
+            of_kind = table[table["operation"] == operation].set_index("string")[column]
+            heights = [rungs.index(rung) for rung in of_kind.index]
+            ax.plot(of_kind, heights, **style.dots(index), markersize=7, label=operation)
+        ax.axvline(ALLOWED, color=style.QUIET, linewidth=1, linestyle=(0, (4, 2)), label="bound of the last rung")
+        ax.set(xscale="log", xlabel=label)
+    axes[0].set_yticks(range(len(rungs)), rungs)
+    axes[0].set_ylim(len(rungs) - 0.5, -0.5)
+    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=4)
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "ladder",
+        "Largest difference between the stiff string and the closed forms of the soft string, over five wells and "
+        "two laws, as clearance and then bending stiffness are taken away.",
+        ladder,
+    )
+]

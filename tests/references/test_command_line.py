@@ -1,0 +1,86 @@
+"""``python -m references`` as a user meets it: the list, a run, messages, exit codes."""
+
+from pathlib import Path
+
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+
+from fctd.cli import run
+from references import __main__ as command
+from references import base
+
+CASE = Path(__file__).parents[2] / "validation" / "cases" / "curved_chain.toml"
+SHORT = ("--set", "operations[0].duration=1 s", "--set", "operations[0].ramp_time=1 s", "--quiet")
+
+
+def call(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
+    """Exit code of ``python -m references ARGUMENTS``."""
+    monkeypatch.setattr("sys.argv", ["references", *map(str, arguments)])
+    with pytest.raises(SystemExit) as stopped:
+        run(command.app)
+    return int(stopped.value.code or 0)
+
+
+def test_the_list_names_every_method(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(monkeypatch, "list") == 0
+    printed = capsys.readouterr().out
+    for name in base.METHODS:
+        assert name in printed
+
+
+def test_simulate_writes_what_the_engine_writes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arguments = ("--contact", "cylinders", "--option", "cylinder_length=1 m", "--friction", "0.3", "--csv")
+    assert call(monkeypatch, "simulate", CASE, *arguments, *SHORT, "--out", tmp_path) == 0
+    assert "60 segments" in capsys.readouterr().out
+    assert len(pd.read_csv(tmp_path / "history.csv")) == 1
+    metadata = pq.read_schema(tmp_path / "history.parquet").metadata
+    assert b'"contact": "cylinders"' in metadata[b"run"]
+    assert b'"friction":0.3' in metadata[b"case"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (("--contact", "fcll"), "fcl"),
+        (("--contact", "cylinders", "--option", "facets=4"), "facets"),
+        (("--contact", "cylinders", "--option", "cylinder_length"), "KEY=VALUE"),
+        (("--contact", "arcs", "--set", "wellbore.survey_method=average_angle"), "geometry"),
+        (("--contact", "cylinders", "--set", "contact.enabled=false"), "contact.enabled"),
+        (("--contact", "cylinders", "--set", "wellbore.overlap=5 m"), "overlap"),
+        ((), "--contact"),
+    ],
+)
+def test_bad_input_is_one_message_and_exit_code_2(
+    arguments: tuple[str, ...],
+    expected: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert call(monkeypatch, "simulate", CASE, *arguments, *SHORT, "--out", tmp_path) == 2
+    message = capsys.readouterr().err
+    assert expected in message
+    assert "Traceback" not in message
+
+
+def test_a_missing_package_is_exit_code_2_and_stands_in_the_list(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    method = base.method_class("fcl")
+    monkeypatch.setattr(method, "distribution", "no-such-package")
+    assert call(monkeypatch, "list") == 0
+    assert "not installed" in capsys.readouterr().out
+    monkeypatch.setitem(__import__("sys").modules, "fcl", None)
+    assert call(monkeypatch, "simulate", CASE, "--contact", "fcl", *SHORT, "--out", tmp_path) == 2
+    assert "no-such-package, which is not installed" in capsys.readouterr().err
+
+
+def test_interrupted_is_exit_code_130(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def stopped(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "simulate_file", stopped)
+    assert call(monkeypatch, "simulate", CASE, "--contact", "cylinders", "--out", tmp_path) == 130

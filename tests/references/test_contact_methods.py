@@ -1,0 +1,187 @@
+"""One contract for every contact method: the exact tube within the method's own geometric error."""
+
+import numpy as np
+import pytest
+
+from fctd.errors import InputError
+from fctd.wellbore import build_wellbore, find_contacts
+from references import base
+
+from .wells import HOLE, RADIUS, REGIONS, bent_case, beside_the_wall
+
+CASE = bent_case()
+# Mesh methods are asked twice, so that an error that ignores the resolution shows.
+MESHES = ("fcl", "coal", "bullet", "mujoco", "trimesh")
+SETTINGS = [("cylinders", {}), ("cylinders", {"cylinder_length": "6 m"}), ("arcs", {}), ("for_loop", {})]
+SETTINGS += [
+    (name, {"facets": facets, "ring_spacing": ring}) for name in MESHES for facets, ring in ((24, 3.0), (96, 1.0))
+]
+SETTINGS += [(name, {"query": "collide"}) for name in ("fcl", "coal")]
+IDS = ["-".join([name, *(f"{value}" for value in options.values())]) for name, options in SETTINGS]
+BUILT: dict[str, base.ContactMethod] = {}
+
+
+@pytest.fixture(params=zip(IDS, SETTINGS, strict=True), ids=IDS)
+def method(request: pytest.FixtureRequest) -> base.ContactMethod:
+    """A method built for the case; skipped by name where its package is missing."""
+    key, (name, options) = request.param
+    if base.installed_version(name) is None:
+        pytest.skip(f"package {base.method_class(name).distribution} is not installed")
+    if key not in BUILT:
+        BUILT[key] = base.build(name, CASE, **options)
+    return BUILT[key]
+
+
+def truth(points):
+    return find_contacts(build_wellbore(CASE), points, RADIUS)
+
+
+def curvature(region):
+    """Of the arcs of the hole itself [1/m]."""
+    hole = build_wellbore(CASE)
+    md = np.linspace(*REGIONS[region], 500)
+    turn = np.linalg.norm(np.diff(hole.at(md)[1], axis=0), axis=1)
+    return float(turn.max() / (md[1] - md[0]))
+
+
+@pytest.mark.parametrize("region", REGIONS)
+def test_the_exact_tube_within_the_geometric_error(method: base.ContactMethod, region: str) -> None:
+    points, offset = beside_the_wall(region, 120)
+    exact = truth(points)
+    hits = method.query(points, np.full(len(points), RADIUS))
+    depth, turn = method.error_bound(curvature(region))
+    # A bend between chords is cut once along the axis and once, for mesh rings and overlaps, at its ends.
+    depth, rounding = 1.02 * depth, 1e-6
+
+    touching = hits.penetration > 0
+    assert (touching | (exact.penetration <= depth + rounding)).all(), "a contact was missed"
+    assert (~touching | (exact.penetration >= -depth - rounding)).all(), "a false contact"
+    known = np.isfinite(hits.penetration) if method.gives_clearance else touching
+    assert known.sum() > 40
+    error = hits.penetration - exact.penetration
+    assert np.abs(error[known]).max() <= depth + rounding
+    direction = np.arccos(np.clip(np.sum(hits.normal * exact.normal, axis=1)[known], -1, 1))
+    # What shifts the wall sideways turns the direction by the shift over the distance from the axis.
+    assert (direction <= turn + (depth + rounding) / offset[known] + 1e-6).all()
+    assert np.allclose(np.linalg.norm(hits.normal[known], axis=1), 1, atol=1e-9)
+    shift = curvature(region) * offset.max() * 3.0 + 1e-3
+    assert np.abs(hits.md - exact.md)[known].max() <= shift
+
+
+def test_contacts_only_say_nothing_of_a_clear_point(method: base.ContactMethod) -> None:
+    points, _ = beside_the_wall("build", 60)
+    hits = method.query(points, np.full(60, RADIUS))
+    clear = hits.penetration <= 0
+    assert clear.any()
+    for part in hits:
+        assert np.isfinite(part[~clear]).all()
+    if method.gives_clearance:
+        assert np.isfinite(hits.penetration[clear]).all()
+    else:
+        assert (hits.penetration[clear] == -np.inf).all()
+        assert np.isnan(hits.normal[clear]).all()
+        assert np.isnan(hits.md[clear]).all()
+
+
+def test_points_beyond_the_wall_are_deeper_than_their_radius(method: base.ContactMethod) -> None:
+    """A distance has no sign of its own.  Methods that report contacts alone see the overlap of two surfaces: for
+    them a sphere is deepest while its centre is still inside."""
+    points, _ = beside_the_wall("build", 30)
+    exact = truth(points)
+    wanted = np.maximum(0.08, 0.08 + exact.penetration) if method.gives_clearance else np.full(30, 0.7 * RADIUS)
+    beyond = points + (wanted - exact.penetration)[:, None] * exact.normal
+    hits = method.query(beyond, np.full(30, RADIUS))
+    depth, _ = method.error_bound(curvature("build"))
+    assert np.abs(hits.penetration - wanted).max() <= 1.02 * depth + 1e-6
+    assert (np.sum(hits.normal * exact.normal, axis=1) > 0.9).all()
+
+
+@pytest.mark.parametrize("name", ["cylinders", "arcs"])
+def test_points_that_jump_in_a_well_past_90_degrees_are_looked_up_anew(name: str) -> None:
+    """The slab of a far piece holds them too, and a walk from a piece they remember would stop there."""
+    far = bent_case(
+        stations=[[0, 0, 0], [450, 120, 0], [1000, 120, 0]],
+        intervals=[{"to_md": 1000, "diameter": 2 * HOLE, "friction": 0.2}],
+    )
+    method, hole = base.build(name, far), build_wellbore(far)
+    radii = np.full(40, RADIUS)
+    for top, bottom in ((5.0, 200.0), (700.0, 990.0), (20.0, 400.0)):
+        md = np.linspace(top, bottom, 40)
+        hits = method.query(hole.at(md)[0], radii)
+        np.testing.assert_allclose(hits.md, md, atol=0.01)
+
+
+def test_each_point_has_its_own_radius(method: base.ContactMethod) -> None:
+    points, _ = beside_the_wall("turn", 60)
+    radii = np.where(np.arange(60) % 2, RADIUS, RADIUS + 0.02)
+    hits, same = method.query(points, radii), method.query(points, np.full(60, RADIUS + 0.02))
+    wide = radii > RADIUS
+    np.testing.assert_allclose(hits.penetration[wide], same.penetration[wide], atol=1e-9)
+    both = (hits.penetration > 0) & (same.penetration > 0) & ~wide
+    assert both.sum() > 5
+    np.testing.assert_allclose((same.penetration - hits.penetration)[both], 0.02, atol=2e-6)
+
+
+def test_answers_do_not_depend_on_what_was_asked_before(method: base.ContactMethod) -> None:
+    points, _ = beside_the_wall("build", 50)
+    others, _ = beside_the_wall("turn", 50, seed=8)
+    radii = np.full(50, RADIUS)
+    first = method.query(points, radii)
+    method.query(others, radii)
+    for before, after in zip(first, method.query(points, radii), strict=True):
+        np.testing.assert_allclose(after, before, atol=1e-12)
+
+
+def test_one_point_and_points_of_another_number(method: base.ContactMethod) -> None:
+    points, _ = beside_the_wall("build", 70)
+    many = method.query(points, np.full(70, RADIUS))
+    one = method.query(points[3:4], np.full(1, RADIUS))
+    assert one.penetration.shape == (1,)
+    assert one.normal.shape == (1, 3)
+    np.testing.assert_allclose(one.penetration[0], many.penetration[3], atol=1e-12)
+
+
+@pytest.mark.parametrize("name", base.METHODS)
+def test_every_name_of_the_registry_is_the_class_it_says(name: str) -> None:
+    assert base.method_class(name).name == name
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "expected"),
+    [
+        ("fcll", {}, "fcl"),
+        ("fcl", {"facets": 0}, "fcl.facets = 0: expected a whole number at least 3"),
+        ("coal", {"facets": 2}, "coal.facets = 2"),
+        ("bullet", {"ring_spacing": "0 m"}, "bullet.ring_spacing"),
+        (
+            "trimesh",
+            {"ring_spacing": "300 m"},
+            'ring_spacing = "300 m": expected at most the length of the hole, 240 m',
+        ),
+        ("bullet", {"facets": 400, "ring_spacing": 0.5}, "at most the 174762 triangles that bullet takes"),
+        ("fcl", {"query": "guess"}, "fcl.query"),
+        ("fcl", {"ring": 1}, "ring_spacing"),
+        ("arcs", {"facets": 4}, "facets"),
+        ("cylinders", {"cylinder_length": "0.1 m"}, "overlap"),
+    ],
+)
+def test_bad_options_are_told(name: str, options: dict, expected: str) -> None:
+    if name in base.METHODS and base.installed_version(name) is None:
+        pytest.skip(f"package {base.method_class(name).distribution} is not installed")
+    with pytest.raises(InputError) as told:
+        base.build(name, CASE, **options)
+    assert expected in str(told.value)
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_a_missing_package_is_named(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    method = base.method_class(name)
+
+    def absent(module: str) -> object:
+        raise ModuleNotFoundError(f"No module named {module!r}", name=module)
+
+    monkeypatch.setattr(base.importlib, "import_module", absent)
+    with pytest.raises(InputError) as told:
+        base.need("some_module", method)
+    assert method.distribution in str(told.value)
+    assert "not installed" in str(told.value)

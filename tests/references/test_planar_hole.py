@@ -1,0 +1,47 @@
+"""The exact planar bend."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fctd import survey
+from references.planar_hole import PlanarHole
+
+STATIONS = np.array([[0, 0, 0], [32, 0, 0], [50, 36, 0], [70, 20, 0], [90, 80, 0]], dtype=float)
+
+
+@given(st.floats(1.0, 88.0), st.floats(-0.5, 0.5))
+def test_a_point_beside_the_axis_is_found_again(md, offset):
+    hole = PlanarHole(STATIONS)
+    (point,), (tangent,) = survey.along_courses(survey.minimum_curvature(survey.to_radians(STATIONS)), np.array([md]))
+    along = np.array([tangent[2], tangent[0]])
+    normal = np.array([-along[1], along[0]])
+    axis = hole.axis(np.array([point[2], point[0]]) + offset * normal)
+    assert axis.offset == pytest.approx(offset, abs=1e-9)
+    assert axis.md == pytest.approx(md, abs=1e-8)
+    assert axis.tangent == pytest.approx(along, abs=1e-9)
+    assert axis.normal == pytest.approx(normal, abs=1e-9)
+
+
+@given(st.floats(33.0, 49.0), st.floats(-0.3, 0.3))
+def test_normal_and_turn_are_derivatives_of_the_offset(md, offset):
+    hole, h = PlanarHole(STATIONS), 1e-6
+    angle = np.radians(2 * (md - 32))
+    radius = 90 / np.pi
+    point = np.array([32 + (radius - offset) * np.sin(angle), radius - (radius - offset) * np.cos(angle)])
+    here = hole.axis(point)
+    steps = h * np.eye(2)
+    gradient = [(hole.axis(point + e).offset - hole.axis(point - e).offset) / (2 * h) for e in steps]
+    assert gradient == pytest.approx(here.normal, abs=1e-8)
+    turned = (hole.axis(point + h * here.tangent).tangent - hole.axis(point - h * here.tangent).tangent) / (2 * h)
+    assert turned == pytest.approx(here.turn * here.normal, abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("stations", "words"),
+    [([[0, 0, 0], [30, 10, 0], [60, 20, 30]], "one azimuth"), ([[0, 0, 0], [100, 95, 0]], "90 deg")],
+)
+def test_other_holes_are_refused(stations, words):
+    with pytest.raises(ValueError, match=words):
+        PlanarHole(np.array(stations, dtype=float))

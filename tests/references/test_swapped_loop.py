@@ -1,0 +1,110 @@
+"""Another contact method in the engine's loop: the same run where it is the same wall, and a fault that stops one."""
+
+import numpy as np
+import pytest
+
+from fctd import Case, InputError, simulate, state
+from fctd.run import prepare
+from fctd.wellbore import Contacts, build_wellbore
+from references import base
+from references.for_loop import advance_with_for_loop
+
+from ..cases import make_case, pipe, rotation
+
+STATIONS = [[0, 0, 0], [100, 0, 0], [400, 60, 30], [600, 60, 30]]
+SIZES = [{"to_md": 350, "diameter": 0.24, "friction": 0.3}, {"to_md": 600, "diameter": 0.2159, "friction": 0.2}]
+
+
+def turning(geometry: str = "cylinders", **sections) -> Case:
+    return make_case(
+        STATIONS,
+        [pipe(500, 25)],
+        [rotation(500, 3, ramp=1)],
+        wellbore={"geometry": geometry, "intervals": SIZES},
+        record={"interval": 0.5},
+        **sections,
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "geometry"), [("cylinders", "cylinders"), ("arcs", "arcs"), ("for_loop", "cylinders")]
+)
+@pytest.mark.parametrize("law", ["coulomb", "paper"])
+def test_the_same_wall_gives_the_same_run(name: str, geometry: str, law: str) -> None:
+    """Two sizes of hole and of friction, too: what the method does not know is taken from the case."""
+    case = turning(geometry, contact={"friction_law": law})
+    own, swapped = simulate(case), simulate(case, contact=base.build(name, case))
+    assert swapped.status == "completed"
+    assert swapped.run["contact"] == name
+    assert own.run["contact"] == geometry
+    assert swapped.run["step_s"] == own.run["step_s"]
+    scale = own.history.select_dtypes("number").abs().max()
+    # What is left is the different start: the swapped run settles a little longer.
+    difference = (own.history.select_dtypes("number") - swapped.history.select_dtypes("number")).abs().max()
+    assert (difference <= 2e-3 * scale + 1e-9).all()
+    assert own.history["contact_count"].max() > 5
+
+
+def test_the_compiled_for_loop_is_the_engine_where_no_slab_is_crossed_twice() -> None:
+    case = turning()
+    (run, stretches), (loop, _) = prepare(case), prepare(case)
+    motion, steps = stretches[0].motion, 400
+    run.advance(motion, steps * run.step)
+    advance_with_for_loop(
+        loop.S, loop.top, loop.segments, loop.hole.pieces, loop.laws, motion, loop.pipe, loop.step, steps
+    )
+    for offset in (state.X, state.Y, state.Z):
+        places = (state.row(of.S, offset, run.segments) for of in (loop, run))
+        np.testing.assert_allclose(*places, atol=1e-9)
+    assert state.row(loop.S, state.SUM_NORMAL, run.segments).sum() > 0
+
+
+def test_fcl_turns_the_string_like_the_engine() -> None:
+    pytest.importorskip("fcl")
+    case = turning()
+    own = simulate(case).history.iloc[-1]
+    mesh = simulate(case, contact=base.build("fcl", case, facets=96)).history.iloc[-1]
+    assert mesh["total_contact_force_N"] == pytest.approx(own["total_contact_force_N"], rel=0.02)
+    assert mesh["surface_torque_N_m"] == pytest.approx(own["surface_torque_N_m"], rel=0.1)
+
+
+class Faulty:
+    """Cylinders whose answer is spoiled after some queries."""
+
+    name = "faulty"
+
+    def __init__(self, case: Case, spoil) -> None:
+        self.good, self.spoil, self.asked = base.build("cylinders", case), spoil, 0
+
+    def query(self, points, radii) -> Contacts:
+        self.asked += 1
+        hits = self.good.query(points, radii)
+        return self.spoil(hits) if self.asked > 1000 else hits
+
+
+def test_a_method_that_answers_nonsense_stops_the_run_and_keeps_its_rows() -> None:
+    case = turning()
+
+    nowhere = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)))
+    result = simulate(case, contact=nowhere)
+    assert result.status == "unstable"
+    assert "not finite" in result.message
+    assert len(result.history) > 0
+
+
+def test_an_answer_of_the_wrong_shape_is_an_error() -> None:
+    case = turning()
+    with pytest.raises(ValueError, match=r"faulty.*25 points"):
+        simulate(case, contact=Faulty(case, lambda hits: hits._replace(md=hits.md[:-1])))
+
+
+def test_no_wall_and_another_contact_method_exclude_each_other() -> None:
+    case = turning(contact={"enabled": False})
+    with pytest.raises(InputError, match=r"contact\.enabled"):
+        simulate(case, contact=base.build("cylinders", case))
+
+
+def test_the_wall_along_the_hole_leads_from_one_size_to_the_next() -> None:
+    wall = build_wellbore(turning()).wall_along()
+    np.testing.assert_allclose(wall[:, :2], [[350, 0.12], [350.2, 0.10795]])
+    np.testing.assert_allclose(wall[:, 3], [0.3, 0.2])

@@ -1,0 +1,97 @@
+"""The tube: closed but for its ends, normals out of the hole, vertices on the wall, errors of second order."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from fctd.errors import InputError
+from fctd.wellbore import RUN_OUT, build_wellbore, find_contacts
+
+from .wells import HOLE, bent_case
+
+trimesh = pytest.importorskip("trimesh")
+from references.tube_mesh import TubeOptions, build_tube, check_tube  # noqa: E402
+
+CASE = bent_case()
+
+
+def tube_of(facets: int = 24, ring_spacing: float = 3.0, **wellbore):
+    return build_tube(bent_case(**wellbore), TubeOptions(facets=facets, ring_spacing=ring_spacing))
+
+
+def test_lateral_surface_is_closed_and_normals_point_out_of_the_hole() -> None:
+    tube = tube_of()
+    outline = tube.mesh.outline()
+    assert len(outline.entities) == 2
+    assert tube.mesh.is_winding_consistent
+    hole = build_wellbore(CASE)
+    centres = tube.mesh.triangles_center
+    inside = (centres[:, 2] > 0) & (tube.md_near(centres) < 240)
+    outwards = find_contacts(hole, centres[inside], 0.0).normal
+    assert (np.sum(outwards * tube.normals[inside], axis=1) > 0.97).all()
+
+
+def test_vertices_lie_on_the_wall_of_the_exact_hole() -> None:
+    tube = tube_of()
+    vertices = np.asarray(tube.mesh.vertices)
+    depth = find_contacts(build_wellbore(CASE), vertices, 0.0).penetration
+    # A ring where two bends meet stands halfway between their chords, tilted by at most κℓ/2.
+    tilt = np.radians(12) / 30 * 3.0 / 2
+    assert np.abs(depth).max() < 1.1 * HOLE * tilt**2 / 2
+    assert tube.md[[0, -1]] == pytest.approx([-RUN_OUT, 240 + RUN_OUT])
+    assert np.diff(tube.md).max() <= 3.0 + 1e-9
+
+
+def test_facets_are_wrong_by_the_sagitta_and_by_the_chord() -> None:
+    """Second order in both; the numbers of a 311 mm hole are 1.3 mm with 24 facets and 0.08 mm with 96."""
+    for facets, sagitta in ((24, 1.33e-3), (96, 0.083e-3)):
+        tube = dataclasses.replace(tube_of(facets), radius=0.1556)
+        assert tube.error_bound(0.0)[0] == pytest.approx(sagitta, rel=0.01)
+    hole = build_wellbore(CASE)
+
+    def worst(facets: int, ring: float) -> float:
+        tube = tube_of(facets, ring)
+        centres = tube.mesh.triangles_center
+        md = tube.md_near(centres)
+        edges = np.asarray(tube.mesh.vertices)[np.asarray(tube.mesh.edges_unique)].mean(axis=1)
+        bend = (tube.md_near(edges) > 62) & (tube.md_near(edges) < 118)
+        assert np.isfinite(md).all()
+        return float(np.abs(find_contacts(hole, edges[bend], 0.0).penetration).max())
+
+    assert worst(48, 0.1) == pytest.approx(HOLE * (1 - np.cos(np.pi / 48)), rel=0.1)
+    coarse, fine = worst(720, 6.0), worst(720, 3.0)
+    assert coarse / fine == pytest.approx(4, rel=0.1)
+
+
+def test_a_change_of_size_has_rings_of_its_own() -> None:
+    sizes = [{"to_md": 100, "diameter": 0.3, "friction": 0.2}, {"to_md": 240, "diameter": 0.2, "friction": 0.2}]
+    tube = tube_of(intervals=sizes)
+    assert {100.0, 100.2} <= set(np.round(tube.md, 9))
+    vertices = np.asarray(tube.mesh.vertices).reshape(len(tube.md), 24, 3)
+    radius = np.linalg.norm(vertices - tube.centres[:, None], axis=2)
+    np.testing.assert_allclose(radius[tube.md <= 100], 0.15, rtol=1e-9)
+    np.testing.assert_allclose(radius[tube.md >= 100.2], 0.1, rtol=1e-9)
+
+
+def test_a_missing_triangle_and_a_turned_one_are_found() -> None:
+    tube = tube_of()
+    check_tube(tube)
+    faces = np.asarray(tube.mesh.faces)
+    vertices = np.asarray(tube.mesh.vertices)
+    holed = trimesh.Trimesh(vertices, np.delete(faces, 500, axis=0), process=False)
+    with pytest.raises(InputError, match="51 open edges"):
+        check_tube(dataclasses.replace(tube, mesh=holed))
+    turned = faces.copy()
+    turned[500] = turned[500][::-1]
+    with pytest.raises(InputError, match="point out of the hole"):
+        check_tube(dataclasses.replace(tube, mesh=trimesh.Trimesh(vertices, turned, process=False)))
+    with pytest.raises(InputError, match="point out of the hole"):
+        check_tube(dataclasses.replace(tube, mesh=trimesh.Trimesh(vertices, faces[:, ::-1], process=False)))
+
+
+def test_spacing_longer_than_the_hole_and_too_many_triangles() -> None:
+    with pytest.raises(InputError, match="at most the length of the hole, 240 m"):
+        tube_of(ring_spacing=241.0)
+    with pytest.raises(InputError, match="triangles"):
+        tube_of(facets=100_000, ring_spacing=0.5)

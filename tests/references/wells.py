@@ -1,0 +1,32 @@
+"""The hole that every contact method is asked about, and points beside its wall."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case import Case
+from fctd.wellbore import build_wellbore, hole_frame
+
+from ..cases import make_case, pipe
+
+RADIUS = 0.05  # contact radius [m]
+HOLE = 0.10795  # hole radius of make_case [m]
+# Vertical, a build of 12°/30 m in a plane, and a turn of 8°/30 m at constant inclination (a course in space).
+STATIONS = [[0, 0, 0], [60, 0, 0], [90, 12, 0], [120, 24, 0], [150, 24, 20], [180, 24, 40], [240, 24, 40]]
+REGIONS = {"straight": (5.0, 55.0), "build": (62.0, 118.0), "turn": (122.0, 178.0)}
+
+
+def bent_case(**wellbore: Any) -> Case:
+    """The hole above, of exact arcs unless told otherwise."""
+    return make_case(STATIONS, [pipe(200, 20)], wellbore={"geometry": "arcs", "cylinder_length": 2.0} | wellbore)
+
+
+def beside_the_wall(region: str, count: int, seed: int = 7) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Points (n, 3) [m] within 15 mm of touching, from exact arcs, and their distance from the axis (n,) [m]."""
+    rng = np.random.default_rng(seed)
+    axis, tangent = build_wellbore(bent_case()).at(rng.uniform(*REGIONS[region], count))
+    high, right = hole_frame(tangent)
+    angle = rng.uniform(0, 2 * np.pi, count)[:, None]
+    offset = HOLE - RADIUS + rng.uniform(-0.015, 0.015, count)
+    return axis + offset[:, None] * (np.cos(angle) * high + np.sin(angle) * right), offset

@@ -1,0 +1,231 @@
+"""The steady solver: balances, statuses, convergence with segment count, bad input."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import fctd
+from fctd import Case, InputError, equilibrium
+from fctd.block_thomas import solve_with_pivoting
+from fctd.case import KINDS
+from fctd.continuation import hold_back, take_step
+from fctd.equilibrium import Solver
+from fctd.first_guess import MD, guess
+from fctd.operations import steady_rates
+from fctd.tangent import Steady, assemble
+from tests.cases import make_case, pipe
+from validation import beam_in_hole
+from validation.study import Context
+
+BUILD = [[0, 0, 0], [400, 0, 0], [800, 60, 0], [1300, 60, 0]]
+
+
+def build_case(segments: int = 52, **more: Any) -> Case:
+    hole = {"geometry": "arcs", "stiffness": None, "stiffness_per_length": 1e6} | more.pop("wellbore", {})
+    return make_case(BUILD, [pipe(1300, segments)], mud={"density": 1200.0}, wellbore=hole, **more)
+
+
+@st.composite
+def wells(draw: st.DrawFn) -> list[list[float]]:
+    """Five to eight stations, vertical at first, up to 2.4 deg/10 m in inclination, any azimuth through north."""
+    stations = [[0.0, 0.0, 350.0], [200.0, 0.0, 350.0]]
+    for _ in range(draw(st.integers(3, 6))):
+        md, inclination, azimuth = stations[-1]
+        step = draw(st.floats(60, 200))
+        turn = draw(st.floats(-0.12, 0.24)) * step
+        aside = draw(st.floats(-0.15, 0.15)) * step
+        stations.append([md + step, float(np.clip(inclination + turn, 0, 115)), (azimuth + aside) % 360])
+    return stations
+
+
+@given(stations=wells(), kind=st.sampled_from(list(KINDS)), law=st.sampled_from(["coulomb", "paper"]),
+       geometry=st.sampled_from(["cylinders", "arcs"]), friction=st.floats(0, 0.5))  # fmt: skip
+@settings(max_examples=60)
+def test_any_well_is_in_balance(
+    stations: list[list[float]], kind: str, law: str, geometry: str, friction: float
+) -> None:
+    """Torque: what the top gives is what wall, mud and bit take.  Force: weight, wall and top add up to nothing."""
+    depth = stations[-1][0]
+    case = make_case(
+        stations,
+        [pipe(100, 10, outer=0.165), pipe(None, None, segment_length=20.0, contact_diameter=0.16)],
+        wellbore={"geometry": geometry, "intervals": [{"to_md": depth, "diameter": 0.2159, "friction": friction}]},
+        contact={"friction_law": law},
+        mud={"density": 1100.0, "rotational_damping": 0.2},
+        bit={"weight_on_bit": 1e4, "torque": 1e3},
+    )
+    point = equilibrium(case, kind, depth)
+    assert point.answered, (point.status, point.message)
+    profile = point.profile
+    assert np.isfinite(profile.select_dtypes("number").drop(columns=["sinusoidal_limit_N", "helical_limit_N"])).all(
+        axis=None
+    )
+    drilling = kind.startswith("drill")
+    rates = steady_rates(case, kind)
+    mud = 0.2 * rates.spin * (depth - 0.0)
+    taken = point.sum_r_ft + mud + (1e3 if drilling else 0.0)
+    # A bent string passes its torque on with the cosine of a half bend at every joint.
+    assert point.surface_torque == pytest.approx(taken, rel=0.02, abs=30.0)
+    if law == "paper" and rates.spin:
+        assert point.sum_r_ft == pytest.approx(point.sum_r_mu_fn, rel=1e-9, abs=1e-6)
+    assert profile["effective_tension_N"].iloc[-1] == (-1e4 if drilling else 0.0)
+    assert profile["effective_tension_N"].iloc[0] == pytest.approx(point.hookload, rel=0.02, abs=3e3)
+    touching = profile["contact_force_N"] > 0
+    offset = np.hypot(profile["offset_high_m"], profile["offset_right_m"])
+    assert (offset[touching] >= profile["clearance_m"][touching] - 1e-9).all()
+    assert (offset[~touching] <= profile["clearance_m"][~touching] + 1e-9).all()
+
+
+def test_picking_up_pulls_more_than_turning_and_that_more_than_slacking_off() -> None:
+    loads = [equilibrium(build_case(), kind, 1300.0).hookload for kind in ("trip_in", "rotate_off_bottom", "trip_out")]
+    assert loads == sorted(loads)
+    assert loads[2] - loads[0] > 5e4
+
+
+def test_a_turning_string_hangs_with_its_vertical_weight() -> None:
+    """No friction along the hole: the hook carries w times the vertical depth."""
+    case = build_case(260)
+    point = equilibrium(case, "rotate_off_bottom", 1300.0)
+    radius = 400 / math.radians(60)
+    vertical = 400 + radius * math.sin(math.radians(60)) + 500 * 0.5
+    weight = 9.80665 * (math.pi / 4) * (0.127**2 - 0.07**2) * (7850 - 1200)
+    assert point.hookload == pytest.approx(weight * vertical, rel=2e-3)
+
+
+def test_torque_and_bending_moment_converge_with_the_segments() -> None:
+    """Moment in the build: order 2.  Torque: order 1 at least, since the ends of contact move by whole segments."""
+    counts = [20, 40, 65, 80, 130, 160, 260]
+    numbers = []
+    for count in [*counts, 2600]:
+        point = equilibrium(build_case(count), "rotate_off_bottom", 1300.0)
+        moment = np.interp(600.0, point.profile["md_m"], point.profile["bending_moment_N_m"])
+        numbers.append((point.surface_torque, moment))
+    errors = np.abs(np.array(numbers[:-1]) / numbers[-1] - 1)
+    torque, moment = (-np.polyfit(np.log(counts), np.log(errors[:, k]), 1)[0] for k in (0, 1))
+    assert moment == pytest.approx(2.0, abs=0.2)
+    assert torque > 1.0
+    assert errors[-1, 0] < 1e-4
+
+
+def test_bending_moment_of_the_build_is_that_of_its_curvature() -> None:
+    """EI/R where the string lies along the wall all the way."""
+    point = equilibrium(build_case(520), "trip_out", 1300.0)
+    EI = 206.8e9 * math.pi / 64 * (0.127**4 - 0.07**4)
+    moment = np.interp(600.0, point.profile["md_m"], point.profile["bending_moment_N_m"])
+    assert moment == pytest.approx(EI * math.radians(60) / 400, rel=1e-3)
+
+
+def test_short_beams_are_those_of_beam_theory() -> None:
+    """The study's cantilever, supports, pendulum and bent housing, each within 1 % (sources beside them)."""
+    outcome = beam_in_hole.run(Context(quick=True))
+    assert [(check.name, check.value) for check in outcome.checks if check.verdict != "met"] == []
+
+
+def test_locked_up_is_an_answer() -> None:
+    """3 km of horizontal hole at μ 0.4 under 200 m of weight cannot be slacked off into."""
+    stations = [[0, 0, 0], [200, 0, 0], [500, 90, 0], [3500, 90, 0]]
+    hole = {"geometry": "arcs", "intervals": [{"to_md": 3500, "diameter": 0.2159, "friction": 0.4}]}
+    case = make_case(stations, [pipe(None, None, segment_length=25.0)], wellbore=hole)
+    point = equilibrium(case, "trip_in", 3500.0)
+    assert point.status == "locked_up"
+    assert point.hookload < 0
+    heavy = case.model_copy(update={"rig": case.rig.model_copy(update={"block_weight": 2e6})})
+    assert equilibrium(heavy, "trip_in", 3500.0).status == "converged"
+
+
+def test_a_straight_string_beyond_its_buckling_load_is_unstable() -> None:
+    """100 kN on the bit of a string that weighs 2.0 kN a segment, in vertical hole."""
+    components = [pipe(None, None, segment_length=10.0)]
+    case = make_case([[0, 0, 0], [300, 0, 0]], components, bit={"weight_on_bit": 1e5})
+    point = equilibrium(case, "drill_sliding", 300.0)
+    assert point.status == "unstable"
+    assert point.answered
+    assert (point.profile["buckling"] == "helical").any()
+    case = case.model_copy(update={"bit": case.bit.model_copy(update={"weight_on_bit": 1e3})})
+    assert equilibrium(case, "drill_sliding", 300.0).status == "converged"
+
+
+def test_a_string_that_finds_no_balance_says_so() -> None:
+    """A clamped string without walls in a slanting hole would have to hang down in a loop."""
+    case = make_case([[0, 60, 0], [300, 60, 0]], [pipe(None, None, segment_length=10.0)], contact={"enabled": False})
+    point = equilibrium(case, "trip_in", 300.0)
+    assert point.status == "max_iterations"
+    assert not point.answered
+    assert point.imbalance > 1.0
+    chart = fctd.torque_drag(case, "trip_in", [300.0])
+    assert chart["hookload_N"].isna().all()
+    assert list(chart["status"]) == ["max_iterations"]
+
+
+@pytest.mark.parametrize("stations", [[[0, 0, 0], [300, 0, 0]], [[0, 0, 0], [300, 60, 40]]])
+def test_no_clearance_at_all(stations: list[list[float]]) -> None:
+    """|PT| = 0 is where the string belongs."""
+    case = make_case(stations, [pipe(None, None, segment_length=10.0, contact_diameter=0.2159)])
+    for kind in ("trip_out", "rotate_off_bottom"):
+        point = equilibrium(case, kind, 300.0)
+        assert point.status == "converged"
+        assert np.hypot(point.profile["offset_high_m"], point.profile["offset_right_m"]).max() < 5e-3
+
+
+def test_steps_by_the_other_solver_lead_to_the_same_balance() -> None:
+    """The fall-back for unsound eliminations, used for every step of a whole solution."""
+    solver = Solver(build_case(40))
+    rates = steady_rates(solver.case, "trip_out")
+    point = solver.solve("trip_out", rates, 1300.0)
+    w, n, pieces = solver.work, 40, solver.hole.pieces
+    laws = Steady(solver.geometry, solver.law, 1.0, rates.speed, rates.spin, 0.0, 0.0, 0.0, 0.0)
+    kinks = np.tile([1.0, 0.0, 0.0, 0.0], (n + 2, 1))
+    guess(w.S, n, pieces, laws, 0.0, 0.0, 1e-4, w.G, w.P)
+    w.owner[1 : n + 1] = np.searchsorted(pieces[:, 10], w.G[1 : n + 1, MD], side="right") - 1
+    tau = 0.2
+    for _ in range(25):
+        assemble(w.S, n, w.P, kinks, pieces, w.owner, laws, w.R, w.D, w.A, w.U)
+        hold_back(w.S, n, tau, w.D)
+        w.R[1 : n + 1] = solve_with_pivoting(w.D, w.A, w.U, w.R, n)
+        take_step(w.P, n, w.R, 1.0)
+        tau *= 3
+    assemble(w.S, n, w.P, kinks, pieces, w.owner, laws, w.R, w.D, w.A, w.U)
+    assert w.R[0, :3] @ [0, 0, 1] == pytest.approx(point.hookload, rel=1e-7)
+
+
+def test_rates_are_the_callers_then_the_cases_then_the_defaults() -> None:
+    own = {"kind": "back_ream", "from_md": 900, "to_md": 800, "speed": 0.25, "rpm": 30}
+    case = build_case(operations=[own])
+    assert steady_rates(case, "back_ream") == pytest.approx((-0.25, math.pi))
+    assert steady_rates(case, "back_ream", speed=0.5) == pytest.approx((-0.5, math.pi))
+    assert steady_rates(case, "trip_in") == pytest.approx((0.3, 0.0))
+    assert steady_rates(case, "drill_rotating", rpm=60) == pytest.approx((0.003, 2 * math.pi))
+    fast = equilibrium(case, "back_ream", 900.0, speed=2.0).hookload
+    assert fast > equilibrium(case, "back_ream", 900.0, speed=0.01).hookload
+
+
+@pytest.mark.parametrize(
+    ("call", "expected"),
+    [
+        ({"operation": "trip_up"}, 'operation = "trip_up": expected the kind trip_'),
+        ({"operation": "dance"}, "expected one of the kinds trip_in, trip_out, rotate_off_bottom, back_ream, drill"),
+        ({"bit_depth": 1301.0}, 'bit_depth = "1301 m": expected a depth below string.top_md, 0 m, within survey'),
+        ({"bit_depth": 0.0}, 'bit_depth = "0 m": expected a depth below'),
+        ({"bit_depth": math.nan}, "expected a depth below"),
+        ({"speed": 0.0}, "speed = 0.0: expected a speed above 0 for trip_out"),
+        ({"speed": -1.0}, "speed = -1.0: expected a speed above 0"),
+        ({"operation": "rotate_off_bottom", "speed": 0.1}, "expected a speed of 0 for rotate_off_bottom"),
+        ({"operation": "rotate_off_bottom", "rpm": 0}, "rpm = 0: expected rev/min above 0"),
+        ({"operation": "drill_sliding", "rpm": 60}, "rpm = 60: expected rev/min of 0"),
+    ],
+)
+def test_bad_input_is_answered(call: dict[str, Any], expected: str) -> None:
+    arguments = {"operation": "trip_out", "bit_depth": 1000.0} | call
+    with pytest.raises(InputError) as error:
+        equilibrium(build_case(), **arguments)
+    assert expected in str(error.value)
+
+
+def test_string_and_hole_have_to_fit() -> None:
+    case = make_case([[0, 0, 0], [300, 0, 0]], [pipe(None, 5, contact_diameter=0.3)])
+    with pytest.raises(InputError, match=r"string.components\[0\].contact_diameter"):
+        equilibrium(case, "trip_in", 300.0)

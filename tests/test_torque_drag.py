@@ -1,0 +1,80 @@
+"""Charts: rows, order, friction, bad input."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fctd import InputError, equilibrium, load_case, torque_drag
+from tests.cases import make_case, pipe
+
+STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
+COLUMNS = [
+    "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
+    "drive_torque_N_m", "total_contact_force_N", "status", "iterations",
+]  # fmt: skip
+
+
+def case_of(**more: Any) -> Any:
+    intervals = [{"to_md": 500, "diameter": 0.3, "friction": 0.1}, {"to_md": 900, "diameter": 0.2159, "friction": 0.3}]
+    return make_case(
+        STATIONS, [pipe(None, None, segment_length=20.0)], wellbore={"intervals": intervals},
+        rig={"block_weight": 1e5, "sheave_efficiency": 0.9, "torque_offset": 500.0}, **more,
+    )  # fmt: skip
+
+
+def test_a_row_per_operation_friction_and_depth() -> None:
+    """In that order, each row what ``equilibrium`` gives by itself."""
+    seen: list[tuple[int, int]] = []
+    chart = torque_drag(
+        case_of(), ["trip_out", "rotate_off_bottom"], range(500, 901, 200), friction=[0.1, 0.3],
+        progress=lambda done, total: seen.append((done, total)),
+    )  # fmt: skip
+    assert list(chart.columns) == COLUMNS
+    assert seen == [(k, 12) for k in range(1, 13)]
+    assert list(chart["operation"]) == ["trip_out"] * 6 + ["rotate_off_bottom"] * 6
+    assert list(chart["friction"]) == ([0.1] * 3 + [0.3] * 3) * 2
+    assert list(chart["bit_depth_m"]) == [500.0, 700.0, 900.0] * 4
+    assert (chart["status"] == "converged").all()
+    by_friction = chart.pivot_table(index=["operation", "bit_depth_m"], columns="friction", values="hookload_N")
+    assert (by_friction.loc["trip_out", 0.3] > by_friction.loc["trip_out", 0.1]).all()
+
+    own = torque_drag(case_of(), "trip_out", [900.0]).iloc[0]
+    point = equilibrium(case_of(), "trip_out", 900.0)
+    assert np.isnan(own["friction"])
+    assert own["hookload_N"] == point.hookload
+    # Hoisting through sheaves of 90 % lowers what the dead line feels.
+    assert own["weight_indicator_N"] == pytest.approx(0.9 * (point.hookload + 1e5))
+    assert own["drive_torque_N_m"] == pytest.approx(point.surface_torque + 500.0)
+
+
+@pytest.mark.parametrize(
+    ("call", "expected"),
+    [
+        ({"bit_depths": []}, "bit_depths = []: expected at least one bit depth"),
+        ({"bit_depths": [500, 400]}, 'bit_depths = "400 m": expected finite bit depths, each below the one before'),
+        ({"bit_depths": [500, float("nan")]}, "expected finite bit depths"),
+        ({"bit_depths": [500, 950]}, 'bit_depth = "950 m": expected a depth below string.top_md, 0 m, within'),
+        ({"operation": []}, "expected at least one kind of operation"),
+        ({"operation": ["trip_in", "wiggle"]}, 'operation = "wiggle": expected one of the kinds'),
+        ({"friction": -0.1}, "friction = -0.1: expected a friction factor at least 0"),
+        ({"friction": []}, "friction = []: expected at least one friction factor"),
+        ({"speed": -1.0}, "speed = -1.0: expected a speed above 0"),
+    ],
+)
+def test_bad_input_is_answered(call: dict[str, Any], expected: str) -> None:
+    arguments: dict[str, Any] = {"operation": "trip_in", "bit_depths": [500.0]} | call
+    with pytest.raises(InputError) as error:
+        torque_drag(case_of(), **arguments)
+    assert expected in str(error.value)
+
+
+def test_an_error_names_the_case_file(tmp_path: Any) -> None:
+    file = tmp_path / "well.toml"
+    file.write_text(
+        'name = "w"\n[wellbore]\nstations = [[0,0,0],[900,0,0]]\n[[wellbore.intervals]]\nto_md = 900\n'
+        'diameter = 0.2\nfriction = 0.2\n[[string.components]]\nname = "pipe"\nouter_diameter = 0.1\n'
+        "inner_diameter = 0.05\nsegment_length = 30\n"
+    )
+    with pytest.raises(InputError, match=r"well\.toml: bit_depth = \"1000 m\""):
+        torque_drag(load_case(file), "trip_in", [500.0, 1000.0])
