@@ -51,7 +51,7 @@ def imbalance(R, n, pace):
     return worst
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", cache=True)
 def hold_back(S, n, tau, D):
     """Add the masses over τ² to the diagonal blocks."""
     k = 1 / (tau * tau)
@@ -77,7 +77,7 @@ def allowed_share(S, n, P, X, pace):
     return share
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", cache=True)
 def take_step(P, n, X, share):
     """Move the bodies by a share of the step X (n + 1, 6)."""
     for j in range(1, n + 1):

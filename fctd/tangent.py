@@ -270,7 +270,7 @@ def add_wall(S, j, P, C, owner, laws, R, D):
                 R[j, i] += loads[i].real
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", cache=True)
 def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """Fill R (n + 1, 6) with forces [N] and moments [N m] out of balance and D, A, U with the tangent −∂R.
 
