@@ -140,6 +140,14 @@ def test_a_lone_answer_carries_a_marker() -> None:
     assert lone in line.get_markevery()
 
 
+def test_rounding_noise_is_drawn_as_zero() -> None:
+    """A sliding string has no torque; what the solver leaves of it must not fill the axis."""
+    table = chart(["trip_in"], [0.2])
+    table["surface_torque_N_m"] = 1e-9 * np.sin(table["bit_depth_m"])
+    _, torque = plots.chart_figure(table).axes
+    assert torque.get_xlim() == (-1, 1)
+
+
 def test_a_profile_draws_the_string_in_the_units_of_its_axes(points: list[Equilibrium]) -> None:
     point = next(point for point in points if point.operation == "trip_out")
     for units, across in (("si", 1e-3), ("field", FOOT / 12)):
