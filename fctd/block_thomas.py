@@ -11,7 +11,7 @@ SIZE = 6
 WORST_PIVOTS = 1e-13
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", cache=True)
 def eliminate(D, A, U, R, n, W):
     """Solve the system of n blocks in rows 1..n in place; returns False when a block is near singular.
 

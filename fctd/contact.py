@@ -294,7 +294,7 @@ def refresh_arcs(S, owner, n, C):
         S[HOLD + j] = 0.0 if changes else 1.0
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", cache=True)
 def update_walls(S, owner, n, packed, C, geometry):
     """Update owners and the wall beside every contact point, given positions (stages 2 and 3).
 

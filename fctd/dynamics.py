@@ -71,7 +71,7 @@ from fctd.state import (
 from fctd.topdrive import move_top_drive, planned_speeds, read_top_drive
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@njit(error_model="numpy", fastmath={"contract"}, cache=True)
 def update_axes(S, n):
     """Update axis and global spin of every body, given orientation and body-frame spin."""
     for j in range(1, n + 1):

@@ -252,7 +252,7 @@ class Solver:
         if code != CONVERGED:
             return "max_iterations", "forces are out of balance"
         if negative:
-            return "unstable", f"a balance that {negative} modes of the string would leave without friction"
+            return "unstable", f"a balance that would be left without friction in {negative} mode{'s' * (negative > 1)}"
         if pushed:
             return "locked_up", "the top would have to be pushed with more than the block weight"
         return "converged", ""

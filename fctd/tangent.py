@@ -93,7 +93,7 @@ def times(aw, ax, ay, az, bw, bx, by, bz):
     )
 
 
-@njit(forceinline=True)
+@njit(forceinline=True, cache=True)
 def in_frame(w, x, y, z, gx, gy, gz):
     """A global vector in the frame of a body."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
