@@ -1,23 +1,34 @@
-"""The command line: ``fctd simulate CASE``; also ``python -m fctd``."""
+"""The command line, also ``python -m fctd``: the application, and ``fctd simulate CASE``."""
 
 import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
-from fctd.case import Case, load_case, parse_override
+from fctd.case import Case
+from fctd.cli_options import (
+    BAD_INPUT,
+    FAILED,
+    INTERRUPTED,
+    CaseFile,
+    Csv,
+    Friction,
+    Out,
+    Overrides,
+    Quiet,
+    messages,
+    read_case,
+    screen,
+)
+from fctd.cli_steady import chart_command, equilibrium_command
 from fctd.errors import InputError
 from fctd.results import SimulationResult
 from fctd.simulate import simulate
 from fctd.wall_query import WallQuery
-
-DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -25,25 +36,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Fast contact torque and drag of a stiff drill string.",
 )
-# Results go to standard output; progress and errors to standard error, so that neither spoils the other.
-screen, messages = Console(), Console(stderr=True)
-
-CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]
-Overrides = Annotated[
-    list[str],
-    typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case, e.g. wellbore.overlap='0.1 m'."),
-]
-Friction = Annotated[float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")]
-Out = Annotated[
-    Path | None, typer.Option("--out", metavar="FOLDER", help="Where results go; default: CASE-NAME-result.")
-]
-Csv = Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")]
-Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
-
-
-@app.callback()
-def _root() -> None:
-    """Keep ``simulate`` a named command although it is the only one so far."""
 
 
 @app.command("simulate")
@@ -69,10 +61,7 @@ def simulate_file(
     contact: Callable[[Case], WallQuery] | None = None,
 ) -> None:
     """What ``simulate`` does; ``contact`` builds another contact method for the case (see fctd.simulate)."""
-    changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
-    if friction is not None:
-        changes["friction"] = friction
-    case = load_case(case_file, changes)
+    case = read_case(case_file, overrides, friction)
     method = None if contact is None else contact(case)
     folder = out or Path(re.sub(r"[^\w.-]+", "-", f"{case.name}-result"))
     try:  # before hours of computing, not after
@@ -127,6 +116,10 @@ def _summarise(result: SimulationResult) -> None:
         f"energy error {run['energy_error']:.1e}",
         highlight=False, soft_wrap=True,
     )  # fmt: skip
+
+
+app.command("equilibrium")(equilibrium_command)
+app.command("chart")(chart_command)
 
 
 def main() -> None:

@@ -160,6 +160,7 @@ class Solver:
         # The half of a long segment's weight that is not lumped below hangs on the top drive itself.
         held = 0.5 * pipe.weight * string.length[0] if string.long_segment else 0.0
         hookload, torque = float(w.R[0, :3] @ top_axis) + held, -float(w.R[0, 5])
+        joints[1, 0] += held
         imbalance = float(np.linalg.norm(w.R[1 : n + 1, :3], axis=1).max())
         # A string that lies level pulls neither way, to rounding.
         pushed = -hookload - case.rig.block_weight > n * allowed

@@ -151,8 +151,11 @@ class Recorder:
         points, walls = self._walls()
         axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
         turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
+        tension = self.mean[state.SUM_TENSION].copy()
+        # The half of a long segment's weight that is not lumped below hangs at the top.
+        tension[0] += 0.5 * run.pipe.weight * run.top[topdrive.TOP_LENGTH]
         loads = Loads(
-            tension=self.mean[state.SUM_TENSION],
+            tension=tension,
             torque=self.mean[state.SUM_TORQUE],
             bending=self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0)),
             normal=self.mean[state.SUM_NORMAL],

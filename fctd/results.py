@@ -1,8 +1,9 @@
-"""What a simulation returns, and its files: Parquet tables that carry the case, versions and commit."""
+"""What a simulation returns, and the files of all results: tables that carry the case, versions and commit."""
 
 import json
 import platform
 import subprocess
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -44,22 +45,45 @@ class SimulationResult:
             "case": self.case.model_dump_json(),
             "status": self.status,
             "message": self.message,
-            "run": json.dumps(self.run),
-            "versions": json.dumps(versions()),
+            "run": self.run,
+            "versions": versions(),
         }
         written = []
         for name in TABLES:
             frame: pd.DataFrame = getattr(self, name)
-            table = pa.Table.from_pandas(frame, preserve_index=False)
-            kept = {**(table.schema.metadata or {}), **{k.encode(): v.encode() for k, v in metadata.items()}}
             path = folder / f"{name}.parquet"
-            pq.write_table(table.replace_schema_metadata(kept), path)
+            write_parquet(frame, path, metadata)
             written.append(path)
             if csv:
                 path = folder / f"{name}.csv"
                 frame.to_csv(path, index=False)
                 written.append(path)
         return written
+
+
+def write_table(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> list[Path]:
+    """Write a table as CSV or Parquet, whichever the suffix says; returns the files written.
+
+    Parquet carries the metadata itself; beside a CSV, which any reader must find a plain table, it goes into
+    a JSON file of its own: ``chart.csv.json``.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.suffix.lower() == ".csv":
+        beside = path.with_name(path.name + ".json")
+        frame.to_csv(path, index=False)
+        beside.write_text(json.dumps(metadata, indent=1), encoding="utf-8")
+        return [path, beside]
+    write_parquet(frame, path, metadata)
+    return [path]
+
+
+def write_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
+    """Write a table, the metadata beside pandas' own: texts as they are, all else as JSON."""
+    table = pa.Table.from_pandas(frame, preserve_index=False)
+    kept = dict(table.schema.metadata or {})
+    for key, value in metadata.items():
+        kept[key.encode()] = (value if isinstance(value, str) else json.dumps(value)).encode()
+    pq.write_table(table.replace_schema_metadata(kept), path)
 
 
 def versions() -> dict[str, str]:

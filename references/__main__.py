@@ -6,7 +6,8 @@ import typer
 from rich.table import Table
 
 from fctd.case import Case, parse_override
-from fctd.cli import CaseFile, Csv, Friction, Out, Overrides, Quiet, run, screen, simulate_file
+from fctd.cli import run, simulate_file
+from fctd.cli_options import CaseFile, Csv, Friction, Out, Overrides, Quiet, screen
 from fctd.errors import InputError
 from references import base
 

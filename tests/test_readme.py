@@ -20,22 +20,37 @@ def blocks(language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
 
 
-def test_the_python_example_runs() -> None:
-    (example,) = blocks("python")
-    assert len(example.strip().splitlines()) <= 10
-    done = subprocess.run([sys.executable, "-W", "error", "-c", example], cwd=ROOT, capture_output=True, text=True)
+@pytest.mark.parametrize(("number", "printed"), [(0, ["completed", "[0.04205]"]), (1, ["converged", "trip_out"])])
+def test_the_python_examples_run(number: int, printed: list[str]) -> None:
+    examples = blocks("python")
+    assert len(examples) == 2
+    assert len(examples[number].strip().splitlines()) <= 10
+    command = [sys.executable, "-W", "error", "-c", examples[number]]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    assert "completed" in done.stdout
-    assert "[0.04205]" in done.stdout
+    for part in printed:
+        assert part in done.stdout
 
 
-def test_the_command_line_example_runs(tmp_path: Path) -> None:
-    command = next(b for b in blocks("sh") if "fctd simulate" in b).replace(".venv/bin/fctd", "-m fctd")
-    command = command.replace("\\\n", " ").replace("my-run", str(tmp_path / "out"))
-    arguments = shlex.split(command)
-    done = subprocess.run([sys.executable, *arguments, "--quiet"], cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert (tmp_path / "out" / "history.csv").exists()
+def test_the_command_line_examples_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    commands = re.findall(r"^\.venv/bin/(fctd .*)$", "\n".join(blocks("sh")).replace("\\\n", " "), re.MULTILINE)
+    assert [command.split()[1] for command in commands] == ["simulate", "chart", "equilibrium"]
+    monkeypatch.chdir(tmp_path)
+    for command in commands:
+        monkeypatch.setattr("sys.argv", shlex.split(command.replace(" validation/", f" {ROOT}/validation/")))
+        with pytest.raises(SystemExit) as stopped:
+            cli.main()
+        assert not stopped.value.code
+    written = {path.name for path in tmp_path.iterdir()}
+    assert written == {
+        "my-run",
+        "chart.csv",
+        "chart.csv.json",
+        "chart.png",
+        "profiles.png",
+        "profile.parquet",
+        "profile.svg",
+    }
 
 
 def test_the_examples_of_another_contact_method_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

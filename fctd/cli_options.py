@@ -1,0 +1,62 @@
+"""What the commands share: options, exit codes, the screen, and values and files checked before any computing."""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+
+from fctd.case import Case, load_case, parse_override
+from fctd.errors import InputError
+from fctd.units import Dimension, Quantity
+
+DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+# Results go to standard output; progress and errors to standard error, so that neither spoils the other.
+screen, messages = Console(), Console(stderr=True)
+
+CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]
+Overrides = Annotated[
+    list[str],
+    typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case, e.g. wellbore.overlap='0.1 m'."),
+]
+Friction = Annotated[float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")]
+Out = Annotated[
+    Path | None, typer.Option("--out", metavar="FOLDER", help="Where results go; default: CASE-NAME-result.")
+]
+Csv = Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")]
+Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
+
+
+def read_case(path: Path, overrides: Sequence[str], friction: float | None = None) -> Case:
+    """The case of a file after ``--set`` and ``--friction``."""
+    changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
+    if friction is not None:
+        changes["friction"] = friction
+    return load_case(path, changes)
+
+
+def read_quantity(text: str, dimension: Dimension, key: str) -> float:
+    """A quantity of at least 0 as a case file has it, "1750" or "1750 m", in SI; InputError names the option."""
+    try:
+        value: object = float(text)
+    except ValueError:
+        value = text
+    try:
+        return Quantity(dimension=dimension, at_least=0.0).parse(value)
+    except InputError as error:
+        raise InputError(error.expected, key=key, value=text) from None
+
+
+def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
+    """Refuse a file of another suffix, and one that could not be written: before the computing, not after."""
+    if path is None:
+        return
+    if path.suffix.lower() not in suffixes:
+        raise InputError(f"a file name that ends in {' or '.join(suffixes)}", key=key, value=str(path))
+    folder = next(parent for parent in path.absolute().parents if parent.exists())
+    taken = path.is_dir() or not folder.is_dir()
+    if taken or not os.access(path if path.exists() else folder, os.W_OK):
+        raise InputError("a file that can be written", key=key, value=str(path))

@@ -1,0 +1,328 @@
+"""The steady commands: ``fctd equilibrium CASE`` for one string, ``fctd chart CASE`` for many bit depths."""
+
+from collections.abc import Mapping, Sequence
+from itertools import groupby
+from pathlib import Path
+from types import ModuleType
+from typing import Annotated, Any
+
+import numpy as np
+import pandas as pd
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from fctd.case import KINDS, Case, check_bit_depth
+from fctd.cli_options import (
+    FAILED,
+    CaseFile,
+    Friction,
+    Overrides,
+    Quiet,
+    check_target,
+    messages,
+    read_case,
+    read_quantity,
+    screen,
+)
+from fctd.equilibrium import Equilibrium, equilibrium
+from fctd.errors import InputError
+from fctd.operations import steady_rates
+from fctd.results import versions, write_table
+from fctd.torque_drag import torque_drag, with_friction
+from fctd.unit_systems import System, in_field_units, shown
+from fctd.units import LENGTH, SPEED
+
+# A string that is locked up is an answer; nobody drills with one that would leave its balance.
+SOUND = ("converged", "locked_up")
+TABLES, PICTURES = (".csv", ".parquet"), (".png", ".svg")
+MOST_DEPTHS = 10_000  # more is a slip in the step
+SCREEN_ROWS = 36
+# Columns of a chart on the screen: heading, and digits after the point.
+CHART_SHOWS = {
+    "bit_depth_m": ("bit", 1),
+    "hookload_N": ("hook load", 1),
+    "surface_torque_N_m": ("torque", 3),
+    "total_contact_force_N": ("Σ F_n", 1),
+}
+# What a string is asked for: attributes of Equilibrium by the name of their column.
+LOADS = {
+    "hookload_N": "hookload",
+    "surface_torque_N_m": "surface_torque",
+    "weight_indicator_N": "weight_indicator",
+    "drive_torque_N_m": "drive_torque",
+    "total_contact_force_N": "total_contact_force",
+    "sum_r_ft_N_m": "sum_r_ft",
+    "sum_r_mu_fn_N_m": "sum_r_mu_fn",
+}
+WORDS = {
+    "bit_depth_m": "bit depth",
+    "hookload_N": "hook load",
+    "surface_torque_N_m": "surface torque",
+    "weight_indicator_N": "weight indicator",
+    "drive_torque_N_m": "drive torque",
+    "total_contact_force_N": "contact force, all",
+    "sum_r_ft_N_m": "Σ r F_t",
+    "sum_r_mu_fn_N_m": "Σ r μ F_n",
+    "effective_tension_N": "effective tension",
+    "contact_force_N": "contact force",
+    "von_mises_Pa": "von Mises stress",
+}
+
+KIND_HELP = f"Kind of operation: {', '.join(KINDS)}"
+Speed = Annotated[
+    str | None,
+    typer.Option(
+        "--speed",
+        metavar="V",
+        help="Along the hole, '0.3 m/s'; else the case's, else 0.3 m/s tripping, 0.1 back-reaming, 0.003 drilling.",
+    ),
+]
+Rpm = Annotated[
+    float | None,
+    typer.Option("--rpm", metavar="N", help="Rev/min; else the case's, else 60, drilling 120, tripping and sliding 0."),
+]
+Units = Annotated[System, typer.Option("--units", help="Units of tables, pictures and screen.")]
+
+
+def _file(option: str, what: str) -> typer.models.OptionInfo:
+    info: typer.models.OptionInfo = typer.Option(option, metavar="FILE", help=what, show_default=False)
+    return info
+
+
+def equilibrium_command(
+    case_file: CaseFile,
+    operation: Annotated[str, typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}.")],
+    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help="Depth of the bit, '2450 m'.")],
+    speed: Speed = None,
+    rpm: Rpm = None,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    friction: Friction = None,
+    out: Annotated[Path | None, _file("--out", "Profile of the string, .csv or .parquet.")] = None,
+    plot: Annotated[Path | None, _file("--plot", "Picture of the profile, .png or .svg.")] = None,
+    units: Units = "si",
+) -> None:
+    """Find the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
+    check_target(out, "--out", TABLES)
+    plots = _plots({"--plot": plot})
+    case = read_case(case_file, overrides, friction)
+    depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
+    _check_in_hole(case, [depth], "--bit-depth", bit_depth)
+    drive = _drive(speed, rpm)
+    point = equilibrium(case, operation, depth, **drive)
+    _print_point(point, units)
+    written = []
+    if point.answered:
+        if out is not None:
+            metadata = _metadata(case, units, [operation], drive)
+            metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
+            written += write_table(_in(units, point.profile), out, metadata)
+        if plots is not None:
+            written += plots.save(plots.profile_figure([point], units), plot)
+    elif out is not None or plot is not None:
+        messages.print("Nothing is written: without a balance there is no profile.")
+    _print_written(written)
+    if point.status not in SOUND:
+        raise typer.Exit(FAILED)
+
+
+def chart_command(
+    case_file: CaseFile,
+    operations: Annotated[
+        list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}, or all; may be repeated.")
+    ],
+    depths: Annotated[
+        str,
+        typer.Option("--depths", metavar="FROM:TO:STEP", help="Bit depths, 1750:2450:10 or '5000 ft:8000 ft:30 ft'."),
+    ],
+    frictions: Annotated[
+        list[float], typer.Option("--friction", metavar="X", help="Friction factor everywhere; may be repeated.")
+    ] = [],  # noqa: B006 (typer copies it)
+    speed: Speed = None,
+    rpm: Rpm = None,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    out: Annotated[Path | None, _file("--out", "The chart, a row for every string, .csv or .parquet.")] = None,
+    plot: Annotated[Path | None, _file("--plot", "Hook load and torque against depth, .png or .svg.")] = None,
+    plot_profile: Annotated[
+        Path | None, _file("--plot-profile", "Profiles at the last depth, first friction factor, .png or .svg.")
+    ] = None,
+    units: Units = "si",
+    quiet: Quiet = False,
+) -> None:
+    """Draw up a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
+    check_target(out, "--out", TABLES)
+    plots = _plots({"--plot": plot, "--plot-profile": plot_profile})
+    case = read_case(case_file, overrides)
+    bit_depths = read_depths(depths)
+    _check_in_hole(case, bit_depths, "--depths", depths)
+    kinds = list(KINDS) if "all" in operations else list(dict.fromkeys(operations))
+    factors = list(dict.fromkeys(frictions))
+    drive = _drive(speed, rpm)
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
+        task = bar.add_task("compiling", total=None)
+
+        def show(done: int, total: int) -> None:
+            bar.update(task, description=case.name, completed=done, total=total)
+
+        chart = torque_drag(case, kinds, bit_depths, factors or None, **drive, progress=show)
+
+    _print_chart(chart, case.name, units)
+    written = []
+    if out is not None:
+        written += write_table(_in(units, chart), out, _metadata(case, units, kinds, drive))
+    if plots is not None and plot is not None:
+        written += plots.save(plots.chart_figure(chart, units, case.name), plot)
+    if plots is not None and plot_profile is not None:
+        one = with_friction(case, factors[0]) if factors else case
+        points = [equilibrium(one, kind, bit_depths[-1], **drive) for kind in kinds]
+        written += plots.save(plots.profile_figure(points, units), plot_profile)
+    _print_written(written)
+    if not chart["status"].isin(SOUND).all():
+        raise typer.Exit(FAILED)
+
+
+def read_depths(text: str) -> list[float]:
+    """Bit depths [m] of FROM:TO:STEP, TO among them where it lies on the grid."""
+    parts = text.split(":")
+    if len(parts) != 3:
+        raise InputError("FROM:TO:STEP, such as 1750:2450:10 or '5000 ft:8000 ft:30 ft'", key="--depths", value=text)
+    first, last, step = (read_quantity(part, LENGTH, "--depths") for part in parts)
+    if not (first <= last and step > 0):
+        raise InputError("depths that rise: TO not above FROM, and a STEP above 0", key="--depths", value=text)
+    steps = (last - first) / step
+    if steps >= MOST_DEPTHS:
+        raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)
+    # Rounding noise must neither lose the last depth nor end up in a table as 1750.3000000000002.
+    return [round(first + k * step, 6) for k in range(int(np.floor(steps + 1e-6)) + 1)]
+
+
+def _drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
+    """Rates as they were asked for: speed [m/s], rpm, None where the case decides."""
+    return {"speed": None if speed is None else read_quantity(speed, SPEED, "--speed"), "rpm": rpm}
+
+
+def _check_in_hole(case: Case, depths: Sequence[float], key: str, text: str) -> None:
+    """Refuse bit depths outside the hole, before the first is solved."""
+    for depth in (depths[0], depths[-1]):
+        try:
+            check_bit_depth(depth, *case.depths, key, text)
+        except InputError as error:
+            raise (error if case.file is None else error.in_file(case.file)) from None
+
+
+def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
+    """The module of the pictures if any is asked for; it needs the optional matplotlib."""
+    wanted = {key: path for key, path in targets.items() if path is not None}
+    for key, path in wanted.items():
+        check_target(path, key, PICTURES)
+    if not wanted:
+        return None
+    try:
+        from fctd import plots
+    except ModuleNotFoundError as error:
+        key, path = next(iter(wanted.items()))
+        expected = f"the package {error.name} for pictures (pip install matplotlib, or the extra fctd[plot])"
+        raise InputError(expected, key=key, value=str(path)) from None
+    return plots
+
+
+def _in(units: System, table: pd.DataFrame) -> pd.DataFrame:
+    return in_field_units(table) if units == "field" else table
+
+
+def _metadata(case: Case, units: System, kinds: Sequence[str], drive: Mapping[str, Any]) -> dict[str, Any]:
+    """What a table rests on; rates are those solved with, downwards and clockwise."""
+    rates = {kind: steady_rates(case, kind, **drive) for kind in kinds}
+    return {
+        "case": case.model_dump(mode="json"),
+        "units": units,
+        "rates": {kind: {"speed_m_s": r.speed, "spin_rad_s": r.spin} for kind, r in rates.items()},
+        "versions": versions(),
+    }
+
+
+def _loads(point: Equilibrium) -> dict[str, float]:
+    """Loads of a point by column name."""
+    return {name: getattr(point, attribute) for name, attribute in LOADS.items()}
+
+
+def _print_point(point: Equilibrium, units: System) -> None:
+    """Print the loads of a string, and where it is near its limits."""
+    metre = shown("bit_depth_m", units)
+    depth = f"{point.bit_depth * metre.factor:.1f} {metre.label}"
+    screen.print(f"{point.case.name}: {point.operation}, bit at {depth}", style="bold", highlight=False, markup=False)
+    table = Table(box=SIMPLE_HEAD, show_header=False)
+    for name, value in _loads(point).items():
+        unit = shown(name, units)
+        text = f"{value * unit.factor:z.3f}" if point.answered else "–"
+        table.add_row(WORDS[name], text, unit.label)
+    if point.answered:
+        profile = point.profile
+        for name, worst in (("effective_tension_N", "min"), ("contact_force_N", "max"), ("von_mises_Pa", "max")):
+            unit, row = shown(name, units), profile.loc[profile[name].agg(f"idx{worst}")]
+            where = f"at {row['md_m'] * metre.factor:.0f} {metre.label}"
+            table.add_row(f"{worst}. {WORDS[name]}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
+        for mode in ("sinusoidal", "helical"):
+            md = profile.loc[profile["buckling"] == mode, "md_m"] * metre.factor
+            if len(md):
+                table.add_row(f"beyond {mode} limit", f"{md.min():.0f} to {md.max():.0f}", metre.label)
+    table.columns[1].justify = "right"
+    screen.print(table)
+    screen.print(f"{point.status}, {point.iterations} iterations", highlight=False)
+    if point.message:
+        messages.print(f"[bold]{point.status}[/bold]: {point.message}", highlight=False, soft_wrap=True)
+
+
+def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
+    """Print a table that fits the screen, and every row that is more than a converged number."""
+    units_of = {column: shown(column, units) for column in CHART_SHOWS}
+    screen.print(name, style="bold", highlight=False, markup=False)
+    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
+    for heading in ("operation", "μ"):
+        table.add_column(heading, no_wrap=True)
+    for column, (heading, _) in CHART_SHOWS.items():
+        table.add_column(f"{heading}\n{units_of[column].label}", justify="right", overflow="fold")
+    table.add_column("status", overflow="fold")
+    series = list(chart.groupby(["operation", "friction"], sort=False, dropna=False))
+    each = max(SCREEN_ROWS // len(series), 1)
+    for (operation, friction), rows in series:
+        # Evenly spread, and the deepest always among them.
+        picked = np.unique(np.linspace(len(rows) - 1, 0, min(each, len(rows))).round().astype(int))
+        for k, row in enumerate(rows.iloc[picked].to_dict("records")):
+            values = [
+                "–" if np.isnan(row[column]) else f"{row[column] * units_of[column].factor:z.{digits}f}"
+                for column, (_, digits) in CHART_SHOWS.items()
+            ]
+            names = ("", "") if k else (str(operation), _factor(friction))
+            table.add_row(*names, *values, row["status"])
+    screen.print(table)
+    counts = ", ".join(f"{count} {status}" for status, count in chart["status"].value_counts().items())
+    screen.print(f"{len(chart)} rows: {counts}", highlight=False, soft_wrap=True)
+    depth = units_of["bit_depth_m"]
+    for (operation, friction), rows in series:
+        for line in _exceptions(rows, depth.factor, depth.label):
+            messages.print(f"{operation}, friction {_factor(friction)}: {line}", highlight=False, soft_wrap=True)
+
+
+def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
+    """The runs of rows of one series that are not converged, a line each."""
+    lines = []
+    for status, run in groupby(zip(rows["status"], rows["bit_depth_m"] * factor, strict=True), key=lambda row: row[0]):
+        depths = [depth for _, depth in run]
+        if status != "converged":
+            span = f"{depths[0]:g}" if len(depths) == 1 else f"{depths[0]:g} to {depths[-1]:g}"
+            lines.append(f"{status} at {span} {label} ({len(depths)} of {len(rows)})")
+    return lines
+
+
+def _factor(friction: object) -> str:
+    """A friction factor in words; intervals may differ."""
+    return f"{friction:g}" if isinstance(friction, float) and np.isfinite(friction) else "case's"
+
+
+def _print_written(paths: Sequence[Path]) -> None:
+    if paths:
+        screen.print(f"Written: {', '.join(map(str, paths))}", soft_wrap=True, highlight=False)

@@ -1,0 +1,272 @@
+"""Pictures of steady strings: the torque-and-drag chart, and the profile of a string from top to bit.
+
+Needs matplotlib, which the package installs as its extra ``plot``; nothing else of the package imports this
+module.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+from matplotlib.typing import RcKeyType
+from numpy.typing import NDArray
+
+from fctd.equilibrium import Equilibrium
+from fctd.torque_drag import own_friction
+from fctd.unit_systems import System, shown
+
+RC: dict[RcKeyType, Any] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.8,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.formatter.useoffset": False,
+    "grid.color": "#e3e3e3",
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+    "lines.linewidth": 1.5,
+    "lines.markersize": 5,
+    "savefig.dpi": 150,
+    # The same numbers give the same file, byte for byte.
+    "svg.hashsalt": "fctd",
+}
+# An operation has a colour (Okabe and Ito's, told apart by the colour-blind) and, for print in grey, a marker.
+LOOKS = {
+    "trip_out": ("#D55E00", "^"),
+    "rotate_off_bottom": ("#000000", "o"),
+    "trip_in": ("#0072B2", "v"),
+    "back_ream": ("#CC79A7", "D"),
+    "drill_rotating": ("#009E73", "s"),
+    "drill_sliding": ("#56B4E9", "P"),
+}
+NAMES = {
+    "trip_out": "picking up",
+    "rotate_off_bottom": "rotating off bottom",
+    "trip_in": "slacking off",
+    "back_ream": "back-reaming",
+    "drill_rotating": "drilling, rotating",
+    "drill_sliding": "drilling, sliding",
+}
+# A friction factor has a dash; more factors than dashes go round again.
+DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5, 1, 1.5, 1, 1.5))]
+# Answers with a reservation carry an open marker; a cross marks a row that has none.
+FLAGS: dict[str, dict[str, Any]] = {
+    "locked_up": {"marker": "s", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
+    "unstable": {"marker": "o", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
+}
+LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": "#777777"}
+# The panels of a profile, and what they and those of a chart are called.
+TRACKS = (
+    "inclination_deg",
+    "effective_tension_N",
+    "torque_N_m",
+    "contact_force_N",
+    "bending_moment_N_m",
+    "von_mises_Pa",
+    "offset_high_m",
+    "offset_right_m",
+)
+OFFSETS = ("offset_high_m", "offset_right_m")
+LABELS = {
+    "inclination_deg": "inclination",
+    "effective_tension_N": "effective tension",
+    "torque_N_m": "torque",
+    "contact_force_N": "side force at a contact",
+    "bending_moment_N_m": "bending moment",
+    "von_mises_Pa": "von Mises stress",
+    "offset_high_m": "low | offset | high",
+    "offset_right_m": "left | offset | right",
+    "hookload_N": "hook load",
+    "surface_torque_N_m": "surface torque",
+}
+LIMITS: dict[str, Any] = {"sinusoidal": (0, (4, 2)), "helical": (0, (1, 1.2))}
+BUCKLED: dict[str, dict[str, Any]] = {
+    "sinusoidal": {"marker": "o", "linestyle": "none", "color": "#E69F00", "markersize": 4},
+    "helical": {"marker": "X", "linestyle": "none", "color": "#A00000", "markersize": 5},
+}
+QUIET, SHADE = "#777777", "#e4e4e4"
+NOISE = 1e-6  # an axis that spans less shows zeros
+MARKS = 8  # about as many markers on a line
+
+
+def save(figure: Figure, path: Path) -> list[Path]:
+    """Write a figure as its suffix says; returns the file written."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with mpl.rc_context(RC):
+        figure.savefig(path, metadata={"Date": None} if path.suffix.lower() == ".svg" else None)
+    return [path]
+
+
+def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> Figure:
+    """Hook load (the broomstick) and torque against bit depth: a line per operation and friction factor.
+
+    chart : as of ``fctd.torque_drag``, SI.  Rows without an answer are crossed where their line is broken.
+    """
+    factors = [float(factor) for factor in chart["friction"].unique()]
+    with mpl.rc_context(RC):
+        figure = Figure(figsize=(8.5, 6.8), layout="constrained")
+        panels = figure.subplots(1, 2, sharey=True)
+        for ax, column in zip(panels, ("hookload_N", "surface_torque_N_m"), strict=True):
+            for k, (_, fan) in enumerate(chart.groupby("friction", sort=False, dropna=False)):
+                for place, (kind, rows) in enumerate(fan.groupby("operation", sort=False)):
+                    _series(ax, rows, column, str(kind), DASHES[k % len(DASHES)], units, place)
+            _label(ax, column, units)
+        panels[0].set_ylabel(f"bit depth, {shown('bit_depth_m', units).label}")
+        panels[0].invert_yaxis()
+        handles = [_handle(kind) for kind in LOOKS if kind in set(chart["operation"])]
+        figure.legend(handles=handles, loc="outside lower left", ncols=2)
+        handles = [
+            Line2D([], [], color=QUIET, linestyle=DASHES[k % len(DASHES)], label=f"friction factor {factor:g}")
+            for k, factor in enumerate(factors if len(factors) > 1 else [])
+        ]
+        figure.legend(handles=handles + _flag_handles(chart["status"]), loc="outside lower right", ncols=2)
+        one = len(factors) == 1 and np.isfinite(factors[0])
+        _title(figure, f"{title}, friction factor {factors[0]:g}" if one else title)
+        return figure
+
+
+def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figure:
+    """Strings from the top to the bit, side by side on one depth axis, each operation a line.
+
+    Inclination; tension, with buckling limits and where they are exceeded; torque; side force at the contact
+    points; bending moment; von Mises stress; and the hole unrolled: how far the string lies to the high side and to
+    the right, within the clearance (shaded).  A point without an answer is named, not drawn.
+    """
+    answers = [point for point in points if point.answered]
+    with mpl.rc_context(RC):
+        figure = Figure(figsize=(13.5, 7.2), layout="constrained")
+        widths = [0.6, *([1] * (len(TRACKS) - 1))]
+        panels = figure.subplots(1, len(TRACKS), sharey=True, width_ratios=widths)
+        modes: set[str] = set()
+        for ax, column in zip(panels, TRACKS, strict=True):
+            for point in answers:
+                modes |= _track(ax, point, column, units, alone=len(answers) == 1)
+            _label(ax, column, units)
+        if answers:
+            _limits(panels[TRACKS.index("effective_tension_N")], [point.profile for point in answers], units)
+        panels[0].set_ylabel(f"measured depth, {shown('md_m', units).label}")
+        panels[0].invert_yaxis()
+        handles = [_handle(point.operation, point.status) for point in points]
+        handles += [
+            Line2D([], [], color=QUIET, linestyle=dash, label=f"{mode} buckling limit") for mode, dash in LIMITS.items()
+        ]
+        handles += [Line2D([], [], **BUCKLED[mode], label=f"beyond the {mode} limit") for mode in sorted(modes)]
+        figure.legend(handles=handles, loc="outside lower left", ncols=5)
+        depth = shown("bit_depth_m", units)
+        friction = own_friction(points[0].case)
+        rubs = "" if np.isnan(friction) else f", friction factor {friction:g}"
+        _title(figure, f"{points[0].case.name}, bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}{rubs}")
+        return figure
+
+
+def _series(ax: Axes, rows: pd.DataFrame, column: str, kind: str, dash: Any, units: System, place: int) -> None:
+    """One line of a chart; ``place`` keeps apart the crosses of operations that have no answer at all."""
+    colour, marker = LOOKS[kind]
+    depth = rows["bit_depth_m"].to_numpy(float) * shown("bit_depth_m", units).factor
+    value = rows[column].to_numpy(float) * shown(column, units).factor
+    ax.plot(value, depth, color=colour, linestyle=dash, marker=marker, markevery=_marked(value), markersize=4.5)
+    status = rows["status"].to_numpy(str)
+    for name in np.unique(status[np.isfinite(value)]):
+        if name != "converged":
+            at = status == name
+            ax.plot(value[at], depth[at], color=colour, **FLAGS[name])
+    lost, found = np.isnan(value), np.isfinite(value)
+    if found.any():
+        ax.plot(np.interp(depth[lost], depth[found], value[found]), depth[lost], **LOST | {"markeredgecolor": colour})
+    else:
+        across = ax.get_yaxis_transform()
+        ax.plot(np.full(len(depth), 0.15 + 0.14 * place), depth, transform=across, **LOST | {"markeredgecolor": colour})
+
+
+def _marked(value: NDArray[np.float64]) -> list[int]:
+    """Which points of a line carry its marker: some, and every one that has no neighbour to draw a line to."""
+    found = np.concatenate(([False], np.isfinite(value), [False]))
+    alone = found[1:-1] & ~found[:-2] & ~found[2:]
+    spread = np.arange(len(value)) % max(len(value) // MARKS, 1) == 0
+    return [int(k) for k in np.flatnonzero(alone | spread)]
+
+
+def _track(ax: Axes, point: Equilibrium, column: str, units: System, *, alone: bool) -> set[str]:
+    """Draw one quantity of one string; returns the modes in which it is marked as buckled."""
+    profile, (colour, marker) = point.profile, LOOKS[point.operation]
+    factor = shown(column, units).factor
+    md = profile["md_m"].to_numpy(float) * shown("md_m", units).factor
+    value = profile[column].to_numpy(float) * factor
+    if column == "contact_force_N" and alone:
+        ax.hlines(md, 0, value, color=colour, linewidth=1)
+        touching = value > 0
+        ax.plot(value[touching], md[touching], color=colour, marker=marker, linestyle="none", markersize=3)
+        return set()
+    if column in OFFSETS:
+        clearance = profile["clearance_m"].to_numpy(float) * factor
+        ax.fill_betweenx(md, -clearance, clearance, color=SHADE, linewidth=0, zorder=0)
+    ax.plot(value, md, color=colour, marker=marker, markevery=max(len(md) // MARKS, 1), markersize=4, linewidth=1.2)
+    modes = set()
+    if column == "effective_tension_N":
+        for mode, look in BUCKLED.items():
+            at = (profile["buckling"] == mode).to_numpy()
+            if at.any():
+                modes.add(mode)
+                ax.plot(value[at], md[at], **look)
+    return modes
+
+
+def _limits(ax: Axes, profiles: Sequence[pd.DataFrame], units: System) -> None:
+    """The buckling limits of the first string, compression to the left, as far as they come near the loads."""
+    factor = shown("effective_tension_N", units).factor
+    md = profiles[0]["md_m"] * shown("md_m", units).factor
+    nearest = []
+    for mode, dash in LIMITS.items():
+        limit = -profiles[0][f"{mode}_limit_N"].replace(np.inf, np.nan) * factor
+        ax.plot(limit, md, color=QUIET, linestyle=dash, linewidth=1.2)
+        nearest.append(limit.max())
+    tension = pd.concat([profile["effective_tension_N"] for profile in profiles]) * factor
+    left, right = np.nanmin([tension.min(), *nearest]), max(tension.max(), 0.0)
+    margin = 0.06 * (right - left)
+    ax.set_xlim(left - margin, right + margin)
+
+
+def _label(ax: Axes, column: str, units: System) -> None:
+    """Name and unit below an axis whose few ticks leave room for the next one's."""
+    unit = shown(column, units).label
+    ax.set_xlabel(f"{LABELS[column]},\n{unit}" if column in TRACKS else f"{LABELS[column]}, {unit}")
+    left, right = ax.get_xlim()
+    if right - left < NOISE:
+        ax.set_xlim(-1, 1)
+    ax.xaxis.set_major_locator(MaxNLocator(3 if column in TRACKS else 6))
+
+
+def _title(figure: Figure, text: str) -> None:
+    """A heading; what a case is called is no formula."""
+    figure.suptitle(text.replace("$", r"\$"), x=0.01, ha="left", fontsize=10.5, fontweight="bold")
+
+
+def _handle(kind: str, status: str = "converged") -> Line2D:
+    """The legend's line for an operation, with a status that is worth a word."""
+    colour, marker = LOOKS[kind]
+    if status != "converged" and status not in FLAGS:
+        return Line2D([], [], **LOST, label=f"{NAMES[kind]}: no answer ({status})")
+    label = NAMES[kind] if status == "converged" else f"{NAMES[kind]} ({status})"
+    return Line2D([], [], color=colour, marker=marker, markersize=4.5, label=label)
+
+
+def _flag_handles(statuses: "pd.Series[str]") -> list[Line2D]:
+    """The legend's lines for statuses other than converged."""
+    found = [str(status) for status in statuses.unique() if status != "converged"]
+    handles = [Line2D([], [], color=QUIET, label=status, **FLAGS[status]) for status in found if status in FLAGS]
+    none = [status for status in found if status not in FLAGS]
+    return handles + ([Line2D([], [], **LOST, label=f"no answer: {', '.join(none)}")] if none else [])

@@ -1,0 +1,77 @@
+"""Result tables in the units a reader wants: values converted, the unit at the end of a column's name exchanged.
+
+Inside and in files the columns are SI; the screen and pictures show the same quantities in handier units.
+"""
+
+from typing import Final, Literal, NamedTuple
+
+import pandas as pd
+
+from fctd.units import conversion
+
+System = Literal["si", "field"]
+
+
+class Measure(NamedTuple):
+    """The unit of a kind of quantity in SI tables, in metric pictures, and in field units everywhere."""
+
+    table: str
+    si: str
+    field: str
+
+
+# In this order: a column that ends in `_N_m` is no length.
+MEASURES: Final = (
+    Measure("N*m", "kN*m", "kft*lbf"),
+    Measure("Pa", "MPa", "ksi"),
+    Measure("N", "kN", "klbf"),
+    Measure("m", "m", "ft"),
+)
+# Lengths across the hole, for which metres and feet are too coarse.
+ACROSS: Final = Measure("m", "mm", "in")
+ACROSS_COLUMNS: Final = ("offset_high_m", "offset_right_m", "clearance_m")
+
+
+class Shown(NamedTuple):
+    """How the screen and pictures show an SI column: its values times ``factor``, in the unit ``label``."""
+
+    factor: float
+    label: str
+
+
+def measure_of(column: str) -> Measure | None:
+    """What a column of an SI table measures; None for names, counts, angles and plain numbers."""
+    if column in ACROSS_COLUMNS:
+        return ACROSS
+    return next((measure for measure in MEASURES if column.endswith(_ending(measure.table))), None)
+
+
+def shown(column: str, system: System) -> Shown:
+    """How to show a column of an SI table."""
+    if column.endswith("_deg"):
+        return Shown(1.0, "°")
+    if column.endswith("_deg"):
+        return Shown(1.0, "°")
+    measure = measure_of(column)
+    if measure is None:
+        raise ValueError(f"column {column} has no unit to show")
+    unit = measure.field if system == "field" else measure.si
+    return Shown(conversion(measure.table, unit), unit.replace("*", "·"))
+
+
+def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
+    """An SI table in field units: ``hookload_N`` becomes ``hookload_klbf``, ``bit_depth_m`` ``bit_depth_ft``."""
+    columns = {}
+    for name in table.columns:
+        measure = measure_of(name)
+        if measure is None:
+            columns[name] = table[name]
+        else:
+            renamed = name.removesuffix(_ending(measure.table)) + _ending(measure.field)
+            columns[renamed] = table[name] * conversion(measure.table, measure.field)
+    return pd.DataFrame(columns)
+
+
+def _ending(unit: str) -> str:
+    """The unit as the end of a column's name."""
+    return "_" + unit.replace("*", "_")
