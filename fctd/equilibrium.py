@@ -39,6 +39,7 @@ ATTEMPTS = (
     (60, 0.05, 3.0, 0.3, 0.02),
     (80, 0.1, 1.5, 1.0, 0.02),
     (200, 0.1, 1.1, 1.0, 0.01),
+    (300, 0.05, 1.5, 0.3, 0.005),
 )
 LARGEST_TURN = 0.1  # [rad] a step
 
@@ -251,10 +252,10 @@ class Solver:
                 return "diverged", f"segment {int(np.argmax(outside)) + 1} has left the hole"
         if code != CONVERGED:
             return "max_iterations", "forces are out of balance"
-        if negative:
-            return "unstable", f"a balance that would be left without friction in {negative} mode{'s' * (negative > 1)}"
         if pushed:
             return "locked_up", "the top would have to be pushed with more than the block weight"
+        if negative:
+            return "unstable", f"a balance that would be left without friction in {negative} mode{'s' * (negative > 1)}"
         return "converged", ""
 
 
