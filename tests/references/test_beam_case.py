@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+pytest.importorskip("skfem")
+
 from fctd.errors import InputError
 from fctd.topdrive import ramp
 from references.beam_case import beam_of, top_of

@@ -4,6 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+pytest.importorskip("skfem")
+
 from fctd.drillstring import Section
 from references.beam_dynamics import generalised_alpha, lower
 from references.beam_fe import Beam, Surroundings

@@ -4,6 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+pytest.importorskip("skfem")
+
 from validation import scaled_section
 from validation.scaled_section import Comparable, differences
 
