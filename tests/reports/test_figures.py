@@ -6,6 +6,9 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
+pytest.importorskip("matplotlib")
+
+
 from reports import figures
 from reports.figures import style
 

@@ -5,6 +5,10 @@ from dataclasses import replace
 from html.parser import HTMLParser
 
 import pytest
+
+pytest.importorskip("jinja2")
+pytest.importorskip("matplotlib")
+
 from typer.testing import CliRunner
 
 from reports import __main__ as command_line
