@@ -2,11 +2,10 @@
 
 import itertools
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 
-pytest.importorskip("matplotlib")
+mpl = pytest.importorskip("matplotlib")
 
 
 from reports import figures
