@@ -108,6 +108,7 @@ def test_field_units_in_columns_and_names(
 def test_equilibrium_prints_the_loads_and_writes_the_profile(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    pytest.importorskip("matplotlib")
     out, picture = tmp_path / "profile.csv", tmp_path / "profile.svg"
     arguments = ("--operation", "trip_out", "--bit-depth", "850 m", "--friction", "0.3")
     assert run(monkeypatch, "equilibrium", case_file, *arguments, "--out", out, "--plot", picture) == 0
@@ -135,6 +136,7 @@ def test_equilibrium_prints_the_loads_and_writes_the_profile(
 def test_a_row_without_an_answer_shows_in_row_screen_and_exit_code(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    pytest.importorskip("matplotlib")
     out, picture = tmp_path / "chart.csv", tmp_path / "chart.png"
     code = run(
         monkeypatch, "chart", case_file, "--operation", "trip_out", "--depths", "500:800:150",
@@ -153,6 +155,7 @@ def test_a_row_without_an_answer_shows_in_row_screen_and_exit_code(
 def test_equilibrium_without_an_answer_writes_nothing(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    pytest.importorskip("matplotlib")
     files = [tmp_path / "p.csv", tmp_path / "p.png"]
     code = run(
         monkeypatch, "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", "800", *settings(SOFT_BELOW),

@@ -22,6 +22,7 @@ def blocks(language: str) -> list[str]:
 
 @pytest.mark.parametrize(("number", "printed"), [(0, ["completed", "[0.04205]"]), (1, ["converged", "trip_out"])])
 def test_the_python_examples_run(number: int, printed: list[str]) -> None:
+    pytest.importorskip("matplotlib")
     examples = blocks("python")
     assert len(examples) == 2
     assert len(examples[number].strip().splitlines()) <= 10
@@ -33,6 +34,7 @@ def test_the_python_examples_run(number: int, printed: list[str]) -> None:
 
 
 def test_the_command_line_examples_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib")
     commands = re.findall(r"^\.venv/bin/(fctd .*)$", "\n".join(blocks("sh")).replace("\\\n", " "), re.MULTILINE)
     assert [command.split()[1] for command in commands] == ["simulate", "chart", "equilibrium"]
     monkeypatch.chdir(tmp_path)

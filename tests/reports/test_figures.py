@@ -5,8 +5,9 @@ import itertools
 import numpy as np
 import pytest
 
-mpl = pytest.importorskip("matplotlib")
+pytest.importorskip("matplotlib")
 
+import matplotlib as mpl
 
 from reports import figures
 from reports.figures import style
