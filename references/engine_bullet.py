@@ -35,14 +35,14 @@ class BulletOptions(StepOptions):
     """What can be set.
 
     settings : ``fair``, the wall's stiffness and damping of the case, or ``default``, Bullet's hard contact with
-    every parameter as it comes.  facets, ring_spacing [m] : of the tube; rings stand at the ends of FCTD's cylinders
-    at least.  unit [m] : the length that Bullet is told to be 1.  sphere : where the string touches, on a fixed
+    every parameter as it comes.  facets, ring_spacing [m] : of the tube; rings stand at the ends of FCTD's
+    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  sphere : where the string touches, on a fixed
     ``link`` or ``offset`` in its body's own shape.
     """
 
     settings: Literal["fair", "default"] = "fair"
     facets: int = TubeOptions.model_fields["facets"].default
-    ring_spacing: units.PositiveLength = 30.0
+    ring_spacing: units.PositiveLength | None = None
     unit: units.PositiveLength = 1.0
     sphere: Literal["link", "offset"] = "link"
 
@@ -62,7 +62,7 @@ class _Bodies:
             )  # fmt: skip
         friction = run.case.wellbore.intervals[0].friction
         poses, stiffness, damping = poses_of(run), wall_stiffness(run), run.laws.contact_damping
-        self._bodies = [self._add_body(run, j, poses[j], options.sphere) for j in range(run.segments)]
+        self._bodies = [self._add_body(run, j, poses[j], options.sphere, fair) for j in range(run.segments)]
         self._number = {body: j + 1 for j, body in enumerate(self._bodies)}
         touching = 0 if options.sphere == "link" else -1
         for body, k in zip(self._bodies, stiffness, strict=True):
@@ -87,7 +87,7 @@ class _Bodies:
         bullet.setCollisionFilterGroupMask(wall, -1, WALL, STRING, physicsClientId=client)
         return wall
 
-    def _add_body(self, run: Run, j: int, pose: Array, sphere: str) -> int:
+    def _add_body(self, run: Run, j: int, pose: Array, sphere: str, fair: bool) -> int:
         """Segment j with its sphere at the contact point and the inertia of the engine."""
         bullet, client, u = self._bullet, self._client, self._scale
         mass, across, along, arm, radius = (
@@ -114,6 +114,9 @@ class _Bodies:
             activationState=bullet.ACTIVATION_STATE_DISABLE_SLEEPING,
             localInertiaDiagonal=(u * u * across, u * u * across, u * u * along),
         )  # fmt: skip
+        if fair:
+            # Velocities are cut at 100 units a second unless told otherwise.
+            bullet.changeDynamics(body, -1, maxJointVelocity=1e12, physicsClientId=client)
         bullet.resetBaseVelocity(body, (u * pose[7:10]).tolist(), pose[10:13].tolist(), physicsClientId=client)
         return body
 
@@ -174,7 +177,8 @@ class Bullet:
         check_no_mud(run.case, self.name)
         tube = None
         if run.case.contact.enabled:
-            mesh = TubeOptions(facets=self.options.facets, ring_spacing=self.options.ring_spacing)
+            spacing = self.options.ring_spacing or run.hole.total_depth
+            mesh = TubeOptions(facets=self.options.facets, ring_spacing=spacing)
             tube = build_tube(run.case, mesh)
         return FreeBodies(run, _Bodies(self._bullet, run, tube, self.options), self.options.step or SHARE * run.step)
 

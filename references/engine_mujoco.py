@@ -38,7 +38,7 @@ class MuJoCoOptions(StepOptions):
 
     settings: Literal["fair", "default"] = "fair"
     facets: int = TubeOptions.model_fields["facets"].default
-    ring_spacing: units.PositiveLength = 30.0
+    ring_spacing: units.PositiveLength | None = None
     stiffness: units.PositiveStiffness = STIFFNESS
     margin: units.Length = MARGIN
 
@@ -141,7 +141,8 @@ class MuJoCo:
         check_no_mud(run.case, self.name)
         tube = None
         if run.case.contact.enabled:
-            mesh = TubeOptions(facets=self.options.facets, ring_spacing=self.options.ring_spacing)
+            spacing = self.options.ring_spacing or run.hole.total_depth
+            mesh = TubeOptions(facets=self.options.facets, ring_spacing=spacing)
             margin = self.options.margin if self.options.settings == "fair" else 0.0
             tube = build_tube(_wider(run.case, margin), mesh)
         return FreeBodies(run, _Bodies(self._mujoco, run, tube, self.options), self.options.step or SHARE * run.step)

@@ -47,12 +47,12 @@ class _Stepper:
             _, rate = planned_speeds(run.top, motion, dt)
             model.qpos_spring[:4] = np.cos(0.5 * self._turned), 0.0, 0.0, np.sin(0.5 * self._turned)
             mujoco.mj_step(model, data)
+            self._turned += dt * rate
             torque, hookload = self._loads()
             run.top[topdrive.SUM_HOOKLOAD] += dt * hookload
             run.top[topdrive.SUM_TOP_TORQUE] += dt * torque
             run.top[topdrive.TOP_WORK] += dt * rate * torque
             run.top[topdrive.TOP_TIME] += dt
-            self._turned += dt * rate
         run.steps += steps
 
     def _angles(self) -> np.ndarray:
@@ -73,7 +73,7 @@ class _Stepper:
         run, data, n = self._run, self._data, self._run.segments
         velocity = np.zeros(6)
         for j in range(1, n + 1):
-            body = j
+            body = j + 1  # the first is where the chain hangs
             for k, row in enumerate((state.X, state.Y, state.Z)):
                 run.S[row + j] = data.xipos[body, k]
             for k, row in enumerate((state.QW, state.QX, state.QY, state.QZ)):
@@ -101,10 +101,9 @@ def _model(run: Run) -> str:
     gravity = state.row(S, state.WEIGHT, n).sum() / state.row(S, state.MASS, n).sum()
     inside = ""
     for j in range(n, 0, -1):
-        top, length = S[state.ARM_TOP + j], S[state.ARM_TOP + j] + S[state.ARM_BOTTOM + j]
+        top = S[state.ARM_TOP + j]
         mass, across, along = (float(S[row + j]) for row in (state.MASS, state.J_TRANSVERSE, state.J_AXIAL))
         above = S[state.ARM_TOP + j - 1] + S[state.ARM_BOTTOM + j - 1] if j > 1 else 0.0
-        assert length > 0
         inside = (
             f'<body pos="0 0 {float(above)!r}"><joint type="ball" stiffness="{float(S[state.K_TWIST + j])!r}"/>'
             f'<inertial pos="0 0 {float(top)!r}" mass="{mass!r}" diaginertia="{across!r} {across!r} {along!r}"/>'
