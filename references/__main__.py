@@ -29,9 +29,7 @@ def list_command() -> None:
             table.add_column(column, overflow="fold")
         for name, (described, version) in found.items():
             options = ", ".join(f"{key}={field.default}" for key, field in described.Options.model_fields.items())
-            table.add_row(
-                name, described.distribution, version or "not installed", described.does, options or "–"
-            )
+            table.add_row(name, described.distribution, version or "not installed", described.does, options or "–")
         screen.print(table)
 
 
@@ -62,9 +60,7 @@ def engine_command(
     engine: Annotated[str, typer.Option("--engine", metavar="ENGINE", help="An engine of 'list'.")],
     duration: Annotated[float, typer.Option("--duration", help="Simulated time in the engine, s.")] = 2.0,
     start: Annotated[float, typer.Option("--start", help="Time at which FCTD hands over its state, s.")] = 0.0,
-    options: Annotated[
-        list[str], typer.Option("--option", metavar="KEY=VALUE", help="An option of the engine.")
-    ] = [],  # noqa: B006
+    options: Annotated[list[str], typer.Option("--option", metavar="KEY=VALUE", help="An option of the engine.")] = [],  # noqa: B006
     overrides: Overrides = [],  # noqa: B006
     friction: Friction = None,
 ) -> None:

@@ -36,8 +36,8 @@ class BulletOptions(StepOptions):
 
     settings : ``fair``, the wall's stiffness and damping of the case, or ``default``, Bullet's hard contact with
     every parameter as it comes.  facets, ring_spacing [m] : of the tube; rings stand at the ends of FCTD's
-    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  sphere : where the string touches, on a fixed
-    ``link`` or ``offset`` in its body's own shape.
+    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  sphere : where the string touches,
+    on a fixed ``link`` or ``offset`` in its body's own shape.
     """
 
     settings: Literal["fair", "default"] = "fair"
@@ -145,7 +145,7 @@ class _Bodies:
 
     def contacts(self) -> tuple[NDArray[np.int64], Array]:
         """See ``Bodies.contacts``."""
-        hits = [hit for hit in self._bullet.getContactPoints(bodyB=self._wall, physicsClientId=self._client)]
+        hits = self._bullet.getContactPoints(bodyB=self._wall, physicsClientId=self._client)
         bodies, rows = [], []
         for hit in hits:
             first, second = (np.array(hit[k + 1]) * hit[k] for k in FRICTION)

@@ -23,9 +23,7 @@ ENERGY = 0.05
 DRIFT = 0.01
 
 
-def examine(
-    run: Run, history: pd.DataFrame, profile: pd.DataFrame, energy: pd.DataFrame, broken: str
-) -> pd.DataFrame:
+def examine(run: Run, history: pd.DataFrame, profile: pd.DataFrame, energy: pd.DataFrame, broken: str) -> pd.DataFrame:
     """A row per check: check, value, bound, passed.  broken : how the run ended early, or nothing."""
     values = {
         "finite state": (_not_finite(run, history) + bool(broken), 0.0),

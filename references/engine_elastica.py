@@ -120,7 +120,11 @@ class _Stepper:
         self._rod = _rod(elastica, run, rotary)
         best = STEP_SHARE * 2 / _fastest(run, self._rod)
         self.step = step or best
-        self._time, self._simulator, self._stepper = np.float64(0.0), _simulator(elastica, self), elastica.PositionVerlet()
+        self._time, self._simulator, self._stepper = (
+            np.float64(0.0),
+            _simulator(elastica, self),
+            elastica.PositionVerlet(),
+        )
 
     def advance(self, motion: Motion, duration: float) -> None:
         """See ``Stepper.advance``."""
@@ -192,9 +196,17 @@ def _rod(elastica: ModuleType, run: Run, rotary: str) -> Any:
     length = string.length.copy()
     if string.long_segment:
         length[0] = run.top[topdrive.TOP_LENGTH]
-    columns = [np.stack([state.row(S, k, n) for k in rows], axis=1) for rows in (
-        (state.X, state.Y, state.Z), (state.VX, state.VY, state.VZ), (state.GX, state.GY, state.GZ),
-        (state.AX, state.AY, state.AZ), (state.QW, state.QX, state.QY, state.QZ), (state.WX, state.WY, state.WZ))]
+    columns = [
+        np.stack([state.row(S, k, n) for k in rows], axis=1)
+        for rows in (
+            (state.X, state.Y, state.Z),
+            (state.VX, state.VY, state.VZ),
+            (state.GX, state.GY, state.GZ),
+            (state.AX, state.AY, state.AZ),
+            (state.QW, state.QX, state.QY, state.QZ),
+            (state.WX, state.WY, state.WZ),
+        )
+    ]
     centre, speed, spin, axis, turn, own_spin = columns
     bottom = state.row(S, state.ARM_BOTTOM, n)[:, None]
     nodes = np.vstack([S[[state.X, state.Y, state.Z]], centre + bottom * axis])
@@ -246,7 +258,11 @@ def _fastest(run: Run, rod: Any) -> float:
     string, length = run.string, rod.rest_lengths
     node = np.minimum(rod.mass[1:], np.append(rod.mass[1:-1], np.inf))
     stretch = 4 * string.of("EA") / length / node
-    wall = run.hole.stiffest_wall * state.row(run.S, state.TRIBUTARY, run.segments) if run.laws.geometry != state.OPEN else 0.0
+    wall = (
+        run.hole.stiffest_wall * state.row(run.S, state.TRIBUTARY, run.segments)
+        if run.laws.geometry != state.OPEN
+        else 0.0
+    )
     shear = string.of("shear") * length / rod.mass_second_moment_of_inertia[0, 0]
     turning = shear + 4 * string.of("shear") / length / node + wall / rod.mass[1:]
     twist = 4 * state.row(run.S, state.K_TWIST, run.segments) / rod.mass_second_moment_of_inertia[2, 2]
@@ -256,18 +272,18 @@ def _fastest(run: Run, rod: Any) -> float:
 def _simulator(elastica: ModuleType, stepper: _Stepper) -> Any:
     """PyElastica's collection of the rod, its held end and its surroundings."""
 
-    class Held(elastica.ConstraintBase):
+    class Held(elastica.ConstraintBase):  # type: ignore[name-defined,misc]
         def constrain_values(self, system: Any, time: Any) -> None:
             """Position and direction follow from the rates."""
 
         def constrain_rates(self, system: Any, time: Any) -> None:
             stepper.hold(system)
 
-    class Around(elastica.NoForces):
+    class Around(elastica.NoForces):  # type: ignore[name-defined,misc]
         def apply_forces(self, system: Any, time: Any = 0.0) -> None:
             stepper._around.apply(system)
 
-    class Simulator(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing):
+    class Simulator(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing):  # type: ignore[name-defined,misc]
         pass
 
     simulator = Simulator()

@@ -78,9 +78,7 @@ class _Stepper:
                 run.S[row + j] = data.xipos[body, k]
             for k, row in enumerate((state.QW, state.QX, state.QY, state.QZ)):
                 run.S[row + j] = data.xquat[body, k]
-            self._mujoco.mj_objectVelocity(
-                self._model, data, self._mujoco.mjtObj.mjOBJ_BODY, body, velocity, 1
-            )
+            self._mujoco.mj_objectVelocity(self._model, data, self._mujoco.mjtObj.mjOBJ_BODY, body, velocity, 1)
             for k, row in enumerate((state.WX, state.WY, state.WZ)):
                 run.S[row + j] = velocity[k]
 

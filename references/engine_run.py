@@ -17,7 +17,9 @@ from references import engine_checks
 from references.engines import EngineRun, Stepper, Window
 
 
-def legs(case: Case, stretches: list[Stretch], start: float, end: float, interval: float) -> list[tuple[Stretch, float]]:
+def legs(
+    case: Case, stretches: list[Stretch], start: float, end: float, interval: float
+) -> list[tuple[Stretch, float]]:
     """Parts of a schedule between two times, and the time at which each ends, no longer than ``interval`` [s]."""
     parts = []
     now = start
@@ -58,7 +60,9 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
         run, stretches = begin_run(case, window)
         parts = legs(case, stretches, window.start, window.start + window.duration, case.record.interval)
         recorder = Recorder(run)
-        recorder.start_depth += float(run.top[topdrive.TOP_LENGTH]) - (run.string.length[0] if run.string.long_segment else 0.0)
+        recorder.start_depth += float(run.top[topdrive.TOP_LENGTH]) - (
+            run.string.length[0] if run.string.long_segment else 0.0
+        )
         recorder.last_time = window.start
         stepper = begin(run)
     except InputError as error:

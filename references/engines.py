@@ -142,7 +142,9 @@ def check_coulomb(case: Case, engine: str) -> None:
         return
     if case.contact.friction_law != "coulomb":
         raise InputError(
-            f"coulomb, the only law of friction of {engine}", key="contact.friction_law", value=case.contact.friction_law
+            f"coulomb, the only law of friction of {engine}",
+            key="contact.friction_law",
+            value=case.contact.friction_law,
         )
     for i, interval in enumerate(case.wellbore.intervals):
         if interval.friction != case.wellbore.intervals[0].friction:

@@ -96,8 +96,19 @@ def _sum_contacts(S, body, contacts, before, poses, dt):  # type: ignore[no-unty
 def poses_of(run: Run) -> Array:
     """Poses (n, 13) of the bodies of a run, as of ``Bodies``; axes have to be up to date."""
     n = run.segments
-    rows = (state.X, state.Y, state.Z, state.QW, state.QX, state.QY, state.QZ, state.VX, state.VY, state.VZ)
-    rows += (state.GX, state.GY, state.GZ)
+    rows: tuple[int, ...] = (
+        state.X,
+        state.Y,
+        state.Z,
+        state.QW,
+        state.QX,
+        state.QY,
+        state.QZ,
+        state.VX,
+        state.VY,
+        state.VZ,
+    )
+    rows = (*rows, state.GX, state.GY, state.GZ)
     return np.stack([state.row(run.S, offset, n) for offset in rows], axis=1)
 
 

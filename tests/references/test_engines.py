@@ -117,7 +117,9 @@ def test_what_an_engine_cannot_represent_is_an_input_error(name: str, sections: 
 
 
 def test_two_frictions_are_refused_by_engines_with_one() -> None:
-    intervals = [{"to_md": 300, "diameter": 0.2159, "friction": f} | ({"to_md": 600} if f > 0.2 else {}) for f in (0.2, 0.3)]
+    intervals = [
+        {"to_md": 300, "diameter": 0.2159, "friction": f} | ({"to_md": 600} if f > 0.2 else {}) for f in (0.2, 0.3)
+    ]
     with pytest.raises(InputError, match="one friction factor"):
         engines.build("bullet").run(turning(wellbore={"intervals": intervals}), Window(0.0, 0.1))
 
