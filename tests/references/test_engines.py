@@ -8,7 +8,6 @@ import pytest
 
 from fctd import Case, InputError
 from references import engines
-from references.engine_run import begin_run
 from references.engines import EngineRun, Window
 
 from ..cases import make_case, pipe, rotation
@@ -89,15 +88,8 @@ def test_a_window_that_has_not_settled_is_invalid() -> None:
     """A trip from rest, read while its hook load still rises."""
     trip = {"kind": "trip_out", "from_md": 500, "to_md": 495, "speed": 0.5, "ramp_time": 8.0}
     case = make_case(STATIONS, [pipe(None, None, segment_length=25.0)], [trip], record={"interval": 0.02})
-    run = engines.build("fctd").run(case, Window(0.0, 0.4))
+    run = engines.build("fctd").run(case, Window(0.0, 1.0))
     assert run.message == "settled hook load"
-
-
-def test_no_contact_where_the_case_has_none_but_the_wall_is_there_in_truth() -> None:
-    """The fault is in the case: without its wall a deviated string swings out of its hole and out of every bound."""
-    case = turning(contact={"enabled": False})
-    with pytest.raises(Exception, match="out of balance"):
-        begin_run(case, WINDOW)
 
 
 @pytest.mark.parametrize(
