@@ -1,37 +1,37 @@
-"""``python -m references``: the contact methods there are, and the engine's loop with one of them."""
+"""``python -m references``: the contact methods and string engines there are, and the loop with one of them."""
 
 from typing import Annotated, Any
 
 import typer
 from rich.table import Table
 
-from fctd.case import Case, parse_override
+from fctd.case import Case, load_case, parse_override
 from fctd.cli import run, simulate_file
 from fctd.cli_options import CaseFile, Csv, Friction, Out, Overrides, Quiet, screen
 from fctd.errors import InputError
-from references import base
+from references import base, engines
 
 app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    help="What FCTD is set against: other contact methods in the same loop.",
+    help="What FCTD is set against: other contact methods in the same loop, other engines with the same string.",
 )
 
 
 @app.command("list")
 def list_command() -> None:
-    """Name the contact methods: version, what they do, whether they are installed."""
-    table = Table()
-    for name in ("method", "package", "version", "what it does", "options"):
-        table.add_column(name, overflow="fold")
-    for name in base.METHODS:
-        method = base.method_class(name)
-        options = ", ".join(f"{key}={field.default}" for key, field in method.Options.model_fields.items())
-        table.add_row(
-            name, method.distribution, base.installed_version(name) or "not installed", method.does, options or "–"
-        )
-    screen.print(table)
+    """Name the contact methods and the string engines: version, what they do, whether they are installed."""
+    methods = {name: (base.method_class(name), base.installed_version(name)) for name in base.METHODS}
+    others = {name: (engines.engine_class(name), engines.installed_version(name)) for name in engines.ENGINES}
+    for title, found in (("contact method", methods), ("string engine", others)):
+        table = Table()
+        for column in (title, "package", "version", "what it does", "options"):
+            table.add_column(column, overflow="fold")
+        for name, (described, version) in found.items():
+            options = ", ".join(f"{key}={field.default}" for key, field in described.Options.model_fields.items())
+            table.add_row(name, described.distribution, version or "not installed", described.does, options or "–")
+        screen.print(table)
 
 
 @app.command("simulate")
@@ -50,15 +50,43 @@ def simulate_command(
     """Run a case with another contact method in the engine's loop; friction, force law and step stay the same."""
 
     def method(case: Case) -> base.ContactMethod:
-        chosen: dict[str, Any] = {}
-        for text in options:
-            key, given, _ = text.partition("=")
-            if not given:
-                raise InputError("KEY=VALUE", key="--option", value=text)
-            chosen[key] = parse_override(text)[1]
-        return base.build(contact, case, **chosen)
+        return base.build(contact, case, **_chosen(options))
 
     simulate_file(case_file, out, overrides, friction, csv, quiet, method)
+
+
+@app.command("engine")
+def engine_command(
+    case_file: CaseFile,
+    engine: Annotated[str, typer.Option("--engine", metavar="ENGINE", help="An engine of 'list'.")],
+    duration: Annotated[float, typer.Option("--duration", help="Simulated time in the engine, s.")] = 2.0,
+    start: Annotated[float, typer.Option("--start", help="Time at which FCTD hands over its state, s.")] = 0.0,
+    options: Annotated[list[str], typer.Option("--option", metavar="KEY=VALUE", help="An option of the engine.")] = [],  # noqa: B006
+    overrides: Overrides = [],  # noqa: B006
+    friction: Friction = None,
+) -> None:
+    """Run a window of a case in another engine: its loads at the end, and the checks that it passed or failed."""
+    changes = dict(parse_override(text) for text in overrides) | ({} if friction is None else {"friction": friction})
+    case = load_case(case_file, changes)
+    run = engines.build(engine, **_chosen(options)).run(case, engines.Window(start, duration))
+    last = run.history.iloc[-1]
+    screen.print(f"{engine}: {run.status}", f"({run.message})" if run.message else "")
+    screen.print(f"hook load {last['hookload_N'] / 1e3:.2f} kN, torque {last['surface_torque_N_m'] / 1e3:.3f} kN·m")
+    for row in run.checks.itertuples():
+        screen.print(f"  {'passed' if row.passed else 'FAILED'}  {row.check}: {row.value:.3g} (at most {row.bound:g})")
+    if run.status != "valid":
+        raise typer.Exit(1)
+
+
+def _chosen(options: list[str]) -> dict[str, Any]:
+    """Options written KEY=VALUE; InputError for one that is not."""
+    chosen: dict[str, Any] = {}
+    for text in options:
+        key, given, _ = text.partition("=")
+        if not given:
+            raise InputError("KEY=VALUE", key="--option", value=text)
+        chosen[key] = parse_override(text)[1]
+    return chosen
 
 
 if __name__ == "__main__":

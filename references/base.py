@@ -87,7 +87,7 @@ def need(module: str, method: type[ContactMethod]) -> Any:
     return import_or_tell(module, method.distribution, method.name)
 
 
-def import_or_tell(module: str, distribution: str, wanted_for: str) -> Any:
+def import_or_tell(module: str, distribution: str, wanted_for: str, key: str = "contact") -> Any:
     """Import a module of an optional package; InputError naming the package when it is not installed."""
     try:
         return importlib.import_module(module)
@@ -96,7 +96,7 @@ def import_or_tell(module: str, distribution: str, wanted_for: str) -> Any:
             raise
         raise InputError(
             f"package {distribution}, which is not installed (it is part of the extra 'suite')",
-            key="contact",
+            key=key,
             value=wanted_for,
         ) from None
 

@@ -8,7 +8,7 @@ import pytest
 
 from fctd.cli import run
 from references import __main__ as command
-from references import base
+from references import base, engines
 
 CASE = Path(__file__).parents[2] / "validation" / "cases" / "curved_chain.toml"
 SHORT = ("--set", "operations[0].duration=1 s", "--set", "operations[0].ramp_time=1 s", "--quiet")
@@ -25,7 +25,7 @@ def call(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
 def test_the_list_names_every_method(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert call(monkeypatch, "list") == 0
     printed = capsys.readouterr().out
-    for name in base.METHODS:
+    for name in [*base.METHODS, *engines.ENGINES]:
         assert name in printed
 
 
@@ -84,3 +84,18 @@ def test_interrupted_is_exit_code_130(monkeypatch: pytest.MonkeyPatch, tmp_path:
 
     monkeypatch.setattr(command, "simulate_file", stopped)
     assert call(monkeypatch, "simulate", CASE, "--contact", "cylinders", "--out", tmp_path) == 130
+
+
+def test_an_engine_runs_a_window_and_tells_its_checks(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    window = ("--start", "6", "--duration", "1", "--set", "record.interval=0.1 s")
+    assert call(monkeypatch, "engine", CASE, "--engine", "fctd", *window) == 0
+    printed = capsys.readouterr().out
+    assert "fctd: valid" in printed
+    assert "passed  settled hook load" in printed
+    assert call(monkeypatch, "engine", CASE, "--engine", "bulet", *window) == 2
+    assert "bullet" in capsys.readouterr().err
+    monkeypatch.setitem(__import__("sys").modules, "mujoco", None)
+    assert call(monkeypatch, "engine", CASE, "--engine", "mujoco", *window) == 2
+    assert "package mujoco, which is not installed" in capsys.readouterr().err

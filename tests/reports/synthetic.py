@@ -353,6 +353,37 @@ def contact_swap() -> dict[str, pd.DataFrame]:
     }
 
 
+def engines_agree() -> dict[str, pd.DataFrame]:
+    names = ["FCTD", "Bullet", "MuJoCo, default"]
+    md = np.arange(1700.0, 2450.0, 25.0)
+    kinds = ["rotate_off_bottom", "trip_out"]
+    return {
+        "chain": pd.DataFrame(
+            {
+                "operation": kind,
+                "engine": name,
+                "status": "valid" if k < 2 else "invalid",
+                "hookload_off_percent": 0.3 * k,
+                "torque_off_percent": -2.0 * k if kind == kinds[0] else np.nan,
+            }
+            for kind in kinds
+            for k, name in enumerate(names)
+        ),
+        "profiles": pd.concat(
+            pd.DataFrame(
+                {"operation": kinds[0], "engine": name, "md_m": md, "contact_force_N": 5e3 * (md > 1750) + 9 * k}
+            )
+            for k, name in enumerate(names)
+        ),
+        "cost": pd.DataFrame(
+            {"state": state, "step": step, "engine": name, "ms_per_simulated_s": 10.0 ** (k + len(step) / 10)}
+            for state in ("free", "in contact")
+            for step in ("own step", "equal step")
+            for k, name in enumerate(names)
+        ),
+    }
+
+
 STUDIES = {
     function.__name__: function
     for function in (
@@ -368,6 +399,7 @@ STUDIES = {
         beam_in_hole,
         contact_accuracy,
         contact_swap,
+        engines_agree,
         real_survey,
         real_chart,
     )

@@ -1,0 +1,187 @@
+"""The string in Bullet (pybullet): free bodies under our joint wrenches, Bullet's own contact with the concave tube.
+
+Traps: chains of Bullet's own constraints sag by metres; a collision sphere off its body's origin falls through a
+concave mesh, so that each body carries a fixed link with the sphere; damping and sleeping are on by default.
+"""
+
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd import state, units
+from fctd.case import Case
+from fctd.errors import Table
+from fctd.run import Run
+from references.engine_run import run_window
+from references.engines import EngineRun, StepOptions, Window, check_coulomb, check_no_mud, need
+from references.free_bodies import FreeBodies, poses_of, wall_stiffness
+from references.tube_mesh import Tube, TubeOptions, build_tube
+
+Array = NDArray[np.float64]
+
+# Share of the engine's own step: Bullet turns bodies explicitly, which feeds a spinning string at longer ones.
+SHARE = 0.5
+# Distance beyond which Bullet forgets a contact point [m]: its own, 20 mm, holds points that have moved on.
+FORGET = 1e-3
+ITERATIONS = 50
+# Bits of the collision filter: the wall and the string meet each other and nothing else.
+WALL, STRING = 1, 2
+# Fields of a contact point.
+BODY, PLACE, FORCE, FRICTION = 1, 6, 9, (10, 12)
+
+
+class BulletOptions(StepOptions):
+    """What can be set.
+
+    settings : ``fair``, the wall's stiffness and damping of the case, or ``default``, Bullet's hard contact with
+    every parameter as it comes.  facets, ring_spacing [m] : of the tube; rings stand at the ends of FCTD's
+    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  sphere : where the string touches,
+    on a fixed ``link`` or ``offset`` in its body's own shape.
+    """
+
+    settings: Literal["fair", "default"] = "fair"
+    facets: int = TubeOptions.model_fields["facets"].default
+    ring_spacing: units.PositiveLength | None = None
+    unit: units.PositiveLength = 1.0
+    sphere: Literal["link", "offset"] = "link"
+
+
+class _Bodies:
+    """The bodies in a client of pybullet, lengths in ``unit``."""
+
+    def __init__(self, bullet: Any, run: Run, tube: Tube | None, options: BulletOptions) -> None:
+        self._bullet, self._scale, self._dt = bullet, 1.0 / options.unit, 0.0
+        self._client = bullet.connect(bullet.DIRECT)
+        bullet.setGravity(0, 0, 0, physicsClientId=self._client)
+        fair = options.settings == "fair"
+        if fair:
+            bullet.setPhysicsEngineParameter(
+                numSolverIterations=ITERATIONS, solverResidualThreshold=0, enableConeFriction=1,
+                contactBreakingThreshold=FORGET * self._scale, physicsClientId=self._client,
+            )  # fmt: skip
+        friction = run.case.wellbore.intervals[0].friction
+        poses, stiffness, damping = poses_of(run), wall_stiffness(run), run.laws.contact_damping
+        self._bodies = [self._add_body(run, j, poses[j], options.sphere, fair) for j in range(run.segments)]
+        self._number = {body: j + 1 for j, body in enumerate(self._bodies)}
+        touching = 0 if options.sphere == "link" else -1
+        for body, k in zip(self._bodies, stiffness, strict=True):
+            soft = {"contactStiffness": k, "contactDamping": damping} if fair and damping > 0 else {}
+            bullet.changeDynamics(
+                body, touching, lateralFriction=friction, restitution=0, physicsClientId=self._client, **soft
+            )
+            bullet.setCollisionFilterGroupMask(body, touching, STRING, WALL, physicsClientId=self._client)
+        self._wall = -1 if tube is None else self._add_wall(tube)
+
+    def _add_wall(self, tube: Tube) -> int:
+        bullet, client = self._bullet, self._client
+        shape = bullet.createCollisionShape(
+            bullet.GEOM_MESH,
+            vertices=(self._scale * np.asarray(tube.mesh.vertices)).tolist(),
+            indices=np.asarray(tube.mesh.faces).ravel().tolist(),
+            flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
+            physicsClientId=client,
+        )
+        wall: int = bullet.createMultiBody(0, shape, physicsClientId=client)
+        bullet.changeDynamics(wall, -1, lateralFriction=1.0, restitution=0, physicsClientId=client)
+        bullet.setCollisionFilterGroupMask(wall, -1, WALL, STRING, physicsClientId=client)
+        return wall
+
+    def _add_body(self, run: Run, j: int, pose: Array, sphere: str, fair: bool) -> int:
+        """Segment j with its sphere at the contact point and the inertia of the engine."""
+        bullet, client, u = self._bullet, self._client, self._scale
+        mass, across, along, arm, radius = (
+            float(run.S[row + 1 + j])
+            for row in (state.MASS, state.J_TRANSVERSE, state.J_AXIAL, state.ARM_CONTACT, state.RADIUS)
+        )
+        at = (0, 0, u * arm)
+        placed = {"collisionFramePosition": at} if sphere == "offset" else {}
+        shape = bullet.createCollisionShape(bullet.GEOM_SPHERE, radius=u * radius, physicsClientId=client, **placed)
+        x, y, z, qw, qx, qy, qz = pose[:7]
+        still = (0, 0, 0, 1)
+        link = {
+            "linkMasses": [0], "linkCollisionShapeIndices": [shape], "linkVisualShapeIndices": [-1],
+            "linkPositions": [at], "linkOrientations": [still], "linkInertialFramePositions": [(0, 0, 0)],
+            "linkInertialFrameOrientations": [still], "linkParentIndices": [0],
+            "linkJointTypes": [bullet.JOINT_FIXED], "linkJointAxis": [(0, 0, 1)],
+        }  # fmt: skip
+        body: int = bullet.createMultiBody(
+            mass, shape if sphere == "offset" else -1, -1, (u * x, u * y, u * z), (qx, qy, qz, qw),
+            physicsClientId=client, **(link if sphere == "link" else {}),
+        )  # fmt: skip
+        bullet.changeDynamics(
+            body, -1, linearDamping=0, angularDamping=0, physicsClientId=client,
+            activationState=bullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+            localInertiaDiagonal=(u * u * across, u * u * across, u * u * along),
+        )  # fmt: skip
+        if fair:
+            # Velocities are cut at 100 units a second unless told otherwise.
+            bullet.changeDynamics(body, -1, maxJointVelocity=1e12, physicsClientId=client)
+        bullet.resetBaseVelocity(body, (u * pose[7:10]).tolist(), pose[10:13].tolist(), physicsClientId=client)
+        return body
+
+    def step(self, poses: Array, wrenches: Array, dt: float) -> Array:
+        """See ``Bodies.step``."""
+        bullet, client, u = self._bullet, self._client, self._scale
+        if dt != self._dt:
+            bullet.setTimeStep(dt, physicsClientId=client)
+            self._dt = dt
+        push, turn, world = bullet.applyExternalForce, bullet.applyExternalTorque, bullet.WORLD_FRAME
+        forces, moments = (u * wrenches[:, :3]).tolist(), (u * u * wrenches[:, 3:]).tolist()
+        for body, force, moment, place in zip(self._bodies, forces, moments, (u * poses[:, :3]).tolist(), strict=True):
+            push(body, -1, force, place, world, client)
+            turn(body, -1, moment, world, client)
+        bullet.stepSimulation(client)
+        place_of, speed_of = bullet.getBasePositionAndOrientation, bullet.getBaseVelocity
+        rows = []
+        for body in self._bodies:
+            place, (qx, qy, qz, qw) = place_of(body, client)
+            speed, spin = speed_of(body, client)
+            rows.append((*place, qw, qx, qy, qz, *speed, *spin))
+        after = np.array(rows)
+        after[:, :3] /= u
+        after[:, 7:10] /= u
+        return after
+
+    def contacts(self) -> tuple[NDArray[np.int64], Array]:
+        """See ``Bodies.contacts``."""
+        hits = self._bullet.getContactPoints(bodyB=self._wall, physicsClientId=self._client)
+        bodies, rows = [], []
+        for hit in hits:
+            first, second = (np.array(hit[k + 1]) * hit[k] for k in FRICTION)
+            bodies.append(self._number[hit[BODY]])
+            rows.append((*hit[PLACE], hit[FORCE], *(first + second)))
+        found = np.array(rows).reshape(-1, 7) / self._scale
+        return np.array(bodies, np.int64), found
+
+    def close(self) -> None:
+        """Disconnect the client, which nothing else frees."""
+        self._bullet.disconnect(self._client)
+
+
+class Bullet:
+    """Free bodies in Bullet against a concave tube of triangles."""
+
+    name: ClassVar[str] = "bullet"
+    distribution: ClassVar[str] = "pybullet"
+    does: ClassVar[str] = "free bodies under our joint wrenches; inertia, contact with a mesh and friction are Bullet's"
+    Options: ClassVar[type[Table]] = BulletOptions
+
+    def __init__(self, options: BulletOptions) -> None:
+        self._bullet = need("pybullet", type(self))
+        self.options = options
+
+    def begin(self, run: Run) -> FreeBodies:
+        """See ``StringEngine.begin``."""
+        check_coulomb(run.case, self.name)
+        check_no_mud(run.case, self.name)
+        tube = None
+        if run.case.contact.enabled:
+            spacing = self.options.ring_spacing or run.hole.total_depth
+            mesh = TubeOptions(facets=self.options.facets, ring_spacing=spacing)
+            tube = build_tube(run.case, mesh)
+        return FreeBodies(run, _Bodies(self._bullet, run, tube, self.options), self.options.step or SHARE * run.step)
+
+    def run(self, case: Case, window: Window) -> EngineRun:
+        """See ``StringEngine.run``."""
+        return run_window(case, window, self.begin)

@@ -1,0 +1,327 @@
+"""The string as a Cosserat rod in PyElastica: its own beam and integrator, our wall test and friction at its nodes.
+
+Elements are the segments: PyElastica's rod has its springs in the elements (stretch, shear) and between them (bending,
+twist).  Rotary inertia across the rod is a rigid segment's, mL²/12; with the pipe's own the step would be hundreds of
+times shorter.  PyElastica has no tube to touch and no friction on one, so both are written here as external forces.
+"""
+
+from types import ModuleType
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from fctd import state, topdrive
+from fctd.case import Case
+from fctd.contact import query_walls
+from fctd.energy import Energy
+from fctd.errors import Table
+from fctd.run import Run
+from fctd.topdrive import Motion, planned_speeds
+from references.engine_run import run_window
+from references.engines import EngineRun, StepOptions, Window, check_coulomb, check_no_mud, need
+
+Array = NDArray[np.float64]
+
+# Share of the stable step that is taken: the gyroscopic moments of a spinning rod are explicit.
+STEP_SHARE = 0.3
+
+
+@njit(error_model="numpy", cache=True)
+def _touch(S, n, walls, mass, place, speed, directors, omega, force, torque, damping, dt):  # type: ignore[no-untyped-def]
+    """Add the wall's force at nodes 1..n and its moment on the element above; update sums and losses in S.
+
+    walls (n, 7) beside the nodes; arrays as PyElastica has them: (3, nodes), (3, 3, elements), (3, elements).
+    """
+    for j in range(1, n + 1):
+        wall = walls[j - 1]
+        radius = S[state.RADIUS + j]
+        distance = np.sqrt(wall[0] * wall[0] + wall[1] * wall[1] + wall[2] * wall[2])
+        depth = distance - wall[3] + radius
+        if depth <= 0:
+            continue
+        nx, ny, nz = wall[0] / distance, wall[1] / distance, wall[2] / distance
+        stiffness = wall[4] * S[state.TRIBUTARY + j]
+        vx, vy, vz = speed[0, j], speed[1, j], speed[2, j]
+        into = vx * nx + vy * ny + vz * nz
+        normal = max(stiffness * depth + damping * into, 0.0)
+        k = j - 1
+        # Spin of the element above, global.
+        wx, wy, wz = 0.0, 0.0, 0.0
+        for i in range(3):
+            wx += directors[i, 0, k] * omega[i, k]
+            wy += directors[i, 1, k] * omega[i, k]
+            wz += directors[i, 2, k] * omega[i, k]
+        rx, ry, rz = radius * nx, radius * ny, radius * nz
+        sx, sy, sz = vx + wy * rz - wz * ry, vy + wz * rx - wx * rz, vz + wx * ry - wy * rx
+        along = sx * nx + sy * ny + sz * nz
+        sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
+        slip = np.sqrt(sx * sx + sy * sy + sz * sz) + state.TINY
+        # An implicit clamp as in the engine: at most what stops the point within the step.
+        response = 1 / mass[j] + radius * radius * S[state.INVERSE_JA + j]
+        limit = wall[5] * normal
+        friction = min(limit, slip / (dt * response))
+        fx, fy, fz = -friction * sx / slip, -friction * sy / slip, -friction * sz / slip
+        mx, my, mz = ry * fz - rz * fy, rz * fx - rx * fz, rx * fy - ry * fx
+        force[0, j] += fx - normal * nx
+        force[1, j] += fy - normal * ny
+        force[2, j] += fz - normal * nz
+        for i in range(3):
+            torque[i, k] += directors[i, 0, k] * mx + directors[i, 1, k] * my + directors[i, 2, k] * mz
+        about = directors[2, 0, k] * mx + directors[2, 1, k] * my + directors[2, 2, k] * mz
+        S[state.SUM_NORMAL + j] += dt * normal
+        S[state.SUM_R_MU_N + j] += dt * radius * limit
+        S[state.SUM_FRICTION_TORQUE + j] -= dt * about
+        S[state.LOST_FRICTION + j] += dt * friction * slip
+        S[state.LOST_CONTACT + j] += dt * (normal - stiffness * depth) * into
+
+
+class _Surroundings:
+    """Wall, weight and what the engine's recorder wants summed; called by PyElastica in the middle of each step."""
+
+    def __init__(self, run: Run) -> None:
+        n = run.segments
+        self.run, self.owner, self.walls = run, run.owner[1 : n + 1].copy(), np.empty((n, 7))
+        # A long segment hangs half by its lower end, like any other element by its two nodes.
+        weight = run.string.of("weight") * run.string.length
+        self.weight = 0.5 * (np.append(weight, 0.0) + np.append(0.0, weight))
+        self.dt, self.feed, self.rate = 0.0, 0.0, 0.0
+
+    def apply(self, rod: Any) -> None:
+        """Add external forces and torques of the present step."""
+        run, dt = self.run, self.dt
+        S, n = run.S, run.segments
+        if run.laws.geometry != state.OPEN:
+            points = np.ascontiguousarray(rod.position_collection[:, 1:].T)
+            query_walls(run.hole.pieces, run.laws.geometry, points, self.owner, self.walls)
+            _touch(
+                S, n, self.walls, rod.mass, rod.position_collection, rod.velocity_collection,
+                rod.director_collection, rod.omega_collection, rod.external_forces, rod.external_torques,
+                run.laws.contact_damping, dt,
+            )  # fmt: skip
+        rod.external_forces[2] += self.weight
+        tension = rod.internal_stress[2]
+        hookload, torque = float(tension[0] + self.weight[0]), -float(rod.internal_couple[2, 0])
+        run.top[topdrive.SUM_HOOKLOAD] += dt * hookload
+        run.top[topdrive.SUM_TOP_TORQUE] += dt * torque
+        run.top[topdrive.TOP_WORK] += dt * (torque * self.rate - hookload * self.feed)
+        state.row(S, state.SUM_TENSION, n)[:] += dt * tension
+        state.row(S, state.SUM_TORQUE, n)[1:] -= dt * rod.internal_couple[2]
+        state.row(S, state.SUM_TORQUE, n)[0] += dt * torque
+
+
+class _Stepper:
+    """A rod of PyElastica, begun from the bodies of a run."""
+
+    def __init__(self, elastica: ModuleType, run: Run, step: float | None, rotary: str) -> None:
+        self._run, self._around = run, _Surroundings(run)
+        self._rod = _rod(elastica, run, rotary)
+        best = STEP_SHARE * 2 / _fastest(run, self._rod)
+        self.step = step or best
+        self._time, self._simulator, self._stepper = (
+            np.float64(0.0),
+            _simulator(elastica, self),
+            elastica.PositionVerlet(),
+        )
+
+    def advance(self, motion: Motion, duration: float) -> None:
+        """See ``Stepper.advance``."""
+        run, around = self._run, self._around
+        steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
+        around.dt = duration / steps
+        for _ in range(steps):
+            around.feed, around.rate = planned_speeds(run.top, motion, around.dt)
+            self._time = self._stepper.step(self._simulator, self._time, np.float64(around.dt))
+            run.top[topdrive.TOP_TIME] += around.dt
+            run.top[topdrive.TOP_LENGTH] += around.dt * around.feed
+        run.steps += steps
+
+    def hold(self, rod: Any) -> None:
+        """Keep the upper end where the top drive has it: velocity of the first node, spin of the first element."""
+        rod.velocity_collection[:, 0] = 0.0, 0.0, self._around.feed
+        rod.omega_collection[:, 0] = 0.0, 0.0, self._around.rate
+
+    def sync(self) -> None:
+        """Write the rod into the run as rigid segments between its nodes."""
+        S, n, rod = self._run.S, self._run.segments, self._rod
+        axes = rod.tangents.T
+        nodes, speeds = rod.position_collection.T, rod.velocity_collection.T
+        frames = rod.director_collection
+        turns = Rotation.from_matrix(frames.transpose(2, 1, 0)).as_quat(scalar_first=True)
+        spins = rod.omega_collection
+        bottom = state.row(S, state.ARM_BOTTOM, n)
+        S[[state.X, state.Y, state.Z]] = nodes[0]
+        middle = nodes[1:] - bottom[:, None] * axes
+        mean = np.where(bottom[:, None] > 0, 0.5 * (speeds[1:] + speeds[:-1]), speeds[1:])
+        for k in range(3):
+            state.row(S, (state.X, state.Y, state.Z)[k], n)[:] = middle[:, k]
+            state.row(S, (state.VX, state.VY, state.VZ)[k], n)[:] = mean[:, k]
+            state.row(S, (state.WX, state.WY, state.WZ)[k], n)[:] = spins[k]
+        # One sign along the string: neighbours differ by little.
+        turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0, -1.0, 1.0))[:, None]
+        for k, row in enumerate((state.QW, state.QX, state.QY, state.QZ)):
+            state.row(S, row, n)[:] = turns[:, k]
+
+    def energy(self) -> Energy:
+        """See ``Stepper.energy``: of the rod, in its own measure of strain."""
+        run, rod = self._run, self._rod
+        rod.compute_internal_forces_and_torques(self._time)
+        stretch = 0.5 * (rod.internal_stress * rod.sigma * rod.rest_lengths).sum()
+        bend = 0.5 * (rod.bend_matrix[[0, 1, 2], [0, 1, 2]] * rod.kappa**2 * rod.rest_voronoi_lengths).sum()
+        moving = 0.5 * (rod.mass * (rod.velocity_collection**2).sum(axis=0)).sum()
+        inertia = rod.mass_second_moment_of_inertia[[0, 1, 2], [0, 1, 2]]
+        turning = 0.5 * (inertia * rod.omega_collection**2).sum()
+        contact = 0.0
+        if run.laws.geometry != state.OPEN:
+            n, walls = run.segments, self._around.walls
+            query_walls(
+                run.hole.pieces, run.laws.geometry, np.ascontiguousarray(rod.position_collection[:, 1:].T),
+                self._around.owner, walls,
+            )  # fmt: skip
+            depth = np.linalg.norm(walls[:, :3], axis=1) - walls[:, 3] + state.row(run.S, state.RADIUS, n)
+            stiffness = walls[:, 4] * state.row(run.S, state.TRIBUTARY, n)
+            contact = 0.5 * float((stiffness * np.maximum(depth, 0.0) ** 2).sum())
+        gravity = -float(self._around.weight @ rod.position_collection[2])
+        return Energy(float(moving + turning), gravity, float(stretch + bend), contact)
+
+    def close(self) -> None:
+        """Nothing is held beyond memory."""
+
+
+def _rod(elastica: ModuleType, run: Run, rotary: str) -> Any:
+    """A rod whose elements are the segments of a run, in its pose and motion."""
+    S, n, string = run.S, run.segments, run.string
+    length = string.length.copy()
+    if string.long_segment:
+        length[0] = run.top[topdrive.TOP_LENGTH]
+    columns = [
+        np.stack([state.row(S, k, n) for k in rows], axis=1)
+        for rows in (
+            (state.X, state.Y, state.Z),
+            (state.VX, state.VY, state.VZ),
+            (state.GX, state.GY, state.GZ),
+            (state.AX, state.AY, state.AZ),
+            (state.QW, state.QX, state.QY, state.QZ),
+            (state.WX, state.WY, state.WZ),
+        )
+    ]
+    centre, speed, spin, axis, turn, own_spin = columns
+    bottom = state.row(S, state.ARM_BOTTOM, n)[:, None]
+    nodes = np.vstack([S[[state.X, state.Y, state.Z]], centre + bottom * axis])
+    speeds = np.vstack([S[[state.VX, state.VY, state.VZ]], speed + np.cross(spin, bottom * axis)])
+    frames = Rotation.from_quat(turn, scalar_first=True).as_matrix()  # columns: the axes of the body
+    directors = np.ascontiguousarray(frames.transpose(2, 1, 0))
+    # The rod stretches in its elements, between the tensions of the joints at their ends; the half of a long segment's
+    # weight hangs by its lower end in both.
+    tangent = np.diff(nodes, axis=0)
+    distance = np.linalg.norm(tangent, axis=1)
+    tension = (distance - length) * state.row(S, state.K_AXIAL, n)
+    mean = 0.5 * (tension + np.append(tension[1:], 0.0))
+    if string.long_segment:
+        mean[0] = tension[0]
+    stretched = tangent * (length * (1 + mean / string.of("EA")) / distance)[:, None]
+    nodes[1:] = nodes[0] + np.cumsum(stretched, axis=0)
+    # PyElastica wants directors along its elements to begin with; the true ones lean by the shear.
+    tangent /= distance[:, None]
+    side = frames[:, :, 0] - (frames[:, :, 0] * tangent).sum(axis=1, keepdims=True) * tangent
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    upright = np.stack([side, np.cross(tangent, side), tangent]).transpose(0, 2, 1)
+    rod = elastica.CosseratRod.straight_rod(
+        n, start=nodes[0], direction=tangent[0], normal=side[0].copy(), base_length=float(length.sum()),
+        base_radius=float(string.sections[0].outer), density=float(string.sections[0].mass), youngs_modulus=1.0,
+        shear_modulus=1.0, position=np.ascontiguousarray(nodes.T), directors=np.ascontiguousarray(upright),
+    )  # fmt: skip
+    rod.director_collection[:] = directors
+    rod.rest_lengths[:] = length
+    rod.rest_voronoi_lengths[:] = 0.5 * (length[1:] + length[:-1])
+    mass, tilt, along = (string.of(name) * length for name in ("mass", "tilt_inertia", "axial_inertia"))
+    rod.mass[:] = 0.5 * (np.append(mass, 0.0) + np.append(0.0, mass))
+    across = tilt + (mass * length**2 / 12 if rotary == "segment" else 0.0)
+    joints = {row: state.row(S, row, n)[1:] * rod.rest_voronoi_lengths for row in (state.K_BEND, state.K_TWIST)}
+    for matrix, values in (
+        (rod.shear_matrix, (string.of("shear"), string.of("shear"), string.of("EA"))),
+        (rod.bend_matrix, (joints[state.K_BEND], joints[state.K_BEND], joints[state.K_TWIST])),
+        (rod.mass_second_moment_of_inertia, (across, across, along)),
+        (rod.inv_mass_second_moment_of_inertia, (1 / across, 1 / across, 1 / along)),
+    ):
+        matrix[:] = 0.0
+        for k, value in enumerate(values):
+            matrix[k, k] = value
+    rod.velocity_collection[:], rod.omega_collection[:] = speeds.T, own_spin.T
+    return rod
+
+
+def _fastest(run: Run, rod: Any) -> float:
+    """Highest angular frequency of the rod [rad/s]: stretch, twist, or an element's turning against shear."""
+    string, length = run.string, rod.rest_lengths
+    node = np.minimum(rod.mass[1:], np.append(rod.mass[1:-1], np.inf))
+    stretch = 4 * string.of("EA") / length / node
+    wall = (
+        run.hole.stiffest_wall * state.row(run.S, state.TRIBUTARY, run.segments)
+        if run.laws.geometry != state.OPEN
+        else 0.0
+    )
+    shear = string.of("shear") * length / rod.mass_second_moment_of_inertia[0, 0]
+    turning = shear + 4 * string.of("shear") / length / node + wall / rod.mass[1:]
+    twist = 4 * state.row(run.S, state.K_TWIST, run.segments) / rod.mass_second_moment_of_inertia[2, 2]
+    return float(np.sqrt(max(stretch.max(), turning.max(), twist[1:].max())))
+
+
+def _simulator(elastica: ModuleType, stepper: _Stepper) -> Any:
+    """PyElastica's collection of the rod, its held end and its surroundings."""
+
+    class Held(elastica.ConstraintBase):  # type: ignore[name-defined,misc]
+        def constrain_values(self, system: Any, time: Any) -> None:
+            """Position and direction follow from the rates."""
+
+        def constrain_rates(self, system: Any, time: Any) -> None:
+            stepper.hold(system)
+
+    class Around(elastica.NoForces):  # type: ignore[name-defined,misc]
+        def apply_forces(self, system: Any, time: Any = 0.0) -> None:
+            stepper._around.apply(system)
+
+    class Simulator(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing):  # type: ignore[name-defined,misc]
+        pass
+
+    simulator = Simulator()
+    simulator.append(stepper._rod)
+    simulator.constrain(stepper._rod).using(Held)
+    simulator.add_forcing_to(stepper._rod).using(Around)
+    simulator.finalize()
+    return simulator
+
+
+class ElasticaOptions(StepOptions):
+    """What can be set.
+
+    rotary : inertia of an element about its cross axes, a rigid ``segment``'s, mL²/12, or the ``pipe``'s own, which
+    is PyElastica's and limits the step.
+    """
+
+    rotary: Literal["segment", "pipe"] = "segment"
+
+
+class Elastica:
+    """A Cosserat rod of PyElastica in the engine's hole."""
+
+    name: ClassVar[str] = "elastica"
+    distribution: ClassVar[str] = "pyelastica"
+    does: ClassVar[str] = "Cosserat rod; beam and integrator are PyElastica's, wall test and friction ours"
+    Options: ClassVar[type[Table]] = ElasticaOptions
+
+    def __init__(self, options: ElasticaOptions) -> None:
+        self._elastica = need("elastica", type(self))
+        self.options = options
+
+    def begin(self, run: Run) -> _Stepper:
+        """See ``StringEngine.begin``."""
+        check_coulomb(run.case, self.name)
+        check_no_mud(run.case, self.name)
+        return _Stepper(self._elastica, run, self.options.step, self.options.rotary)
+
+    def run(self, case: Case, window: Window) -> EngineRun:
+        """See ``StringEngine.run``."""
+        return run_window(case, window, self.begin)

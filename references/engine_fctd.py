@@ -1,0 +1,49 @@
+"""FCTD's own stepper behind the interface of the others: the row that they are compared with."""
+
+from typing import ClassVar
+
+from fctd.case import Case
+from fctd.energy import Energy, energy_of
+from fctd.errors import Table
+from fctd.run import Run
+from fctd.topdrive import Motion
+from references.engine_run import run_window
+from references.engines import EngineRun, StepOptions, Window
+
+
+class _Stepper:
+    def __init__(self, run: Run, step: float) -> None:
+        self._run, self.step = run, step
+        run.step = step
+
+    def advance(self, motion: Motion, duration: float) -> None:
+        self._run.advance(motion, duration)
+
+    def sync(self) -> None:
+        """The run is the state."""
+
+    def energy(self) -> Energy:
+        return energy_of(self._run.S, self._run.segments)
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+
+class Fctd:
+    """The compiled stepper of the engine."""
+
+    name: ClassVar[str] = "fctd"
+    distribution: ClassVar[str] = "fctd"
+    does: ClassVar[str] = "rigid segments, point-in-cylinder contact, symplectic Euler, compiled"
+    Options: ClassVar[type[Table]] = StepOptions
+
+    def __init__(self, options: StepOptions) -> None:
+        self.options = options
+
+    def begin(self, run: Run) -> _Stepper:
+        """See ``StringEngine.begin``."""
+        return _Stepper(run, self.options.step or run.step)
+
+    def run(self, case: Case, window: Window) -> EngineRun:
+        """See ``StringEngine.run``."""
+        return run_window(case, window, self.begin)

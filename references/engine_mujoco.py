@@ -1,0 +1,158 @@
+"""The string in MuJoCo: free bodies under our joint wrenches, MuJoCo's own contact with the tube as a ``flex``.
+
+MuJoCo's friction is a soft constraint: a sliding point rides on its wall by about the speed of sliding over the
+contact's rate, and leaves it and falls back where that lifts it out of contact.  ``fair`` settings therefore hold the
+contact from a margin on, wall and sphere moved apart so that it acts at the string's own radius.
+"""
+
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd import state, units
+from fctd.case import Case
+from fctd.errors import Table
+from fctd.run import Run
+from references.engine_run import run_window
+from references.engines import EngineRun, StepOptions, Window, check_coulomb, check_no_mud, need
+from references.free_bodies import FreeBodies, poses_of, wall_stiffness
+from references.tube_mesh import Tube, TubeOptions, build_tube
+
+Array = NDArray[np.float64]
+
+# Share of the engine's own step: MuJoCo turns bodies explicitly, which feeds a spinning string at longer ones.
+SHARE = 0.5
+# Distance over which contact is held [m], impedance and stiffness [N/m] of the fair contact; a stiffer wall chatters.
+MARGIN, IMPEDANCE, STIFFNESS = 0.005, 0.5, 1e6
+FACE_RADIUS = 1e-6  # a flex has a thickness, which cannot be 0 [m]
+
+
+class MuJoCoOptions(StepOptions):
+    """What can be set.
+
+    settings : ``fair`` as above, with an elliptic cone, or ``default``: contact and cone as they come.  facets,
+    ring_spacing [m] : of the tube; rings stand at the ends of FCTD's cylinders at least.  stiffness [N/m] of a point
+    of the wall and margin [m], both of ``fair``.
+    """
+
+    settings: Literal["fair", "default"] = "fair"
+    facets: int = TubeOptions.model_fields["facets"].default
+    ring_spacing: units.PositiveLength | None = None
+    stiffness: units.PositiveStiffness = STIFFNESS
+    margin: units.Length = MARGIN
+
+
+class _Bodies:
+    """The bodies in a model of MuJoCo."""
+
+    def __init__(self, mujoco: Any, run: Run, tube: Tube | None, options: MuJoCoOptions) -> None:
+        self._mujoco, poses = mujoco, poses_of(run)
+        self._model = mujoco.MjModel.from_xml_string(_model(run, tube, options))
+        self._data = mujoco.MjData(self._model)
+        self._place = self._data.qpos.reshape(-1, 7)
+        self._speed = self._data.qvel.reshape(-1, 6)
+        self._place[:], self._speed[:, :3] = poses[:, :7], poses[:, 7:10]
+        self._speed[:, 3:] = _turned(poses[:, 3:7] * [1, -1, -1, -1], poses[:, 10:])
+
+    def step(self, poses: Array, wrenches: Array, dt: float) -> Array:
+        """See ``Bodies.step``."""
+        self._model.opt.timestep = dt
+        self._data.xfrc_applied[1:] = wrenches
+        self._mujoco.mj_step(self._model, self._data)
+        spin = _turned(self._place[:, 3:], self._speed[:, 3:])  # MuJoCo keeps it in the frame of the body
+        return np.hstack([self._place, self._speed[:, :3], spin])
+
+    def contacts(self) -> tuple[NDArray[np.int64], Array]:
+        """See ``Bodies.contacts``."""
+        found = self._data.contact
+        rows, force = np.empty((len(found.dist), 7)), np.zeros(6)
+        for k, frame in enumerate(found.frame.reshape(-1, 3, 3)):
+            self._mujoco.mj_contactForce(self._model, self._data, k, force)
+            # Acts on the second of the two, which is the wall.
+            rows[k] = *found.pos[k], force[0], *(-force[1] * frame[1] - force[2] * frame[2])
+        return self._model.geom_bodyid[found.geom[:, 0]].astype(np.int64), rows
+
+    def close(self) -> None:
+        """Nothing is held beyond memory."""
+
+
+def _turned(quaternions: Array, vectors: Array) -> Array:
+    """Vectors (n, 3) turned by quaternions (n, 4), scalar first."""
+    axis = quaternions[:, 1:]
+    twice = 2 * np.cross(axis, vectors)
+    return np.asarray(vectors + quaternions[:, :1] * twice + np.cross(axis, twice))
+
+
+def _model(run: Run, tube: Tube | None, options: MuJoCoOptions) -> str:
+    """MuJoCo's description of string and wall."""
+    fair = options.settings == "fair"
+    friction = run.case.wellbore.intervals[0].friction
+    margin = options.margin if fair else 0.0
+    per_point = np.minimum(wall_stiffness(run), options.stiffness)
+    bodies = ""
+    for j, pose in enumerate(poses_of(run)):
+        mass, across, along, arm, radius = (
+            float(run.S[row + 1 + j])
+            for row in (state.MASS, state.J_TRANSVERSE, state.J_AXIAL, state.ARM_CONTACT, state.RADIUS)
+        )
+        soft = ""
+        if fair:
+            # MuJoCo's stiffness is an acceleration per metre: N/m times what the contact point gives way to a force.
+            rate = float(per_point[j]) * (1 - IMPEDANCE) * (1 / mass + arm * arm / across)
+            soft = f'solref="{-rate!r} {-2 * rate**0.5!r}" solimp="{IMPEDANCE} {IMPEDANCE} 0.001"'
+        place, turn = " ".join(map(repr, pose[:3].tolist())), " ".join(map(repr, pose[3:7].tolist()))
+        bodies += (
+            f'<body pos="{place}" quat="{turn}"><freejoint/>'
+            f'<inertial pos="0 0 0" mass="{mass!r}" diaginertia="{across!r} {across!r} {along!r}"/>'
+            f'<geom type="sphere" size="{radius - 0.5 * margin!r}" pos="0 0 {arm!r}" margin="{margin!r}" {soft} '
+            f'friction="{friction!r} 0 0" condim="3" priority="1" contype="1" conaffinity="2"/></body>'
+        )
+    wall = ""
+    if tube is not None:
+        vertices = " ".join(map(repr, np.asarray(tube.mesh.vertices).ravel().tolist()))
+        faces = " ".join(map(str, np.asarray(tube.mesh.faces).ravel().tolist()))
+        wall = (
+            f'<deformable><flex dim="2" body="world" radius="{FACE_RADIUS}" vertex="{vertices}" element="{faces}">'
+            '<contact contype="2" conaffinity="1" selfcollide="none"/></flex></deformable>'
+        )
+    cone = 'cone="elliptic" integrator="implicit"' if fair else ""
+    return (
+        f'<mujoco><compiler balanceinertia="false" boundmass="0" boundinertia="0"/><size memory="256M"/>'
+        f'<option gravity="0 0 0" {cone}/><worldbody>{bodies}</worldbody>{wall}</mujoco>'
+    )
+
+
+class MuJoCo:
+    """Free bodies in MuJoCo against a tube of triangles."""
+
+    name: ClassVar[str] = "mujoco"
+    distribution: ClassVar[str] = "mujoco"
+    does: ClassVar[str] = "free bodies under our joint wrenches; inertia, contact with a mesh and friction are MuJoCo's"
+    Options: ClassVar[type[Table]] = MuJoCoOptions
+
+    def __init__(self, options: MuJoCoOptions) -> None:
+        self._mujoco = need("mujoco", type(self))
+        self.options = options
+
+    def begin(self, run: Run) -> FreeBodies:
+        """See ``StringEngine.begin``."""
+        check_coulomb(run.case, self.name)
+        check_no_mud(run.case, self.name)
+        tube = None
+        if run.case.contact.enabled:
+            spacing = self.options.ring_spacing or run.hole.total_depth
+            mesh = TubeOptions(facets=self.options.facets, ring_spacing=spacing)
+            margin = self.options.margin if self.options.settings == "fair" else 0.0
+            tube = build_tube(_wider(run.case, margin), mesh)
+        return FreeBodies(run, _Bodies(self._mujoco, run, tube, self.options), self.options.step or SHARE * run.step)
+
+    def run(self, case: Case, window: Window) -> EngineRun:
+        """See ``StringEngine.run``."""
+        return run_window(case, window, self.begin)
+
+
+def _wider(case: Case, by: float) -> Case:
+    """The case in a hole wider by so much [m]."""
+    intervals = tuple(i.model_copy(update={"diameter": i.diameter + by}) for i in case.wellbore.intervals)
+    return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})

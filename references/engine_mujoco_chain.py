@@ -1,0 +1,154 @@
+"""MuJoCo's own way with a string: nested rigid bodies on ball joints, its springs and integrator, no contact.
+
+Made for strings that hang free.  A ball joint has one stiffness for bending and twist, here that of twist, and does
+not stretch; the chain hangs from a body that the top drive turns.  With contact it is no model of a string: nested
+bodies leave the hole.
+"""
+
+from typing import Any, ClassVar
+
+import numpy as np
+
+from fctd import state, topdrive
+from fctd.case import Case
+from fctd.energy import Energy
+from fctd.errors import InputError, Table
+from fctd.run import Run
+from fctd.topdrive import Motion, planned_speeds
+from references.engine_run import run_window
+from references.engines import EngineRun, StepOptions, Window, check_no_mud, need
+
+# Share of the step at which the twist of the chain would be unstable.
+SHARE = 0.5
+
+
+class _Stepper:
+    """A chain in MuJoCo, begun straight and untwisted below the top drive of a run."""
+
+    def __init__(self, mujoco: Any, run: Run, step: float | None) -> None:
+        self._mujoco, self._run = mujoco, run
+        n = run.segments
+        self._twist = state.row(run.S, state.K_TWIST, n).copy()
+        fastest = np.sqrt(4 * self._twist / state.row(run.S, state.J_AXIAL, n)).max()
+        self.step = step or float(SHARE * 2 / fastest)
+        self._model = mujoco.MjModel.from_xml_string(_model(run))
+        self._data = mujoco.MjData(self._model)
+        self._spin = self._data.qvel.reshape(n, 3)
+        self._turned = 0.0
+        mujoco.mj_forward(self._model, self._data)
+
+    def advance(self, motion: Motion, duration: float) -> None:
+        """See ``Stepper.advance``."""
+        run, model, data, mujoco = self._run, self._model, self._data, self._mujoco
+        steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
+        dt = duration / steps
+        model.opt.timestep = dt
+        for _ in range(steps):
+            _, rate = planned_speeds(run.top, motion, dt)
+            model.qpos_spring[:4] = np.cos(0.5 * self._turned), 0.0, 0.0, np.sin(0.5 * self._turned)
+            mujoco.mj_step(model, data)
+            self._turned += dt * rate
+            torque, hookload = self._loads()
+            run.top[topdrive.SUM_HOOKLOAD] += dt * hookload
+            run.top[topdrive.SUM_TOP_TORQUE] += dt * torque
+            run.top[topdrive.TOP_WORK] += dt * rate * torque
+            run.top[topdrive.TOP_TIME] += dt
+        run.steps += steps
+
+    def _angles(self) -> np.ndarray:
+        """Twist of every joint [rad]."""
+        quaternion = self._data.qpos.reshape(-1, 4)
+        twist = 2 * np.arctan2(quaternion[:, 3], quaternion[:, 0])
+        twist[0] -= self._turned
+        return np.asarray((twist + np.pi) % (2 * np.pi) - np.pi)
+
+    def _loads(self) -> tuple[float, float]:
+        """Torque of the first joint [N m] and the force by which the chain hangs [N]."""
+        self._mujoco.mj_rnePostConstraint(self._model, self._data)
+        first = self._angles()[0]
+        return -float(self._twist[0] * first), -float(self._data.cfrc_int[1, 5])
+
+    def sync(self) -> None:
+        """Write the bodies into the run."""
+        run, data, n = self._run, self._data, self._run.segments
+        velocity = np.zeros(6)
+        for j in range(1, n + 1):
+            body = j + 1  # the first is where the chain hangs
+            for k, row in enumerate((state.X, state.Y, state.Z)):
+                run.S[row + j] = data.xipos[body, k]
+            for k, row in enumerate((state.QW, state.QX, state.QY, state.QZ)):
+                run.S[row + j] = data.xquat[body, k]
+            self._mujoco.mj_objectVelocity(self._model, data, self._mujoco.mjtObj.mjOBJ_BODY, body, velocity, 1)
+            for k, row in enumerate((state.WX, state.WY, state.WZ)):
+                run.S[row + j] = velocity[k]
+
+    def energy(self) -> Energy:
+        """See ``Stepper.energy``: MuJoCo's own, its springs about all axes alike."""
+        self._mujoco.mj_energyPos(self._model, self._data)
+        self._mujoco.mj_energyVel(self._model, self._data)
+        spring = 0.5 * float((self._twist * self._angles() ** 2).sum())
+        return Energy(float(self._data.energy[1]), float(self._data.energy[0]) - spring, spring, 0.0)
+
+    def close(self) -> None:
+        """Nothing is held beyond memory."""
+
+
+def _model(run: Run) -> str:
+    """MuJoCo's description of the chain: buoyed weight as gravity on the steel's mass."""
+    S, n = run.S, run.segments
+    gravity = state.row(S, state.WEIGHT, n).sum() / state.row(S, state.MASS, n).sum()
+    inside = ""
+    for j in range(n, 0, -1):
+        top = S[state.ARM_TOP + j]
+        mass, across, along = (float(S[row + j]) for row in (state.MASS, state.J_TRANSVERSE, state.J_AXIAL))
+        above = S[state.ARM_TOP + j - 1] + S[state.ARM_BOTTOM + j - 1] if j > 1 else 0.0
+        inside = (
+            f'<body pos="0 0 {float(above)!r}"><joint type="ball" stiffness="{float(S[state.K_TWIST + j])!r}"/>'
+            f'<inertial pos="0 0 {float(top)!r}" mass="{mass!r}" diaginertia="{across!r} {across!r} {along!r}"/>'
+            f"{inside}</body>"
+        )
+    start = " ".join(repr(float(S[row])) for row in (state.X, state.Y, state.Z))
+    return (
+        f'<mujoco><compiler balanceinertia="false"/><option gravity="0 0 {float(gravity)!r}" '
+        f'integrator="implicitfast"/><worldbody><body pos="{start}">{inside}</body></worldbody></mujoco>'
+    )
+
+
+class MuJoCoChain:
+    """Nested bodies on ball joints, hanging free."""
+
+    name: ClassVar[str] = "mujoco_chain"
+    distribution: ClassVar[str] = "mujoco"
+    does: ClassVar[str] = "nested bodies on ball joints, all MuJoCo's own; free, vertical strings without a wall"
+    Options: ClassVar[type[Table]] = StepOptions
+
+    def __init__(self, options: StepOptions) -> None:
+        self._mujoco = need("mujoco", type(self))
+        self.options = options
+
+    def begin(self, run: Run) -> _Stepper:
+        """See ``StringEngine.begin``."""
+        case = run.case
+        check_no_mud(case, self.name)
+        if case.contact.enabled:
+            raise InputError(f"false with {self.name}, which has no wall", key="contact.enabled", value=True)
+        moving = [i for i, operation in enumerate(case.operations) if operation.kind != "rotate_off_bottom"]
+        if moving or run.string.long_segment:
+            i = moving[0] if moving else 0
+            raise InputError(
+                f"rotate_off_bottom with {self.name}, which feeds no pipe",
+                key=f"operations[{i}].kind",
+                value=case.operations[i].kind,
+            )
+        tilt = run.hole.inclination(np.linspace(case.string.top_md, run.string.bit_depth, 200)).max()
+        if tilt > 1e-6:
+            raise InputError(
+                f"a vertical hole with {self.name}", key="wellbore", value=f"up to {np.degrees(tilt):.3g} deg"
+            )
+        if run.top[topdrive.TOP_TIME] > 0:
+            raise InputError(f"a window that starts at 0 s with {self.name}", key="window", value="a moving string")
+        return _Stepper(self._mujoco, run, self.options.step)
+
+    def run(self, case: Case, window: Window) -> EngineRun:
+        """See ``StringEngine.run``."""
+        return run_window(case, window, self.begin)

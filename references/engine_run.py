@@ -1,0 +1,105 @@
+"""The one way in which every string engine is run: the same start, the same recorder, the same checks."""
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pandas as pd
+
+from fctd import state, topdrive
+from fctd.case import Case
+from fctd.energy import Energy
+from fctd.errors import InputError
+from fctd.operations import Stretch
+from fctd.record import LOSSES, Recorder
+from fctd.run import Run, UnstableError, forget_start, prepare, settle
+from references import engine_checks
+from references.engines import EngineRun, Stepper, Window
+
+
+def legs(
+    case: Case, stretches: list[Stretch], start: float, end: float, interval: float
+) -> list[tuple[Stretch, float]]:
+    """Parts of a schedule between two times, and the time at which each ends, no longer than ``interval`` [s]."""
+    parts = []
+    now = start
+    for stretch in stretches:
+        last = min(stretch.motion.start + stretch.motion.duration, end)
+        if last <= now + 1e-9:
+            continue
+        count = max(int(np.ceil((last - now) / interval - 1e-9)), 1)
+        parts += [(stretch, float(t)) for t in np.linspace(now, last, count + 1)[1:]]
+        now = last
+    if now < end - 1e-9:
+        raise InputError(
+            f"a window within the schedule of {case.name}, which ends after {now:g} s", key="window", value=f"{end:g} s"
+        )
+    return parts
+
+
+def begin_run(case: Case, window: Window) -> tuple[Run, list[Stretch]]:
+    """The string of a case at the start of a window, sums and losses cleared; raises InputError."""
+    if not (window.start >= 0 and window.duration > 0):
+        raise InputError("a start of at least 0 s and a duration above 0 s", key="window", value=str(tuple(window)))
+    run, stretches = prepare(case)
+    settle(run)
+    forget_start(run)
+    if window.start > 0:
+        for stretch, until in legs(case, stretches, 0.0, window.start, np.inf):
+            run.advance(stretch.motion, until - float(run.top[topdrive.TOP_TIME]))
+    run.refresh()
+    run.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
+    run.top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE, topdrive.TOP_WORK, topdrive.FED_ENERGY]] = 0.0
+    run.steps = 0
+    return run, stretches
+
+
+def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> EngineRun:
+    """Run a window with a stepper begun by ``begin``, record as ``fctd.simulate`` does, and hold it to the checks."""
+    try:
+        run, stretches = begin_run(case, window)
+        parts = legs(case, stretches, window.start, window.start + window.duration, case.record.interval)
+        recorder = Recorder(run)
+        recorder.start_depth += float(run.top[topdrive.TOP_LENGTH]) - (
+            run.string.length[0] if run.string.long_segment else 0.0
+        )
+        recorder.last_time = window.start
+        stepper = begin(run)
+    except InputError as error:
+        raise (error if case.file is None else error.in_file(case.file)) from None
+    broken = ""
+    began = time.perf_counter()
+    held = [stepper.energy()]
+    try:
+        for (motion, operation), until in parts:
+            stepper.advance(motion, until - float(run.top[topdrive.TOP_TIME]))
+            stepper.sync()
+            run.refresh()
+            recorder.record(operation)
+            held.append(stepper.energy())
+            run.check()
+    except UnstableError as error:
+        broken = f"at {float(run.top[topdrive.TOP_TIME]):.3g} s: {error}"
+    finally:
+        stepper.close()
+    wall = time.perf_counter() - began
+    result = recorder.result("", "", wall, 0.0)
+    ledger = _ledger(result.energy, held)
+    checks = engine_checks.examine(run, result.history, result.profile, ledger, broken)
+    failed = checks.loc[~checks["passed"], "check"].to_list()
+    message = "; ".join([*([broken] if broken else []), *failed])
+    return EngineRun(
+        result.history, result.profile, "invalid" if failed else "valid", message, ledger, checks,
+        stepper.step, run.steps, wall,
+    )  # fmt: skip
+
+
+def _ledger(table: pd.DataFrame, held: list[Energy]) -> pd.DataFrame:
+    """The recorder's ledger with what the engine itself says that the string holds."""
+    ledger = table.copy()
+    for name in Energy._fields:
+        ledger[f"{name}_J"] = [getattr(now, name) - getattr(held[0], name) for now in held[1:]]
+    kept = ledger[[f"{name}_J" for name in Energy._fields]].sum(axis=1)
+    lost = ledger[list(LOSSES)].sum(axis=1)
+    ledger["residual_J"] = kept + lost - ledger["top_drive_work_J"] - ledger["fed_pipe_J"]
+    return ledger

@@ -1,0 +1,162 @@
+"""What a string engine is, the literal list of those there are, and the one way in which all of them are run.
+
+An engine advances the whole string of a case: inertia, contact and friction are its own (``does`` says what is
+not).  All start from the same state, which FCTD's stepper has reached, and are read by the same recorder.
+"""
+
+import importlib
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+import pandas as pd
+from pydantic import ValidationError
+
+from fctd import units
+from fctd.case import Case
+from fctd.energy import Energy
+from fctd.errors import InputError, Table, explain, nearest
+from fctd.run import Run
+from fctd.topdrive import Motion
+from references.base import import_or_tell
+
+ENGINES: dict[str, str] = {
+    "fctd": "references.engine_fctd:Fctd",
+    "bullet": "references.engine_bullet:Bullet",
+    "mujoco": "references.engine_mujoco:MuJoCo",
+    "mujoco_chain": "references.engine_mujoco_chain:MuJoCoChain",
+    "elastica": "references.engine_elastica:Elastica",
+}
+
+
+class Window(NamedTuple):
+    """The part of a case's schedule that an engine runs.
+
+    start [s] : FCTD's stepper goes this far from the settled string at rest and hands over its state, in motion; 0
+    leaves everything to the engine.  duration [s].
+    """
+
+    start: float
+    duration: float
+
+
+class EngineRun(NamedTuple):
+    """What came of a window.
+
+    status : ``valid``, or ``invalid`` when a check failed; message says which.  history, profile, energy : tables as
+    of ``fctd.SimulationResult``.  checks : a row per check of engine_checks.  step [s], steps; wall_s : time spent.
+    """
+
+    history: pd.DataFrame
+    profile: pd.DataFrame
+    status: str
+    message: str
+    energy: pd.DataFrame
+    checks: pd.DataFrame
+    step: float
+    steps: int
+    wall_s: float
+
+
+class Stepper(Protocol):
+    """A string inside an engine, begun from the state of a ``Run``."""
+
+    step: float
+
+    def advance(self, motion: Motion, duration: float) -> None:
+        """Advance by ``duration`` [s] in equal steps no longer than ``step``; adds to sums and losses of the run."""
+
+    def sync(self) -> None:
+        """Bring poses and velocities of the run up to the present."""
+
+    def energy(self) -> Energy:
+        """What the string holds at present, after ``sync``."""
+
+    def close(self) -> None:
+        """Give back what the engine holds."""
+
+
+class StringEngine(Protocol):
+    """Somebody's engine with the string of a case.
+
+    name : its key in ENGINES.  distribution : the package that brings it.  does : one line for users.
+    """
+
+    name: ClassVar[str]
+    distribution: ClassVar[str]
+    does: ClassVar[str]
+    Options: ClassVar[type[Table]]
+
+    def __init__(self, options: Any) -> None: ...
+
+    def begin(self, run: Run) -> Stepper:
+        """Put the string of a run into the engine; InputError for what the engine cannot represent."""
+
+    def run(self, case: Case, window: Window) -> EngineRun:
+        """Run a window of a case; InputError for a case or a window that cannot be run."""
+
+
+def engine_class(name: str) -> type[StringEngine]:
+    """The class registered under a name; InputError with the nearest name for another."""
+    if name not in ENGINES:
+        raise InputError(nearest(name, ENGINES, "engine"), key="engine", value=name)
+    module, _, attribute = ENGINES[name].partition(":")
+    found: type[StringEngine] = getattr(importlib.import_module(module), attribute)
+    return found
+
+
+def build(name: str, **options: Any) -> StringEngine:
+    """Engine ``name`` with options as keys of its ``Options``, quantities as in a case file.
+
+    Raises InputError for an unknown name, a bad option or a package that is not installed.
+    """
+    engine = engine_class(name)
+    try:
+        chosen = engine.Options.model_validate(options)
+    except ValidationError as failure:
+        raise explain(failure, options, ()).at(name) from None
+    return engine(chosen)
+
+
+def installed_version(name: str) -> str | None:
+    """Version of the package that brings an engine, None where it is not installed."""
+    try:
+        return version(engine_class(name).distribution)
+    except PackageNotFoundError:
+        return None
+
+
+def need(module: str, engine: type[StringEngine]) -> Any:
+    """Import the package of an engine; InputError naming it when it is not installed."""
+    return import_or_tell(module, engine.distribution, engine.name, key="engine")
+
+
+class StepOptions(Table):
+    """The step [s]; without one the engine's own best."""
+
+    step: units.PositiveTime | None = None
+
+
+def check_coulomb(case: Case, engine: str) -> None:
+    """Raise InputError for a case whose wall an engine with Coulomb friction of its own cannot represent."""
+    if not case.contact.enabled:
+        return
+    if case.contact.friction_law != "coulomb":
+        raise InputError(
+            f"coulomb, the only law of friction of {engine}",
+            key="contact.friction_law",
+            value=case.contact.friction_law,
+        )
+    for i, interval in enumerate(case.wellbore.intervals):
+        if interval.friction != case.wellbore.intervals[0].friction:
+            raise InputError(
+                f"one friction factor for the whole hole with {engine}",
+                key=f"wellbore.intervals[{i}].friction",
+                value=interval.friction,
+            )
+
+
+def check_no_mud(case: Case, engine: str) -> None:
+    """Raise InputError for mud that damps, which no engine but the own one knows."""
+    for key in ("axial_damping", "lateral_damping", "rotational_damping"):
+        if getattr(case.mud, key):
+            raise InputError(f"0 with {engine}, which has no mud", key=f"mud.{key}", value=getattr(case.mud, key))

@@ -1,0 +1,155 @@
+"""A string of free rigid bodies in somebody else's engine, held together by our joint wrenches.
+
+Every step the wrenches of joints and weight are computed by the engine's own compiled code from the bodies' present
+poses and handed over; inertia, contact and friction are the other engine's.  Top drive and fed pipe are ours.
+"""
+
+from typing import Protocol
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from fctd import state
+from fctd.dynamics import update_loads, whole_operations
+from fctd.energy import Energy, energy_of
+from fctd.rotations import rotation_columns
+from fctd.run import Run
+from fctd.topdrive import Motion, move_top_drive
+
+Array = NDArray[np.float64]
+
+
+class Bodies(Protocol):
+    """What another engine does with the bodies.
+
+    Poses (n, 13) : centre of mass [m], quaternion (body to global, scalar first), velocity [m/s], spin [rad/s],
+    all global.
+    """
+
+    def step(self, poses: Array, wrenches: Array, dt: float) -> Array:
+        """Poses after a step of dt [s] under wrenches (n, 6): force [N], moment [N m] about the centres of mass."""
+
+    def contacts(self) -> tuple[NDArray[np.int64], Array]:
+        """Contacts of the last step: body of each (c,), from 1, and (c, 7) place [m], normal force [N], friction
+        force on the body [N]."""
+
+    def close(self) -> None:
+        """Give back what the engine holds."""
+
+
+@njit(error_model="numpy", cache=True)
+def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untyped-def]
+    """Loads of the present poses; out (n, 6) force and moment about the centre of mass; returns feed and rotation."""
+    feed, rate = update_loads(S, top, whole_operations(n), laws, motion, pipe, dt)
+    for j in range(1, n + 1):
+        fx, fy, fz = state.joint_force(S, j)
+        gx, gy, gz = state.joint_force(S, j + 1)
+        ax, ay, az = state.axis(S, j)
+        above, below = S[state.ARM_TOP + j], S[state.ARM_BOTTOM + j]
+        hx, hy, hz = above * fx + below * gx, above * fy + below * gy, above * fz + below * gz
+        row = out[j - 1]
+        row[0], row[1], row[2] = fx - gx, fy - gy, fz - gz + S[state.WEIGHT + j]
+        row[3] = S[state.LX + j] + S[state.UX + j + 1] - (ay * hz - az * hy)
+        row[4] = S[state.LY + j] + S[state.UY + j + 1] - (az * hx - ax * hz)
+        row[5] = S[state.LZ + j] + S[state.UZ + j + 1] - (ax * hy - ay * hx)
+    return feed, rate
+
+
+@njit(error_model="numpy", cache=True)
+def _store(S, top, n, pipe, feed, rate, dt, poses):  # type: ignore[no-untyped-def]
+    """Update the bodies from poses (n, 13), and the top drive."""
+    for j in range(1, n + 1):
+        p = poses[j - 1]
+        w, x, y, z = state.quaternion(S, j)
+        # An orientation has two quaternions: the nearer one, since twist is read off it.
+        sign = 1.0 if w * p[3] + x * p[4] + y * p[5] + z * p[6] > 0 else -1.0
+        w, x, y, z = sign * p[3], sign * p[4], sign * p[5], sign * p[6]
+        S[state.X + j], S[state.Y + j], S[state.Z + j] = p[0], p[1], p[2]
+        S[state.QW + j], S[state.QX + j], S[state.QY + j], S[state.QZ + j] = w, x, y, z
+        S[state.VX + j], S[state.VY + j], S[state.VZ + j] = p[7], p[8], p[9]
+        xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
+        S[state.WX + j] = xx * p[10] + xy * p[11] + xz * p[12]
+        S[state.WY + j] = yx * p[10] + yy * p[11] + yz * p[12]
+        S[state.WZ + j] = zx * p[10] + zy * p[11] + zz * p[12]
+    move_top_drive(S, top, pipe, feed, rate, dt)
+
+
+@njit(error_model="numpy", cache=True)
+def _sum_contacts(S, body, contacts, before, poses, dt):  # type: ignore[no-untyped-def]
+    """Update sums and losses from contacts (c, 7) of the step from poses ``before`` to ``poses``."""
+    for k in range(len(body)):
+        j = body[k]
+        c, p, q = contacts[k], before[j - 1], poses[j - 1]
+        ax, ay, az = state.axis(S, j)
+        rx, ry, rz = c[0] - p[0], c[1] - p[1], c[2] - p[2]
+        normal, fx, fy, fz = c[3], c[4], c[5], c[6]
+        mx, my, mz = ry * fz - rz * fy, rz * fx - rx * fz, rx * fy - ry * fx
+        # What the impulses of a step take is their product with the velocity after them, as in the engine's ledger.
+        power = fx * q[7] + fy * q[8] + fz * q[9] + mx * q[10] + my * q[11] + mz * q[12]
+        S[state.SUM_NORMAL + j] += dt * normal
+        S[state.SUM_R_MU_N + j] += dt * S[state.RADIUS + j] * S[state.FRICTION + j] * normal
+        S[state.SUM_FRICTION_TORQUE + j] -= dt * (mx * ax + my * ay + mz * az)
+        S[state.LOST_FRICTION + j] -= dt * power
+
+
+def poses_of(run: Run) -> Array:
+    """Poses (n, 13) of the bodies of a run, as of ``Bodies``; axes have to be up to date."""
+    n = run.segments
+    rows: tuple[int, ...] = (
+        state.X,
+        state.Y,
+        state.Z,
+        state.QW,
+        state.QX,
+        state.QY,
+        state.QZ,
+        state.VX,
+        state.VY,
+        state.VZ,
+    )
+    rows = (*rows, state.GX, state.GY, state.GZ)
+    return np.stack([state.row(run.S, offset, n) for offset in rows], axis=1)
+
+
+class FreeBodies:
+    """Steps a run through another engine's bodies.
+
+    watch : whether contacts are read after every step, for sums and ledger; a race goes without.
+    """
+
+    def __init__(self, run: Run, bodies: Bodies, step: float) -> None:
+        self._run, self._bodies, self.step = run, bodies, step
+        self.watch = run.laws.geometry != state.OPEN
+        self._wrenches = np.empty((run.segments, 6))
+        self._poses = poses_of(run)
+
+    def advance(self, motion: Motion, duration: float) -> None:
+        """See ``Stepper.advance``."""
+        run, bodies, n = self._run, self._bodies, self._run.segments
+        steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
+        dt = duration / steps
+        for _ in range(steps):
+            feed, rate = _wrenches(run.S, run.top, n, run.laws, motion, run.pipe, dt, self._wrenches)
+            before = self._poses
+            self._poses = bodies.step(before, self._wrenches, dt)
+            if self.watch:
+                _sum_contacts(run.S, *bodies.contacts(), before, self._poses, dt)
+            _store(run.S, run.top, n, run.pipe, feed, rate, dt, self._poses)
+        run.steps += steps
+
+    def sync(self) -> None:
+        """The run is brought up to date in every step."""
+
+    def energy(self) -> Energy:
+        """See ``Stepper.energy``."""
+        return energy_of(self._run.S, self._run.segments)
+
+    def close(self) -> None:
+        """See ``Stepper.close``."""
+        self._bodies.close()
+
+
+def wall_stiffness(run: Run) -> Array:
+    """Stiffness of the wall at the bodies' contact points (n,) [N/m]: the stiffest of the hole."""
+    return np.asarray(run.hole.stiffest_wall * state.row(run.S, state.TRIBUTARY, run.segments))

@@ -1,0 +1,74 @@
+"""The 1000:1 model of the paper's §6.3 in the three ways in which its text can be read.
+
+``similar`` : geometric, kinematic and dynamic similitude at the same gravity and density: lengths by s, time by √s,
+hence forces by s³, moduli by s, a point's wall stiffness by s².  ``relabelled`` : the same string with its lengths
+written in millimetres.  ``naive`` : lengths by s and nothing else.
+"""
+
+from typing import Any, NamedTuple
+
+from fctd.case import Case
+
+READINGS = ("similar", "relabelled", "naive")
+SCALE = 1e-3
+
+
+class Factors(NamedTuple):
+    """What quantities are multiplied by: length, time, modulus, stiffness of a wall point, its damping, force."""
+
+    length: float
+    time: float
+    modulus: float
+    stiffness: float
+    damping: float
+    force: float
+
+
+def factors(reading: str, scale: float = SCALE) -> Factors:
+    """The factors of a reading; forces are those that follow for the weight."""
+    if reading == "similar":
+        return Factors(scale, scale**0.5, scale, scale**2, scale**2.5, scale**3)
+    if reading == "naive":
+        return Factors(scale, 1.0, 1.0, 1.0, 1.0, scale**3)
+    return Factors(1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
+
+
+def scaled(case: Case, reading: str, scale: float = SCALE) -> Case:
+    """The case in one reading; its stations are written out.  Raises InputError where the result is no case."""
+    by = factors(reading, scale)
+
+    def length(value: float) -> Any:
+        return f"{1e3 * value!r} mm" if reading == "relabelled" else value * by.length
+
+    raw = case.model_dump(exclude_none=True, exclude={"file"})
+    hole = raw["wellbore"]
+    hole.pop("survey", None)
+    hole.pop("columns", None)
+    stations = case.wellbore.read_stations().tolist()
+    hole["stations"] = [[md * by.length, inclination, azimuth] for md, inclination, azimuth in stations]
+    # Intervals and components are tuples of tables; every key below is a length [m].
+    for table in (hole, *hole["intervals"], raw["string"], *raw["string"]["components"], *raw["operations"]):
+        for key in LENGTHS & table.keys():
+            table[key] = length(table[key])
+    for table in (hole, *hole["intervals"]):
+        if "stiffness" in table:
+            table["stiffness"] *= by.stiffness
+    for component in raw["string"]["components"]:
+        component["youngs_modulus"] *= by.modulus
+    raw["contact"]["damping"] *= by.damping
+    raw["solver"]["joint_damping"] *= by.time
+    raw["record"]["interval"] *= by.time
+    for operation in raw["operations"]:
+        for key in {"duration", "ramp_time"} & operation.keys():
+            operation[key] *= by.time
+        if "speed" in operation:
+            operation["speed"] *= by.length / by.time
+        if "rpm" in operation:
+            operation["rpm"] /= by.time
+    return Case.model_validate(raw)
+
+
+LENGTHS = {
+    "cylinder_length", "chord_tolerance", "overlap", "to_md", "diameter", "top_md", "length", "outer_diameter",
+    "inner_diameter", "contact_diameter", "segment_length", "from_md", "at_md",
+}  # fmt: skip

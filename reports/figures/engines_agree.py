@@ -1,0 +1,92 @@
+"""The same string in other engines: loads against FCTD's, contact forces along it, cost."""
+
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+
+from reports import words
+from reports.figures import Figure, Tables, style
+
+
+def loads(tables: Tables) -> Canvas:
+    """A dot per engine and operation: hook load and torque against FCTD; open dots failed a check."""
+    numbers = tables["chain"]
+    numbers = numbers[numbers["engine"] != "FCTD"]
+    names, kinds = list(numbers["engine"].unique()), list(numbers["operation"].unique())
+    canvas = style.figure(1.4 + 0.36 * len(names))
+    axes = canvas.subplots(1, 2, sharey=True)
+    columns = (("hookload_off_percent", "hook load − FCTD's, %"), ("torque_off_percent", "torque − FCTD's, %"))
+    for ax, (column, label) in zip(axes, columns, strict=True):
+        for index, kind in enumerate(kinds):
+            for _, row in numbers[numbers["operation"] == kind].iterrows():
+                height = names.index(row["engine"]) + 0.18 * (index - (len(kinds) - 1) / 2)
+                ax.plot(
+                    row[column], height, **style.dots(index, filled=row["status"] == "valid"), markersize=6,
+                    label=words.name(kind),
+                )  # fmt: skip
+        ax.axvline(0, color=style.QUIET, linewidth=1)
+        ax.set_xlabel(label)
+        ax.margins(x=0.12)
+    axes[0].set_yticks(range(len(names)), names)
+    axes[0].set_ylim(len(names) - 0.5, -0.5)
+    handles, labels = axes[0].get_legend_handles_labels()
+    first = {label: handle for handle, label in zip(handles, labels, strict=True)}
+    canvas.legend(first.values(), first.keys(), loc="outside upper left", ncols=len(first))
+    return canvas
+
+
+def contact(tables: Tables) -> Canvas:
+    """Contact force along the turning chain, one line for each engine that is at its best."""
+    profiles = tables["profiles"]
+    turning = profiles[profiles["operation"] == "rotate_off_bottom"]
+    names = [name for name in turning["engine"].unique() if "default" not in name]
+    canvas = style.figure(3.4)
+    ax = canvas.subplots()
+    for index, name in enumerate(names):
+        at = turning[turning["engine"] == name]
+        ax.plot(at["md_m"], at["contact_force_N"] / 1e3, **style.line(index), label=name)
+    touched = turning.loc[turning["contact_force_N"] > 0, "md_m"]
+    ax.set(xlabel="measured depth, m", ylabel="contact force, kN", xlim=(touched.min() - 50, touched.max() + 20))
+    style.legend_above(ax, columns=4)
+    return canvas
+
+
+def cost(tables: Tables) -> Canvas:
+    """Wall time of a simulated second on a logarithmic axis: free and in contact, at own and at equal step."""
+    table = tables["cost"]
+    names = list(table["engine"].unique())
+    canvas = style.figure(1.6 + 0.36 * len(names))
+    ax = canvas.subplots()
+    for index, ((state, step), chosen) in enumerate(table.groupby(["state", "step"], sort=False)):
+        at = chosen.set_index("engine").reindex(names)
+        height = np.arange(len(names)) + 0.16 * (index - 1.5)
+        ax.plot(
+            at["ms_per_simulated_s"], height, **style.dots(index, filled=step == "own step"), markersize=6,
+            label=f"{state}, {step}",
+        )  # fmt: skip
+    ax.set(xscale="log", xlabel="wall time of a simulated second, ms")
+    ax.set_yticks(range(len(names)), names)
+    ax.set_ylim(len(names) - 0.5, -0.5)
+    style.legend_above(ax)
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "loads",
+        "The curved chain in other engines, from the same state over the same window: how far hook load and torque "
+        "are from FCTD's. An open dot is a run that failed a check; where no torque is needed there is no dot.",
+        loads,
+    ),
+    Figure(
+        "contact",
+        "Contact force along the turning chain in each engine at its best configuration, means over the last quarter "
+        "of a second.",
+        contact,
+    ),
+    Figure(
+        "cost",
+        "What a simulated second of 60 segments takes in each engine, hanging free and turning in contact, at each "
+        "engine's own best step (filled) and at the shortest of those for all (open).",
+        cost,
+    ),
+]
