@@ -125,6 +125,22 @@ def test_short_beams_are_those_of_beam_theory() -> None:
     assert [(check.name, check.value) for check in outcome.checks if check.verdict != "met"] == []
 
 
+@pytest.mark.parametrize("toolface", [0.0, 90.0, 180.0, 270.0])
+def test_a_bent_housing_points_to_its_toolface(toolface: float) -> None:
+    """A cantilever bent by β, 2 m above its end: the end is off the straight one's by 2β sin, towards the toolface."""
+    ends = []
+    for bend in (0.0, 0.01):
+        parts = [
+            beam_in_hole.part(2.0, 0.5, bend=bend, toolface=math.radians(toolface)),
+            beam_in_hole.part(6.0, 0.5),
+        ]
+        end = beam_in_hole.solve(parts, 8.0, contact={"enabled": False}).profile.iloc[-1]
+        ends.append((end["offset_high_m"], end["offset_right_m"]))
+    off = np.subtract(*reversed(ends))
+    expected = 0.02 * np.array([math.cos(math.radians(toolface)), math.sin(math.radians(toolface))])
+    np.testing.assert_allclose(off, expected, atol=2e-4)
+
+
 def test_locked_up_is_an_answer() -> None:
     """3 km of horizontal hole at μ 0.4 under 200 m of weight cannot be slacked off into."""
     stations = [[0, 0, 0], [200, 0, 0], [500, 90, 0], [3500, 90, 0]]
