@@ -17,6 +17,7 @@ from fctd.equilibrium import Solver
 from fctd.first_guess import MD, guess
 from fctd.operations import steady_rates
 from fctd.tangent import Steady, assemble
+from fctd.wellbore import build_wellbore, hole_frame
 from tests.cases import make_case, pipe
 from validation import beam_in_hole
 from validation.study import Context
@@ -48,7 +49,7 @@ def wells(draw: st.DrawFn) -> list[list[float]]:
 def test_any_well_is_in_balance(
     stations: list[list[float]], kind: str, law: str, geometry: str, friction: float
 ) -> None:
-    """Torque: what the top gives is what wall, mud and bit take.  Force: weight, wall and top add up to nothing."""
+    """Torque: what the top gives is what wall, mud and bit take.  The profile begins and ends as it must."""
     depth = stations[-1][0]
     case = make_case(
         stations,
@@ -66,7 +67,7 @@ def test_any_well_is_in_balance(
     )
     drilling = kind.startswith("drill")
     rates = steady_rates(case, kind)
-    mud = 0.2 * rates.spin * (depth - 0.0)
+    mud = 0.2 * rates.spin * depth
     taken = point.sum_r_ft + mud + (1e3 if drilling else 0.0)
     # A bent string passes its torque on with the cosine of a half bend at every joint.
     assert point.surface_torque == pytest.approx(taken, rel=0.02, abs=30.0)
@@ -78,6 +79,26 @@ def test_any_well_is_in_balance(
     offset = np.hypot(profile["offset_high_m"], profile["offset_right_m"])
     assert (offset[touching] >= profile["clearance_m"][touching] - 1e-9).all()
     assert (offset[~touching] <= profile["clearance_m"][~touching] + 1e-9).all()
+
+
+@given(stations=wells(), geometry=st.sampled_from(["cylinders", "arcs"]))
+@settings(max_examples=20)
+def test_hook_and_wall_carry_the_weight(stations: list[list[float]], geometry: str) -> None:
+    """Turning by law ``paper`` the wall's forces are its normals alone; the top is vertical."""
+    depth = stations[-1][0]
+    case = make_case(
+        stations, [pipe(None, None, segment_length=20.0)], wellbore={"geometry": geometry},
+        contact={"friction_law": "paper"}, mud={"density": 1100.0},
+    )  # fmt: skip
+    point = equilibrium(case, "rotate_off_bottom", depth)
+    assert point.answered
+    profile = point.profile
+    high, right = hole_frame(build_wellbore(case).at(profile["md_m"].to_numpy())[1])
+    angle = np.radians(profile["contact_angle_deg"].to_numpy())
+    down = np.cos(angle) * high[:, 2] + np.sin(angle) * right[:, 2]
+    weight = 9.80665 * math.pi / 4 * (0.127**2 - 0.07**2) * (7850 - 1100) * depth
+    carried = point.hookload + float(profile["contact_force_N"] @ down)
+    assert carried == pytest.approx(weight, rel=1e-3)
 
 
 def test_picking_up_pulls_more_than_turning_and_that_more_than_slacking_off() -> None:
