@@ -128,10 +128,13 @@ def main() -> None:
 
 
 def run(commands: typer.Typer) -> None:
-    """Run a command line: one line for bad input, no traceback."""
+    """Run a command line: one line for bad input or a file that cannot be written, no traceback."""
     try:
         commands()
     except InputError as error:
+        messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
+        sys.exit(BAD_INPUT)
+    except OSError as error:  # a disk that is full, a folder that has gone meanwhile
         messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:

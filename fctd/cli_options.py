@@ -56,7 +56,11 @@ def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
         return
     if path.suffix.lower() not in suffixes:
         raise InputError(f"a file name that ends in {' or '.join(suffixes)}", key=key, value=str(path))
-    folder = next(parent for parent in path.absolute().parents if parent.exists())
-    taken = path.is_dir() or not folder.is_dir()
-    if taken or not os.access(path if path.exists() else folder, os.W_OK):
+    try:
+        folder = next(parent for parent in path.absolute().parents if parent.exists())
+        taken = path.is_dir() or not folder.is_dir()
+        writable = not taken and os.access(path if path.exists() else folder, os.W_OK)
+    except OSError:  # a name too long for the file system
+        writable = False
+    if not writable:
         raise InputError("a file that can be written", key=key, value=str(path))

@@ -156,7 +156,7 @@ def chart_command(
     case = read_case(case_file, overrides)
     bit_depths = read_depths(depths)
     _check_in_hole(case, bit_depths, "--depths", depths)
-    kinds = list(KINDS) if "all" in operations else list(dict.fromkeys(operations))
+    kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
     factors = list(dict.fromkeys(frictions))
     drive = _drive(speed, rpm)
 
@@ -218,6 +218,8 @@ def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
     wanted = {key: path for key, path in targets.items() if path is not None}
     for key, path in wanted.items():
         check_target(path, key, PICTURES)
+    if len({path.absolute() for path in wanted.values()}) < len(wanted):
+        raise InputError("a file of its own for each picture", key=key, value=str(path))
     if not wanted:
         return None
     try:

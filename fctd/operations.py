@@ -66,10 +66,12 @@ def depth_range(case: Case) -> tuple[float, float, float]:
 def sensors(case: Case, kind: str, hookload: float, torque: float) -> tuple[float, float]:
     """Weight indicator [N] and drive torque [N m]: what the rig reads for the string's own reactions.
 
-    Sheave friction lowers the dead line's tension when the block is hoisted and raises it when lowered.
+    Sheave friction lowers the dead line's tension when the block is hoisted and raises it when lowered, as it is
+    by drilling.
     """
     rig = case.rig
-    hoisting = {"trip_out": 1, "back_ream": 1, "trip_in": -1}.get(kind, 0)
+    moves = DEFAULT_RATES[kind][0] > 0
+    hoisting = 0 if not moves else -1 if KINDS[kind].downwards else 1
     indicator = (hookload + rig.block_weight) * rig.sheave_efficiency**hoisting
     return indicator, torque + rig.torque_offset
 

@@ -90,7 +90,8 @@ def profile_table(
             "true_tension_N": tension - pressure * steel,
             "torque_N_m": torque,
             "contact_force_N": np.append(0.0, loads.normal),
-            "contact_angle_deg": np.append(0.0, np.degrees(np.arctan2(aside, up)) % 360),
+            # A rounding error to the left of the high side is the high side, not 360°.
+            "contact_angle_deg": np.append(0.0, np.degrees(np.arctan2(aside, up)) % 360 % 360),
             "bending_moment_N_m": bending,
             "offset_high_m": np.append(0.0, up),
             "offset_right_m": np.append(0.0, aside),

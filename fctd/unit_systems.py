@@ -50,8 +50,6 @@ def shown(column: str, system: System) -> Shown:
     """How to show a column of an SI table."""
     if column.endswith("_deg"):
         return Shown(1.0, "°")
-    if column.endswith("_deg"):
-        return Shown(1.0, "°")
     measure = measure_of(column)
     if measure is None:
         raise ValueError(f"column {column} has no unit to show")

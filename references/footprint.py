@@ -41,7 +41,11 @@ def _measure() -> None:
     request = json.load(sys.stdin)
     case = Case.model_validate(request["case"])
     short = case.model_copy(
-        update={"wellbore": case.wellbore.model_copy(update={"stations": ((0.0, 0.0, 0.0), (30.0, 0.0, 0.0))})}
+        update={
+            "wellbore": case.wellbore.model_copy(
+                update={"survey": None, "stations": ((0.0, 0.0, 0.0), (30.0, 0.0, 0.0))}
+            )
+        }
     )
     small = build(request["name"], short)
     before, began = _resident(), time.perf_counter()

@@ -222,6 +222,8 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
         ("chart", {"--plot-profile": "chart"}, ["--plot-profile", ".png or .svg"]),
         ("chart", {"--out": "tiny.toml/chart.csv"}, ["--out", "tiny.toml/chart.csv", "can be written"]),
         ("chart", {"--plot": "tiny.toml/chart.png"}, ["--plot", "tiny.toml/chart.png", "can be written"]),
+        ("chart", {"--plot": "a.png", "--plot-profile": "./a.png"}, ["--plot-profile", "a.png", "of its own"]),
+        ("chart", {"--out": 300 * "a" + ".csv"}, ["--out", "aaa...", "can be written"]),
         ("chart", {"--units": "metric"}, ["--units", "metric", "field"]),
         ("equilibrium", {"--operation": "rotate"}, ["tiny.toml", "operation", "rotate", "kind"]),
         ("equilibrium", {"--bit-depth": "950 m"}, ["tiny.toml", "--bit-depth", "950 m", "900 m"]),
@@ -251,6 +253,30 @@ def test_bad_input_is_one_message_and_exit_code_2(
     for part in expected:
         assert part in message
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_all_operations_do_not_hide_a_wrong_one(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kinds = ("--operation", "all", "--operation", "wiggle")
+    assert run(monkeypatch, "chart", case_file, *kinds, "--depths", "500:800:100") == 2
+    assert "wiggle" in capsys.readouterr().err
+
+
+def test_a_file_that_fails_to_be_written_is_one_message(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The disk fills up after the target was looked at."""
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device", "profile.csv")
+
+    monkeypatch.setattr("fctd.cli_steady.write_table", full)
+    options = POINT | {"--out": str(tmp_path / "profile.csv")}
+    assert run(monkeypatch, "equilibrium", case_file, *(part for pair in options.items() for part in pair)) == 2
+    message = capsys.readouterr().err
+    assert "No space left on device" in message
+    assert "Traceback" not in message
 
 
 def test_without_matplotlib_a_picture_is_refused_before_computing(

@@ -17,6 +17,7 @@ from fctd.equilibrium import Solver
 from fctd.first_guess import MD, guess
 from fctd.operations import steady_rates
 from fctd.tangent import Steady, assemble
+from fctd.wellbore import build_wellbore, hole_frame
 from tests.cases import make_case, pipe
 from validation import beam_in_hole
 from validation.study import Context
@@ -48,7 +49,7 @@ def wells(draw: st.DrawFn) -> list[list[float]]:
 def test_any_well_is_in_balance(
     stations: list[list[float]], kind: str, law: str, geometry: str, friction: float
 ) -> None:
-    """Torque: what the top gives is what wall, mud and bit take.  Force: weight, wall and top add up to nothing."""
+    """Torque: what the top gives is what wall, mud and bit take.  The profile begins and ends as it must."""
     depth = stations[-1][0]
     case = make_case(
         stations,
@@ -66,7 +67,7 @@ def test_any_well_is_in_balance(
     )
     drilling = kind.startswith("drill")
     rates = steady_rates(case, kind)
-    mud = 0.2 * rates.spin * (depth - 0.0)
+    mud = 0.2 * rates.spin * depth
     taken = point.sum_r_ft + mud + (1e3 if drilling else 0.0)
     # A bent string passes its torque on with the cosine of a half bend at every joint.
     assert point.surface_torque == pytest.approx(taken, rel=0.02, abs=30.0)
@@ -78,6 +79,26 @@ def test_any_well_is_in_balance(
     offset = np.hypot(profile["offset_high_m"], profile["offset_right_m"])
     assert (offset[touching] >= profile["clearance_m"][touching] - 1e-9).all()
     assert (offset[~touching] <= profile["clearance_m"][~touching] + 1e-9).all()
+
+
+@given(stations=wells(), geometry=st.sampled_from(["cylinders", "arcs"]))
+@settings(max_examples=20)
+def test_hook_and_wall_carry_the_weight(stations: list[list[float]], geometry: str) -> None:
+    """Turning by law ``paper`` the wall's forces are its normals alone; the top is vertical."""
+    depth = stations[-1][0]
+    case = make_case(
+        stations, [pipe(None, None, segment_length=20.0)], wellbore={"geometry": geometry},
+        contact={"friction_law": "paper"}, mud={"density": 1100.0},
+    )  # fmt: skip
+    point = equilibrium(case, "rotate_off_bottom", depth)
+    assert point.answered
+    profile = point.profile
+    high, right = hole_frame(build_wellbore(case).at(profile["md_m"].to_numpy())[1])
+    angle = np.radians(profile["contact_angle_deg"].to_numpy())
+    down = np.cos(angle) * high[:, 2] + np.sin(angle) * right[:, 2]
+    weight = 9.80665 * math.pi / 4 * (0.127**2 - 0.07**2) * (7850 - 1100) * depth
+    carried = point.hookload + float(profile["contact_force_N"] @ down)
+    assert carried == pytest.approx(weight, rel=1e-3)
 
 
 def test_picking_up_pulls_more_than_turning_and_that_more_than_slacking_off() -> None:
@@ -123,6 +144,22 @@ def test_short_beams_are_those_of_beam_theory() -> None:
     """The study's cantilever, supports, pendulum and bent housing, each within 1 % (sources beside them)."""
     outcome = beam_in_hole.run(Context(quick=True))
     assert [(check.name, check.value) for check in outcome.checks if check.verdict != "met"] == []
+
+
+@pytest.mark.parametrize("toolface", [0.0, 90.0, 180.0, 270.0])
+def test_a_bent_housing_points_to_its_toolface(toolface: float) -> None:
+    """A cantilever bent by β, 2 m above its end: the end is off the straight one's by 2β sin, towards the toolface."""
+    ends = []
+    for bend in (0.0, 0.01):
+        parts = [
+            beam_in_hole.part(2.0, 0.5, bend=bend, toolface=math.radians(toolface)),
+            beam_in_hole.part(6.0, 0.5),
+        ]
+        end = beam_in_hole.solve(parts, 8.0, contact={"enabled": False}).profile.iloc[-1]
+        ends.append((end["offset_high_m"], end["offset_right_m"]))
+    off = np.subtract(*reversed(ends))
+    expected = 0.02 * np.array([math.cos(math.radians(toolface)), math.sin(math.radians(toolface))])
+    np.testing.assert_allclose(off, expected, atol=2e-4)
 
 
 def test_locked_up_is_an_answer() -> None:

@@ -42,6 +42,60 @@ def test_loads_and_stress_of_a_hanging_string() -> None:
     assert middle["von_mises_Pa"] == pytest.approx(stress, rel=1e-4)
 
 
+def test_stress_and_buckling_of_a_bent_string_in_tension_and_in_compression() -> None:
+    """Row by row: |T|/A + M r_o/I and the torque's shear; the limits are those of the buoyed weight."""
+    mud = {"density": 1200.0}
+    case = make_case(
+        [[0, 0, 0], [200, 0, 0], [600, 60, 0], [900, 60, 0]], [pipe(900, 90)], mud=mud,
+        bit={"weight_on_bit": 34e4, "torque": 2e3}, wellbore={"geometry": "arcs"},
+    )  # fmt: skip
+    point = equilibrium(case, "drill_rotating", 900.0)
+    assert point.answered
+    profile = point.profile
+    outer, inner = 0.0635, 0.035
+    area, second = math.pi * (outer**2 - inner**2), math.pi / 4 * (outer**4 - inner**4)
+    tension, bending = profile["effective_tension_N"].to_numpy(), profile["bending_moment_N_m"].to_numpy()
+    assert tension.max() > 0 > tension.min()
+    assert (bending * outer / second)[20:60].min() > 1e7
+    normal = np.abs(tension) / area + bending * outer / second
+    shear = profile["torque_N_m"] * outer / (2 * second)
+    np.testing.assert_allclose(profile["von_mises_Pa"], np.hypot(normal, math.sqrt(3) * shear), rtol=1e-9)
+    # On the slant below the build, by hand.
+    lying = profile[profile["md_m"] > 610].iloc[0]
+    weight, EI = 9.80665 * area * (7850 - 1200), 206.8e9 * second
+    sinusoidal = 2 * math.sqrt(EI * weight * math.sin(math.radians(60)) / ((0.2159 - 0.127) / 2))
+    assert lying["sinusoidal_limit_N"] == pytest.approx(sinusoidal, rel=1e-6)
+    assert lying["helical_limit_N"] == pytest.approx(math.sqrt(2) * sinusoidal, rel=1e-6)
+    modes = np.where(
+        tension < -profile["helical_limit_N"],
+        "helical",
+        np.where(tension < -profile["sinusoidal_limit_N"], "sinusoidal", "none"),
+    )
+    assert list(profile["buckling"]) == list(modes)
+    assert {"helical", "sinusoidal", "none"} == set(modes)
+
+
+def test_a_stabiliser_s_row_has_the_load_in_its_middle() -> None:
+    """Vertical, in air: the weight below the middle of a short component, and half of its own mud's torque."""
+    components = [pipe(30, 3), pipe(2, 1, contact_diameter=0.2), pipe(None, None, segment_length=10.0)]
+    case = make_case([[0, 0, 0], [200, 0, 0]], components, mud={"rotational_damping": 2.0})
+    profile = equilibrium(case, "rotate_off_bottom", 192.0, rpm=30).profile
+    middle = profile.iloc[-4]
+    assert middle["md_m"] == pytest.approx(161.0, abs=0.01)
+    weight = 9.80665 * 7850 * math.pi / 4 * (0.127**2 - 0.07**2)
+    assert middle["effective_tension_N"] == pytest.approx(31 * weight, rel=1e-6)
+    assert middle["torque_N_m"] == pytest.approx(31 * 2.0 * math.pi, rel=1e-6)
+
+
+@pytest.mark.parametrize(("kind", "sign"), [("trip_out", 1), ("trip_in", -1)])
+def test_mud_drags_against_the_motion(kind: str, sign: int) -> None:
+    """Vertical: the hook carries the weight and c L v more when hoisting, less when lowering."""
+    case = make_case([[0, 0, 0], [1000, 0, 0]], [pipe(1000, 20)], mud={"axial_damping": 30.0})
+    weight = 1000 * 9.80665 * 7850 * math.pi / 4 * (0.127**2 - 0.07**2)
+    point = equilibrium(case, kind, 1000.0, speed=0.5)
+    assert point.hookload == pytest.approx(weight + sign * 30.0 * 1000 * 0.5, abs=10.0)
+
+
 def test_contact_angle_and_offset_of_a_string_on_the_low_side() -> None:
     profile = equilibrium(
         make_case([[0, 60, 200], [300, 60, 200]], [pipe(None, None, segment_length=10.0)]), "trip_out", 300.0
@@ -59,6 +113,10 @@ def test_the_ends_carry_hook_load_and_weight_on_bit(components: list[dict[str, o
     point = equilibrium(case, kind, 300.0)
     top, bit = point.profile.iloc[0], point.profile.iloc[-1]
     assert top["effective_tension_N"] == pytest.approx(point.hookload, rel=1e-6)
+    # In vertical hole the hook carries the weight less what stands on the bit; the wall has next to no share.
+    weight = 300 * 7850 * 9.80665 * math.pi / 4 * (0.127**2 - 0.07**2)
+    on_bit = 20e3 if kind == "drill_rotating" else 0.0
+    assert point.hookload == pytest.approx(weight - on_bit, abs=0.005 * 20e3)
     assert top["torque_N_m"] == pytest.approx(point.surface_torque, abs=1e-3)
     assert bit["effective_tension_N"] == (-20e3 if kind == "drill_rotating" else 0)
 

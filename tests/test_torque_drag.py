@@ -46,6 +46,10 @@ def test_a_row_per_operation_friction_and_depth() -> None:
     # Hoisting through sheaves of 90 % lowers what the dead line feels.
     assert own["weight_indicator_N"] == pytest.approx(0.9 * (point.hookload + 1e5))
     assert own["drive_torque_N_m"] == pytest.approx(point.surface_torque + 500.0)
+    # Drilling lowers the block.
+    for kind in ("drill_rotating", "drill_sliding"):
+        down = equilibrium(case_of(), kind, 900.0)
+        assert down.weight_indicator == pytest.approx((down.hookload + 1e5) / 0.9)
 
 
 @pytest.mark.parametrize(

@@ -91,7 +91,8 @@ def errors_of(method: base.ContactMethod, points: pd.DataFrame, case: Case) -> l
         cosine = np.sum(hits.normal[chosen] * exact.normal[chosen], axis=1)[known]
         direction = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
         turned = np.degrees(turn + np.arcsin(np.minimum(depth / points["offset"].to_numpy()[chosen][known], 1)))
-        missed, false = (truth > 0) & (found <= 0), (truth <= 0) & (found > 0)
+        # Nan, no answer at all, is a miss as well.
+        missed, false = (truth > 0) & ~(found > 0), (truth <= 0) & (found > 0)
         rows.append(
             {
                 "region": region,
