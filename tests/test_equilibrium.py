@@ -181,6 +181,7 @@ def test_a_straight_string_beyond_its_buckling_load_is_unstable() -> None:
     point = equilibrium(case, "drill_sliding", 300.0)
     assert point.status == "unstable"
     assert point.answered
+    assert point.imbalance < 1e-6 * 1e5
     assert (point.profile["buckling"] == "helical").any()
     case = case.model_copy(update={"bit": case.bit.model_copy(update={"weight_on_bit": 1e3})})
     assert equilibrium(case, "drill_sliding", 300.0).status == "converged"
@@ -236,6 +237,10 @@ def test_rates_are_the_callers_then_the_cases_then_the_defaults() -> None:
     assert steady_rates(case, "back_ream", speed=0.5) == pytest.approx((-0.5, math.pi))
     assert steady_rates(case, "trip_in") == pytest.approx((0.3, 0.0))
     assert steady_rates(case, "drill_rotating", rpm=60) == pytest.approx((0.003, 2 * math.pi))
+    # As the README has them.
+    assert steady_rates(case, "drill_rotating") == pytest.approx((0.003, 4 * math.pi))
+    assert steady_rates(case, "drill_sliding") == pytest.approx((0.003, 0.0))
+    assert steady_rates(case, "rotate_off_bottom") == pytest.approx((0.0, 2 * math.pi))
     fast = equilibrium(case, "back_ream", 900.0, speed=2.0).hookload
     assert fast > equilibrium(case, "back_ream", 900.0, speed=0.01).hookload
 

@@ -87,6 +87,24 @@ def test_a_stabiliser_s_row_has_the_load_in_its_middle() -> None:
     assert middle["torque_N_m"] == pytest.approx(31 * 2.0 * math.pi, rel=1e-6)
 
 
+def test_a_string_that_hangs_below_the_surface_in_slant_hole() -> None:
+    """Without friction: the top holds w L cos I along the hole, under the mud of its own depth."""
+    slant = {"intervals": [{"to_md": 900, "diameter": 0.2159, "friction": 0.0}], "geometry": "arcs"}
+    case = make_case(
+        [[0, 60, 200], [900, 60, 200]], [pipe(None, None, segment_length=10.0)], top_md=500.0, wellbore=slant,
+        mud={"density": 1200.0},
+    )  # fmt: skip
+    point = equilibrium(case, "rotate_off_bottom", 900.0)
+    area = math.pi * (0.0635**2 - 0.035**2)
+    hanging = 9.80665 * area * (7850 - 1200) * 400 * 0.5
+    assert point.hookload == pytest.approx(hanging, rel=1e-4)
+    top = point.profile.iloc[0]
+    assert top["md_m"] == 500.0
+    assert top["inclination_deg"] == pytest.approx(60.0)
+    pressure = 1200 * 9.80665 * 250
+    assert top["true_tension_N"] == pytest.approx(hanging - pressure * area, rel=1e-4)
+
+
 @pytest.mark.parametrize(("kind", "sign"), [("trip_out", 1), ("trip_in", -1)])
 def test_mud_drags_against_the_motion(kind: str, sign: int) -> None:
     """Vertical: the hook carries the weight and c L v more when hoisting, less when lowering."""
