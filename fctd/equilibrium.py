@@ -165,7 +165,7 @@ class Solver:
         imbalance = float(np.linalg.norm(w.R[1 : n + 1, :3], axis=1).max())
         # A string that lies level pulls neither way, to rounding.
         pushed = -hookload - case.rig.block_weight > n * allowed
-        status, message = self._judge(code, negative, pushed, contacts)
+        status, message = self._judge(code, negative, pushed, contacts, imbalance)
         indicator, drive = sensors(case, operation, hookload, torque)
         shape = Shape(
             hole, string, w.P[0, :3].copy(), joints[1:], contacts[1:], w.owner[1 : n + 1].copy(),
@@ -241,7 +241,7 @@ class Solver:
             half = 0.5 * component.bend
             kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
 
-    def _judge(self, code: int, negative: int, pushed: bool, contacts: Array) -> tuple[str, str]:
+    def _judge(self, code: int, negative: int, pushed: bool, contacts: Array, imbalance: float) -> tuple[str, str]:
         """Status and message of a solution."""
         if code == NOT_FINITE:
             return "not_finite", "a force is not finite"
@@ -251,7 +251,10 @@ class Solver:
             if outside.any():
                 return "diverged", f"segment {int(np.argmax(outside)) + 1} has left the hole"
         if code != CONVERGED:
-            return "max_iterations", "forces are out of balance"
+            return (
+                "max_iterations",
+                f"forces are out of balance by {imbalance:.3g} N: the string may have no steady shape",
+            )
         if pushed:
             return "locked_up", "the top would have to be pushed with more than the block weight"
         if negative:

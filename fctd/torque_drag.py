@@ -97,7 +97,7 @@ def _check_depths(bit_depths: Sequence[float]) -> list[float]:
 def _factors(friction: float | Sequence[float] | None) -> list[float | None]:
     if friction is None:
         return [None]
-    factors = [float(friction)] if isinstance(friction, int | float) else [float(f) for f in friction]
+    factors = [float(factor) for factor in np.atleast_1d(friction)]
     for factor in factors:
         if not 0 <= factor < np.inf:
             raise InputError("a friction factor at least 0", key="friction", value=factor)

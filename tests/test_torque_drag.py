@@ -39,6 +39,8 @@ def test_a_row_per_operation_friction_and_depth() -> None:
     by_friction = chart.pivot_table(index=["operation", "bit_depth_m"], columns="friction", values="hookload_N")
     assert (by_friction.loc["trip_out", 0.3] > by_friction.loc["trip_out", 0.1]).all()
 
+    whole = torque_drag(case_of(), "trip_out", [900.0], friction=np.int64(0)).iloc[0]
+    assert whole["friction"] == 0.0
     own = torque_drag(case_of(), "trip_out", [900.0]).iloc[0]
     point = equilibrium(case_of(), "trip_out", 900.0)
     assert np.isnan(own["friction"])
