@@ -3,11 +3,10 @@
 import typer
 
 from reports import page
-from validation import record
+from validation import study
 from validation.registry import STUDIES
-from validation.study import ROOT
 
-OUT = ROOT / "reports" / "out"
+OUT = study.ROOT / "reports" / "out"
 
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
@@ -15,7 +14,7 @@ app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 @app.command()
 def main() -> None:
     """Write reports/out/index.html and print where it is; exit code 1 when a figure could not be drawn."""
-    problems = page.render(record.RESULTS, STUDIES, OUT)
+    problems = page.render(study.RESULTS, STUDIES, OUT)
     for problem in problems:
         typer.echo(problem, err=True)
     typer.echo(f"report: {OUT / 'index.html'}")

@@ -5,9 +5,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from validation import record, runner
+from validation import runner, study
 from validation.registry import STUDIES
-from validation.study import data_folder
 
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
@@ -19,8 +18,12 @@ def main(
     every: Annotated[bool, typer.Option("--all", help="Run every study.")] = False,
     reproduce: Annotated[bool, typer.Option("--reproduce", help="Run what `make reproduce` runs.")] = False,
     quick: Annotated[bool, typer.Option("--quick", help="Shorten each study; the checks stay.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Repeat also what is kept and up to date.")] = False,
 ) -> None:
     """Run studies; each leaves its tables and its verdict in validation/results/NAME/.
+
+    A result is kept, and its study not repeated, until its code, the files it read, a package or the processor
+    changes; a quick result is none for a full run, nor the other way round. An interrupted run goes on where it was.
 
     Exit code 0: each check as recorded in expected.toml or better. 1: worse than recorded, or a study failed.
     2: bad usage. 130: interrupted; what had finished is kept.
@@ -38,9 +41,10 @@ def main(
     code = runner.run_all(
         chosen,
         quick=quick,
-        data=data_folder(),
+        force=force,
+        data=study.data_folder(),
         expected=expected,
-        results=record.RESULTS,
+        results=study.RESULTS,
         console=Console(),
     )
     raise typer.Exit(code)
@@ -59,12 +63,12 @@ def _choose(names: list[str], every: bool, reproduce: bool) -> list[str]:
 def _line(name: str) -> str:
     """One study in the list."""
     try:
-        study = runner.load(name)
+        found = runner.load(name)
     except Exception as error:
         # The list must show the others, and that this one is broken.
         return f"{name:<20} cannot be loaded: {type(error).__name__}: {error}"
-    marks = [*(["reproduce"] if study.reproduce else []), *(f"needs {need}" for need in study.needs)]
-    return f"{name:<20} {study.question}" + (f"  [{', '.join(marks)}]" if marks else "")
+    marks = [*(["reproduce"] if found.reproduce else []), *(f"needs {need}" for need in found.needs)]
+    return f"{name:<20} {found.question}" + (f"  [{', '.join(marks)}]" if marks else "")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,8 @@ import shutil
 import subprocess
 import tempfile
 from collections import Counter
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
 from importlib import metadata
 from pathlib import Path
 from typing import Any, Literal
@@ -16,9 +17,8 @@ from typing import Any, Literal
 import pandas as pd
 
 from references.timing import cpu_name
+from validation.inputs import Inputs
 from validation.study import ROOT, Check
-
-RESULTS = ROOT / "validation" / "results"
 
 Status = Literal["finished", "skipped", "failed"]
 Standing = Literal["met", "missed (recorded)", "better than recorded", "worse than recorded"]
@@ -87,8 +87,8 @@ def provenance() -> Provenance:
     return Provenance(_commit(), versions, cpu_name(), os.cpu_count() or 1)
 
 
-def write(record: Record, tables: dict[str, pd.DataFrame], results: Path) -> Path:
-    """Store a run as ``results/STUDY/``, replacing the one before; return the folder.
+def write(record: Record, tables: dict[str, pd.DataFrame], results: Path, inputs: Inputs | None = None) -> Path:
+    """Store a run and what it rests on as ``results/STUDY/``, replacing the one before; return the folder.
 
     Everything is written to a folder of its own first and then renamed, so that a run that is interrupted
     leaves the earlier result or none, never half of one.
@@ -100,11 +100,25 @@ def write(record: Record, tables: dict[str, pd.DataFrame], results: Path) -> Pat
         new.mkdir()
         for name, table in tables.items():
             table.to_parquet(new / f"{name}.parquet", index=False)
-        (new / "verdict.json").write_text(json.dumps(_to_json(record), indent=2, ensure_ascii=False) + "\n")
+        _write_verdict(record, new / "verdict.json")
+        if inputs is not None:
+            inputs.write(new)
         if folder.exists():
             folder.rename(old)
         new.rename(folder)
     return folder
+
+
+def judge_again(record: Record, recorded: Mapping[str, str], results: Path) -> Record:
+    """The stored run held against what ``expected.toml`` says of it now; stored where that changes it."""
+    checks = tuple(Judged(judged.check, recorded.get(judged.check.name)) for judged in record.checks)
+    if checks == record.checks:
+        return record
+    judged_again = replace(record, checks=checks)
+    scratch = results / record.study / ".verdict.json"
+    _write_verdict(judged_again, scratch)
+    scratch.replace(scratch.with_name("verdict.json"))
+    return judged_again
 
 
 def read(folder: Path) -> Record:
@@ -124,6 +138,10 @@ def read(folder: Path) -> Record:
 def read_tables(folder: Path, record: Record) -> dict[str, pd.DataFrame]:
     """The tables stored beside a record."""
     return {name: pd.read_parquet(folder / f"{name}.parquet") for name in record.tables}
+
+
+def _write_verdict(record: Record, path: Path) -> None:
+    path.write_text(json.dumps(_to_json(record), indent=2, ensure_ascii=False) + "\n")
 
 
 def _to_json(record: Record) -> dict[str, Any]:

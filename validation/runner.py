@@ -2,11 +2,12 @@
 
 import difflib
 import importlib
+import sys
 import time
 import tomllib
 import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -21,7 +22,8 @@ from rich.progress import (
 )
 from rich.text import Text
 
-from validation import record
+from validation import inputs, record
+from validation.inputs import Inputs
 from validation.record import Judged, Provenance, Record, Standing
 from validation.registry import STUDIES
 from validation.study import NEEDS, ROOT, Context, Outcome, Study, T
@@ -85,18 +87,41 @@ def read_expected(path: Path) -> Expected:
     return expected
 
 
+@dataclass(frozen=True)
+class Done:
+    """A result, and why its study was repeated: ``kept`` where it was not, what has changed, or nothing at all."""
+
+    record: Record
+    why: str = ""
+
+    @property
+    def kept(self) -> bool:
+        """Whether the result was there before."""
+        return self.why == KEPT
+
+
+KEPT = "kept"
+
+
 def run_all(
     names: Sequence[str],
     *,
     quick: bool,
+    force: bool = False,
     data: Path | None,
     expected: Expected,
     results: Path,
     console: Console,
 ) -> int:
-    """Run and store each study named; return the exit code: 0, 1 for worse than recorded, 130 interrupted."""
+    """Run and store each study named, unless its result is up to date; return the exit code.
+
+    force : repeat those as well.  The code is 0, 1 for worse than recorded, 130 when interrupted.
+    """
     origin = record.provenance()
-    finished: list[Record] = []
+    # Now, before the studies are imported: what is edited during the run is repeated by the next one.
+    sources, around = inputs.Sources(), inputs.surroundings(quick)
+    code = {name: sources.used_by(STUDIES[name]) for name in names}
+    finished: list[Done] = []
     columns = (
         SpinnerColumn(),
         TextColumn("{task.description}", markup=False),
@@ -105,25 +130,38 @@ def run_all(
         TimeElapsedColumn(),
     )
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
-        context = Context(quick=quick, data=data, progress=Bars(bars))
+        context = Context(quick=quick, data=data, progress=Bars(bars), results=results)
         try:
             for name in context.progress(names, "studies"):
-                done = run_one(name, context, expected.get(name, {}), origin, results)
+                now, recorded = Inputs(code[name], around), expected.get(name, {})
+                done = run_one(name, context, recorded, origin, now, sources, force)
                 finished.append(done)
-                tell(done, expected.get(name, {}), console)
+                tell(done, recorded, console)
         except KeyboardInterrupt:
-            kept = ", ".join(done.study for done in finished) or "nothing had finished"
-            _say(console, f"interrupted; kept: {kept}", "bold red")
+            there = ", ".join(done.record.study for done in finished) or "nothing had finished"
+            _say(console, f"interrupted; kept: {there}; the same command goes on from there", "bold red")
             return 130
-    errors = [done.study for done in finished if done.is_error]
+    errors = [done.record.study for done in finished if done.record.is_error]
+    kept = sum(done.kept for done in finished)
     verdict = f"worse than recorded: {', '.join(errors)}" if errors else "none worse than recorded"
-    _say(console, f"studies run: {len(finished)}; {verdict}", "bold red" if errors else "bold")
+    _say(console, f"studies run: {len(finished) - kept}, kept: {kept}; {verdict}", "bold red" if errors else "bold")
     _say(console, f"results: {results}")
     return 1 if errors else 0
 
 
-def run_one(name: str, context: Context, recorded: Mapping[str, str], origin: Provenance, results: Path) -> Record:
-    """Run one study and store what came of it: tables and checks, or why it was skipped, or how it failed."""
+def run_one(
+    name: str,
+    context: Context,
+    recorded: Mapping[str, str],
+    origin: Provenance,
+    now: Inputs,
+    sources: inputs.Sources,
+    force: bool,
+) -> Done:
+    """Take one study's result if it is up to date; otherwise run it and store what came of it.
+
+    Stored are tables and checks, or why it was skipped, or how it failed.
+    """
     start = time.perf_counter()
     blank = Record(
         study=name,
@@ -139,25 +177,67 @@ def run_one(name: str, context: Context, recorded: Mapping[str, str], origin: Pr
         wall_s=0.0,
         provenance=origin,
     )
+    why = ""
     try:
         study = load(name)
         blank = replace(blank, question=study.question)
+        if "data" in study.needs:
+            now = replace(now, around=now.around | {"public data folder": str(context.data)})
+        else:
+            context = replace(context, data=None)
+        why = "forced" if force else outdated(name, now, context.results)
+        if why == KEPT:
+            return Done(record.judge_again(record.read(context.results / name), recorded, context.results), KEPT)
         # What a study needs is a field of the context by the same name.
         absent = [NEEDS[need] for need in study.needs if getattr(context, need) is None]
         if absent:
             run, tables = replace(blank, status="skipped", message="; ".join(absent)), {}
         else:
-            outcome = study.run(context)
+            outcome, read = _watched(study, context, now.code, sources)
+            now = replace(now, files=read)
             run, tables = _finished(blank, outcome, recorded), outcome.tables
         run = replace(run, wall_s=time.perf_counter() - start)
-        record.write(run, tables, results)
+        record.write(run, tables, context.results, now)
     except Exception as error:
         # One study must not take the others with it: its failure is a result, and the exit code tells.
         traceback.print_exc()
         message = f"{type(error).__name__}: {error}"
         run = replace(blank, message=message, wall_s=time.perf_counter() - start)
-        record.write(run, {}, results)
-    return run
+        record.write(run, {}, context.results)
+    return Done(run, why)
+
+
+def outdated(name: str, now: Inputs, results: Path) -> str:
+    """Why a study has to be run: ``kept`` when it has not, nothing when there is no result yet."""
+    try:
+        status = record.read(results / name).status
+    except FileNotFoundError:
+        return ""
+    except (ValueError, TypeError, LookupError):
+        return "the result cannot be read"
+    before = inputs.read(results / name)
+    if status != "finished":
+        return f"was {status}"
+    if before is None or not now.code:
+        return "what it rests on is not known"
+    changed = now.changed_since(before)
+    return f"changed: {changed}" if changed else KEPT
+
+
+def _watched(
+    study: Study, context: Context, code: Mapping[str, str], sources: inputs.Sources
+) -> tuple[Outcome, dict[str, str]]:
+    """Run a study; also gives the files that it read."""
+    loaded = set(sys.modules)
+    folders = (ROOT, context.results, *([context.data] if context.data else []))
+    with inputs.files_read(*folders) as read:
+        outcome = study.run(context)
+    if strays := sources.strays(set(sys.modules) - loaded, code):
+        raise RuntimeError(
+            f"{', '.join(strays)}: imported under a name that stands in no source, so that a change of it would go "
+            "unnoticed; write the whole name of the module where it is chosen"
+        )
+    return outcome, read
 
 
 def _finished(blank: Record, outcome: Outcome, recorded: Mapping[str, str]) -> Record:
@@ -171,22 +251,25 @@ def _finished(blank: Record, outcome: Outcome, recorded: Mapping[str, str]) -> R
     )
 
 
-def tell(done: Record, recorded: Mapping[str, str], console: Console) -> None:
+def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
     """Print a run: a line for the study, one for each check, and what expected.toml should be told."""
-    style = "bold red" if done.is_error else "bold"
-    _say(console, f"{done.study}: {done.summary}  ({done.wall_s:.1f} s)", style)
-    if done.message:
-        _say(console, f"  {done.message}")
-    for judged in done.checks:
+    run = done.record
+    style = "bold red" if run.is_error else "bold"
+    when = f"kept from {run.date[:16].replace('T', ' ')} UTC" if done.kept else f"{run.wall_s:.1f} s"
+    why = f"; {done.why}" if done.why and not done.kept else ""
+    _say(console, f"{run.study}: {run.summary}  ({when}{why})", style)
+    if run.message:
+        _say(console, f"  {run.message}")
+    for judged in run.checks:
         check = judged.check
         found = f"{check.value:.6g} {check.unit}".rstrip()
         line = f"  {judged.standing:<20}  {check.name}: {found} ({check.requirement()})"
         _say(console, line, STYLES[judged.standing])
         if judged.standing == "better than recorded":
             _say(console, "    recorded as missed; please take it out of expected.toml")
-    gone = sorted(recorded.keys() - {judged.check.name for judged in done.checks})
+    gone = sorted(recorded.keys() - {judged.check.name for judged in run.checks})
     # A quick run may leave a check out.
-    if gone and done.status == "finished" and not done.quick:
+    if gone and run.status == "finished" and not run.quick:
         _say(console, f"  expected.toml records checks that this study does not make: {gone}", "yellow")
 
 

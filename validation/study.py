@@ -10,6 +10,7 @@ from typing import Literal, Protocol, TypeVar
 import pandas as pd
 
 ROOT = Path(__file__).resolve().parents[1]
+RESULTS = ROOT / "validation" / "results"
 
 Kind = Literal["at_most", "at_least", "within"]
 Need = Literal["data"]
@@ -106,12 +107,14 @@ def silent(items: Iterable[T], label: str) -> Iterable[T]:
 class Context:
     """What a study is told: whether to take the short way, where the public data lie, how to show progress.
 
-    ``data`` is a folder whenever the study says ``needs=("data",)``; otherwise it may be None.
+    ``data`` is a folder for a study that says ``needs=("data",)`` and None for any other. ``results`` holds a folder
+    for each study that has been run.
     """
 
     quick: bool = False
     data: Path | None = None
     progress: Progress = silent
+    results: Path = RESULTS
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from reports import __main__ as command_line
 from reports import page
-from validation import record
+from validation import record, study
 from validation.record import Judged, Provenance, Record
 from validation.study import Check
 
@@ -40,9 +40,9 @@ def judged(value, recorded=None, name="largest jump"):
     return Judged(Check(name, value, 1e-6, "at_most", "kN·m", "continuity <C⁰>"), recorded)
 
 
-def finished(study, **changes):
-    tables = synthetic.STUDIES[study]()
-    return replace(BLANK, study=study, tables=tuple(tables), **changes), tables
+def finished(name, **changes):
+    tables = synthetic.STUDIES[name]()
+    return replace(BLANK, study=name, tables=tuple(tables), **changes), tables
 
 
 @pytest.fixture
@@ -155,7 +155,7 @@ def test_tags_are_balanced(render):
 
 
 def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
-    monkeypatch.setattr(record, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
     monkeypatch.setattr(command_line, "OUT", tmp_path / "out")
     answer = CliRunner().invoke(command_line.app)
     assert answer.exit_code == 0
@@ -163,7 +163,7 @@ def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
 
 
 def test_command_tells_when_a_figure_is_missing(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(record, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
     monkeypatch.setattr(command_line, "OUT", tmp_path / "out")
     record.write(BLANK, {}, tmp_path / "results")
     assert CliRunner().invoke(command_line.app).exit_code == 1

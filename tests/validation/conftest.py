@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 from rich.console import Console
 
-from validation import record, registry, runner
+from validation import registry, runner, study
 from validation.study import Check, Context, Outcome, Study
 
 Register = Callable[..., None]
@@ -30,7 +30,7 @@ def outcome(value: float = 0.5) -> Outcome:
 @pytest.fixture
 def register(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Register:
     """Put studies into an otherwise empty registry: ``register(name, run, needs=...)``."""
-    monkeypatch.setattr(record, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
     for name in list(registry.STUDIES):
         monkeypatch.delitem(registry.STUDIES, name)
 

@@ -3,7 +3,7 @@
 import pytest
 from typer.testing import CliRunner
 
-from validation import record, runner
+from validation import record, runner, study
 from validation.__main__ import app
 from validation.study import Check, Outcome
 
@@ -19,7 +19,7 @@ def invoke(register, tmp_path, monkeypatch):
 
 
 def results():
-    return sorted(path.name for path in record.RESULTS.iterdir())
+    return sorted(path.name for path in study.RESULTS.iterdir())
 
 
 def test_list_gives_names_and_questions(invoke):
@@ -32,7 +32,7 @@ def test_list_gives_names_and_questions(invoke):
 def test_all_runs_every_study(invoke):
     assert invoke("--all", "--quick").exit_code == 0
     assert results() == ["overlap", "paper_well"]
-    assert record.read(record.RESULTS / "overlap").quick
+    assert record.read(study.RESULTS / "overlap").quick
 
 
 def test_reproduce_runs_the_marked_ones(invoke):
@@ -49,7 +49,7 @@ def test_unknown_name_is_answered_with_the_nearest(invoke):
     answer = invoke("papr_well")
     assert answer.exit_code == 2
     assert "unknown study 'papr_well'; did you mean 'paper_well'?" in answer.output
-    assert not record.RESULTS.exists()
+    assert not study.RESULTS.exists()
 
 
 def test_nothing_asked_for(invoke):
