@@ -12,6 +12,7 @@ import matplotlib as mpl
 import pandas as pd
 
 from reports import figures, words
+from reports.claims import LEDGER, read_claims
 from reports.figures import style
 from validation import record
 from validation.record import Record
@@ -62,12 +63,14 @@ class Section:
 def render(results: Path, studies: Iterable[str], out: Path) -> list[str]:
     """Write ``out/index.html`` and ``out/figures``; return what could not be drawn.
 
-    Studies stand in the order given; results of studies that are not among them come after.
+    Studies stand in the order given; results of studies that are not among them come after.  The ledger of claims is
+    a study whose place is at the top.
     """
     shutil.rmtree(out / "figures", ignore_errors=True)
     (out / "figures").mkdir(parents=True)
     found = sorted(path.parent.name for path in results.glob("[!.]*/verdict.json"))
-    sections = [_section(results / study, out) for study in dict.fromkeys([*studies, *found])]
+    sections = [_section(results / study, out) for study in dict.fromkeys([*studies, *found]) if study != LEDGER]
+    claims = read_claims(results / LEDGER)
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES),
         autoescape=True,
@@ -75,7 +78,9 @@ def render(results: Path, studies: Iterable[str], out: Path) -> list[str]:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    page = environment.get_template("page.html").render(sections=sections, number=words.number, quantity=words.quantity)
+    page = environment.get_template("page.html").render(
+        sections=sections, claims=claims, number=words.number, quantity=words.quantity
+    )
     (out / "index.html").write_text(page, encoding="utf-8")
     return [f"{section.study}: {problem}" for section in sections for problem in section.problems]
 

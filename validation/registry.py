@@ -17,4 +17,6 @@ STUDIES: dict[str, str] = {
     "engines_agree": "validation.engines_agree",
     "real_survey": "validation.real_survey",
     "real_chart": "validation.real_chart",
+    # Last: it reads the results of the others.
+    "claims": "validation.claims",
 }

@@ -22,6 +22,7 @@ from rich.progress import (
 )
 from rich.text import Text
 
+from fctd.errors import InputError
 from validation import inputs, record
 from validation.inputs import Inputs
 from validation.record import Judged, Provenance, Record, Standing
@@ -200,7 +201,8 @@ def run_one(
         record.write(run, tables, context.results, now)
     except Exception as error:
         # One study must not take the others with it: its failure is a result, and the exit code tells.
-        traceback.print_exc()
+        if not isinstance(error, InputError):  # which says all there is to know
+            traceback.print_exc()
         message = f"{type(error).__name__}: {error}"
         run = replace(blank, message=message, wall_s=time.perf_counter() - start)
         record.write(run, {}, context.results)

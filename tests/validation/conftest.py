@@ -2,7 +2,7 @@
 
 import io
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -28,11 +28,19 @@ def outcome(value: float = 0.5) -> Outcome:
 
 
 @pytest.fixture
-def register(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Register:
+def empty_registry() -> Iterator[None]:
+    """No study is registered; what the test registers goes with it, and the order of the others stays."""
+    kept = dict(registry.STUDIES)
+    registry.STUDIES.clear()
+    yield
+    registry.STUDIES.clear()
+    registry.STUDIES.update(kept)
+
+
+@pytest.fixture
+def register(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, empty_registry: None) -> Register:
     """Put studies into an otherwise empty registry: ``register(name, run, needs=...)``."""
     monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
-    for name in list(registry.STUDIES):
-        monkeypatch.delitem(registry.STUDIES, name)
 
     def add(
         name: str,
@@ -44,7 +52,7 @@ def register(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Register:
         module = ModuleType(f"toy_{name}")
         module.STUDY = Study(name, f"Is {name} right?", run, reproduce, needs)
         monkeypatch.setitem(sys.modules, module.__name__, module)
-        monkeypatch.setitem(registry.STUDIES, name, module.__name__)
+        registry.STUDIES[name] = module.__name__
 
     return add
 

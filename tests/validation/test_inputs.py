@@ -59,15 +59,13 @@ def write(root, name, text):
 
 
 @pytest.fixture
-def lab(tmp_path, monkeypatch):
+def lab(tmp_path, monkeypatch, empty_registry):
     """The project on disk, its study alone in the registry; gives its folder."""
     for name, text in PROJECT.items():
         write(tmp_path, name, text)
     monkeypatch.setattr(inputs, "ROOT", tmp_path)
     monkeypatch.setattr(runner, "ROOT", tmp_path)
-    for name in list(registry.STUDIES):
-        monkeypatch.delitem(registry.STUDIES, name)
-    monkeypatch.setitem(registry.STUDIES, "question", "toylab.question")
+    registry.STUDIES["question"] = "toylab.question"
     monkeypatch.syspath_prepend(tmp_path)
     yield tmp_path
     forget()
@@ -229,7 +227,7 @@ def test_a_kept_result_is_judged_by_what_is_expected_now(lab):
     assert sorted(path.name for path in (lab / "results" / "question").iterdir()) == ["inputs.json", "verdict.json"]
 
 
-def test_a_run_that_was_killed_goes_on_where_it_was(lab, monkeypatch):
+def test_a_run_that_was_killed_goes_on_where_it_was(lab):
     write(lab, "toylab/second.py", PROJECT["toylab/question.py"].replace('"question"', '"second"'))
     waiting = (lab / "toylab" / "second.py").read_text().replace("here =", "__import__('time').sleep(60); here =")
     write(lab, "toylab/second.py", waiting)
@@ -253,7 +251,7 @@ def test_a_run_that_was_killed_goes_on_where_it_was(lab, monkeypatch):
             time.sleep(0.01)
         process.send_signal(signal.SIGKILL)
     write(lab, "toylab/second.py", waiting.replace("sleep(60)", "sleep(0)"))
-    monkeypatch.setitem(registry.STUDIES, "second", "toylab.second")
+    registry.STUDIES["second"] = "toylab.second"
     code, printed = run(lab, "question", "second")
     assert code == 0
     assert "question: 1 met  (kept" in printed
