@@ -13,9 +13,9 @@ from typer.testing import CliRunner
 
 from reports import __main__ as command_line
 from reports import page
-from validation import record, study
+from validation import claims, ledger, record, registry, study
 from validation.record import Judged, Provenance, Record
-from validation.study import Check
+from validation.study import Check, Context
 
 from . import synthetic
 
@@ -129,13 +129,130 @@ def test_figure_that_cannot_be_drawn_leaves_the_page(render, capsys):
     assert "KeyError" in capsys.readouterr().err
 
 
+LEDGER = """
+[[claim]]
+id = "good"
+section = "5.2"
+says = "No <gap> is left."
+verdict = "holds"
+because = "target"
+[claim.number]
+study = "jumps"
+check = "largest jump"
+at_most = 1.0
+[claim.limited]
+limit = "never told"
+study = "jumps"
+check = "largest jump"
+at_most = 2.0
+[[claim]]
+id = "narrow"
+section = "abstract, 4.2"
+says = "Owners are found."
+verdict = "holds with limits"
+because = "target"
+[claim.number]
+study = "jumps"
+check = "largest jump"
+at_most = 0.0
+[claim.limited]
+limit = "In gentle wells."
+study = "jumps"
+check = "largest jump"
+at_most = 2.0
+[[claim]]
+id = "wrong"
+section = "6.3"
+says = "It takes more."
+verdict = "does not hold"
+because = "target"
+remark = "Mind the step."
+[claim.number]
+study = "jumps"
+check = "largest jump"
+at_least = 5.0
+[claim.second_route]
+study = "jumps"
+check = "largest jump"
+at_least = 4.0
+[[claim]]
+id = "other"
+section = "6.3"
+says = "Recorded otherwise."
+verdict = "holds"
+because = "target"
+[claim.number]
+study = "jumps"
+check = "largest jump"
+at_most = 0.0
+[[claim]]
+id = "absent"
+section = "7"
+says = "Torque is right."
+because = "target"
+[claim.number]
+study = "ownership"
+check = "largest jump"
+at_most = 0.0
+[[claim]]
+id = "closed"
+section = "7"
+says = "It was measured."
+verdict = "cannot be tested"
+untestable = "The points are not public"
+[[misprint]]
+where = "Eq. 4"
+printed = "r̃ω"
+meant = "−r̃ω"
+reason = "It turns the other way."
+tests = ["tests/test_joints.py::test_a_hinge_moves_along"]
+"""
+
+
+@pytest.fixture
+def judged_claims(tmp_path, monkeypatch):
+    """A stored ledger with a claim for every verdict."""
+    (tmp_path / "claims.toml").write_text(LEDGER)
+    record.write(replace(BLANK, study="jumps", checks=(judged(0.5),)), {}, tmp_path / "results")
+    monkeypatch.setitem(registry.STUDIES, "jumps", "no.module")
+    monkeypatch.setattr(claims, "read_ledger", lambda: ledger.read_ledger(tmp_path / "claims.toml"))
+    outcome = claims.run(Context(results=tmp_path / "results"))
+    run = replace(BLANK, study="claims", question="What holds?", tables=tuple(outcome.tables))
+    return run, outcome.tables
+
+
+def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, judged_claims):
+    html, problems = render(judged_claims, studies=["jumps", "claims"])
+    text = words_of(html)
+    assert problems == []
+    assert text.index("The paper's claims") < text.index("Contents")
+    assert "✓ holds: 1 ◐ holds with limits: 1 ✗ does not hold: 2 – cannot be tested: 1 ○ not yet run: 1" in text
+    assert "5.2 No &lt;gap&gt; is left. ✓ holds 0.5 kN·m (at most 1 kN·m) largest jump: jumps Bound: target." in text
+    assert "never told" not in text
+    assert "abs., 4.2 Owners are found. ◐ holds with limits 0.5 kN·m (at most 0 kN·m: not so)" in text
+    assert "Limit. In gentle wells. 0.5 kN·m (at most 2 kN·m) largest jump" in text
+    assert "Second route. 0.5 kN·m (at least 4 kN·m: not so) largest jump: jumps Mind the step." in text
+    assert "✗ does not hold recorded: holds" in text
+    assert "○ not yet run ownership has not been run python -m validation ownership" in text
+    assert "– cannot be tested The points are not public" in text
+    assert "Eq. 4 r̃ω −r̃ω It turns the other way. tests/test_joints.py a hinge moves along" in text
+    assert html.count('id="claims"') == 1
+    assert 'href="#jumps"' in html
+
+
+def test_claims_that_failed_or_were_not_run(render):
+    assert "The paper's claims Not run." in words_of(render()[0])
+    failed = replace(BLANK, study="claims", status="failed", message="InputError: claims.toml: lost")
+    assert "Failed: InputError: claims.toml: lost" in words_of(render((failed, {}))[0])
+
+
 def test_page_without_results(render):
     html, problems = render()
     assert problems == []
     assert "There is no study yet." in html
 
 
-def test_tags_are_balanced(render):
+def test_tags_are_balanced(render, judged_claims):
     class Balance(HTMLParser):
         def __init__(self):
             super().__init__()
@@ -150,7 +267,7 @@ def test_tags_are_balanced(render):
 
     run, tables = finished("ownership", display={"owners": "Wrong owners"}, checks=(judged(1.0, "why"),))
     parser = Balance()
-    parser.feed(render((run, tables), studies=["ownership", "absent"])[0])
+    parser.feed(render((run, tables), judged_claims, studies=["ownership", "absent"])[0])
     assert parser.open == []
 
 
