@@ -26,15 +26,18 @@ BASELINE = "cylinders, 2 m"
 
 
 def settings(quick: bool) -> list[tuple[str, dict[str, Any]]]:
-    """Methods with their options, from coarse to fine."""
+    """Every registered method with its options, from coarse to fine where it has cylinders or facets."""
     lengths = (0.5, 2.0, 5.0) if quick else (0.5, 1.0, 2.0, 5.0, 10.0)
     meshes = ((24, 2.0), (48, 2.0)) if quick else ((12, 4.0), (24, 2.0), (48, 2.0), (96, 1.0))
-    chosen: list[tuple[str, dict[str, Any]]] = [("arcs", {})]
-    for length in lengths:
-        chosen.append(("cylinders", {"cylinder_length": length, "overlap": min(0.2, 0.5 * length)}))
-    chosen.append(("for_loop", {"cylinder_length": 2.0, "overlap": 0.2}))
-    for name in ("fcl", "coal", "bullet", "mujoco", "trimesh"):
-        chosen += [(name, {"facets": facets, "ring_spacing": ring}) for facets, ring in meshes]
+    chosen: list[tuple[str, dict[str, Any]]] = []
+    for name in base.METHODS:
+        keys = base.method_class(name).Options.model_fields
+        if "facets" in keys:
+            chosen += [(name, {"facets": facets, "ring_spacing": ring}) for facets, ring in meshes]
+        elif "cylinder_length" in keys:
+            chosen += [(name, {"cylinder_length": each, "overlap": min(0.2, 0.5 * each)}) for each in lengths]
+        else:
+            chosen.append((name, {}))
     return chosen
 
 

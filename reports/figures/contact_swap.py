@@ -75,6 +75,19 @@ def facets(tables: Tables) -> Canvas:
     return canvas
 
 
+def torques(tables: Tables) -> Canvas:
+    """A dot for each method: its difference of Σ rμF_n while rotating."""
+    methods = tables["torques"]
+    canvas = style.figure(1.2 + 0.28 * len(methods))
+    ax = canvas.subplots()
+    ax.plot(methods["sum_difference_percent"], methods["method"], **style.dots(1), markersize=6)
+    ax.axvline(0, color=style.QUIET, linewidth=1)
+    ax.set(xlabel="Σ r μ F_n against FCTD, %")
+    ax.set_xlim(*_around_zero(methods["sum_difference_percent"].abs().max()))
+    ax.invert_yaxis()
+    return canvas
+
+
 FIGURES = [
     Figure(
         "costs",
@@ -88,6 +101,12 @@ FIGURES = [
         "some metres only; the whole trip with it is an extrapolation in the table of times. Below: the difference "
         "of the two contact methods over the same windows.",
         figure_13,
+    ),
+    Figure(
+        "torques",
+        "The curved chain rotating against the wall of every contact method at its default options: how far the sum is "
+        "from that with the engine's own cylinders.",
+        torques,
     ),
     Figure(
         "facets",

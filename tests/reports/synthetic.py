@@ -343,6 +343,9 @@ def contact_swap() -> dict[str, pd.DataFrame]:
                 "difference_percent": 0.3 + 0.1 * np.sin(windows),
             }
         ),
+        "torques": pd.DataFrame(
+            {"method": ["cylinders", "arcs", "fcl", "mujoco"], "sum_difference_percent": [0.0, 0.008, 0.21, -0.15]}
+        ),
         "facets": pd.DataFrame(
             {
                 "facets": [np.nan, 12.0, 24.0, 48.0],

@@ -1,0 +1,95 @@
+"""A new contact method is one file and one line in the registry; tables and figures then show it."""
+
+import textwrap
+
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib")
+
+from typer.testing import CliRunner
+
+from references import base
+from references.__main__ import app
+from reports import figures
+from validation import contact_accuracy, contact_swap
+from validation.study import Context
+
+FILE = """
+    from fctd import build_wellbore, find_contacts
+    from fctd.errors import Table
+
+    class Options(Table):
+        pass
+
+    class Toy:
+        name, distribution, does = "toy", "numpy", "asks the engine"
+        gives_clearance, Options = True, Options
+
+        def __init__(self, case, options):
+            self._hole = build_wellbore(case)
+
+        def query(self, points, radii):
+            return find_contacts(self._hole, points, radii)
+
+        pieces = 1
+
+        def error_bound(self, curvature):
+            return 1e-6, 1e-6
+    """
+
+
+@pytest.fixture
+def toy(tmp_path, monkeypatch):
+    """The file and the line; of the other methods those that the engine brings, for the sake of time."""
+    (tmp_path / "toy_contact.py").write_text(textwrap.dedent(FILE))
+    monkeypatch.syspath_prepend(tmp_path)
+    for name in [name for name in base.METHODS if name not in ("cylinders", "arcs")]:
+        monkeypatch.delitem(base.METHODS, name)
+    monkeypatch.setitem(base.METHODS, "toy", "toy_contact:Toy")
+
+
+def written(study, tables):
+    """Every word in the study's figures."""
+    found = set()
+    for figure in figures.of_study(study):
+        if figure.name in ("figure_13", "facets"):  # of one mesh each, which is said there
+            continue
+        canvas = figure.draw(tables)
+        canvas.draw_without_rendering()
+        for ax in canvas.axes:
+            found |= {label.get_text() for label in (*ax.get_xticklabels(), *ax.get_yticklabels())}
+            found |= {line.get_label() for line in ax.get_lines()}
+    return found
+
+
+def test_it_is_listed(toy):
+    assert "asks the engine" in CliRunner().invoke(app, ["list"], terminal_width=200).output.replace("\n", "")
+
+
+def test_it_is_in_every_table_of_errors_cost_and_memory(toy, monkeypatch):
+    monkeypatch.setattr(contact_accuracy, "footprint", lambda name, case: (1.0, 0.1))
+    monkeypatch.setattr(contact_accuracy.traps, "TRAPS", [])
+    tables = contact_accuracy.run(Context(quick=False)).tables
+    errors = tables["errors"].query("method == 'toy'")
+    assert set(errors["region"]) == {*contact_accuracy.REGIONS, "overlap"}
+    assert errors["max_penetration_error_mm"].max() < 1e-6
+    assert "toy" in set(tables["cost"]["method"])
+    assert "toy" in set(tables["builds"]["method"])
+    assert "numpy" in set(tables["machine"]["what"])
+    assert "toy" in written("contact_accuracy", tables)
+
+
+def test_it_is_raced_and_turns_the_chain(toy, monkeypatch):
+    monkeypatch.setattr(contact_swap, "ROUND", 0.0005)
+    monkeypatch.setattr(contact_swap, "SEGMENTS", (60,))
+    tables = contact_swap.run(Context(quick=True)).tables
+    cost = tables["cost"].query("loop == 'toy, from Python'")
+    assert cost["segments"].to_list() == [60]
+    ratio = tables["ratios"].set_index("ratio")["value"]
+    assert ratio["ours: toy, from Python, 60 segments : cylinders, compiled, 60"] > 1.0
+    assert "ours: toy : cylinders, 60 segments, each less its own loop without contact" in ratio
+    turned = tables["torques"].set_index("method")
+    assert turned.loc["toy", "sum_difference_percent"] == pytest.approx(0.0, abs=0.01)
+    assert pd.notna(turned.loc["toy", "surface_torque_kN_m"])
+    assert {"toy, from Python", "toy"} <= written("contact_swap", tables)
