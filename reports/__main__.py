@@ -3,7 +3,7 @@
 import typer
 
 from reports import page
-from validation import study
+from validation import runner, study
 from validation.registry import STUDIES
 
 OUT = study.ROOT / "reports" / "out"
@@ -14,7 +14,7 @@ app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 @app.command()
 def main() -> None:
     """Write reports/out/index.html and print where it is; exit code 1 when a figure could not be drawn."""
-    problems = page.render(study.RESULTS, STUDIES, OUT)
+    problems = page.render(study.RESULTS, STUDIES, OUT, runner.changes(STUDIES, study.RESULTS))
     for problem in problems:
         typer.echo(problem, err=True)
     typer.echo(f"report: {OUT / 'index.html'}")

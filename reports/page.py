@@ -3,7 +3,7 @@
 import base64
 import shutil
 import traceback
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -41,13 +41,17 @@ class Printed:
 
 @dataclass
 class Section:
-    """What the page says about one study; without a record, that it has not been run."""
+    """What the page says about one study; without a record, that it has not been run.
+
+    changed : what the result rests on and has changed since it was stored; empty where it is up to date.
+    """
 
     study: str
     record: Record | None = None
     pictures: list[Picture] = field(default_factory=list)
     tables: list[Printed] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
+    changed: str = ""
 
     @property
     def question(self) -> str:
@@ -60,16 +64,18 @@ class Section:
         return self.record.summary if self.record else "not run"
 
 
-def render(results: Path, studies: Iterable[str], out: Path) -> list[str]:
+def render(results: Path, studies: Iterable[str], out: Path, changes: Mapping[str, str] | None = None) -> list[str]:
     """Write ``out/index.html`` and ``out/figures``; return what could not be drawn.
 
     Studies stand in the order given; results of studies that are not among them come after.  The ledger of claims is
-    a study whose place is at the top.
+    a study whose place is at the top.  changes : study -> what has changed since its result was stored.
     """
     shutil.rmtree(out / "figures", ignore_errors=True)
     (out / "figures").mkdir(parents=True)
     found = sorted(path.parent.name for path in results.glob("[!.]*/verdict.json"))
     sections = [_section(results / study, out) for study in dict.fromkeys([*studies, *found]) if study != LEDGER]
+    for section in sections:
+        section.changed = (changes or {}).get(section.study, "")
     claims = read_claims(results / LEDGER)
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES),
@@ -79,7 +85,7 @@ def render(results: Path, studies: Iterable[str], out: Path) -> list[str]:
         undefined=jinja2.StrictUndefined,
     )
     page = environment.get_template("page.html").render(
-        sections=sections, claims=claims, number=words.number, quantity=words.quantity
+        sections=sections, claims=claims, changes=changes or {}, number=words.number, quantity=words.quantity
     )
     (out / "index.html").write_text(page, encoding="utf-8")
     return [f"{section.study}: {problem}" for section in sections for problem in section.problems]

@@ -75,13 +75,13 @@ def copy_of(run: Run, **changes: Any) -> Run:
 
 
 def steps_for(advance: Callable[[int], object]) -> int:
-    """How many steps take about ``ROUND``; all is compiled and built afterwards."""
+    """How many steps take about ``ROUND`` of the processor, others apart; all is compiled and built afterwards."""
     steps = 1
     advance(steps)
     while True:
-        began = time.perf_counter()
+        began = time.process_time()
         advance(steps)
-        spent = time.perf_counter() - began
+        spent = time.process_time() - began
         if spent > 0.5 * ROUND or steps > 1e6:
             return max(int(steps * ROUND / spent), 1)
         steps *= 2

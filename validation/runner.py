@@ -102,6 +102,7 @@ class Done:
 
 
 KEPT = "kept"
+DATA = "public data folder"
 
 
 def run_all(
@@ -183,7 +184,7 @@ def run_one(
         study = load(name)
         blank = replace(blank, question=study.question)
         if "data" in study.needs:
-            now = replace(now, around=now.around | {"public data folder": str(context.data)})
+            now = replace(now, around=now.around | {DATA: str(context.data)})
         else:
             context = replace(context, data=None)
         why = "forced" if force else outdated(name, now, context.results)
@@ -224,6 +225,20 @@ def outdated(name: str, now: Inputs, results: Path) -> str:
         return "what it rests on is not known"
     changed = now.changed_since(before)
     return f"changed: {changed}" if changed else KEPT
+
+
+def changes(names: Iterable[str], results: Path) -> dict[str, str]:
+    """Study -> what has changed since its result was stored, for those where something has."""
+    sources, found = inputs.Sources(), {}
+    for name in names:
+        if (before := inputs.read(results / name)) is None:
+            continue
+        around = inputs.surroundings(before.around.get("quick or full") == "quick")
+        # Where the data lie is for the runner to know; here the files that were read tell.
+        around |= {key: value for key, value in before.around.items() if key == DATA}
+        if changed := Inputs(sources.used_by(STUDIES[name]), around).changed_since(before):
+            found[name] = changed
+    return found
 
 
 def _watched(

@@ -47,10 +47,10 @@ def finished(name, **changes):
 
 @pytest.fixture
 def render(tmp_path):
-    def call(*runs, studies=()):
+    def call(*runs, studies=(), changes=None):
         for run, tables in runs:
             record.write(run, tables, tmp_path / "results")
-        problems = page.render(tmp_path / "results", studies, tmp_path / "out")
+        problems = page.render(tmp_path / "results", studies, tmp_path / "out", changes)
         return (tmp_path / "out" / "index.html").read_text(encoding="utf-8"), problems
 
     return call
@@ -244,6 +244,16 @@ def test_claims_that_failed_or_were_not_run(render):
     assert "The paper's claims Not run." in words_of(render()[0])
     failed = replace(BLANK, study="claims", status="failed", message="InputError: claims.toml: lost")
     assert "Failed: InputError: claims.toml: lost" in words_of(render((failed, {}))[0])
+
+
+def test_a_result_whose_inputs_changed_says_so(render, judged_claims):
+    text = words_of(render(judged_claims, studies=["jumps"], changes={"jumps": "fctd/run.py"})[0])
+    assert "Out of date: fctd/run.py has changed since. python -m validation jumps" in text
+    assert "largest jump: jumps out of date Bound" in text
+    assert "1 worse than recorded out of date" in text
+    text = words_of(render(judged_claims, changes={"claims": "validation/claims.toml"})[0])
+    assert "Out of date: validation/claims.toml has changed since. python -m validation claims judges again" in text
+    assert "ut of date" not in words_of(render(judged_claims, studies=["jumps"])[0])
 
 
 def test_page_without_results(render):

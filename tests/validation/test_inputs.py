@@ -191,6 +191,16 @@ def test_public_data_are_hidden_from_a_study_that_does_not_ask_for_them(lab):
     assert run(lab, data=lab)[0] == 0
 
 
+def test_the_page_is_told_what_changed(lab):
+    asking = PROJECT["toylab/question.py"].replace("needs=()", "needs=('data',)")
+    write(lab, "toylab/question.py", asking)
+    for quick in (False, True):
+        run(lab, data=lab, quick=quick)
+        assert runner.changes(["question", "never run"], lab / "results") == {}
+    write(lab, "toylab/case.toml", "3.0")
+    assert runner.changes(["question"], lab / "results") == {"question": "toylab/case.toml"}
+
+
 def test_force_repeats(lab):
     run(lab)
     assert "; forced)" in run(lab, force=True)[1]
