@@ -8,6 +8,7 @@ STUDIES: dict[str, str] = {
     "cylinder_error": "validation.cylinder_error",
     "overlap": "validation.overlap",
     "ownership": "validation.ownership",
+    "contact_operations": "validation.contact_operations",
     "steady_state": "validation.steady_state",
     "soft_limit": "validation.soft_limit",
     "beam_in_hole": "validation.beam_in_hole",
