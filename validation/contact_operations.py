@@ -183,7 +183,7 @@ def run(context: Context) -> Outcome:
             "not counted. The point's own position is given.",
             f"The string is the paper's, tripped in to {BIT:.0f} m at {SPEED} m/s in "
             f"{len(string.hole.pieces)} cylinders; rows are means over its points and the {PASSES:.0f} s in "
-            f"which all of them pass a cylinder. On average the table costs {looked_up:.1f} operations of a point and step: "
+            f"which all of them pass a cylinder. The table costs {looked_up:.1f} operations of a point and step: "
             "those near the ends of their cylinder and in an overlap.",
             "The paper's thirteen operations decide on one cylinder. The search asks one cylinder after the other "
             "down to the point's own, eight operations each: its cost grows with depth and with the cylinders a bend "

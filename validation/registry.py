@@ -9,6 +9,7 @@ STUDIES: dict[str, str] = {
     "overlap": "validation.overlap",
     "ownership": "validation.ownership",
     "contact_operations": "validation.contact_operations",
+    "rock_stiffness": "validation.rock_stiffness",
     "steady_state": "validation.steady_state",
     "soft_limit": "validation.soft_limit",
     "beam_in_hole": "validation.beam_in_hole",
