@@ -10,6 +10,7 @@ STUDIES: dict[str, str] = {
     "ownership": "validation.ownership",
     "contact_operations": "validation.contact_operations",
     "rock_stiffness": "validation.rock_stiffness",
+    "long_segment": "validation.long_segment",
     "steady_state": "validation.steady_state",
     "soft_limit": "validation.soft_limit",
     "beam_in_hole": "validation.beam_in_hole",

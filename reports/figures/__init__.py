@@ -26,6 +26,8 @@ MODULES: dict[str, str] = {
     "energy_ledger": "reports.figures.energy_ledger",
     "overlap": "reports.figures.overlap",
     "cylinder_error": "reports.figures.cylinder_error",
+    "rock_stiffness": "reports.figures.rock_stiffness",
+    "long_segment": "reports.figures.long_segment",
     "steady_state": "reports.figures.steady_state",
     "soft_limit": "reports.figures.soft_limit",
     "beam_in_hole": "reports.figures.beam_in_hole",
