@@ -13,6 +13,7 @@ STUDIES: dict[str, str] = {
     "long_segment": "validation.long_segment",
     "steady_state": "validation.steady_state",
     "soft_limit": "validation.soft_limit",
+    "soft_stiff_map": "validation.soft_stiff_map",
     "beam_in_hole": "validation.beam_in_hole",
     "johancsik": "validation.johancsik",
     "contact_accuracy": "validation.contact_accuracy",

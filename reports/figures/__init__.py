@@ -30,6 +30,7 @@ MODULES: dict[str, str] = {
     "long_segment": "reports.figures.long_segment",
     "steady_state": "reports.figures.steady_state",
     "soft_limit": "reports.figures.soft_limit",
+    "soft_stiff_map": "reports.figures.soft_stiff_map",
     "beam_in_hole": "reports.figures.beam_in_hole",
     "real_chart": "reports.figures.real_chart",
     "contact_accuracy": "reports.figures.contact_accuracy",
