@@ -14,6 +14,7 @@ STUDIES: dict[str, str] = {
     "steady_state": "validation.steady_state",
     "soft_limit": "validation.soft_limit",
     "soft_stiff_map": "validation.soft_stiff_map",
+    "friction_laws": "validation.friction_laws",
     "beam_in_hole": "validation.beam_in_hole",
     "johancsik": "validation.johancsik",
     "contact_accuracy": "validation.contact_accuracy",
