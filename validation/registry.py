@@ -2,6 +2,7 @@
 
 STUDIES: dict[str, str] = {
     "paper_well": "validation.paper_well",
+    "paper_times": "validation.paper_times",
     "curved_chain": "validation.curved_chain",
     "scaled_section": "validation.scaled_section",
     "energy_ledger": "validation.energy_ledger",
@@ -15,6 +16,7 @@ STUDIES: dict[str, str] = {
     "soft_limit": "validation.soft_limit",
     "soft_stiff_map": "validation.soft_stiff_map",
     "friction_laws": "validation.friction_laws",
+    "mud_effects": "validation.mud_effects",
     "beam_in_hole": "validation.beam_in_hole",
     "johancsik": "validation.johancsik",
     "contact_accuracy": "validation.contact_accuracy",

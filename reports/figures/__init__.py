@@ -32,6 +32,7 @@ MODULES: dict[str, str] = {
     "soft_limit": "reports.figures.soft_limit",
     "soft_stiff_map": "reports.figures.soft_stiff_map",
     "friction_laws": "reports.figures.friction_laws",
+    "mud_effects": "reports.figures.mud_effects",
     "beam_in_hole": "reports.figures.beam_in_hole",
     "real_chart": "reports.figures.real_chart",
     "contact_accuracy": "reports.figures.contact_accuracy",
