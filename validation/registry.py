@@ -3,6 +3,7 @@
 STUDIES: dict[str, str] = {
     "paper_well": "validation.paper_well",
     "paper_times": "validation.paper_times",
+    "well_profile": "validation.well_profile",
     "curved_chain": "validation.curved_chain",
     "scaled_section": "validation.scaled_section",
     "energy_ledger": "validation.energy_ledger",

@@ -21,6 +21,7 @@ class Figure:
 
 MODULES: dict[str, str] = {
     "paper_well": "reports.figures.paper_well",
+    "well_profile": "reports.figures.well_profile",
     "curved_chain": "reports.figures.curved_chain",
     "scaled_section": "reports.figures.scaled_section",
     "energy_ledger": "reports.figures.energy_ledger",
