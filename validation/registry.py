@@ -22,6 +22,7 @@ STUDIES: dict[str, str] = {
     "johancsik": "validation.johancsik",
     "contact_accuracy": "validation.contact_accuracy",
     "contact_swap": "validation.contact_swap",
+    "mesh_torque": "validation.mesh_torque",
     "engines_agree": "validation.engines_agree",
     "real_survey": "validation.real_survey",
     "real_chart": "validation.real_chart",

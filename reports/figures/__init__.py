@@ -38,6 +38,7 @@ MODULES: dict[str, str] = {
     "real_chart": "reports.figures.real_chart",
     "contact_accuracy": "reports.figures.contact_accuracy",
     "contact_swap": "reports.figures.contact_swap",
+    "mesh_torque": "reports.figures.mesh_torque",
     "engines_agree": "reports.figures.engines_agree",
     "real_survey": "reports.figures.real_survey",
 }
