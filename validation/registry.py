@@ -14,6 +14,7 @@ STUDIES: dict[str, str] = {
     "rock_stiffness": "validation.rock_stiffness",
     "long_segment": "validation.long_segment",
     "steady_state": "validation.steady_state",
+    "broomstick": "validation.broomstick",
     "soft_limit": "validation.soft_limit",
     "soft_stiff_map": "validation.soft_stiff_map",
     "friction_laws": "validation.friction_laws",

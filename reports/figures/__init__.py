@@ -30,6 +30,7 @@ MODULES: dict[str, str] = {
     "rock_stiffness": "reports.figures.rock_stiffness",
     "long_segment": "reports.figures.long_segment",
     "steady_state": "reports.figures.steady_state",
+    "broomstick": "reports.figures.broomstick",
     "soft_limit": "reports.figures.soft_limit",
     "soft_stiff_map": "reports.figures.soft_stiff_map",
     "friction_laws": "reports.figures.friction_laws",
