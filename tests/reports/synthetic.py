@@ -498,9 +498,10 @@ def mesh_torque() -> dict[str, pd.DataFrame]:
         "windows": pd.DataFrame(
             {
                 "bit_depth_m": depth,
-                "FCTD_kN_m": 1.7 * ((depth - 1750) / 500) ** 1.5,
-                "fcl_kN_m": 1.72 * ((depth - 1750) / 500) ** 1.5,
-                "difference_percent": [0.9, 1.0, 0.2],
+                "FCTD_sum_r_mu_fn_kN_m": 1.7 * ((depth - 1750) / 500) ** 1.5,
+                "fcl_sum_r_mu_fn_kN_m": 1.702 * ((depth - 1750) / 500) ** 1.5,
+                "sum_r_mu_fn_difference_percent": [0.2, 0.1, 0.2],
+                "difference_percent": [-0.2, 1.0, 0.2],
             }
         ),
         "steady": pd.DataFrame(
