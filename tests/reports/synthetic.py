@@ -399,6 +399,11 @@ def well_profile() -> dict[str, pd.DataFrame]:
     return {"wells": pd.concat(well.assign(variant=name) for name in ("paper-well", "paper-well-b"))}
 
 
+def contact_operations() -> dict[str, pd.DataFrame]:
+    rows = [("paper: one cylinder", 13.0, 2.0), ("engine: PT", 14.0, 0.0), ("FOR-loop", 2050.0, 514.0)]
+    return {"operations": pd.DataFrame(rows, columns=["what", "arithmetic", "compare"])}
+
+
 def rock_stiffness() -> dict[str, pd.DataFrame]:
     stiffness = 10.0 ** np.arange(3, 11)
     return {
@@ -519,6 +524,7 @@ STUDIES = {
     for function in (
         paper_well,
         well_profile,
+        contact_operations,
         rock_stiffness,
         long_segment,
         soft_stiff_map,
