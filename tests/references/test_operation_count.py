@@ -8,7 +8,7 @@ from numba import njit
 
 from fctd import contact
 from references import base
-from references.box_tree import BoxTree, penetration
+from references.box_tree import BoxTree, _near, penetration
 from references.operation_count import Counted, Number, arithmetic, counted, interpreted, operations_of
 
 
@@ -83,3 +83,10 @@ def test_box_tree_answers_as_coal_does():
     deep = [penetration(tree, tree.low, tree.high, tree.corners, *point, 0.03)[0] for point in points]
     assert (hits.penetration[:2] > 0).all()
     assert deep == pytest.approx(hits.penetration)
+
+
+def test_a_sphere_meets_the_corner_of_a_box_when_it_reaches_it():
+    low, high = np.zeros((1, 3)), np.ones((1, 3))
+    assert _near(low, high, 0, 1.5, -0.5, 1.5, 0.751)
+    assert not _near(low, high, 0, 1.5, -0.5, 1.5, 0.749)
+    assert _near(low, high, 0, 0.5, 0.5, 0.5, 1e-9)
