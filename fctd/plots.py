@@ -44,14 +44,23 @@ RC: dict[RcKeyType, Any] = {
     # The same numbers give the same file, byte for byte.
     "svg.hashsalt": "fctd",
 }
-# An operation has a colour (Okabe and Ito's, told apart by the colour-blind) and, for print in grey, a marker.
+# Okabe and Ito's palette, told apart by the colour-blind; neighbours differ in lightness as well.
+PALETTE = {
+    "blue": "#0072B2",
+    "vermilion": "#D55E00",
+    "black": "#000000",
+    "sky": "#56B4E9",
+    "green": "#009E73",
+    "purple": "#CC79A7",
+}
+# An operation has a colour and, for print in grey, a marker.
 LOOKS = {
-    "trip_out": ("#D55E00", "^"),
-    "rotate_off_bottom": ("#000000", "o"),
-    "trip_in": ("#0072B2", "v"),
-    "back_ream": ("#CC79A7", "D"),
-    "drill_rotating": ("#009E73", "s"),
-    "drill_sliding": ("#56B4E9", "P"),
+    "trip_out": (PALETTE["vermilion"], "^"),
+    "rotate_off_bottom": (PALETTE["black"], "o"),
+    "trip_in": (PALETTE["blue"], "v"),
+    "back_ream": (PALETTE["purple"], "D"),
+    "drill_rotating": (PALETTE["green"], "s"),
+    "drill_sliding": (PALETTE["sky"], "P"),
 }
 NAMES = {
     "trip_out": "picking up",

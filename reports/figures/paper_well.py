@@ -95,7 +95,7 @@ def _first_middle_last(depths: "pd.Series[float]") -> list[float]:
 FIGURES = [
     Figure(
         "torque",
-        "The paper's Fig. 12 drawn again, once for each reading of what its model curve may be: (a) "
+        "Paper's Fig. 12, drawn once for each reading of what its model curve may be: (a) "
         "friction law “paper” while tripping in, the sum of rμFₙ over all contacts; (b) law “coulomb”, "
         "the torque at the surface while rotating off bottom at each depth. Thin lines: well b, with "
         "both builds at 16° per 100 m. The measured points of the paper are not public.",

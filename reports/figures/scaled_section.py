@@ -106,13 +106,13 @@ def _look(index: int) -> dict[str, object]:
 FIGURES = [
     Figure(
         "force",
-        "The paper's Fig. 9 with numbers: contact force while the string is lowered, in all and on each side, from "
+        "Paper's Fig. 9, with numbers: contact force while the string is lowered, in all and on each side, from "
         "finite elements and from rigid segments.",
         force,
     ),
     Figure(
         "displacement",
-        "The paper's Fig. 10: horizontal displacement along the string at the end of the run, and below it the "
+        "Paper's Fig. 10: horizontal displacement along the string at the end of the run, and below it the "
         "distance from the axis of the hole. Grey lines are the walls; joints of the coarser string are squares.",
         displacement,
     ),

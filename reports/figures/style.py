@@ -11,29 +11,19 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from matplotlib.typing import RcKeyType
 from numpy.typing import NDArray
 
+from fctd import plots
+
 WIDTH_IN = 7.2  # the page's column
 
-RC: dict[RcKeyType, Any] = {
-    "font.family": "sans-serif",
-    "font.sans-serif": ["DejaVu Sans"],
+# The engine's own look, larger and greyer for the page.
+RC: dict[RcKeyType, Any] = plots.RC | {
     "font.size": 9.5,
     "axes.titlesize": 9.5,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
     "axes.labelsize": 9.5,
     "axes.labelcolor": "#222222",
     "axes.edgecolor": "#666666",
-    "axes.linewidth": 0.8,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "axes.formatter.useoffset": False,
-    "grid.color": "#e3e3e3",
-    "grid.linewidth": 0.6,
     "xtick.color": "#444444",
     "ytick.color": "#444444",
-    "legend.frameon": False,
     "legend.fontsize": 9,
     "lines.linewidth": 1.7,
     "lines.markersize": 4.5,
@@ -41,12 +31,10 @@ RC: dict[RcKeyType, Any] = {
     "figure.facecolor": "white",
     "savefig.facecolor": "white",
     "savefig.dpi": 160,
-    # The same tables give the same file, byte for byte.
-    "svg.hashsalt": "fctd",
 }
 
-# Okabe and Ito's palette, ordered so that neighbours differ in lightness; a dash and a marker for each.
-COLOURS = ["#0072B2", "#D55E00", "#000000", "#56B4E9", "#009E73", "#CC79A7"]
+# The engine's palette; a dash and a marker for each colour.
+COLOURS = list(plots.PALETTE.values())
 DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (9, 3))]
 MARKERS = ["o", "s", "^", "D", "v", "P"]
 # A friction law looks the same in every figure.

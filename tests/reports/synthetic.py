@@ -387,10 +387,154 @@ def engines_agree() -> dict[str, pd.DataFrame]:
     }
 
 
+def well_profile() -> dict[str, pd.DataFrame]:
+    md = np.arange(0.0, 4301.0, 50.0)
+    inclination = np.interp(md, [1750, 2250, 2450], [0, 58, 90])
+    step = np.diff(md, prepend=0.0)
+    well = pd.DataFrame(
+        {
+            "md_m": md,
+            "inclination_deg": inclination,
+            "departure_m": np.cumsum(step * np.sin(np.radians(inclination))),
+            "tvd_m": np.cumsum(step * np.cos(np.radians(inclination))),
+        }
+    )
+    return {"wells": pd.concat(well.assign(variant=name) for name in ("paper-well", "paper-well-b"))}
+
+
+def contact_operations() -> dict[str, pd.DataFrame]:
+    rows = [("paper: one cylinder", 13.0, 2.0), ("engine: PT", 14.0, 0.0), ("FOR-loop", 2050.0, 514.0)]
+    return {"operations": pd.DataFrame(rows, columns=["what", "arithmetic", "compare"])}
+
+
+def rock_stiffness() -> dict[str, pd.DataFrame]:
+    stiffness = 10.0 ** np.arange(3, 11)
+    return {
+        "summary": pd.DataFrame(
+            {
+                "stiffness_N_per_m": stiffness,
+                "without_answer": (stiffness < 1e5).astype(int),
+                "loads_change_percent": 1e4 / stiffness,
+                "contact_force_change_percent": 2e4 / stiffness,
+                "penetration_of_clearance": 4e5 / stiffness,
+                "step_ms": np.minimum(1.5, 1.5e4 / np.sqrt(stiffness)),
+            }
+        )
+    }
+
+
+def long_segment() -> dict[str, pd.DataFrame]:
+    time = np.linspace(0, 20, 200)
+    histories = pd.concat(
+        pd.DataFrame(
+            {
+                "time_s": time,
+                "surface_torque_N_m": 2e3 * (1 - np.cos(1.5 * time * (1 + 0.01 * k))),
+                "hookload_N": 8e5 + 5e4 * np.cos(2.8 * time * (1 + 0.01 * k)),
+                "operation": operation,
+                "ramp_s": ramp,
+                "vertical": vertical,
+            }
+        )
+        for operation, ramp in itertools.product(("rotate_off_bottom", "trip_in"), (2.0, 20.0))
+        for k, vertical in enumerate(("long", "cut", "cut twice as fine"))
+    )
+    frequencies = pd.DataFrame(
+        {"kind": kind, "continuous_Hz": scale * mode, "long_off_percent": mode**2 - 4.0, "cut_off_percent": 0.01 * mode}
+        for kind, scale in (("axial", 0.9), ("torsional", 0.5))
+        for mode in (1.0, 2.0, 3.0)
+    )
+    return {"histories": histories, "frequencies": frequencies}
+
+
+def soft_stiff_map() -> dict[str, pd.DataFrame]:
+    cells = itertools.product(("5 in pipe", "collar"), (10.0, 30.0, 60.0), (5.0, 50.0), OPERATIONS)
+    table = pd.DataFrame(
+        {
+            "string": string,
+            "severity_deg_per_100ft": severity,
+            "clearance_mm": clearance,
+            "operation": operation,
+            "contact_force_percent": severity / clearance**0.5 - 3.0,
+        }
+        for string, severity, clearance, operation in cells
+    )
+    return {"map": table, "light": table[table["string"] == "5 in pipe"]}
+
+
+def friction_laws() -> dict[str, pd.DataFrame]:
+    ratio = np.logspace(-2, 2, 17)
+    around = 1 / np.hypot(1, ratio)
+    parts = {"paper": (0 * ratio + 48, 0 * ratio + 3), "coulomb": (48 * ratio * around, 3 * around)}
+    return {
+        "straight": pd.concat(
+            pd.DataFrame(
+                {
+                    "law": law,
+                    "axial_over_tangential": ratio,
+                    "drag_kN": drag,
+                    "drag_closed_form_kN": drag,
+                    "torque_kN_m": torque,
+                    "torque_closed_form_kN_m": torque,
+                }
+            )
+            for law, (drag, torque) in parts.items()
+        )
+    }
+
+
+def mud_effects() -> dict[str, pd.DataFrame]:
+    time = np.linspace(0, 200, 2000)
+    return {
+        "histories": pd.concat(
+            pd.DataFrame(
+                {
+                    "time_s": time,
+                    "surface_torque_N_m": 2.4e3 + 1.6e3 * np.exp(-rate * time) * np.sin(1.46 * time),
+                    "viscosity_Pa_s": viscosity,
+                }
+            )
+            for viscosity, rate in ((0.0, 0.0), (0.03, 0.005), (0.1, 0.018))
+        )
+    }
+
+
+def mesh_torque() -> dict[str, pd.DataFrame]:
+    depth = np.array([2000.0, 2125.0, 2250.0])
+    steady = np.arange(1750.0, 2251.0, 25.0)
+    return {
+        "windows": pd.DataFrame(
+            {
+                "bit_depth_m": depth,
+                "FCTD_sum_r_mu_fn_kN_m": 1.7 * ((depth - 1750) / 500) ** 1.5,
+                "fcl_sum_r_mu_fn_kN_m": 1.702 * ((depth - 1750) / 500) ** 1.5,
+                "sum_r_mu_fn_difference_percent": [0.2, 0.1, 0.2],
+                "difference_percent": [-0.2, 1.0, 0.2],
+            }
+        ),
+        "steady": pd.DataFrame(
+            {"bit_depth_m": steady, "surface_torque_N_m": 1.7e3 * ((steady - 1750) / 500) ** 1.5},
+        ),
+    }
+
+
+def broomstick() -> dict[str, pd.DataFrame]:
+    return {"chart": pd.concat(_chart().assign(friction=factor) for factor in (0.1, 0.3))}
+
+
 STUDIES = {
     function.__name__: function
     for function in (
         paper_well,
+        well_profile,
+        contact_operations,
+        rock_stiffness,
+        long_segment,
+        soft_stiff_map,
+        friction_laws,
+        mud_effects,
+        mesh_torque,
+        broomstick,
         curved_chain,
         scaled_section,
         energy_ledger,

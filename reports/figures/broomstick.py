@@ -1,0 +1,23 @@
+"""The broomstick, as ``fctd chart --plot`` draws it."""
+
+from matplotlib.figure import Figure as Canvas
+
+from fctd import plots
+from reports.figures import Figure, Tables, style
+
+
+def chart(tables: Tables) -> Canvas:
+    """Hook load and torque against bit depth, a line for each operation and friction factor."""
+    canvas = plots.chart_figure(tables["chart"], "si")
+    canvas.set_size_inches(style.WIDTH_IN, 5.6)
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "chart",
+        "The broomstick of the paper's well: hook load (left) and surface torque (right) over bit depth for three "
+        "friction factors, by the steady solver.",
+        chart,
+    )
+]

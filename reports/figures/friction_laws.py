@@ -1,0 +1,41 @@
+"""Drag and torque of the two laws over the ratio of speeds."""
+
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+PANELS = (("drag", "kN", "axial drag, kN"), ("torque", "kN_m", "torque, kN·m"))
+
+
+def straight(tables: Tables) -> Canvas:
+    """Solver as lines, closed forms as marks."""
+    table = tables["straight"]
+    canvas = style.figure(3.6)
+    axes = canvas.subplots(1, 2, sharex=True)
+    for ax, (name, unit, label) in zip(axes, PANELS, strict=True):
+        for law, index in style.LAWS.items():
+            rows = table[table["law"] == law]
+            if rows.empty:
+                continue
+            x = rows["axial_over_tangential"]
+            ax.plot(x, rows[f"{name}_{unit}"], **style.line(index), label=f"law {law}")
+            few = slice(None, None, max(len(rows) // 8, 1))
+            ax.plot(
+                x.iloc[few], rows[f"{name}_closed_form_{unit}"].iloc[few], **style.dots(index, filled=False),
+                label=f"{law}, closed form",
+            )  # fmt: skip
+        ax.set(xscale="log", xlabel="axial over tangential speed, –", ylabel=label)
+        ax.set_ylim(bottom=0)
+    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "straight",
+        "A pipe pulled out of 1000 m of straight hole at 60° while it turns at 60 rev/min, over the ratio of its axial "
+        "to its tangential speed at the wall. Coulomb's law shares one force between drag and torque; the paper's "
+        "gives both in full.",
+        straight,
+    )
+]

@@ -1,0 +1,61 @@
+"""Starts from rest with one long vertical segment and with many short ones, and the frequencies of both."""
+
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+LOOKS = {"long": (1, "one long segment"), "cut twice as fine": (0, "segments of 18.75 m")}
+PANELS = (
+    ("rotate_off_bottom", "surface_torque_N_m", "surface torque, kN·m"),
+    ("trip_in", "hookload_N", "hook load, kN"),
+)
+
+
+def start_up(tables: Tables) -> Canvas:
+    """Torque of a string that starts to turn, hook load of one that starts to go in, both quickly."""
+    histories = tables["histories"]
+    quick = histories[histories["ramp_s"] == histories["ramp_s"].min()]
+    canvas = style.figure(5.0)
+    axes = canvas.subplots(2, 1, sharex=True)
+    for ax, (operation, column, label) in zip(axes, PANELS, strict=True):
+        for name, (index, title) in reversed(LOOKS.items()):
+            rows = quick[(quick["operation"] == operation) & (quick["vertical"] == name)]
+            ax.plot(rows["time_s"], rows[column] / 1e3, **style.line(index), label=title)
+        ax.set_ylabel(label)
+    axes[-1].set_xlabel("time, s")
+    style.legend_above(axes[0])
+    return canvas
+
+
+def frequencies(tables: Tables) -> Canvas:
+    """How far the lowest frequencies are from those of the continuous string."""
+    table = tables["frequencies"]
+    canvas = style.figure(3.0)
+    axes = canvas.subplots(1, 2, sharey=True)
+    for ax, kind in zip(axes, table["kind"].unique(), strict=True):
+        rows = table[table["kind"] == kind]
+        ax.axhline(0, color=style.QUIET, linewidth=1)
+        for index, column, label in ((1, "long", "one long segment"), (0, "cut", "segments of 37.5 m")):
+            ax.plot(
+                rows["continuous_Hz"], rows[f"{column}_off_percent"], **style.dots(index), markersize=7, label=label
+            )
+        ax.set(xlabel=f"{kind} frequency of the continuous string, Hz")
+    axes[0].set_ylabel("frequency off, %")
+    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "start_up",
+        "The paper's string with the bit at 2450 m started in 2 s: torque when it starts to turn (above), hook load "
+        "when it starts to go in (below). Steady loads are equal to a millionth; the long segment bends the waves.",
+        start_up,
+    ),
+    Figure(
+        "frequencies",
+        "The four lowest axial and torsional frequencies of the hanging string, off those of a continuous string with "
+        "the same pipe and collars. With one long segment for the uppermost 750 m the higher ones are up to 10 % off.",
+        frequencies,
+    ),
+]

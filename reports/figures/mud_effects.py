@@ -1,0 +1,31 @@
+"""How the twisting of a turning string dies in mud."""
+
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+
+def decay(tables: Tables) -> Canvas:
+    """Surface torque after a quick start, without mud's damping and with two viscosities."""
+    histories = tables["histories"]
+    viscosities = sorted(histories["viscosity_Pa_s"].unique())
+    canvas = style.figure(1.0 + 1.4 * len(viscosities))
+    axes = canvas.subplots(len(viscosities), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    for index, (ax, viscosity) in enumerate(zip(axes, viscosities, strict=True)):
+        rows = histories[histories["viscosity_Pa_s"] == viscosity]
+        look = {**style.line(index), "linestyle": "-", "linewidth": 1}
+        ax.plot(rows["time_s"], rows["surface_torque_N_m"] / 1e3, **look)
+        ax.set_title(f"mud of {1e3 * viscosity:.0f} mPa s" if viscosity else "no damping")
+    axes[len(axes) // 2].set_ylabel("surface torque, kN·m")
+    axes[-1].set_xlabel("time, s")
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "decay",
+        "The paper's string started to turn within 2 s with the bit at 2450 m. Coulomb's friction, whose torque does "
+        "not grow with the rate, leaves the twisting to swing; the mud's damping lets it die.",
+        decay,
+    )
+]

@@ -1,0 +1,52 @@
+"""What changes with the stiffness of the rock: loads, penetration, the stepper's step."""
+
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+
+def stiffness(tables: Tables) -> Canvas:
+    """Changes of loads (left), penetration and step (right), each over stiffness."""
+    table = tables["summary"]
+    answered = table[(table["without_answer"] == 0) & (table["loads_change_percent"] > 0)]
+    canvas = style.figure(3.8)
+    left, right = canvas.subplots(1, 2, sharex=True)
+    for index, (column, label) in enumerate(
+        (("loads_change_percent", "hook load and torque"), ("contact_force_change_percent", "contact force"))
+    ):
+        left.plot(
+            answered["stiffness_N_per_m"],
+            answered[column],
+            **style.line(index),
+            marker=style.MARKERS[index],
+            label=label,
+        )
+    left.axhline(1.0, color=style.QUIET, linewidth=1, linestyle=(0, (1, 1.5)))
+    left.set(ylabel="largest change, %")
+    right.plot(
+        table["stiffness_N_per_m"], table["penetration_of_clearance"], **style.line(0), marker="o",
+        label="penetration / clearance",
+    )  # fmt: skip
+    right.plot(
+        table["stiffness_N_per_m"], table["step_ms"] / table["step_ms"].max(), **style.line(1), marker="s",
+        label="step / longest step",
+    )  # fmt: skip
+    right.set(ylabel="ratio, –")
+    none = table.loc[table["without_answer"] > 0, "stiffness_N_per_m"]
+    for ax in (left, right):
+        ax.set(xscale="log", yscale="log", xlabel="wall stiffness of a point, N/m")
+        if len(none):
+            ax.axvspan(none.min(), none.max(), color=style.SHADE, linewidth=0, zorder=0)
+        style.legend_above(ax, columns=1)
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "stiffness",
+        "The paper's well with walls of every stiffness. Left: largest change of hook load, torque and contact force "
+        "over four operations and all depths, against 10¹⁰ N/m; dotted: 1 %. Right: how deep the string lies in the "
+        "wall, and how long a step of the stepper may be. Shaded: the string leaves the hole somewhere, no answer.",
+        stiffness,
+    )
+]

@@ -1,0 +1,188 @@
+"""The arithmetic of the studies of the paper's claims, where a slip would pass for a finding."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from validation import (
+    contact_operations,
+    friction_laws,
+    long_segment,
+    mud_effects,
+    paper_times,
+    rock_stiffness,
+    soft_stiff_map,
+)
+from validation import well_profile as profile
+from validation.cases import load, rotation
+
+
+def test_a_uniform_string_has_the_frequencies_of_a_quarter_wave():
+    case = load("paper_well")
+    pipe = case.string.components[1]
+    length = {"length": 200.0, "segments": 20}
+    even = case.model_copy(
+        update={
+            "string": case.string.model_copy(
+                update={"components": (pipe.model_copy(update=length), *case.string.components[1:])}
+            )
+        }
+    )
+    axial, torsional = long_segment.continuous_frequencies(even)
+    shear = pipe.youngs_modulus / (2 * (1 + pipe.poisson_ratio))
+    for found, modulus in ((axial, pipe.youngs_modulus), (torsional, shear)):
+        quarter = np.sqrt(modulus / pipe.density) / (4 * long_segment.BIT)
+        assert found == pytest.approx(quarter * np.array([1, 3, 5, 7]), rel=1e-9)
+
+
+def test_a_finely_cut_string_has_the_frequencies_of_the_continuous_one():
+    case = long_segment.the_case(12.5, operations=rotation(long_segment.BIT, 1.0, 0.5))
+    for chain, continuous in zip(
+        long_segment.chain_frequencies(case), long_segment.continuous_frequencies(case), strict=True
+    ):
+        # Collars and the pipe below stay as they are.
+        assert chain[:2] == pytest.approx(continuous[:2], rel=1e-3)
+
+
+def test_start_ups_differ_by_their_largest_distance_over_the_span():
+    time = np.linspace(0, 1, 101)
+    frames = [
+        pd.DataFrame(
+            {
+                "surface_torque_N_m": 10 * time + add,
+                "hookload_N": 0.0,
+                "operation": "rotate_off_bottom",
+                "ramp_s": 2.0,
+                "vertical": name,
+            }
+        )
+        for name, add in (("long", np.where(time == 0.5, -1.0, 0.0)), ("cut", 0.2), ("cut twice as fine", 0.0))
+    ]
+    (row,) = long_segment.start_up_differences(pd.concat(frames)).to_dict("records")
+    assert row["long_difference_percent"] == pytest.approx(10.0)
+    assert row["long_mean_difference_percent"] == pytest.approx(10 / 101)
+    assert row["cut_difference_percent"] == pytest.approx(2.0)
+
+
+def test_changes_are_against_the_stiffest_wall_of_the_same_operation():
+    rows = pd.DataFrame(
+        {
+            "stiffness_N_per_m": [1e6, 1e10] * 2,
+            "operation": ["trip_in"] * 2 + ["trip_out"] * 2,
+            "bit_depth_m": 2450.0,
+            "hookload_kN": [99.0, 100.0, 202.0, 200.0],
+            "torque_kN_m": [1e-13, 0.0, 2.0, 1.0],
+            "contact_force_kN": [1.0, 2.0, 3.0, 3.0],
+            "bending_moment_kN_m": [1.0, 1.0, 1.0, 1.0],
+        }
+    )
+    found = rock_stiffness.changes(rows)
+    assert found["hookload_change_percent"].to_list() == pytest.approx([-1.0, 0.0, 1.0, 0.0])
+    assert np.isnan(found["torque_change_percent"].iloc[0])
+    assert found["torque_change_percent"].iloc[2] == pytest.approx(100.0)
+    assert found["contact_force_change_percent"].to_list() == pytest.approx([-50.0, 0.0, 0.0, 0.0])
+
+
+def test_pressures_on_ends_and_shoulders_carry_the_displaced_mud():
+    case = load("paper_well")
+    steel = np.pi / 4 * (200 * (0.158**2 - 0.065**2) + 1500 * (0.102**2 - 0.060**2))
+    assert mud_effects.displaced(case, 0.0) == pytest.approx(9.80665 * 7850 * steel)
+    assert mud_effects.displaced(case, 1200.0) == pytest.approx(9.80665 * (7850 - 1200) * steel)
+
+
+def test_resistance_in_a_narrow_annulus_is_that_of_a_flat_gap():
+    radius, gap, viscosity = 0.1, 1e-5, 0.03
+    axial, turning = mud_effects.resistance(radius, radius + gap, viscosity)
+    around = 2 * np.pi * radius
+    assert axial == pytest.approx(viscosity * around / gap, rel=1e-3)
+    assert turning == pytest.approx(viscosity * around / gap * radius**2, rel=1e-3)
+
+
+def test_the_mud_of_a_case_resists_as_much_as_its_parts_do():
+    keys, (axial, turning) = mud_effects.damping_of(0.03)
+    hole = 0.5 * 0.2159
+    pipe, collar = mud_effects.resistance(0.051, hole, 0.03), mud_effects.resistance(0.079, hole, 0.03)
+    assert axial == pytest.approx(2250 * pipe[0] + 200 * collar[0])
+    assert turning == pytest.approx(2250 * pipe[1] + 200 * collar[1])
+    assert keys["mud__rotational_damping"] * mud_effects.BIT == pytest.approx(turning)
+
+
+def test_the_first_mode_of_even_damping_and_inertia_dies_at_half_their_ratio():
+    case = load("paper_well")
+    pipe = case.string.components[1]
+    even = case.model_copy(
+        update={
+            "string": case.string.model_copy(
+                update={"components": (pipe.model_copy(update={"length": 200.0}), *case.string.components[1:])}
+            )
+        }
+    )
+    inertia = 0.5 * pipe.density * np.pi * (0.051**2 - 0.030**2) * (0.051**2 + 0.030**2)
+    assert mud_effects._mode_rate(even, 2.0) == pytest.approx(2.0 / mud_effects.BIT / (2 * inertia))
+
+
+def test_a_decaying_swing_has_its_rate():
+    time = np.arange(0.0, 150.0, 0.1)
+    torque = 2400 + 1500 * np.exp(-0.012 * time) * np.sin(2 * np.pi * 0.233 * time)
+    rate = mud_effects._rate(pd.DataFrame({"time_s": time, "surface_torque_N_m": torque}))
+    assert rate == pytest.approx(0.012, rel=0.03)
+
+
+def test_segments_in_a_bend_are_an_eighth_of_what_fits_it():
+    severity, clearance = 30.0, 0.02
+    radius = 30.48 / np.radians(severity)
+    assert soft_stiff_map.segment(severity, clearance) == pytest.approx(4 * np.sqrt(radius * clearance) / 8)
+    assert soft_stiff_map.segment(60.0, 1e-4) == 0.2
+    assert soft_stiff_map.segment(1.0, 0.1) == 1.0
+
+
+def test_a_mapped_bend_has_its_severity_and_clearance():
+    case = soft_stiff_map.case_of("6 3/4 in collar", 20.0, 0.01, soft_stiff_map.LIGHT)
+    md, inclination, _ = case.wellbore.read_stations().T
+    assert 30.48 * (inclination[2] - inclination[1]) / (md[2] - md[1]) == pytest.approx(20.0)
+    assert case.wellbore.intervals[0].diameter - case.string.components[0].contact_diameter == pytest.approx(0.02)
+    assert case.operations[0].end_md == pytest.approx(md[-1])
+
+
+def test_ratio_of_nothing_is_no_number():
+    assert friction_laws._ratio(4.5, 1.5) == 3.0
+    assert np.isnan(friction_laws._ratio(0.0, 1e-13))
+
+
+def test_the_papers_runs_as_speeds():
+    runs = paper_times.implied().set_index("paper_run")
+    whole = runs.loc["FCTD, the whole survey depth, 0 to 2250 m"]
+    assert whole["real_time_up_to_m_s"] == pytest.approx(2250 / 14400)
+    assert whole["real_time_factor_at_half_a_metre_a_second"] == pytest.approx(4500 / 14400)
+    assert runs.loc["Adams, the same", "took_per_m_s"] == pytest.approx(0.08)
+
+
+def test_the_exact_well_is_smooth_and_as_long_as_its_measured_depth():
+    md = np.linspace(0.0, 4300.0, 86_001)
+    step = np.diff(profile.exact(md), axis=0)
+    assert np.linalg.norm(step, axis=1) == pytest.approx(0.05, rel=1e-6)
+    cosine = np.sum(step[1:] * step[:-1], axis=1) / 0.05**2
+    assert np.degrees(np.arccos(np.clip(cosine, -1, 1))).max() < 0.01
+    assert profile.exact(np.array([2000.0]))[0, :2] == pytest.approx([43.790401] * 2, abs=1e-5)
+
+
+def test_the_papers_equations_give_the_wall_and_cost_what_it_says():
+    a, t = np.array([1.0, 2.0, 3.0]), np.array([1.3, 2.4, 4.0])
+    ab = np.array([0.0, 0.0, 2.0])
+    at = contact_operations.paper_arm(a, t)
+    away = contact_operations.paper_location(ab, 4.0, at)
+    assert away == pytest.approx(0.25)
+    assert contact_operations.paper_penetration(away, 0.45) == pytest.approx(0.05)
+    assert contact_operations.paper_direction(a, ab, 4.0, ab @ at, t, 0.5) == pytest.approx([0.6, 0.8, 0.0])
+    assert contact_operations.paper_location(ab, 4.0, [0.3, 0.4, 2.1]) is None
+    assert contact_operations.paper_location(ab, 4.0, [0.3, 0.4, -0.1]) is None
+    assert [row["arithmetic"] for row in contact_operations.paper_rows()] == [13, 3, 2, 14]
+
+
+def test_in_straight_hole_coulomb_shares_one_force_and_the_paper_gives_two():
+    found = friction_laws.in_straight_hole(np.array([0.5])).set_index("law")
+    assert found["off_percent"].max() < 0.1
+    assert found.loc["paper", "friction_over_mu_N"] == pytest.approx(np.sqrt(2))
+    assert found.loc["coulomb", "friction_over_mu_N"] == pytest.approx(1.0)
+    arm = found["torque_kN_m"] / found["drag_kN"]
+    assert arm["coulomb"] == pytest.approx(2 * arm["paper"], rel=1e-3)
