@@ -9,8 +9,6 @@ import pandas as pd
 from fctd import Case
 from fctd.equilibrium import Solver
 from fctd.operations import steady_rates
-from references.beam_case import beam_of, top_of
-from references.beam_dynamics import lower
 from references.soft_string import soft_string
 from validation.cases import trip
 from validation.study import Check, Context, Outcome, Study
@@ -48,10 +46,12 @@ def case_of(
     straight: tuple[float, float] = HEAVY,
     piece: float | None = None,
     friction: float = MU,
+    wall: float = WALL,
 ) -> Case:
     """Vertical, a build of that severity, hold, in a hole as wide as the clearance asks.
 
-    straight [m] : vertical and hold; piece : segments in the bend.  The schedule lowers the bit from the kick-off.
+    straight [m] : vertical and hold; piece [m] : segments in the bend; wall [N/m] : stiffness a metre.  The schedule
+    lowers the bit from the kick-off.
     """
     bend = ANGLE / severity * HUNDRED_FEET
     ends = np.cumsum([0.0, straight[0], bend, straight[1]])
@@ -65,7 +65,7 @@ def case_of(
         pipe | {"name": "above the bend", "segment_length": 1.0},
     ]
     interval = {"to_md": float(ends[-1]), "diameter": outer + 2 * clearance, "friction": friction}
-    hole = {"stations": stations, "geometry": "arcs", "stiffness_per_length": WALL, "intervals": [interval]}
+    hole = {"stations": stations, "geometry": "arcs", "stiffness_per_length": wall, "intervals": [interval]}
     return Case.model_validate(
         {
             "name": string,
@@ -112,6 +112,10 @@ def compare(
 
 def by_finite_elements(severity: float, clearance: float) -> pd.DataFrame:
     """Total contact force of the light string without friction, three ways."""
+    # Here alone scikit-fem is needed.
+    from references.beam_case import beam_of, top_of
+    from references.beam_dynamics import lower
+
     case = case_of(PIPE, severity, clearance, LIGHT, friction=0.0)
     bit = float(case.wellbore.read_stations()[-1, 0])
     rates = steady_rates(case, "trip_in")

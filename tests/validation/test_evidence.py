@@ -11,6 +11,7 @@ from validation import (
     mud_effects,
     paper_times,
     rock_stiffness,
+    soft_stiff_map,
 )
 from validation import well_profile as profile
 from validation.cases import load, rotation
@@ -127,15 +128,7 @@ def test_a_decaying_swing_has_its_rate():
     assert rate == pytest.approx(0.012, rel=0.03)
 
 
-@pytest.fixture
-def soft_stiff_map():
-    pytest.importorskip("skfem")
-    from validation import soft_stiff_map
-
-    return soft_stiff_map
-
-
-def test_segments_in_a_bend_are_an_eighth_of_what_fits_it(soft_stiff_map):
+def test_segments_in_a_bend_are_an_eighth_of_what_fits_it():
     severity, clearance = 30.0, 0.02
     radius = 30.48 / np.radians(severity)
     assert soft_stiff_map.segment(severity, clearance) == pytest.approx(4 * np.sqrt(radius * clearance) / 8)
@@ -143,7 +136,7 @@ def test_segments_in_a_bend_are_an_eighth_of_what_fits_it(soft_stiff_map):
     assert soft_stiff_map.segment(1.0, 0.1) == 1.0
 
 
-def test_a_mapped_bend_has_its_severity_and_clearance(soft_stiff_map):
+def test_a_mapped_bend_has_its_severity_and_clearance():
     case = soft_stiff_map.case_of("6 3/4 in collar", 20.0, 0.01, soft_stiff_map.LIGHT)
     md, inclination, _ = case.wellbore.read_stations().T
     assert 30.48 * (inclination[2] - inclination[1]) / (md[2] - md[1]) == pytest.approx(20.0)
@@ -151,7 +144,7 @@ def test_a_mapped_bend_has_its_severity_and_clearance(soft_stiff_map):
     assert case.operations[0].end_md == pytest.approx(md[-1])
 
 
-def test_a_bend_is_as_far_off_as_the_worst_of_its_operations(soft_stiff_map):
+def test_a_bend_is_as_far_off_as_the_worst_of_its_operations():
     rows = pd.DataFrame(
         {
             "string": ["pipe"] * 3 + ["collar"],
