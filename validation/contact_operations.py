@@ -103,7 +103,7 @@ def engine_rows(run: Run, motion: Any, moments: int) -> list[dict[str, Any]]:
     points = n * moments
     mean = {
         "engine: PT from the cylinder remembered": _less(_share(followed, points), given),
-        "engine: whether it still is that cylinder, and the table where not": _share(looked_up, points),
+        "engine: search, seldom more than two comparisons": _share(looked_up, points),
         "engine: penetration": _less(written, normal, Counter(compare=1)),
         "engine: unit direction": normal,
         "paper's FOR-loop over cylinders from the top": _share(searched, n),
@@ -154,7 +154,7 @@ def run(context: Context) -> Outcome:
     found = table.set_index("what")["arithmetic"]
     one = float(found.filter(like="one cylinder").iloc[0])
     test = ["engine: PT from the cylinder remembered", "engine: penetration"]
-    looked_up = float(found["engine: whether it still is that cylinder, and the table where not"])
+    looked_up = float(found["engine: search, seldom more than two comparisons"])
     own = float(found[test].sum()) + looked_up
     loop = float(found.filter(like="FOR-loop").iloc[0])
     checks = [

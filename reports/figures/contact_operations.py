@@ -19,7 +19,7 @@ def operations(tables: Tables) -> Canvas:
     ax.set(xscale="log", xlabel="operations of a point, number")
     ax.set_yticks(range(len(table)), table["what"])
     ax.set_ylim(len(table) - 0.5, -0.5)
-    style.legend_above(ax)
+    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=2)
     return canvas
 
 

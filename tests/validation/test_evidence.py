@@ -144,6 +144,21 @@ def test_a_mapped_bend_has_its_severity_and_clearance():
     assert case.operations[0].end_md == pytest.approx(md[-1])
 
 
+def test_a_bend_is_as_far_off_as_the_worst_of_its_operations():
+    rows = pd.DataFrame(
+        {
+            "string": ["pipe"] * 3 + ["collar"],
+            "hold_m": 600.0,
+            "severity_deg_per_100ft": [30.0, 30.0, 10.0, 30.0],
+            "clearance_mm": 5.0,
+            "hookload_percent": [-4.0, 1.0, 2.0, 0.5],
+            "torque_percent": [np.nan, 3.0, np.nan, -9.0],
+        }
+    )
+    assert soft_stiff_map.largest(rows).to_list() == [4.0, 2.0, 9.0]
+    assert soft_stiff_map.largest(rows, "severity >= 30 and string == 'pipe'").to_list() == [4.0]
+
+
 def test_ratio_of_nothing_is_no_number():
     assert friction_laws._ratio(4.5, 1.5) == 3.0
     assert np.isnan(friction_laws._ratio(0.0, 1e-13))
