@@ -15,6 +15,7 @@ STUDIES: dict[str, str] = {
     "contact_accuracy": "validation.contact_accuracy",
     "contact_swap": "validation.contact_swap",
     "engines_agree": "validation.engines_agree",
+    "speed": "validation.speed",
     "real_survey": "validation.real_survey",
     "real_chart": "validation.real_chart",
 }

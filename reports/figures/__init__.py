@@ -33,6 +33,7 @@ MODULES: dict[str, str] = {
     "contact_accuracy": "reports.figures.contact_accuracy",
     "contact_swap": "reports.figures.contact_swap",
     "engines_agree": "reports.figures.engines_agree",
+    "speed": "reports.figures.speed",
     "real_survey": "reports.figures.real_survey",
 }
 
