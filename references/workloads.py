@@ -19,7 +19,7 @@ from fctd.contact import query_walls, update_walls
 from fctd.dynamics import whole_operations
 from fctd.energy import Energy, penetration
 from fctd.record import LOSSES
-from fctd.run import STILL, Run, contact_points, prepare
+from fctd.run import STILL, Run, contact_points, forget_start, prepare
 from fctd.topdrive import Motion
 from fctd.wall_query import QueriedWall
 from fctd.wellbore import Contacts
@@ -60,6 +60,7 @@ def fallen(case: Case, seconds: float) -> tuple[Run, Motion]:
     run, stretches = prepare(case)
     run.refresh()
     run.advance(STILL, seconds, run.laws._replace(settling=BRAKE))
+    forget_start(run)
     motion = stretches[-1].motion
     state.row(run.S, state.WZ, run.segments)[:] = motion.spin_to
     run.refresh()
