@@ -32,9 +32,9 @@ from references import engines
 from references.footprint import resident
 from references.workloads import moving
 start, motion = moving(chain(), 1.0)
-small = engines.build("{name}")
+engine = engines.build("{name}")
 before = resident()
-stepper = small.begin(start)
+stepper = engine.begin(start)
 stepper.advance(motion, stepper.step)
 growth = resident() - before
 """
@@ -74,5 +74,5 @@ def bench_engine_memory(benchmark: BenchmarkFixture, name: str) -> None:
     if engines.installed_version(name) is None:
         pytest.skip(f"{engines.engine_class(name).distribution} is not installed")
     describe(benchmark, "memory", engine=name)
-    answer = "{'growth_MB': growth, 'peak_MB': peak}"
+    answer = "{'growth_MB': growth}"
     benchmark.extra_info |= benchmark.pedantic(process, args=(ENGINE.format(name=name), answer), rounds=1)

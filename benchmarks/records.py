@@ -4,10 +4,11 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
+import numpy as np
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from fctd import state, topdrive
-from fctd.run import Run
+from fctd.run import Run, UnstableError
 from references.timing import machine
 
 # Segment-steps a round of compiled code; the number is fixed so that rounds of two sessions can be compared.
@@ -36,6 +37,8 @@ def time_steps(
     began, hookload = float(run.top[topdrive.TOP_TIME]), float(run.top[topdrive.SUM_HOOKLOAD])
     benchmark.pedantic(advance, args=(count * step,), rounds=rounds, warmup_rounds=1)
     simulated = float(run.top[topdrive.TOP_TIME]) - began
+    if not np.isfinite(run.S).all():
+        raise UnstableError("what was timed is no string any more")
     off = (float(run.top[topdrive.SUM_HOOKLOAD]) - hookload) / simulated / vertical_weight(run) - 1
     facts = {
         "segments": run.segments,
