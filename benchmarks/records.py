@@ -37,9 +37,9 @@ def time_steps(
     began, hookload = float(run.top[topdrive.TOP_TIME]), float(run.top[topdrive.SUM_HOOKLOAD])
     benchmark.pedantic(advance, args=(count * step,), rounds=rounds, warmup_rounds=1)
     simulated = float(run.top[topdrive.TOP_TIME]) - began
-    if not np.isfinite(run.S).all():
-        raise UnstableError("what was timed is no string any more")
     off = (float(run.top[topdrive.SUM_HOOKLOAD]) - hookload) / simulated / vertical_weight(run) - 1
+    if not np.isfinite(off):
+        raise UnstableError("what was timed is no string any more: its hook load is no number")
     facts = {
         "segments": run.segments,
         "pieces_of_hole": len(run.hole.pieces),

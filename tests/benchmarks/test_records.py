@@ -8,6 +8,7 @@ pytest.importorskip("pytest_benchmark")
 
 from benchmarks import conftest, records
 from benchmarks.strings import chain, hanging, trip
+from fctd.run import UnstableError
 from references.workloads import moving
 
 
@@ -35,6 +36,13 @@ def test_steps_are_counted_and_the_hook_load_is_held_against_the_weight(benchmar
     assert noted["steps_a_round"] == 50
     assert noted["simulated_s"] >= 50 * run.step * 0.999
     assert abs(noted["hookload_off_percent"]) < 5
+
+
+def test_a_string_that_blew_up_has_no_record(benchmark):
+    run, motion = moving(chain(20), 1.0)
+    run.step *= 3  # past what symplectic Euler bears
+    with pytest.raises(UnstableError, match="no string any more"):
+        records.time_steps(benchmark, lambda span: run.advance(motion, span), run, run.step, 2000)
 
 
 def test_the_trips_of_the_paper_have_its_segments():
