@@ -1,6 +1,6 @@
 # make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them
 # make test        the fast tests
-# make bench       what a step costs, on this machine
+# make bench       what everything costs, on this machine; kept in .benchmarks for --benchmark-compare
 # make lint        style, types, and who may import whom
 # make clean       remove results, report and caches; the environment in .venv stays
 #
@@ -23,7 +23,7 @@ test: $(STAMP)
 	$(BIN)/python -m pytest
 
 bench: $(STAMP)
-	$(BIN)/python -m pytest benchmarks --benchmark-enable --benchmark-sort=name
+	$(BIN)/python -m pytest benchmarks --benchmark-enable --benchmark-autosave --benchmark-sort=name
 
 lint: $(STAMP)
 	$(BIN)/python -m ruff check

@@ -19,14 +19,16 @@ from fctd.state import (
     radial,
 )
 
+ON_AXIS = 1e-150  # far above the root of the smallest number, far below any offset that matters [m]
+
 
 @njit(forceinline=True)
 def wall_normal(S, j):
     """Penetration [m] (Eq. 11, settled sign) and the normal towards the wall in the frame of body j."""
     px, py, pz = radial(S, j)
     distance = np.sqrt(px * px + py * py + pz * pz)
-    # A point on the hole axis has no direction.
-    k = 1 / (distance + TINY)
+    # A point on the hole axis has no direction, and the square of an offset below 1e-162 m is 0.
+    k = 1 / (distance + ON_AXIS)
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(*quaternion(S, j))
     return (
         distance - S[HOLE + j] + S[RADIUS + j],

@@ -27,7 +27,7 @@ def footprint(name: str, case: Case, **options: Any) -> tuple[float, float]:
     return float(memory), float(seconds)
 
 
-def _resident() -> float:
+def resident() -> float:
     """Resident memory of this process [MB]."""
     status = Path("/proc/self/status")
     if not status.exists():
@@ -48,10 +48,10 @@ def _measure() -> None:
         }
     )
     small = build(request["name"], short)
-    before, began = _resident(), time.perf_counter()
+    before, began = resident(), time.perf_counter()
     method = build(request["name"], case, **request["options"])
     seconds = time.perf_counter() - began
-    print(json.dumps([_resident() - before, seconds]))
+    print(json.dumps([resident() - before, seconds]))
     del small, method
 
 

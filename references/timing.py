@@ -14,17 +14,39 @@ import numpy as np
 import pandas as pd
 
 from fctd.results import versions
+from references import engines
 from references.base import METHODS, installed_version, method_class
+from references.engines import ENGINES, engine_class
 
 Action = Callable[[], object]
 
 
-def race(actions: Mapping[str, Action], counts: Mapping[str, int], rounds: int, baseline: str) -> pd.DataFrame:
+def units_for(work: Callable[[int], object], aim: float) -> int:
+    """How many units ``work`` has to be told to do for a call of about ``aim`` [s]; it is warm afterwards.
+
+    By the processor's time: on a busy machine the wall clock would choose calls that are far too short.
+    """
+    units = 1
+    work(units)
+    while True:
+        began = time.process_time()
+        work(units)
+        spent = time.process_time() - began
+        if spent >= 0.5 * aim:
+            return max(int(units * aim / spent), 1)
+        units = max(2 * units, int(0.7 * units * aim / max(spent, 1e-9)))
+
+
+def race(
+    actions: Mapping[str, Action], counts: Mapping[str, float], rounds: int, baseline: str | Mapping[str, str]
+) -> pd.DataFrame:
     """Time each action once a round, after one round that is not counted.
 
-    counts : how many units (points, segment-steps) a call of each action works through.
-    Returns a row per action: name, units, rounds, ns (median per unit), ns_low, ns_high (quartiles), and
-    ratio, ratio_low, ratio_high to the baseline, from the ratios within the rounds.
+    counts : how many units (points, segment-steps, simulated seconds) a call of each action works through.
+    baseline : the action to which ratios are, of all or of each.
+    Returns a row per action: name, units, rounds, ns (median per unit), ns_low, ns_high (quartiles), ns_least (the
+    fastest round, least disturbed by others on the machine), and ratio, ratio_low, ratio_high to the baseline, from
+    the ratios within the rounds.
     """
     seconds = {name: np.empty(rounds) for name in actions}
     order = list(actions)
@@ -39,11 +61,12 @@ def race(actions: Mapping[str, Action], counts: Mapping[str, int], rounds: int, 
     rows = []
     for name in order:
         low, middle, high = np.percentile(per_unit[name], [25, 50, 75])
-        ratio = np.percentile(per_unit[name] / per_unit[baseline], [25, 50, 75])
+        against = baseline if isinstance(baseline, str) else baseline[name]
+        ratio = np.percentile(per_unit[name] / per_unit[against], [25, 50, 75])
         rows.append(
             {
                 "name": name, "units": counts[name], "rounds": rounds,
-                "ns": middle, "ns_low": low, "ns_high": high,
+                "ns": middle, "ns_low": low, "ns_high": high, "ns_least": per_unit[name].min(),
                 "ratio": ratio[1], "ratio_low": ratio[0], "ratio_high": ratio[2],
             }
         )  # fmt: skip
@@ -55,6 +78,8 @@ def machine() -> dict[str, str]:
     found = {"processor": cpu_name(), "cores": str(os.cpu_count()), **versions()}
     for name in METHODS:
         found[method_class(name).distribution] = installed_version(name) or "not installed"
+    for name in ENGINES:
+        found[engine_class(name).distribution] = engines.installed_version(name) or "not installed"
     return found
 
 

@@ -209,3 +209,16 @@ def test_steps_allocate_nothing() -> None:
         counts.append(rtsys.get_allocation_stats().alloc - before)
     _nrt_python.memsys_disable_stats()
     assert counts[2] == counts[1]
+
+
+@pytest.mark.parametrize("offset", [0.0, 1e-197, 1e-165, 1e-140])
+def test_a_turning_body_on_the_axis_of_its_hole_touches_nothing(offset):
+    S = state.new_state(1)
+    set_body(S, 1, 10.0, 1.0, 0.02)
+    S[state.QW + 1] = S[state.HOLE + 1] = 1.0
+    S[state.PX + 1], S[state.RADIUS + 1], S[state.WZ + 1] = offset, 0.05, 6.28
+    penetration, *normal = friction.wall_normal(S, 1)
+    assert penetration == pytest.approx(-0.95)
+    assert np.linalg.norm(normal) <= 1 + 1e-12
+    change = friction.coulomb_impulse(S, 1, 0.0, 0.0, 0.0, 0.0, 0.0, 6.28, *normal, 0.0)
+    assert change == (0.0,) * 6

@@ -1,4 +1,4 @@
-"""The same string in other people's engines: loads, where it touches, what each costs, and the 1000:1 model."""
+"""The same string in other people's engines: loads, where it touches, and the 1000:1 model."""
 
 from typing import Any
 
@@ -7,11 +7,8 @@ import pandas as pd
 
 from fctd import Case, equilibrium
 from references import engines
-from references.engine_run import begin_run, legs
 from references.engines import EngineRun, Window
-from references.free_bodies import FreeBodies
 from references.scaling import READINGS, factors, scaled
-from references.timing import race
 from validation.cases import load, rotation, trip
 from validation.study import Check, Context, Outcome, Study
 
@@ -184,53 +181,8 @@ def one_to_thousand(names: tuple[str, ...], duration: float) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def costs(names: tuple[str, ...], rounds: int, simulated: float) -> pd.DataFrame:
-    """Wall time per simulated second, hanging free and in contact, at one step for all and at each engine's own."""
-    free = {"contact__enabled": False, "wellbore__stations": [[0, 0, 0], [2600, 0, 0]]}
-    tables = []
-    for state, overrides in (("free", free), ("in contact", {})):
-        long = Window(6.0, 1.0)
-        case = load("curved_chain", operations=rotation(BIT, 2e4, ramp=4.0), **overrides)
-        if state == "free":
-            long = Window(0.0, 1.0)
-        chosen = [*names, "MuJoCo ball chain"] if state == "free" else list(names)
-        steps: dict[str, float] = {}
-        for kind in ("own step", "equal step"):
-            actions, counts, held = {}, {}, []
-            for name in chosen:
-                engine, options = ENGINES.get(name, ("mujoco_chain", {}))
-                if kind == "equal step":
-                    options = options | {"step": min(steps.values())}
-                run, stretches = begin_run(case, long)
-                stepper = engines.build(engine, **options).begin(run)
-                if isinstance(stepper, FreeBodies):
-                    stepper.watch = False  # what is read for our checks is no cost of the engine
-                steps.setdefault(name, stepper.step)
-                (motion, _), _ = legs(case, stretches, long.start, long.start + 1, np.inf)[-1]
-                actions[name] = lambda s=stepper, m=motion: s.advance(m, simulated)
-                counts[name] = 1
-                held.append((name, stepper))
-            table = race(actions, counts, rounds, "FCTD")
-            step_of = {name: 1e3 * stepper.step for name, stepper in held}
-            for _, stepper in held:
-                stepper.close()
-            tables.append(
-                pd.DataFrame(
-                    {
-                        "state": state,
-                        "step": kind,
-                        "engine": table["name"],
-                        "step_ms": table["name"].map(step_of),
-                        "ms_per_simulated_s": table["ns"] / 1e6 / simulated,
-                        "ratio_to_fctd": table["ratio"],
-                    }
-                )
-            )
-    return pd.concat(tables, ignore_index=True)
-
-
 def run(context: Context) -> Outcome:
-    """Curved chain in three operations, the paper's well in windows, spin-up from rest, hanging free, 1000:1, cost."""
+    """Curved chain in three operations, the paper's well in windows, spin-up from rest, hanging free, 1000:1."""
     missing = [name for name, (engine, _) in ENGINES.items() if engines.installed_version(engine) is None]
     everyone = tuple(name for name in ENGINES if name not in missing)
     fair = tuple(name for name in ("FCTD", *FAIR) if name not in missing)
@@ -250,17 +202,15 @@ def run(context: Context) -> Outcome:
     chains_free = ("MuJoCo ball chain",) if "MuJoCo" not in missing else ()
     free = hanging((*fair, *chains_free), 2.5 if context.quick else 5.0)
     thousand = one_to_thousand(tuple(n for n in ("Bullet",) if n not in missing), 1.0 if context.quick else 3.0)
-    cost = costs(fair, 2 if context.quick else 5, 0.1)
     tables = {
         "chain": chains, "profiles": pd.concat(profiles, ignore_index=True), "well": paper,
-        "hanging": free, "thousand": thousand, "cost": cost,
+        "hanging": free, "thousand": thousand,
     }  # fmt: skip
     display = {
         "chain": "Curved chain: every engine over the same window from FCTD's state in motion",
         "well": "Paper-well tripped in to 2250 m: 60 and 170 segments",
         "hanging": "No wall, vertical, spun up from rest",
         "thousand": "The 1000:1 model: loads scaled back, against the string as it is",
-        "cost": "Wall time of a simulated second, curved chain of 60 segments rotating, or hanging free",
     }
     if not context.quick:
         rest = Window(0.0, 10.0)

@@ -25,6 +25,7 @@ STUDIES: dict[str, str] = {
     "contact_swap": "validation.contact_swap",
     "mesh_torque": "validation.mesh_torque",
     "engines_agree": "validation.engines_agree",
+    "speed": "validation.speed",
     "real_survey": "validation.real_survey",
     "real_chart": "validation.real_chart",
     # Last: it reads the results of the others.

@@ -63,17 +63,22 @@ def compare(chart: pd.DataFrame, depths: list[float], context: Context) -> pd.Da
     return pd.DataFrame(rows)
 
 
+def well_of(segments: int) -> Case:
+    """Paper-well drilled, its string in 61 segments, as in the paper, or in equal ones."""
+    if segments == 61:
+        return load("paper_well", **DRILLING)
+    return load(
+        "paper_well",
+        string__components__0__segments=round(200 / 2450 * segments),
+        string__components__1__segments=round(1500 / 2450 * segments),
+        string__components__2__segments=None,
+        string__components__2__segment_length=2450 / segments,
+    )
+
+
 def cost(segments: int, repeats: int) -> dict[str, Any]:
     """Milliseconds a depth, layout and all, compiled code warm: median over repeats at 2450 m."""
-    case: Case = load("paper_well", **DRILLING)
-    if segments != 61:
-        case = load(
-            "paper_well",
-            string__components__0__segments=round(200 / 2450 * segments),
-            string__components__1__segments=round(1500 / 2450 * segments),
-            string__components__2__segments=None,
-            string__components__2__segment_length=2450 / segments,
-        )
+    case = well_of(segments)
     solver, row = Solver(case), {"segments": 0.0}
     for kind in KINDS:
         rates = steady_rates(case, kind)

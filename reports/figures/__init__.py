@@ -42,6 +42,7 @@ MODULES: dict[str, str] = {
     "contact_swap": "reports.figures.contact_swap",
     "mesh_torque": "reports.figures.mesh_torque",
     "engines_agree": "reports.figures.engines_agree",
+    "speed": "reports.figures.speed",
     "real_survey": "reports.figures.real_survey",
 }
 

@@ -1,6 +1,5 @@
-"""The same string in other engines: loads against FCTD's, contact forces along it, cost."""
+"""The same string in other engines: loads against FCTD's, contact forces along it."""
 
-import numpy as np
 from matplotlib.figure import Figure as Canvas
 
 from reports import words
@@ -50,26 +49,6 @@ def contact(tables: Tables) -> Canvas:
     return canvas
 
 
-def cost(tables: Tables) -> Canvas:
-    """Wall time of a simulated second on a logarithmic axis: free and in contact, at own and at equal step."""
-    table = tables["cost"]
-    names = list(table["engine"].unique())
-    canvas = style.figure(1.6 + 0.36 * len(names))
-    ax = canvas.subplots()
-    for index, ((state, step), chosen) in enumerate(table.groupby(["state", "step"], sort=False)):
-        at = chosen.set_index("engine").reindex(names)
-        height = np.arange(len(names)) + 0.16 * (index - 1.5)
-        ax.plot(
-            at["ms_per_simulated_s"], height, **style.dots(index, filled=step == "own step"), markersize=6,
-            label=f"{state}, {step}",
-        )  # fmt: skip
-    ax.set(xscale="log", xlabel="wall time of a simulated second, ms")
-    ax.set_yticks(range(len(names)), names)
-    ax.set_ylim(len(names) - 0.5, -0.5)
-    style.legend_above(ax)
-    return canvas
-
-
 FIGURES = [
     Figure(
         "loads",
@@ -82,11 +61,5 @@ FIGURES = [
         "Contact force along the turning chain in each engine at its best configuration, means over the last quarter "
         "of a second.",
         contact,
-    ),
-    Figure(
-        "cost",
-        "What a simulated second of 60 segments takes in each engine, hanging free and turning in contact, at each "
-        "engine's own best step (filled) and at the shortest of those for all (open).",
-        cost,
     ),
 ]

@@ -40,3 +40,34 @@ def test_the_machine_is_named_with_every_version() -> None:
         "mujoco",
         "trimesh",
     } <= found.keys()
+
+
+def test_each_has_its_own_baseline(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = [0.0]
+
+    def takes(cost: float):
+        def act() -> None:
+            clock[0] += cost
+
+        return act
+
+    monkeypatch.setattr(timing.time, "perf_counter", lambda: clock[0])
+    actions = {"a": takes(1.0), "b": takes(2.0), "c": takes(6.0)}
+    counts = {"a": 1, "b": 1, "c": 0.5}
+    table = timing.race(actions, counts, 3, {"a": "a", "b": "a", "c": "b"}).set_index("name")
+    assert table["ratio"].to_dict() == {"a": 1.0, "b": 2.0, "c": 6.0}
+    assert table["ns_least"].to_dict() == {"a": 1e9, "b": 2e9, "c": 12e9}
+
+
+@pytest.mark.parametrize("cost", [1e-7, 3e-4, 0.2])
+def test_units_fill_a_call(cost: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    clock, asked = [0.0], []
+
+    def work(units: int) -> None:
+        asked.append(units)
+        clock[0] += 2e-6 + cost * units + (1.0 if len(asked) == 1 else 0.0)  # a call has its price, the first compiles
+
+    monkeypatch.setattr(timing.time, "process_time", lambda: clock[0])
+    units = timing.units_for(work, 0.01)
+    assert units == 1 if cost > 0.01 else 0.005 < units * cost < 0.015
+    assert len(asked) < 20

@@ -378,12 +378,27 @@ def engines_agree() -> dict[str, pd.DataFrame]:
             )
             for k, name in enumerate(names)
         ),
-        "cost": pd.DataFrame(
-            {"state": state, "step": step, "engine": name, "ms_per_simulated_s": 10.0 ** (k + len(step) / 10)}
-            for state in ("free", "in contact")
+    }
+
+
+def speed() -> dict[str, pd.DataFrame]:
+    names = ["FCTD", "FCL in our loop", "Bullet", "MuJoCo ball chain"]
+    return {
+        "times": pd.DataFrame(
+            {
+                "state": state,
+                "segments": segments,
+                "step": step,
+                "engine": name,
+                "ms_per_simulated_s": segments / 60 * 10.0 ** (k + len(step) / 10),
+            }
+            for state in ("no contact", "contact")
+            for segments in (60, 170)
             for step in ("own step", "equal step")
             for k, name in enumerate(names)
+            if state == "no contact" or "ball" not in name
         ),
+        "scaling": pd.DataFrame({"segments": [60.0, 1000.0, 10_000.0], "ns_least": [31.0, 33.0, 36.0]}),
     }
 
 
@@ -547,6 +562,7 @@ STUDIES = {
         contact_accuracy,
         contact_swap,
         engines_agree,
+        speed,
         real_survey,
         real_chart,
     )

@@ -1,0 +1,39 @@
+"""One step in everybody's engine, contact-free and in contact, each at its own step."""
+
+import pytest
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from benchmarks.records import COMPILED, describe, time_steps
+from benchmarks.strings import LEAD, chain, hanging
+from references import engines
+from references.free_bodies import FreeBodies
+from references.workloads import moving
+
+# Steps a round.
+STEPS = {"fctd": COMPILED // 60, "bullet": 10, "mujoco": 10, "mujoco_chain": 10, "elastica": 200}
+
+
+# The ball chain knows no wall.
+ENTRIES = [
+    (name, state)
+    for state in ("contact-free", "contact")
+    for name in engines.ENGINES
+    if (name, state) != ("mujoco_chain", "contact")
+]
+
+
+@pytest.mark.parametrize(("name", "state"), ENTRIES)
+def bench_engine(benchmark: BenchmarkFixture, name: str, state: str) -> None:
+    """60 segments of the curved chain turning, or hanging in the open; readings for our checks are off."""
+    if engines.installed_version(name) is None:
+        pytest.skip(f"{engines.engine_class(name).distribution} is not installed")
+    case = hanging() if state == "contact-free" else chain()
+    run, motion = moving(case, 0.0 if name == "mujoco_chain" else LEAD)
+    stepper = engines.build(name).begin(run)
+    if isinstance(stepper, FreeBodies):
+        stepper.watch = False
+    if name == "mujoco_chain":  # it begins at rest: the first wave is to pass
+        stepper.advance(motion, 1.0)
+    describe(benchmark, f"step of every engine, {state}", engine=name, does=engines.engine_class(name).does)
+    time_steps(benchmark, lambda span: stepper.advance(motion, span), run, stepper.step, STEPS[name], rounds=9)
+    stepper.close()

@@ -1,0 +1,78 @@
+"""What a run, a contact method and an engine hold in memory; the times beside it are of the whole process.
+
+``arrays_MB`` is exact, the sum of the run's own buffers.  ``peak_MB`` is the largest resident memory of a process
+that does nothing else, and ``growth_MB`` what building added to it once everything was imported.
+"""
+
+import json
+import subprocess
+import sys
+
+import pytest
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from benchmarks.records import describe
+from benchmarks.strings import CASES, chain
+from references import base, engines
+from references.footprint import footprint
+
+PEAK = "import resource; peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024\n"
+RUN = """
+import json
+from benchmarks.strings import chain
+from fctd.run import prepare
+run, stretches = prepare(chain({segments}))
+run.advance(stretches[0].motion, run.step)
+arrays = [run.S, run.top, run.owner, run.hole.pieces]
+"""
+ENGINE = """
+import json
+from benchmarks.strings import chain
+from references import engines
+from references.footprint import resident
+from references.workloads import moving
+start, motion = moving(chain(), 1.0)
+engine = engines.build("{name}")
+before = resident()
+stepper = engine.begin(start)
+stepper.advance(motion, stepper.step)
+growth = resident() - before
+"""
+
+
+def process(program: str, answer: str) -> dict[str, float]:
+    """What a Python process tells at its end."""
+    done = subprocess.run(
+        [sys.executable, "-c", f"{program}{PEAK}print(json.dumps({answer}))"],
+        check=True, capture_output=True, text=True, cwd=CASES.parents[1],
+    )  # fmt: skip
+    found: dict[str, float] = json.loads(done.stdout.splitlines()[-1])
+    return found
+
+
+@pytest.mark.parametrize("segments", [60, 1000, 10_000])
+def bench_run_memory(benchmark: BenchmarkFixture, segments: int) -> None:
+    """FCTD's run of the curved chain."""
+    describe(benchmark, "memory", segments=segments)
+    answer = "{'arrays_MB': sum(a.nbytes for a in arrays) / 1e6, 'peak_MB': peak}"
+    benchmark.extra_info |= benchmark.pedantic(process, args=(RUN.format(segments=segments), answer), rounds=1)
+
+
+@pytest.mark.parametrize("name", base.METHODS)
+def bench_method_memory(benchmark: BenchmarkFixture, name: str) -> None:
+    """A contact method for the hole of the curved chain."""
+    if base.installed_version(name) is None:
+        pytest.skip(f"{base.method_class(name).distribution} is not installed")
+    describe(benchmark, "memory", method=name)
+    growth, seconds = benchmark.pedantic(footprint, args=(name, chain()), rounds=1)
+    benchmark.extra_info |= {"growth_MB": growth, "build_s": seconds}
+
+
+@pytest.mark.parametrize("name", [name for name in engines.ENGINES if name not in ("fctd", "mujoco_chain")])
+def bench_engine_memory(benchmark: BenchmarkFixture, name: str) -> None:
+    """An engine with the curved chain in it, 60 segments, after a step."""
+    if engines.installed_version(name) is None:
+        pytest.skip(f"{engines.engine_class(name).distribution} is not installed")
+    describe(benchmark, "memory", engine=name)
+    answer = "{'growth_MB': growth}"
+    benchmark.extra_info |= benchmark.pedantic(process, args=(ENGINE.format(name=name), answer), rounds=1)

@@ -1,0 +1,102 @@
+"""What it costs to ask where a point touches: every contact method from Python, our own compiled as well.
+
+Times are of a whole set of points beside the wall; ``ns_per_point`` is in the record, and the errors against the
+exact arcs of the hole.
+"""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from benchmarks.records import describe
+from benchmarks.strings import LEAD, chain
+from fctd import build_wellbore, find_contacts
+from fctd.contact import query_walls
+from fctd.wellbore import hole_frame
+from references import base
+from references.workloads import find_walls, moving
+
+POINTS, RADIUS = 240, 0.051
+# Points are within this of touching [m].
+BAND = 0.015
+ROUNDS = 25
+COMPILED_CALLS = 40  # a round
+
+
+def points_beside(count: int) -> NDArray[np.float64]:
+    """Seeded points beside the wall of the curved chain's hole, vertical, build and horizontal alike."""
+    exact, rng = build_wellbore(chain(wellbore__geometry="arcs")), np.random.default_rng(7)
+    axis, tangent = exact.at(rng.uniform(1000.0, 2440.0, count))
+    high, right = hole_frame(tangent)
+    angle = rng.uniform(0, 2 * np.pi, count)[:, None]
+    offset = 0.1556 - RADIUS + rng.uniform(-BAND, BAND, count)[:, None]
+    return np.ascontiguousarray(axis + offset * (np.cos(angle) * high + np.sin(angle) * right))
+
+
+def errors(penetration: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
+    """Largest error of penetration [m] and share of contacts missed, against the exact arcs."""
+    truth = find_contacts(build_wellbore(chain(wellbore__geometry="arcs")), points, RADIUS).penetration
+    known = np.isfinite(penetration)
+    return {
+        "penetration_error_m": float(np.abs(penetration - truth)[known].max()),
+        "missed_percent": 100 * float(((truth > 0) & ~(penetration > 0)).mean()),
+    }
+
+
+def note_cost(benchmark: BenchmarkFixture, points: int) -> None:
+    """Write down the median for one point."""
+    if benchmark.stats is not None:
+        benchmark.extra_info["ns_per_point"] = 1e9 * benchmark.stats.stats.median / points
+
+
+@pytest.mark.parametrize("name", base.METHODS)
+def bench_query_from_python(benchmark: BenchmarkFixture, name: str) -> None:
+    """One call for all points."""
+    if base.installed_version(name) is None:
+        pytest.skip(f"{base.method_class(name).distribution} is not installed")
+    method, points = base.build(name, chain()), points_beside(POINTS)
+    radii = np.full(POINTS, RADIUS)
+    describe(benchmark, "query from Python", points=POINTS, pieces=method.pieces)
+    benchmark.extra_info |= errors(method.query(points, radii).penetration, points)
+    benchmark.pedantic(method.query, args=(points, radii), rounds=ROUNDS, warmup_rounds=2)
+    note_cost(benchmark, POINTS)
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+def bench_query_compiled(benchmark: BenchmarkFixture, geometry: str) -> None:
+    """Compiled query of free points that remember their piece: what the steady solver and users call."""
+    hole, points = build_wellbore(chain(wellbore__geometry=geometry)), points_beside(POINTS)
+    owner, out = hole.owners(points), np.empty((POINTS, 7))
+
+    def ask() -> None:
+        for _ in range(COMPILED_CALLS):
+            query_walls(hole.pieces, hole.geometry, points, owner, out)
+
+    describe(benchmark, "query compiled", points=POINTS, pieces=len(hole.pieces))
+    benchmark.pedantic(ask, rounds=ROUNDS, warmup_rounds=2)
+    penetration = np.linalg.norm(out[:, :3], axis=1) - out[:, 3] + RADIUS
+    benchmark.extra_info |= errors(penetration, points)
+    note_cost(benchmark, POINTS * COMPILED_CALLS)
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+def bench_query_in_step(benchmark: BenchmarkFixture, geometry: str) -> None:
+    """The same as a step does it: the piece of the last step, packed arithmetic."""
+    run, _ = moving(chain(wellbore__geometry=geometry), LEAD)
+    times = 2000
+    describe(benchmark, "query compiled", points=run.segments, pieces=len(run.hole.pieces))
+    benchmark.pedantic(find_walls, args=(run, times), rounds=ROUNDS, warmup_rounds=2)
+    note_cost(benchmark, run.segments * times)
+
+
+def bench_find_contacts(benchmark: BenchmarkFixture) -> None:
+    """``fctd.find_contacts`` as a user calls it: no memory, the piece of every point is searched."""
+    hole: Any = build_wellbore(chain())
+    points = points_beside(POINTS)
+    describe(benchmark, "query from Python", points=POINTS, pieces=len(hole.pieces))
+    hits = benchmark.pedantic(find_contacts, args=(hole, points, RADIUS), rounds=5, warmup_rounds=1)
+    benchmark.extra_info |= errors(hits.penetration, points)
+    note_cost(benchmark, POINTS)

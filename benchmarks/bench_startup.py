@@ -1,0 +1,59 @@
+"""Processes from their start: Python itself, the import, the command line, and compiling everything afresh."""
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from benchmarks.records import describe
+from benchmarks.strings import CASES
+
+CHAIN = str(CASES / "curved_chain.toml")
+COMMANDS = {
+    "python alone": ["-c", "pass"],
+    "import numba": ["-c", "import numba"],
+    "import fctd": ["-c", "import fctd"],
+    "fctd --help": ["-m", "fctd", "--help"],
+    "fctd equilibrium": ["-m", "fctd", "equilibrium", CHAIN, "--operation", "trip_out", "--bit-depth", "2450"],
+}
+COMPILED = {
+    "stepper": ["-c", f"import fctd; fctd.simulate(fctd.load_case({CHAIN!r}, {{'operations[0].duration': 1.0}}))"],
+    "steady solver": ["-c", f"import fctd; fctd.equilibrium(fctd.load_case({CHAIN!r}), 'rotate_off_bottom', 2450.0)"],
+}
+
+
+def start(arguments: list[str], **environment: str) -> None:
+    """Run a Python process to its end."""
+    subprocess.run(
+        [sys.executable, *arguments], check=True, capture_output=True, env=os.environ | environment,
+        cwd=CASES.parents[1],
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def bench_start(benchmark: BenchmarkFixture, name: str) -> None:
+    """A process with compiled code in its cache."""
+    describe(benchmark, "start-up", command=name)
+    benchmark.pedantic(start, args=(COMMANDS[name],), rounds=5, warmup_rounds=1)
+
+
+@pytest.mark.parametrize("name", COMPILED)
+def bench_compile(benchmark: BenchmarkFixture, name: str, tmp_path: Path) -> None:
+    """A process with an empty cache, and the same again with what it left; ``compile_s`` is the difference."""
+    describe(benchmark, "compile", what=name)
+    benchmark.pedantic(start, args=(COMPILED[name],), kwargs={"NUMBA_CACHE_DIR": str(tmp_path)}, rounds=1)
+    if benchmark.stats is None:
+        return
+    began = time.perf_counter()
+    start(COMPILED[name], NUMBA_CACHE_DIR=str(tmp_path))
+    warm = time.perf_counter() - began
+    files = [path for path in tmp_path.rglob("*") if path.is_file()]
+    benchmark.extra_info |= {
+        "warm_s": warm,
+        "compile_s": benchmark.stats.stats.median - warm,
+        "cache_MB": sum(path.stat().st_size for path in files) / 1e6,
+    }

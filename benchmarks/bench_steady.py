@@ -1,0 +1,44 @@
+"""The steady solver: one bit depth, layout and all, and a whole chart."""
+
+import pytest
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from benchmarks.records import describe
+from benchmarks.strings import BIT, trip
+from fctd import torque_drag
+from fctd.case import KINDS
+from fctd.equilibrium import Solver
+from fctd.operations import steady_rates
+
+ON_BOTTOM = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
+LONGER = {
+    "string__components[0]__segments": 41,
+    "string__components[1]__segments": 306,
+    "string__components[2]__segments": None,
+    "string__components[2]__segment_length": BIT / 500,
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("segments", [61, 500])
+def bench_depth(benchmark: BenchmarkFixture, segments: int, kind: str) -> None:
+    """Paper-well with the bit at 2450 m; accuracy is what is left out of balance over the string's weight."""
+    case = trip(1750.0, BIT, **ON_BOTTOM, **({} if segments == 61 else LONGER))
+    solver, rates = Solver(case), steady_rates(case, kind)
+    describe(benchmark, f"steady depth, {segments} segments", pieces_of_hole=len(solver.hole.pieces))
+    point = benchmark.pedantic(solver.solve, args=(kind, rates, BIT), rounds=21, warmup_rounds=2)
+    string = point.profile
+    benchmark.extra_info |= {
+        "segments": len(string) - 1,
+        "status": point.status,
+        "iterations": point.iterations,
+        "imbalance_over_hookload": point.imbalance / point.hookload,
+    }
+
+
+def bench_chart(benchmark: BenchmarkFixture) -> None:
+    """71 bit depths of paper-well, six operations."""
+    case, depths = trip(1750.0, BIT, **ON_BOTTOM), [float(depth) for depth in range(1750, 2451, 10)]
+    describe(benchmark, "chart", depths=len(depths), operations=len(KINDS))
+    chart = benchmark.pedantic(torque_drag, args=(case, list(KINDS), depths), rounds=3, warmup_rounds=1)
+    benchmark.extra_info["converged_percent"] = 100 * float((chart["status"] == "converged").mean())

@@ -1,0 +1,28 @@
+"""One step of the same loop with every contact method in it, asked from Python once a step for all points."""
+
+import pytest
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from benchmarks.records import describe, time_steps
+from benchmarks.strings import LEAD, chain
+from fctd.energy import energy_of
+from references import base
+from references.workloads import NoWall, asking, energy_error, moving, without_wall
+
+# Steps a round: our own methods cost some hundred nanoseconds a point, libraries some ten microseconds or more.
+OWN, OTHERS = 300, 15
+
+
+@pytest.mark.parametrize("name", ["no contact", *base.METHODS])
+def bench_swapped_step(benchmark: BenchmarkFixture, name: str) -> None:
+    """60 segments turning; ``no contact`` asks and finds nothing, the hole taken away."""
+    if name != "no contact" and base.installed_version(name) is None:
+        pytest.skip(f"{base.method_class(name).distribution} is not installed")
+    start, motion = moving(chain(), LEAD)
+    own = name == "no contact" or base.method_class(name).distribution == "fctd"
+    run = asking(without_wall(start), NoWall()) if name == "no contact" else asking(start, base.build(name, start.case))
+    before = energy_of(run.S, run.segments)
+    describe(benchmark, "step, contact method swapped", method=name)
+    time_steps(benchmark, lambda span: run.advance(motion, span), run, run.step, OWN if own else OTHERS, rounds=9)
+    run.refresh()
+    benchmark.extra_info["energy_error"] = energy_error(run, before, energy_of(run.S, run.segments))

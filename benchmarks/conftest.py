@@ -1,0 +1,43 @@
+"""Behind the times of a session: what its records say of accuracy, cost of a step and real time."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+# Entry of a record -> its heading; a record has some of them.
+SHOWN = {
+    "ns_per_segment_step": "ns/segment-step",
+    "ns_per_point": "ns/point",
+    "ns_per_joint": "ns/joint",
+    "real_time_factor": "× real time",
+    "whole_wall_s": "whole trip, s",
+    "penetration_error_m": "depth error, m",
+    "missed_percent": "missed, %",
+    "hookload_off_percent": "hook load off, %",
+    "energy_error": "energy error",
+    "compile_s": "compile, s",
+    "arrays_MB": "arrays, MB",
+    "peak_MB": "peak, MB",
+    "growth_MB": "growth, MB",
+}
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """A line for each record that says more than its time."""
+    session = getattr(config, "_benchmarksession", None)
+    lines = list(said(session.benchmarks)) if session is not None and not session.disabled else []
+    if lines:
+        terminalreporter.section("what the records hold beside the time")
+        for line in lines:
+            terminalreporter.write_line(line)
+
+
+def said(benchmarks: list[Any]) -> Iterator[str]:
+    """Name and shown entries of every finished benchmark."""
+    for bench in benchmarks:
+        entries = bench.extra_info
+        shown = [f"{heading} {entries[key]:.3g}" for key, heading in SHOWN.items() if key in entries]
+        if shown and not bench.has_error:
+            marked = "  (extrapolated)" if entries.get("extrapolated") else ""
+            yield f"{bench.name}: {', '.join(shown)}{marked}"

@@ -1,0 +1,62 @@
+"""What every record carries beside its time, and how a round of steps is timed."""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from fctd import state, topdrive
+from fctd.run import Run, UnstableError
+from references.timing import machine
+
+# Segment-steps a round of compiled code; the number is fixed so that rounds of two sessions can be compared.
+COMPILED = 200_000
+
+
+@cache
+def origin() -> dict[str, str]:
+    """Versions, commit, processor and cores."""
+    return machine()
+
+
+def describe(benchmark: BenchmarkFixture, group: str, **facts: Any) -> None:
+    """Put a benchmark into its group and write down where it was run and what of."""
+    benchmark.group = group
+    benchmark.extra_info |= origin() | {"extrapolated": False} | facts
+
+
+def time_steps(
+    benchmark: BenchmarkFixture, advance: Callable[[float], object], run: Run, step: float, count: int, rounds: int = 15
+) -> None:
+    """Time rounds of ``count`` steps of ``step`` [s]; what is recorded of them is for one step.
+
+    advance : moves the string of ``run`` on by so many seconds in equal steps.
+    """
+    began, hookload = float(run.top[topdrive.TOP_TIME]), float(run.top[topdrive.SUM_HOOKLOAD])
+    benchmark.pedantic(advance, args=(count * step,), rounds=rounds, warmup_rounds=1)
+    simulated = float(run.top[topdrive.TOP_TIME]) - began
+    off = (float(run.top[topdrive.SUM_HOOKLOAD]) - hookload) / simulated / vertical_weight(run) - 1
+    if not np.isfinite(off):
+        raise UnstableError("what was timed is no string any more: its hook load is no number")
+    facts = {
+        "segments": run.segments,
+        "pieces_of_hole": len(run.hole.pieces),
+        "step_ms": 1e3 * step,
+        "steps_a_round": count,
+        "simulated_s": simulated,
+        "hookload_off_percent": 100 * off,
+    }
+    if benchmark.stats is not None:
+        cost = benchmark.stats.stats.median / count
+        facts |= {"ns_per_segment_step": 1e9 * cost / run.segments, "real_time_factor": step / cost}
+    benchmark.extra_info |= facts
+
+
+def vertical_weight(run: Run) -> float:
+    """Weight of a uniform string over the vertical reach of its hole [N]: the exact hook load while it turns."""
+    bottom = state.row(run.S, state.Z, run.segments)[-1]
+    per_metre = float(run.string.of("weight")[0])
+    half = 0.5 * run.string.length[-1] * state.row(run.S, state.AZ, run.segments)[-1]
+    return per_metre * float(bottom + half - run.S[state.Z])

@@ -1,0 +1,123 @@
+"""What speed is measured on: strings in motion, the bare contact query, and how true what was timed is.
+
+Work is timed in a state that a user would meet.  Ahead of the first wave velocities are denormal numbers, which
+many processors add many times slower than others, so that nothing is timed right after a start.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numba import njit
+from numpy.typing import NDArray
+
+from fctd import state, topdrive
+from fctd.case import Case
+from fctd.contact import query_walls, update_walls
+from fctd.dynamics import whole_operations
+from fctd.energy import Energy, penetration
+from fctd.record import LOSSES
+from fctd.run import STILL, Run, contact_points, forget_start, prepare
+from fctd.topdrive import Motion
+from fctd.wall_query import QueriedWall
+from fctd.wellbore import Contacts
+from references import engine_checks
+from references.engine_run import begin_run, legs
+from references.engines import Window
+
+Array = NDArray[np.float64]
+
+# Rate at which a string that was laid on the axis is braked while it falls onto the wall [1/s].
+BRAKE = 5.0
+
+
+class NoWall:
+    """A query that finds nothing: what is left is the price of asking from Python."""
+
+    name = "none"
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """Never a contact."""
+        n = len(points)
+        return Contacts(np.full(n, -np.inf), np.empty((n, 3)), np.empty(n))
+
+
+def moving(case: Case, after: float) -> tuple[Run, Motion]:
+    """The string of a case ``after`` so many seconds of its schedule, and what its top drive then does."""
+    window = Window(after, 1.0)
+    run, stretches = begin_run(case, window)
+    (stretch, _) = legs(case, stretches, after, after + window.duration, np.inf)[-1]
+    return run, stretch.motion
+
+
+def fallen(case: Case, seconds: float) -> tuple[Run, Motion]:
+    """The string laid on the axis of its hole, left to fall for some seconds, braked, and then turning all along.
+
+    For segments in thousands, which would take minutes to settle.
+    """
+    run, stretches = prepare(case)
+    run.refresh()
+    run.advance(STILL, seconds, run.laws._replace(settling=BRAKE))
+    forget_start(run)
+    motion = stretches[-1].motion
+    state.row(run.S, state.WZ, run.segments)[:] = motion.spin_to
+    run.refresh()
+    run.check()
+    return run, motion
+
+
+def copy_of(run: Run, **changes: Any) -> Run:
+    """The same state in a buffer of its own."""
+    return replace(run, S=run.S.copy(), top=run.top.copy(), owner=run.owner.copy(), **changes)
+
+
+def without_wall(run: Run) -> Run:
+    """The same state with the hole taken away."""
+    return copy_of(run, laws=run.laws._replace(geometry=state.OPEN))
+
+
+def asking(run: Run, method: Any) -> Run:
+    """The same state with a contact method that is asked from Python at every step."""
+    return copy_of(run, queried=QueriedWall(method, run.hole, run.segments))
+
+
+def touching(run: Run) -> float:
+    """Share of the contact points that touch."""
+    return float((penetration(run.S, run.segments) > 0).mean())
+
+
+def energy_error(run: Run, before: Energy, now: Energy) -> float:
+    """What the ledger misses since ``begin_run``, over the energy turned over; exact is 0."""
+    entries = {f"{name}_J": b - a for name, a, b in zip(Energy._fields, before, now, strict=True)}
+    lost = {name: float(state.row(run.S, row, run.segments).sum()) for name, row in LOSSES.items()}
+    work, fed = float(run.top[topdrive.TOP_WORK]), float(run.top[topdrive.FED_ENERGY])
+    left = sum(entries.values()) + sum(lost.values()) - work - fed
+    entries |= lost | {"top_drive_work_J": work, "fed_pipe_J": fed, "residual_J": left}
+    return engine_checks.energy_error(pd.DataFrame([entries]))
+
+
+@njit(error_model="numpy", cache=True)
+def _walls(S, owner, n, packed, C, geometry, times):  # type: ignore[no-untyped-def]
+    for _ in range(times):
+        update_walls(S, owner, n, packed, C, geometry)
+
+
+def find_walls(run: Run, times: int) -> None:
+    """The engine's contact query of all points as in its steps, so many times."""
+    n = run.segments
+    _walls(run.S, run.owner, n, whole_operations(n), run.hole.pieces, run.laws.geometry, times)
+
+
+def free_query(run: Run) -> Callable[[int], None]:
+    """What asks so many times for the wall beside all contact points of a run, as of free points that remember."""
+    n = run.segments
+    points = np.ascontiguousarray(contact_points(run.S, n))
+    owner, out = run.owner[1 : n + 1].copy(), np.empty((n, 7))
+
+    def ask(times: int) -> None:
+        for _ in range(times):
+            query_walls(run.hole.pieces, run.laws.geometry, points, owner, out)
+
+    return ask

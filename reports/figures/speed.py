@@ -1,0 +1,68 @@
+"""What a simulated second costs in each engine, and what a segment-step costs in FCTD with more and more of them."""
+
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+REAL_TIME_MS = 1000.0
+
+
+def seconds(tables: Tables) -> Canvas:
+    """A panel for each number of segments, a row for each engine, a dot for each state and step."""
+    times = tables["times"]
+    times = times[times["state"].isin(["no contact", "contact"])]
+    names = list(times["engine"].unique())
+    names.sort(key=lambda name: times.loc[times["engine"] == name, "ms_per_simulated_s"].max())
+    counts = sorted(times["segments"].unique())
+    canvas = style.figure(1.7 + 0.4 * len(names))
+    axes = canvas.subplots(1, len(counts), sharex=True, sharey=True, squeeze=False)[0]
+    for ax, count in zip(axes, counts, strict=True):
+        here = times[times["segments"] == count]
+        for index, ((state, step), chosen) in enumerate(here.groupby(["state", "step"], sort=True)):
+            at = chosen.set_index("engine")["ms_per_simulated_s"].reindex(names)
+            height = np.arange(len(names)) + 0.17 * (index - 1.5)
+            look = style.dots(0 if state == "contact" else 1, filled=step == "own step")
+            ax.plot(at, height, **look, markersize=5.5, label=f"{state}, {step}")
+        ax.axvline(REAL_TIME_MS, color=style.QUIET, linewidth=1, linestyle=(0, (4, 2)))
+        ax.set(xscale="log", xlabel="wall time of a simulated second, ms", title=f"{count} segments")
+    axes[0].set_yticks(range(len(names)), names)
+    axes[0].set_ylim(len(names) - 0.5, -0.5)
+    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    return canvas
+
+
+def scaling(tables: Tables) -> Canvas:
+    """Cost of a segment-step over the number of segments."""
+    table = tables["scaling"]
+    canvas = style.figure(2.6)
+    ax = canvas.subplots()
+    ax.plot(table["segments"], table["ns_least"], **style.line(0), marker="o")
+    ax.set(
+        xscale="log",
+        xlabel="segments, number",
+        ylabel="one segment and step, ns",
+        ylim=(0, 1.15 * table["ns_least"].max()),
+    )
+    style.plain_log_ticks(ax.xaxis)
+    ax.set_xticks(table["segments"].to_list())
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "seconds",
+        "Wall time of a simulated second of the curved chain, turning in contact (circles) or hanging in the open "
+        "(squares), at each engine's own step (filled) and at the shortest of those for all (open). Same string, same "
+        "state at the start, the fastest of rounds in turn; nothing is extrapolated. The dashed "
+        "line is real time. FCL and coal answer for the wall in FCTD's loop, asked from Python; without contact that "
+        "loop asks for nothing.",
+        seconds,
+    ),
+    Figure(
+        "scaling",
+        "FCTD's cost of one segment and step over the number of segments, in contact, fastest round. A level line is a "
+        "cost in proportion to the number; the stable step shrinks with the segments on top of that.",
+        scaling,
+    ),
+]

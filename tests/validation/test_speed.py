@@ -1,0 +1,109 @@
+"""The study of speed: steps that hold, what the ratios contain, and how targets are told."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from references.workloads import moving
+from validation import speed, speed_kernel
+from validation.speed import EQUAL, FCTD, FREE, OWN, TAKEN, TOUCHING
+
+FCL = "FCL in our loop"
+
+
+def times() -> pd.DataFrame:
+    """A race in which FCTD's step costs 10 for 60 segments, 4 of them contact, and FCL's 1000 with its loop's 50."""
+    rows = []
+    for segments, growth in ((60, 1.0), (170, 10.0)):
+        for state, step, engine, cost, base in (
+            (TOUCHING, EQUAL, FCTD, 10, 10), (TOUCHING, EQUAL, FCL, 1000, 10), (TOUCHING, EQUAL, "Bullet", 5000, 10),
+            (TAKEN, EQUAL, FCTD, 6, 10), (TAKEN, EQUAL, FCL, 50, 10),
+            (FREE, EQUAL, FCTD, 6, 6), (FREE, EQUAL, FCL, 50, 6), (FREE, EQUAL, "Bullet", 600, 6),
+            (TOUCHING, OWN, FCTD, 3, 3), (TOUCHING, OWN, FCL, 300, 3), (TOUCHING, OWN, "Bullet", 2000, 3),
+            (FREE, OWN, FCTD, 2, 2), (FREE, OWN, FCL, 20, 2), (FREE, OWN, "Bullet", 240, 2),
+        ):  # fmt: skip
+            rows.append((state, segments, step, engine, growth * cost, cost / base, "valid"))
+    columns = ["state", "segments", "step", "engine", "ms_per_simulated_s", "ratio_to_fctd", "check"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def test_ratios_say_what_they_contain():
+    table = speed.ratios(times()).set_index("ratio")
+    value = table["value"]
+    assert value["the same for each segment, 34/4 × 60/170"] == pytest.approx(3.0)
+    assert value["what is left for contact, (34/4 × 60/170) / (12/4)"] == pytest.approx(1.0)
+    assert value[f"{FCL} : FCTD, 60 segments, a step"] == 100
+    # (1000 − 50) / (10 − 6)
+    assert value[f"{FCL} : FCTD, 60 segments, each less its own loop without contact"] == pytest.approx(237.5)
+    assert value[f"{FCL} with 170 segments : FCTD with 60, contact, own steps"] == pytest.approx(1000)
+    assert value["Bullet : FCTD, 60 segments, no contact, own steps"] == 120
+    assert "contact" not in table["contains"]["Bullet : FCTD, 60 segments, no contact, own steps"]
+
+
+def test_one_count_has_no_ratio_across_counts():
+    table = speed.ratios(times()[lambda t: t["segments"] == 60])
+    assert not table["ratio"].str.contains("with 170 segments : FCTD with 60, contact, own").any()
+
+
+def test_checks_of_a_race():
+    made = {check.name: check for check in speed.swap_checks(times())}
+    assert made["FCL in our loop over FCTD, a step of 60 segments"].value == 100
+    assert made["FCL in our loop over FCTD, a step of 60 segments"].verdict == "missed"
+    assert made["least of all others over FCTD, contact, equal step"].value == 100
+    broken = times()
+    broken.loc[3, "check"] = "invalid: a position or velocity is not finite"
+    (lost,) = (check for check in speed.swap_checks(broken) if "stay in their hole" in check.name)
+    assert (lost.value, lost.verdict) == (1, "missed")
+
+
+def test_targets_and_real_time_factor():
+    kernel = pd.DataFrame(
+        {
+            "name": ["contact", "no contact", speed.BEST, *(f"query {where}, {what}" for where in
+                     ("in the step", "of free points") for what in ("cylinders", "arcs"))],
+            "ns_least": [30.0, 20.0, 25.0, 3.0, 4.0, 12.0, 36.0],
+            "step_ms": [3.0, 3.0, 4.5, np.nan, np.nan, np.nan, np.nan],
+        }
+    )  # fmt: skip
+    scaling = pd.DataFrame({"segments": [60.0, 1000.0, 10_000.0], "ns_least": [20.0, 24.0, 90.0]})
+    steady = pd.DataFrame({"segments": [61.0, 500.0], "slowest_ms": [0.9, 9.5]})
+    checks = speed.targets(times(), {"kernel": kernel, "scaling": scaling, "steady": steady})
+    found = {check.name: (round(check.value, 3), check.verdict) for check in checks}
+    assert found["segment-step with contact, 60 to 1000 segments, slowest"] == (24.0, "met")
+    assert found["contact's addition to a segment-step"] == (10.0, "missed")
+    assert found["real-time factor, 60 segments, largest stable step"] == (3000.0, "met")
+    assert found["query in the step, arcs"] == (4.0, "met")
+    assert found["query of free points, cylinders"] == (12.0, "missed")
+    assert found["steady depth, 500 segments"] == (9.5, "missed")
+    assert found["exponent of a step's cost, 60 to 10000 segments"][1] == "missed"
+    table = speed.table_of(checks, kernel).set_index("what")
+    assert table["reached"]["real-time factor, 60 segments, default step"] == pytest.approx(1e6 * 3.0 / 30 / 60)
+    # A quick run has no string of 10000 segments, and then says nothing of the exponent.
+    short = {"kernel": kernel, "scaling": scaling[:2], "steady": steady}
+    assert not any("exponent" in check.name for check in speed.targets(times(), short))
+
+
+def test_the_exponent_is_the_slope():
+    n = np.array([60.0, 500.0, 10_000.0])
+    assert speed_kernel.exponent(pd.DataFrame({"segments": n, "ns_least": 3 * n**0.2})) == pytest.approx(1.2)
+
+
+def test_the_ladder_ends_at_the_first_step_that_does_not_hold():
+    steps = speed_kernel.ladder(20, 20.0)
+    assert steps["holds"][:-1].all()
+    assert not steps["holds"].iloc[-1]
+    assert 1.2 <= steps.loc[steps["holds"], "over_default"].max() <= 1.5  # the bound of the stiffest mode is 1.25
+    assert steps["off_percent"][steps["holds"]].max() <= 1
+
+
+def test_a_step_whose_loads_are_off_does_not_hold(monkeypatch):
+    start, motion = moving(speed_kernel.chain(10), 2.0)
+    honest = speed_kernel.run_at(start, motion, start.step, 2.0)
+    assert honest["status"] == "valid"
+    assert honest["hookload_kN"] == pytest.approx(426.5, rel=0.02)
+
+    def off(start, motion, step, duration):
+        return honest | {"step_ms": 1e3 * step, "torque_kN_m": 1.0 + 0.02 * (step > 1.1 * start.step)}
+
+    monkeypatch.setattr(speed_kernel, "run_at", off)
+    assert speed_kernel.ladder(10, 2.0)["over_default"].tolist() == [0.25, 1.0, 1.1, 1.2]

@@ -1,0 +1,129 @@
+"""What FCTD costs by itself: largest stable step, cost over segments, the query, what contact adds, a steady depth."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fctd import Case, topdrive
+from fctd.case import KINDS
+from fctd.equilibrium import Solver
+from fctd.operations import steady_rates
+from fctd.run import Run, UnstableError
+from fctd.topdrive import Motion
+from references.timing import race, units_for
+from references.workloads import copy_of, fallen, find_walls, free_query, moving, touching, without_wall
+from validation.cases import load, rotation
+from validation.steady_state import well_of
+
+BIT = 2450.0
+# FCTD's stepper runs this long before anything is timed: the first wave has passed the string [s].
+LEAD = 6.0
+# Steps tried, over the engine's own choice: from far below it to well past the bound of the stiffest mode, 1.25.
+SMALL, LADDER = 0.25, (1.0, 1.1, 1.2, 1.25, 1.3, 1.35, 1.4, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0)
+WITHIN = 0.01  # of hook load and torque at the smallest step
+CONTACT, BEST = "contact", "FCTD, largest stable step"
+LENGTHS = (60, 170, 500, 1000, 2000, 5000, 10_000)
+
+
+def chain(segments: int, **changes: Any) -> Case:
+    """The curved chain in so many segments, turning off bottom."""
+    schedule = rotation(BIT, 2e4 if segments <= 1000 else 60.0, ramp=4.0)
+    return load("curved_chain", operations=schedule, string__components__0__segments=segments, **changes)
+
+
+def run_at(start: Run, motion: Motion, step: float, duration: float) -> dict[str, Any]:
+    """Mean loads of a run from one state with one step, and whether it held."""
+    run = copy_of(start, step=step)
+    parts = max(int(duration / step / 100), 1)
+    row: dict[str, Any] = {"step_ms": 1e3 * step, "status": "valid", "hookload_kN": np.nan, "torque_kN_m": np.nan}
+    try:
+        for _ in range(parts):
+            run.advance(motion, 100 * step)
+            run.refresh()
+            run.check()
+    except UnstableError as error:
+        return row | {"status": f"invalid: {error}"}
+    elapsed = 1e3 * parts * 100 * step
+    hookload, torque = run.top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] / elapsed
+    return row | {"hookload_kN": float(hookload), "torque_kN_m": float(torque)}
+
+
+def ladder(segments: int, duration: float) -> pd.DataFrame:
+    """Steps from small to large over the same window: a step holds when its loads are those of the smallest."""
+    start, motion = moving(chain(segments), 20.0)
+    rows: list[dict[str, Any]] = []
+    for factor in (SMALL, *LADDER):
+        row = run_at(start, motion, factor * start.step, duration)
+        truth = rows[0] if rows else row
+        off = max(abs(row[load] / truth[load] - 1) for load in ("hookload_kN", "torque_kN_m"))
+        holds = row["status"] == "valid" and off <= WITHIN
+        rows.append({"segments": segments, "over_default": factor} | row | {"off_percent": 100 * off, "holds": holds})
+        if not holds:
+            break
+    return pd.DataFrame(rows)
+
+
+def scaling(lengths: tuple[int, ...], rounds: int, aim: float) -> pd.DataFrame:
+    """One step against the number of segments, every string fallen onto the wall in the same time and turning."""
+    actions: dict[str, Callable[[], object]] = {}
+    counts, facts, runs = {}, {}, []
+    for segments in lengths:
+        run, motion = fallen(chain(segments), 0.5)
+        runs.append(run)
+        facts[str(segments)] = (segments, 1e3 * run.step, 100 * touching(run))
+        count = units_for(partial(step_on, run, motion), aim)
+        actions[str(segments)], counts[str(segments)] = partial(step_on, run, motion, count), count * segments
+    table = race(actions, counts, rounds, str(lengths[0]))
+    for run in runs:  # nothing is worth timing that is no string any more
+        run.refresh()
+        run.check()
+    table[["segments", "step_ms", "touching_percent"]] = [facts[name] for name in table["name"]]
+    return table[["segments", "step_ms", "touching_percent", "ns", "ns_least"]]
+
+
+def exponent(table: pd.DataFrame) -> float:
+    """Least-squares slope of the cost of a step against the number of segments, both logarithmic."""
+    cost = table["segments"] * table["ns_least"]
+    return float(np.polyfit(np.log(table["segments"]), np.log(cost), 1)[0])
+
+
+def kernel(best: float, rounds: int, aim: float) -> pd.DataFrame:
+    """A segment-step of 60 segments with and without the wall and at the step ``best`` [s], and the query of a point.
+
+    The query in the step is of the 60 points where they are; that of free points is of 1000.
+    """
+    runs = {geometry: moving(chain(60, wellbore__geometry=geometry), LEAD) for geometry in ("cylinders", "arcs")}
+    run, motion = runs["cylinders"]
+    steppers = {CONTACT: run, "no contact": without_wall(run), BEST: copy_of(run, step=best)}
+    work: dict[str, tuple[Callable[[int], object], int]] = {
+        name: (partial(step_on, stepper, motion), 60) for name, stepper in steppers.items()
+    }
+    for geometry, (turning, _) in runs.items():
+        work[f"query in the step, {geometry}"] = (partial(find_walls, turning), 60)
+        many = fallen(chain(1000, wellbore__geometry=geometry), 0.3)[0]
+        work[f"query of free points, {geometry}"] = (free_query(many), 1000)
+    units = {name: units_for(task, aim) for name, (task, _) in work.items()}
+    actions: dict[str, Callable[[], object]] = {name: partial(task, units[name]) for name, (task, _) in work.items()}
+    table = race(actions, {name: units[name] * work[name][1] for name in work}, rounds, CONTACT)
+    return table.assign(step_ms=[1e3 * steppers[name].step if name in steppers else np.nan for name in table["name"]])
+
+
+def step_on(run: Run, motion: Motion, count: int) -> None:
+    """So many steps of a run."""
+    run.advance(motion, count * run.step)
+
+
+def steady(rounds: int) -> pd.DataFrame:
+    """Milliseconds a depth of paper-well with 61 and 500 segments, each operation; fastest round."""
+    solvers = {segments: Solver(well_of(segments)) for segments in (61, 500)}
+    actions: dict[str, Callable[[], object]] = {}
+    for segments, solver in solvers.items():
+        for kind in KINDS:
+            actions[f"{segments} {kind}"] = partial(solver.solve, kind, steady_rates(solver.case, kind), BIT)
+    table = race(actions, dict.fromkeys(actions, 1), rounds, next(iter(actions))).set_index("name")["ns_least"] / 1e6
+    rows = [{"segments": n, **{f"{kind}_ms": table[f"{n} {kind}"] for kind in KINDS}} for n in solvers]
+    rows = [row | {"slowest_ms": max(list(row.values())[1:])} for row in rows]
+    return pd.DataFrame(rows)
