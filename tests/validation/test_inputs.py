@@ -136,6 +136,16 @@ def test_what_a_result_does_not_rest_on_may_change(lab, name, text):
     assert runs(lab) == 1
 
 
+def test_the_packages_above_a_module_count(lab):
+    write(lab, "toylab/inner/__init__.py", "from . import beside\n")
+    for name in ("deep", "beside"):
+        write(lab, f"toylab/inner/{name}.py", "")
+    found = inputs.Sources().used_by("toylab.inner.deep")
+    assert {name.removeprefix("toylab/") for name in found} == {
+        "__init__.py", "inner/__init__.py", "inner/deep.py", "inner/beside.py",
+    }  # fmt: skip
+
+
 def test_a_file_that_is_gone_is_a_change(lab):
     run(lab)
     (lab / "toylab" / "case.toml").unlink()
