@@ -28,7 +28,7 @@ from fctd.cli_options import (
 )
 from fctd.equilibrium import Equilibrium, equilibrium
 from fctd.errors import InputError
-from fctd.operations import steady_rates
+from fctd.operations import rates_of_all
 from fctd.results import versions, write_table
 from fctd.torque_drag import torque_drag, with_friction
 from fctd.unit_systems import System, in_field_units, shown
@@ -237,7 +237,7 @@ def _in(units: System, table: pd.DataFrame) -> pd.DataFrame:
 
 def _metadata(case: Case, units: System, kinds: Sequence[str], drive: Mapping[str, Any]) -> dict[str, Any]:
     """What a table rests on; rates are those solved with, downwards and clockwise."""
-    rates = {kind: steady_rates(case, kind, **drive) for kind in kinds}
+    rates = rates_of_all(case, kinds, **drive)
     return {
         "case": case.model_dump(mode="json"),
         "units": units,
