@@ -109,7 +109,7 @@ def equilibrium_command(
     case = read_case(case_file, overrides, friction)
     depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
     _check_in_hole(case, [depth], "--bit-depth", bit_depth)
-    drive = _drive(speed, rpm)
+    drive = read_drive(speed, rpm)
     point = equilibrium(case, operation, depth, **drive)
     _print_point(point, units)
     written = []
@@ -158,7 +158,7 @@ def chart_command(
     _check_in_hole(case, bit_depths, "--depths", depths)
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
     factors = list(dict.fromkeys(frictions))
-    drive = _drive(speed, rpm)
+    drive = read_drive(speed, rpm)
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
@@ -199,7 +199,7 @@ def read_depths(text: str) -> list[float]:
     return [round(first + k * step, 6) for k in range(int(np.floor(steps + 1e-6)) + 1)]
 
 
-def _drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
+def read_drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
     """Rates as they were asked for: speed [m/s], rpm, None where the case decides."""
     return {"speed": None if speed is None else read_quantity(speed, SPEED, "--speed"), "rpm": rpm}
 

@@ -117,17 +117,19 @@ def _cut(part: ComponentSpec, length: float) -> ComponentSpec:
 
 def _grade(part: ComponentSpec, runs: list[tuple[float, int]]) -> Components:
     """A component as runs of equal segments, from the lower end upwards; a bend stays at its upper end."""
+    # A single segment between longer ones would pass for a stabiliser, which touches at its middle.
+    runs = [(length, max(count, 2) if len(runs) > 1 else count) for length, count in runs]
     pieces = [
         part.model_copy(update={"length": length, "segments": count, "segment_length": None, "bend": 0.0})
         for length, count in runs
     ]
     length, count = runs[-1]
-    rest: dict[str, Any] = {"bend": part.bend}
-    if part.length is None:
-        rest |= {"length": None, "segments": None, "segment_length": length / count}
-    elif (excess := part.length - sum(run for run, _ in runs)) > 1e-9:
-        rest |= {"length": length + excess, "segments": None, "segment_length": length / count}
-    return (*pieces[:-1], pieces[-1].model_copy(update=rest))
+    top: dict[str, Any] = {"bend": part.bend}
+    if part.length is not None:
+        top["length"] = part.length - sum(run for run, _ in runs[:-1])
+    if part.length is None or top["length"] > length + 0.01:  # more of it than is in the hole
+        top |= {"length": top.get("length"), "segments": None, "segment_length": round(length / count, 6)}
+    return (*pieces[:-1], pieces[-1].model_copy(update=top))
 
 
 def _walk(start: float, end: float, length: float, above_bit: Array, factor: Array) -> list[tuple[float, int]]:
@@ -142,14 +144,16 @@ def _walk(start: float, end: float, length: float, above_bit: Array, factor: Arr
         lengths.append(min(step, end - at))
         at += step
     if len(lengths) > 1 and lengths[-1] < 0.5 * lengths[-2]:
-        lengths[-2] += lengths.pop()
+        left_over = lengths.pop()
+        lengths[-1] += left_over
     # What is left over at the upper end is shared out among its run.
     runs = [list(same) for _, same in groupby(lengths[:-1])]
     if runs and lengths[-1] < 1.5 * runs[-1][0]:
         runs[-1].append(lengths[-1])
     else:
         runs.append(lengths[-1:])
-    return [(float(sum(run)), len(run)) for run in runs]
+    # In millimetres, for those who read the case file.
+    return [(round(float(sum(run)), 3), len(run)) for run in runs]
 
 
 def _least(start: float, end: float, above_bit: Array, factor: Array) -> float:

@@ -38,8 +38,8 @@ HALVINGS = 6
 SHARE_OF_HOLE = 0.25
 # Roache's factor of a grid convergence index (1994).
 SAFETY = 1.25
-# Answers before an estimate is believed.
-ANSWERS = 3
+# Answers before an estimate is believed, and finer levels without one before it is given up.
+ANSWERS, UNANSWERED = 3, 2
 # A load near zero is measured against this share of what it is made of.
 SHARE_OF_WHOLE = 0.1
 Status = Literal["within_tolerance", "not_reached", "no_answer"]
@@ -75,7 +75,7 @@ def refine(
     operation: str | Sequence[str] | None = None,
     bit_depth: float | None = None,
     grade: bool = False,
-    most: int = 4000,
+    most: int = 5000,
     speed: float | None = None,
     rpm: float | None = None,
     progress: Progress | None = None,
@@ -93,6 +93,7 @@ def refine(
         depth = _depth(case, kinds[0], bit_depth)
         _check(case, tolerance, most, depth)
         task = _Task(rates_of_all(case, kinds, speed, rpm), depth, graded if grade else uniform, most, progress)
+        _solve("string", _cut(case, task, _divided(case, depth) / FIRST), task)  # compile, so that times tell
         holes = _refine_hole(case, task, SHARE_OF_HOLE * tolerance)
         error_of_hole = _error(holes) if holes else 0.0
         case = case.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else case
@@ -159,7 +160,10 @@ def _refine_string(case: Case, task: _Task, allowed: float) -> list[_Level]:
         if levels and _count(cut, task) > task.most:
             return levels
         levels.append(_solve("string", cut, task))
-        if sum(level.answered for level in levels) >= ANSWERS and _error(levels) <= allowed:
+        answered = [k for k, level in enumerate(levels) if level.answered]
+        if len(answered) >= ANSWERS and _error(levels) <= allowed:
+            return levels
+        if answered and len(levels) - answered[-1] > UNANSWERED:
             return levels
         length /= 2
 
@@ -177,11 +181,30 @@ def _solve(stage: str, case: Case, task: _Task) -> _Level:
         points.append(solver.solve(kind, rates, task.bit_depth))
         seconds.append(time.perf_counter() - began)
         began = time.perf_counter()
-    loads = [(p.hookload, p.surface_torque) if p.status in SOUND else (np.nan, np.nan) for p in points]
+    loads = [_loads(p) if p.status in SOUND else (np.nan, np.nan) for p in points]
+    scales = [_scales(p, weight) for p in points]
+    return _Level(
+        stage, case, string.segments, float(string.length.min()), np.array(loads), np.array(scales), points, seconds
+    )
+
+
+def relative_difference(point: Equilibrium, other: Equilibrium) -> tuple[float, float]:
+    """Differences in hook load and torque, relative as those of a refinement are, to the loads of ``other``."""
+    string = lay_out(other.case, other.bit_depth)
+    scales = _scales(other, float(string.of("weight") @ string.length))
+    hookload, torque = np.abs(np.subtract(_loads(point), _loads(other))) / scales
+    return float(hookload), float(torque)
+
+
+def _loads(point: Equilibrium) -> tuple[float, float]:
+    return point.hookload, point.surface_torque
+
+
+def _scales(point: Equilibrium, weight: float) -> tuple[float, float]:
+    """What errors in hook load and torque are measured against, given the buoyed weight of the string [N]."""
     # Without friction there is no torque to be wrong about but rounding.
-    wholes = [(weight, max(p.sum_r_mu_fn, 1e-5 * weight)) for p in points]
-    scales = np.maximum(np.abs(loads), SHARE_OF_WHOLE * np.array(wholes))
-    return _Level(stage, case, string.segments, float(string.length.min()), np.array(loads), scales, points, seconds)
+    friction = max(point.sum_r_mu_fn, 1e-5 * weight)
+    return max(abs(point.hookload), SHARE_OF_WHOLE * weight), max(abs(point.surface_torque), SHARE_OF_WHOLE * friction)
 
 
 def _errors(levels: Sequence[_Level]) -> tuple[Array, Array]:
@@ -231,11 +254,11 @@ def _result(
     error = error_of_hole + _error(strings[: answered[-1] + 1])
     if answered[-1] == len(strings) - 1 and error <= tolerance and len(answered) >= ANSWERS:
         return finish("within_tolerance", "", found.case, error, found.segments)
-    message = f"an error of {100 * error:.2g} % is left at {found.segments} segments, the most that were tried"
+    message = f"an error of {100 * error:.3g} % is left at {found.segments} segments, the most that were tried"
     if answered[-1] != len(strings) - 1:
-        message = f"strings of more than {found.segments} segments have no answer; {100 * error:.2g} % is left there"
+        message = f"strings of more than {found.segments} segments have no answer; {100 * error:.3g} % is left there"
     if error_of_hole > tolerance:
-        message += f"; {100 * error_of_hole:.2g} % of it is the cylinders'"
+        message += f"; {100 * error_of_hole:.3g} % of it is the cylinders'"
     return finish("not_reached", message, found.case, error, found.segments)
 
 

@@ -28,11 +28,11 @@ def catenary(scale: float = 800.0, first: float = 15.0, last: float = 80.0, arcs
 
     tan(inclination) = scale/s, s the length left to its lowest point; a build of its first curvature leads there.
     """
-    ends = scale / np.tan(np.radians([first, last]))
-    kick_off, curvature = 200.0, np.degrees(scale / (scale**2 + ends[0] ** 2))
+    start_left, end_left = (float(scale / np.tan(np.radians(angle))) for angle in (first, last))
+    kick_off, curvature = 200.0, np.degrees(scale / (scale**2 + start_left**2))
     start = kick_off + first / curvature
-    left = np.linspace(*ends, arcs + 1)
-    curve = [[start + float(ends[0] - s), float(np.degrees(np.arctan2(scale, s))), 0.0] for s in left]
+    left = np.linspace(start_left, end_left, arcs + 1)
+    curve = [[start + float(start_left - s), float(np.degrees(np.arctan2(scale, s))), 0.0] for s in left]
     return [[0.0, 0.0, 0.0], [kick_off, 0.0, 0.0], *curve]
 
 
