@@ -12,6 +12,8 @@ STUDIES: dict[str, str] = {
     "soft_limit": "validation.soft_limit",
     "beam_in_hole": "validation.beam_in_hole",
     "johancsik": "validation.johancsik",
+    "segment_count": "validation.segment_count",
+    "refine": "validation.refine",
     "contact_accuracy": "validation.contact_accuracy",
     "contact_swap": "validation.contact_swap",
     "engines_agree": "validation.engines_agree",
