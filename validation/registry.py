@@ -19,4 +19,5 @@ STUDIES: dict[str, str] = {
     "engines_agree": "validation.engines_agree",
     "real_survey": "validation.real_survey",
     "real_chart": "validation.real_chart",
+    "refine_real": "validation.refine_real",
 }
