@@ -20,7 +20,6 @@ OPERATIONS = ("rotate_off_bottom", "trip_out", "trip_in")
 FINER = 4
 # Shortest segments of the graded strings, as shares of the string, half an octave apart.
 SHARES = tuple(40 * 2 ** (k / 2) for k in range(9))
-QUICK_SHARES = SHARES[::3]
 REFERENCE = 4096
 
 
@@ -28,7 +27,7 @@ def wells() -> dict[str, tuple[Case, float]]:
     """Cases and bit depths that no number of ``fctd refine`` was chosen on."""
     return {
         "johancsik3": (load("johancsik3"), 3718.0),
-        "S": (well("S", S_WELL, assembly((COLLAR, 120.0), (HEAVY, 150.0)), {}), S_WELL[-1][0]),
+        "S-well": (well("S-well", S_WELL, assembly((COLLAR, 120.0), (HEAVY, 150.0)), {}), S_WELL[-1][0]),
         "build and turn": (well("turn", TURN, assembly((COLLAR, 90.0)), {}, 0.3, "paper"), TURN[-1][0]),
     }
 
@@ -130,7 +129,7 @@ def judge(cases: dict[str, tuple[Case, float]], context: Context, *notes: str) -
         for tolerance in TOLERANCES[:1] if context.quick else TOLERANCES:
             for grade in (False, True):
                 landed += land(name, case, bit, tolerance, grade)
-        strings += compare(name, case, bit, QUICK_SHARES if context.quick else SHARES)
+        strings += compare(name, case, bit, SHARES)
     table, lengths = pd.DataFrame(landed), pd.DataFrame(strings)
     off = table[["hookload_off_percent", "torque_off_percent"]].max(axis=1) / table["tolerance_percent"]
     gained = gains(lengths)

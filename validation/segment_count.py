@@ -22,7 +22,6 @@ Array = NDArray[np.float64]
 COUNTS = (5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320, 480, 640)
 QUICK_COUNTS = (20, 40, 60, 80, 160, 320, 640)
 FINEST = (5120, 2560, 1280, 640)
-QUICK_FINEST = (2560, 1280, 640)
 # Below this a string is a handful of rods; orders are fitted from here on.
 FITTED_FROM = 20
 STEPPED_COUNTS = (15, 30, 60, 120, 240, 480, 960)
@@ -208,8 +207,8 @@ def order(sizes: "pd.Series[float]", found: "pd.Series[float]", doubt: float) ->
 def observed_orders(table: pd.DataFrame) -> pd.DataFrame:
     """Observed order of every quantity in every well, from ``FITTED_FROM`` segments on."""
     rows = []
-    for name, rows_of in table.groupby("well", sort=False):
-        fine = rows_of[rows_of["segments"] >= FITTED_FROM]
+    for name, of_well in table.groupby("well", sort=False):
+        fine = of_well[of_well["segments"] >= FITTED_FROM]
         orders = {q: -order(fine["segments"], fine[f"{q}_percent"], fine[f"{q}_doubt_percent"].iloc[0]) for q in ERRORS}
         rows.append({"well": name, **orders})
     return pd.DataFrame(rows)
@@ -218,9 +217,9 @@ def observed_orders(table: pd.DataFrame) -> pd.DataFrame:
 def enough(table: pd.DataFrame) -> pd.DataFrame:
     """The smallest count of each well and quantity from which on the error stays within 1 % and 0.1 %; NaN: none."""
     rows = []
-    for name, rows_of in table.groupby("well", sort=False):
+    for name, of_well in table.groupby("well", sort=False):
         for quantity in ERRORS:
-            found = rows_of.set_index("segments")[f"{quantity}_percent"]
+            found = of_well.set_index("segments")[f"{quantity}_percent"]
             if found.isna().all():
                 continue
             row: dict[str, Any] = {"well": name, "quantity": quantity}
@@ -229,6 +228,10 @@ def enough(table: pd.DataFrame) -> pd.DataFrame:
                 within = found.index[found.index > too_far.max()] if len(too_far) else found.index
                 row[f"within_{limit:g}_percent"] = float(within.min()) if len(within) else float("nan")
             rows.append(row)
+        wrong = of_well.loc[of_well["stretches"] != of_well["stretches_of_reference"], "segments"]
+        right = of_well.loc[of_well["segments"] > wrong.max(), "segments"] if len(wrong) else of_well["segments"]
+        first = float(right.min()) if len(right) else float("nan")
+        rows.append({"well": name, "quantity": "number of contacts"} | {f"within_{x:g}_percent": first for x in LIMITS})
     return pd.DataFrame(rows)
 
 
@@ -301,11 +304,11 @@ def _growth(counts: "pd.Series[float]", costs: "pd.Series[float]") -> dict[str, 
 def run(context: Context) -> Outcome:
     """Counts in every well, the stepper in two, cylinders in every well; three wells and fewer counts when quick."""
     names = ["paper-well", "4.5°/30 m", "30°/100 ft"] if context.quick else list(WELLS)
-    sizes, finest = (QUICK_COUNTS, QUICK_FINEST) if context.quick else (COUNTS, FINEST)
+    sizes = QUICK_COUNTS if context.quick else COUNTS
     first = WELLS[names[0]]
     answer(first, first.case(10, {"geometry": "arcs"}))  # compile
     counts = pd.concat(
-        [count_segments(name, sizes, finest, 1 if context.quick else 5) for name in context.progress(names, "counts")],
+        [count_segments(name, sizes, FINEST, 1 if context.quick else 5) for name in context.progress(names, "counts")],
         ignore_index=True,
     )
     most = {"4.5°/30 m": 240} if context.quick else MOST_STEPPED

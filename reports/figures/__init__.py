@@ -30,9 +30,12 @@ MODULES: dict[str, str] = {
     "soft_limit": "reports.figures.soft_limit",
     "beam_in_hole": "reports.figures.beam_in_hole",
     "real_chart": "reports.figures.real_chart",
+    "segment_count": "reports.figures.segment_count",
+    "refine": "reports.figures.refine",
     "contact_accuracy": "reports.figures.contact_accuracy",
     "contact_swap": "reports.figures.contact_swap",
     "engines_agree": "reports.figures.engines_agree",
+    "refine_real": "reports.figures.refine",
     "real_survey": "reports.figures.real_survey",
 }
 
