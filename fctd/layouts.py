@@ -139,7 +139,7 @@ def _walk(start: float, end: float, length: float, above_bit: Array, factor: Arr
     while at < end - 1e-9:
         step = length
         # Twice as long while the string allows it all along the segment.
-        while step < LONGEST * length and _least(at, at + 2 * step, above_bit, factor) >= 2 * step / length:
+        while step < LONGEST * length and _least(at, at + 2 * step, above_bit, factor) > 1.999 * step / length:
             step *= 2
         lengths.append(min(step, end - at))
         at += step

@@ -124,11 +124,8 @@ def rates_of_all(
 
     Raises InputError as ``steady_rates`` does, and where none of the kinds has what is given.
     """
-    moves = [kind for kind in kinds if kind not in KINDS or kind in MOVES]
-    turns = [kind for kind in kinds if kind not in KINDS or kind in MAY_TURN]
-    return {
-        kind: steady_rates(
-            case, kind, speed if kind in moves or not moves else None, rpm if kind in turns or not turns else None
-        )
-        for kind in kinds
-    }
+
+    def of(kind: str, value: float | None, having: Sequence[str]) -> float | None:
+        return value if kind in having or not set(kinds) & set(having) else None
+
+    return {kind: steady_rates(case, kind, of(kind, speed, MOVES), of(kind, rpm, MAY_TURN)) for kind in kinds}

@@ -15,12 +15,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd import survey
+from fctd import layouts, survey
 from fctd.case import Case, check_bit_depth
 from fctd.drillstring import lay_out
 from fctd.equilibrium import Equilibrium, Solver
 from fctd.errors import InputError
-from fctd.layouts import Layout, graded, is_long, segments_in_hole, uniform, with_components
 from fctd.operations import SteadyRates, rates_of_all
 from fctd.state import MAX_SEGMENTS
 
@@ -74,7 +73,7 @@ def refine(
     tolerance: float = 0.01,
     operation: str | Sequence[str] | None = None,
     bit_depth: float | None = None,
-    grade: bool = False,
+    graded: bool = False,
     most: int = 5000,
     speed: float | None = None,
     rpm: float | None = None,
@@ -83,7 +82,7 @@ def refine(
     """Cut the string of a case finer until hook load and torque are within ``tolerance`` (0.01 is 1 %).
 
     operation : kind or kinds, else that of the case's first operation; bit_depth [m], else that operation's end.
-    grade : short segments in bends and near the bit, long ones elsewhere, else all of one length; a graded string
+    graded : short segments in bends and near the bit, long ones elsewhere, else all of one length; a graded string
     belongs to this one bit depth.  most : segments at most.  speed [m/s], rpm : as of ``torque_drag``.  The
     tolerance is a share of the load, or of a tenth of what the load is made of (the string's weight, Σ r μ F_n)
     where that is more.  Raises InputError for input that cannot be used.
@@ -92,12 +91,14 @@ def refine(
         kinds = _kinds(case, operation)
         depth = _depth(case, kinds[0], bit_depth)
         _check(case, tolerance, most, depth)
-        task = _Task(rates_of_all(case, kinds, speed, rpm), depth, graded if grade else uniform, most, progress)
+        task = _Task(
+            rates_of_all(case, kinds, speed, rpm), depth, layouts.graded if graded else layouts.uniform, most, progress
+        )
         _solve("string", _cut(case, task, _divided(case, depth) / FIRST), task)  # compile, so that times tell
         holes = _refine_hole(case, task, SHARE_OF_HOLE * tolerance)
         error_of_hole = _error(holes) if holes else 0.0
-        case = case.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else case
-        strings = _refine_string(case, task, tolerance - error_of_hole)
+        held = case.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else case
+        strings = _refine_string(held, task, tolerance - error_of_hole)
         return _result(case, task, tolerance, error_of_hole, holes, strings)
     except InputError as error:
         raise (error if case.file is None else error.in_file(case.file)) from None
@@ -108,7 +109,7 @@ class _Task(NamedTuple):
 
     rates: Mapping[str, SteadyRates]
     bit_depth: float
-    layout: Layout
+    layout: layouts.Layout
     most: int
     progress: Progress | None
 
@@ -157,7 +158,7 @@ def _refine_string(case: Case, task: _Task, allowed: float) -> list[_Level]:
     length = _divided(case, task.bit_depth) / FIRST
     while True:
         cut = _cut(case, task, length)
-        if levels and _count(cut, task) > task.most:
+        if levels and layouts.segments_in_hole(cut, task.bit_depth) > task.most:
             return levels
         levels.append(_solve("string", cut, task))
         answered = [k for k, level in enumerate(levels) if level.answered]
@@ -254,10 +255,11 @@ def _result(
     error = error_of_hole + _error(strings[: answered[-1] + 1])
     if answered[-1] == len(strings) - 1 and error <= tolerance and len(answered) >= ANSWERS:
         return finish("within_tolerance", "", found.case, error, found.segments)
-    message = f"an error of {100 * error:.3g} % is left at {found.segments} segments, the most that were tried"
+    left = f"an error of {100 * error:.3g} %" if np.isfinite(error) else "an unknown error"
+    message = f"{left} is left at {found.segments} segments, the most that were tried"
     if answered[-1] != len(strings) - 1:
-        message = f"strings of more than {found.segments} segments have no answer; {100 * error:.3g} % is left there"
-    if error_of_hole > tolerance:
+        message = f"strings of more than {found.segments} segments have no answer; {left} is left there"
+    if tolerance < error_of_hole < np.inf:
         message += f"; {100 * error_of_hole:.3g} % of it is the cylinders'"
     return finish("not_reached", message, found.case, error, found.segments)
 
@@ -290,21 +292,19 @@ def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
 
 
 def _cut(case: Case, task: _Task, length: float) -> Case:
-    return with_components(case, task.layout(case, task.bit_depth, length))
-
-
-def _count(case: Case, task: _Task) -> int:
-    """Segments in the hole, without laying them out: there may be too many to."""
-    return segments_in_hole(case, task.bit_depth)
+    return layouts.with_components(case, task.layout(case, task.bit_depth, length))
 
 
 def _divided(case: Case, bit_depth: float) -> float:
     """Length of the string in the hole that is cut: all but the paper's long segment [m]."""
     in_hole = bit_depth - case.string.top_md
     last = case.string.components[-1]
-    if not is_long(last):
+    if not layouts.is_long(last):
         return in_hole
-    return min(in_hole, sum(part.length or 0.0 for part in case.string.components))
+    cut = sum(part.length or 0.0 for part in case.string.components)
+    if cut == 0:
+        raise InputError("a component that can be cut, beside the long segment", key="string.components")
+    return min(in_hole, cut)
 
 
 def _sharpest(case: Case) -> float:

@@ -51,7 +51,7 @@ def finer(case: Case) -> Case:
 
 def land(name: str, case: Case, bit: float, tolerance: float, grade: bool) -> list[dict[str, Any]]:
     """Refine for three operations at once; how far each is from a run four times as fine."""
-    refined = refine(case, tolerance, OPERATIONS, bit, grade=grade)
+    refined = refine(case, tolerance, OPERATIONS, bit, graded=grade)
     rows = []
     for kind in OPERATIONS:
         point, fine = (equilibrium(c, kind, bit) for c in (refined.case, finer(refined.case)))
