@@ -110,7 +110,7 @@ def _print(refined: Refinement, units: System) -> None:
         lengths = refined.steps.iloc[-1]["shortest_m"] * metre.factor
         screen.print(
             f"{refined.segments} segments, from {lengths:.3g} {metre.label} up: an error of "
-            f"{_percent(refined.error)} % is left, {_percent(refined.tolerance)} % are allowed.",
+            f"{_percent(refined.error)} % is left, {_percent(refined.tolerance)} % is allowed.",
             highlight=False, soft_wrap=True,
         )  # fmt: skip
     else:

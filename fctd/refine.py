@@ -258,7 +258,9 @@ def _result(
     left = f"an error of {100 * error:.3g} %" if np.isfinite(error) else "an unknown error"
     message = f"{left} is left at {found.segments} segments, the most that were tried"
     if answered[-1] != len(strings) - 1:
-        message = f"strings of more than {found.segments} segments have no answer; {left} is left there"
+        lost = next(point for point in strings[-1].points if point.status not in SOUND)
+        why = f"{lost.operation}: {lost.status}"
+        message = f"strings of more than {found.segments} segments have no answer ({why}); {left} is left there"
     if tolerance < error_of_hole < np.inf:
         message += f"; {100 * error_of_hole:.3g} % of it is the cylinders'"
     return finish("not_reached", message, found.case, error, found.segments)
