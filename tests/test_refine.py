@@ -1,13 +1,17 @@
 """Refinement: what is estimated, what is found, and what is said where nothing is."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import fctd
-from fctd import Case, InputError
+from fctd import Case, Equilibrium, InputError
+from fctd.equilibrium import Solver
+from fctd.layouts import uniform, with_components
+from fctd.operations import SteadyRates
 from fctd.refine import SAFETY, _errors, _Level, relative_difference
 from tests.cases import make_case, pipe, rotation, trip
 from validation.refine import finer
@@ -163,3 +167,41 @@ def test_a_long_segment_alone_cannot_be_cut() -> None:
     case = make_case([[0, 0, 0], [300, 0, 0]], [pipe(None, 1)])
     with pytest.raises(InputError, match=r"string.components .*: expected a component that can be cut"):
         fctd.refine(case, 0.01, "trip_in", 300.0)
+
+
+def test_one_agreement_is_not_enough() -> None:
+    """Hanging straight down the load is the weight at once, and still three strings are asked."""
+    case = make_case([[0, 0, 0], [500, 0, 0]], [pipe(None, None, segment_length=10.0)], wellbore={"geometry": "arcs"})
+    found = fctd.refine(case, 0.1, "trip_in", 500.0)
+    assert found.steps["segments"].tolist() == [16, 32, 64]
+
+
+def test_a_load_near_zero_is_measured_against_what_it_is_made_of() -> None:
+    """Friction carries nearly all of a string in a slant hole: its hook load hangs by a thread."""
+    hole = {"geometry": "arcs", "intervals": [{"to_md": 900, "diameter": 0.2159, "friction": math.tan(0.5235)}]}
+    case = make_case([[0, 60, 0], [900, 60, 0]], [pipe(None, None, segment_length=10.0)], wellbore=hole)
+    coarse, fine = (
+        fctd.equilibrium(with_components(case, uniform(case, 900.0, length)), "trip_in", 900.0) for length in (90.0, 45)
+    )
+    weight = 9.80665 * math.pi / 4 * (0.127**2 - 0.07**2) * 7850 * 900
+    assert abs(fine.hookload) < 0.02 * weight
+    expected = abs(coarse.hookload - fine.hookload) / (0.1 * weight)
+    assert relative_difference(coarse, fine)[0] == pytest.approx(expected)
+
+
+def test_finer_strings_without_an_answer_end_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of a string that buckles only where its segments are short enough to show it."""
+    solve = Solver.solve
+
+    def short_of_breath(self: Solver, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
+        point = solve(self, operation, rates, bit_depth)
+        return replace(point, status="max_iterations") if len(point.profile) > 70 else point
+
+    monkeypatch.setattr(Solver, "solve", short_of_breath)
+    case = build_case(wellbore={"geometry": "arcs"})
+    found = fctd.refine(case, 1e-6, "rotate_off_bottom", 1300.0)
+    assert found.status == "not_reached"
+    assert found.message.startswith("strings of more than 64 segments have no answer (rotate_off_bottom: max_iter")
+    assert found.segments == 64
+    assert found.steps["segments"].tolist() == [16, 32, 64, 128, 256]
+    assert found.steps["hookload_N"].isna().tolist() == [False] * 3 + [True] * 2
