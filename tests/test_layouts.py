@@ -118,3 +118,12 @@ def test_a_long_segment_stays_one() -> None:
     for layout in (uniform, graded):
         pieces = layout(case, 2000.0, 20.0)
         assert pieces[-1] == case.string.components[-1]
+
+
+def test_a_short_sharp_course_makes_no_stabiliser() -> None:
+    """The one short segment that would do there is two, or it would touch at its middle."""
+    stations = [[0, 0, 0], [600, 0, 0], [610, 6, 0], [1400, 6, 0]]
+    case = make_case(stations, [pipe(None, None, segment_length=10.0)])
+    for length in range(20, 120):
+        string = lay_out(with_components(case, graded(case, 1400.0, float(length))), 1400.0)
+        assert not string.mid_contact().any()
