@@ -90,10 +90,10 @@ def _print(refined: Refinement, units: System) -> None:
     table.add_column("operation", no_wrap=True)
     for heading in (f"hook load\n{load.label}", f"torque\n{torque.label}", "change\n%", "left\n%", "time\nms"):
         table.add_column(heading, justify="right", overflow="fold")
-    across, unit = _ACROSS[units]
+    across = shown("clearance_m", units)
     for (stage, _), rows in refined.steps.groupby(["stage", "level"], sort=False):
-        chord, segments = rows["chord_m"].iloc[0] * across, rows["segments"].iloc[0]
-        name = f"chords {chord:.3g} {unit}" if stage == "hole" else f"{segments} segments"
+        chord, segments = rows["chord_m"].iloc[0] * across.factor, rows["segments"].iloc[0]
+        name = f"chords {chord:.3g} {across.label}" if stage == "hole" else f"{segments} segments"
         for row in rows.to_dict("records"):
             answer = (
                 f"{row['hookload_N'] * load.factor:z.2f}",
@@ -115,10 +115,6 @@ def _print(refined: Refinement, units: System) -> None:
         )  # fmt: skip
     else:
         messages.print(f"[bold]{refined.status}[/bold]: {refined.message}", highlight=False, soft_wrap=True)
-
-
-# Factor and unit of the chords, for which metres and feet are too coarse.
-_ACROSS: dict[System, tuple[float, str]] = {"si": (1e3, "mm"), "field": (1 / 0.0254, "in")}
 
 
 def _percent(share: float) -> str:
