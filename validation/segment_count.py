@@ -343,7 +343,7 @@ def run(context: Context) -> Outcome:
             "The steady solver has no answer in the scaled section beyond 640 segments (7 cm), and in 30°/100 ft with "
             "7; the stepper does not settle paper-well's string of 240 (collars of 2.5 m beside pipe of 9 m). Missing "
             "values stand for these.",
-            "Times are processor times of one machine, of the steady solver the least of five; only their growth is judged.",
+            "Times are processor times of one machine, the steady ones the least of five; only growth is judged.",
         ],
         display={
             "orders": "Observed order from 20 segments on",
