@@ -4,6 +4,7 @@
     result = fctd.simulate(case)
     point = fctd.equilibrium(case, operation="trip_out", bit_depth=2450)
     chart = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
+    finer = fctd.refine(case, tolerance=0.01).case
 
 Units are SI; x is north, y east, z down.
 """
@@ -32,6 +33,7 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
 from fctd.case import Case, load_case  # noqa: E402
 from fctd.equilibrium import Equilibrium, equilibrium  # noqa: E402
 from fctd.errors import InputError  # noqa: E402
+from fctd.refine import Refinement, refine  # noqa: E402
 from fctd.results import SimulationResult  # noqa: E402
 from fctd.simulate import simulate  # noqa: E402
 from fctd.torque_drag import torque_drag  # noqa: E402
@@ -42,12 +44,14 @@ __all__ = [
     "Contacts",
     "Equilibrium",
     "InputError",
+    "Refinement",
     "SimulationResult",
     "Wellbore",
     "build_wellbore",
     "equilibrium",
     "find_contacts",
     "load_case",
+    "refine",
     "simulate",
     "torque_drag",
 ]

@@ -207,7 +207,7 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
     try:
         raw = _read(path)
         for key, value in (overrides or {}).items():
-            _override(raw, key, value)
+            apply_override(raw, key, value)
         case = Case.model_validate(raw, context={"folder": path.parent.absolute()})
         case.check_depths(raw)
     except ValidationError as failure:
@@ -240,7 +240,7 @@ def _read(path: Path) -> dict[str, Any]:
         raise InputError(f"a case file in TOML ({error})") from error
 
 
-def _override(raw: dict[str, Any], key: str, value: Any) -> None:
+def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
     """Set or delete one dotted key of an unvalidated case."""
     if key == "friction":
         intervals = look_up(raw, "wellbore", "intervals")

@@ -24,6 +24,7 @@ from fctd.cli_options import (
     read_case,
     screen,
 )
+from fctd.cli_refine import refine_command
 from fctd.cli_steady import chart_command, equilibrium_command
 from fctd.errors import InputError
 from fctd.results import SimulationResult
@@ -120,6 +121,7 @@ def _summarise(result: SimulationResult) -> None:
 
 app.command("equilibrium")(equilibrium_command)
 app.command("chart")(chart_command)
+app.command("refine")(refine_command)
 
 
 def main() -> None:

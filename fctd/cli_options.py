@@ -50,6 +50,20 @@ def read_quantity(text: str, dimension: Dimension, key: str) -> float:
         raise InputError(error.expected, key=key, value=text) from None
 
 
+def read_share(text: str, key: str) -> float:
+    """A share above 0 and below 1, "1%", "1 %" or "0.01"; InputError names the option."""
+    number, percent = text.strip(), 1.0
+    if number.endswith("%"):
+        number, percent = number[:-1], 0.01
+    try:
+        share = float(number) * percent
+    except ValueError:
+        share = float("nan")
+    if not 0 < share < 1:
+        raise InputError("a share above 0 and below 100 %, such as '1%' or 0.01", key=key, value=text)
+    return share
+
+
 def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
     """Refuse a file of another suffix, and one that could not be written: before the computing, not after."""
     if path is None:

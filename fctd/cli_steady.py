@@ -26,9 +26,9 @@ from fctd.cli_options import (
     read_quantity,
     screen,
 )
-from fctd.equilibrium import Equilibrium, equilibrium
+from fctd.equilibrium import Equilibrium, Solver, equilibrium
 from fctd.errors import InputError
-from fctd.operations import steady_rates
+from fctd.operations import rates_of_all
 from fctd.results import versions, write_table
 from fctd.torque_drag import torque_drag, with_friction
 from fctd.unit_systems import System, in_field_units, shown
@@ -93,7 +93,7 @@ def _file(option: str, what: str) -> typer.models.OptionInfo:
 
 def equilibrium_command(
     case_file: CaseFile,
-    operation: Annotated[str, typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}.")],
+    operations: Annotated[list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}.")],
     bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help="Depth of the bit, '2450 m'.")],
     speed: Speed = None,
     rpm: Rpm = None,
@@ -106,10 +106,13 @@ def equilibrium_command(
     """Find the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
     check_target(out, "--out", TABLES)
     plots = _plots({"--plot": plot})
+    if len(operations) > 1:
+        raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
+    (operation,) = operations
     case = read_case(case_file, overrides, friction)
     depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
     _check_in_hole(case, [depth], "--bit-depth", bit_depth)
-    drive = _drive(speed, rpm)
+    drive = read_drive(speed, rpm)
     point = equilibrium(case, operation, depth, **drive)
     _print_point(point, units)
     written = []
@@ -158,7 +161,7 @@ def chart_command(
     _check_in_hole(case, bit_depths, "--depths", depths)
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
     factors = list(dict.fromkeys(frictions))
-    drive = _drive(speed, rpm)
+    drive = read_drive(speed, rpm)
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
@@ -177,7 +180,8 @@ def chart_command(
         written += plots.save(plots.chart_figure(chart, units, case.name), plot)
     if plots is not None and plot_profile is not None:
         one = with_friction(case, factors[0]) if factors else case
-        points = [equilibrium(one, kind, bit_depths[-1], **drive) for kind in kinds]
+        solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
+        points = [solver.solve(kind, rates[kind], bit_depths[-1]) for kind in kinds]
         written += plots.save(plots.profile_figure(points, units), plot_profile)
     _print_written(written)
     if not chart["status"].isin(SOUND).all():
@@ -199,7 +203,7 @@ def read_depths(text: str) -> list[float]:
     return [round(first + k * step, 6) for k in range(int(np.floor(steps + 1e-6)) + 1)]
 
 
-def _drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
+def read_drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
     """Rates as they were asked for: speed [m/s], rpm, None where the case decides."""
     return {"speed": None if speed is None else read_quantity(speed, SPEED, "--speed"), "rpm": rpm}
 
@@ -237,7 +241,7 @@ def _in(units: System, table: pd.DataFrame) -> pd.DataFrame:
 
 def _metadata(case: Case, units: System, kinds: Sequence[str], drive: Mapping[str, Any]) -> dict[str, Any]:
     """What a table rests on; rates are those solved with, downwards and clockwise."""
-    rates = {kind: steady_rates(case, kind, **drive) for kind in kinds}
+    rates = rates_of_all(case, kinds, **drive)
     return {
         "case": case.model_dump(mode="json"),
         "units": units,
@@ -268,14 +272,24 @@ def _print_point(point: Equilibrium, units: System) -> None:
             where = f"at {row['md_m'] * metre.factor:.0f} {metre.label}"
             table.add_row(f"{worst}. {WORDS[name]}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
         for mode in ("sinusoidal", "helical"):
-            md = profile.loc[profile["buckling"] == mode, "md_m"] * metre.factor
-            if len(md):
-                table.add_row(f"beyond {mode} limit", f"{md.min():.0f} to {md.max():.0f}", metre.label)
+            for first, last in stretches(profile, mode):
+                where = f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"
+                table.add_row(f"beyond {mode} limit", where, metre.label)
     table.columns[1].justify = "right"
     screen.print(table)
     screen.print(f"{point.status}, {point.iterations} iterations", highlight=False)
     if point.message:
         messages.print(f"[bold]{point.status}[/bold]: {point.message}", highlight=False, soft_wrap=True)
+
+
+def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
+    """First and last depth [m] of every run of contact points that is buckled in a mode."""
+    found = []
+    for buckled, run in groupby(zip(profile["buckling"] == mode, profile["md_m"], strict=True), key=lambda row: row[0]):
+        if buckled:
+            depths = [float(md) for _, md in run]
+            found.append((depths[0], depths[-1]))
+    return found
 
 
 def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:

@@ -129,6 +129,8 @@ class Solver:
         self.law = state.PAPER if case.contact.friction_law == "paper" else state.COULOMB
         self.work = Workspace(0)
 
+    # Of a string that has flown apart only the status is read; its numbers may be anything.
+    @np.errstate(over="ignore", invalid="ignore")
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string; raises InputError when string and hole do not fit at this depth."""
         case, hole = self.case, self.hole

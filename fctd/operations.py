@@ -92,6 +92,9 @@ DEFAULT_RATES = {
     "drill_rotating": (0.003, 120.0),
     "drill_sliding": (0.003, 0.0),
 }
+# Kinds that have a speed, and those that can have a rotation.
+MOVES = tuple(kind for kind, (speed, _) in DEFAULT_RATES.items() if speed > 0)
+MAY_TURN = tuple(kind for kind, (_, rpm) in DEFAULT_RATES.items() if rpm > 0 or kind.startswith("trip"))
 
 
 def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float | None = None) -> SteadyRates:
@@ -104,8 +107,7 @@ def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float |
         raise InputError(nearest(kind, KINDS, "kind"), key="operation", value=kind)
     own = next((o for o in case.operations if o.kind == kind), None)
     defaults = DEFAULT_RATES[kind] if own is None else (own.speed, own.rpm)
-    moves, turns = DEFAULT_RATES[kind][0] > 0, DEFAULT_RATES[kind][1] > 0
-    may_turn = turns or kind.startswith("trip")
+    moves, turns, may_turn = kind in MOVES, DEFAULT_RATES[kind][1] > 0, kind in MAY_TURN
     speed, rpm = defaults[0] if speed is None else speed, defaults[1] if rpm is None else rpm
     if not (np.isfinite(speed) and (speed > 0 if moves else speed == 0)):
         raise InputError(f"a speed {'above 0' if moves else 'of 0'} for {kind}", key="speed", value=speed)
@@ -113,3 +115,17 @@ def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float |
         wanted = "above 0" if turns else "at least 0" if may_turn else "of 0"
         raise InputError(f"rev/min {wanted} for {kind}", key="rpm", value=rpm)
     return SteadyRates(speed if KINDS[kind].downwards else -speed, rad_per_s(rpm))
+
+
+def rates_of_all(
+    case: Case, kinds: Sequence[str], speed: float | None = None, rpm: float | None = None
+) -> dict[str, SteadyRates]:
+    """Rates of several operations; of several, a speed or rotation is that of the kinds that have one.
+
+    Raises InputError as ``steady_rates`` does, and where none of the kinds has what is given.
+    """
+
+    def of(kind: str, value: float | None, having: Sequence[str]) -> float | None:
+        return value if kind in having or not set(kinds) & set(having) else None
+
+    return {kind: steady_rates(case, kind, of(kind, speed, MOVES), of(kind, rpm, MAY_TURN)) for kind in kinds}

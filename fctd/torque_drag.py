@@ -8,7 +8,7 @@ import pandas as pd
 from fctd.case import Case
 from fctd.equilibrium import Equilibrium, Solver
 from fctd.errors import InputError
-from fctd.operations import SteadyRates, steady_rates
+from fctd.operations import SteadyRates, rates_of_all
 
 # Called after every row with the number of rows done and of all.
 Progress = Callable[[int, int], None]
@@ -26,7 +26,7 @@ def torque_drag(
     """A row per operation, friction and depth.
 
     operation : kind or kinds; bit_depths [m] : rising; friction : kinetic factor or factors for every interval
-    in turn, None for the case's own.  speed [m/s], rpm : as of ``equilibrium``, for all operations.
+    in turn, None for the case's own.  speed [m/s], rpm : as of ``equilibrium``, for the kinds that have them.
     Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, hookload_N,
     surface_torque_N_m, weight_indicator_N, drive_torque_N_m, total_contact_force_N, status, iterations.  A row
     without an answer (status) has NaN for its loads.  Raises InputError for what cannot be used.
@@ -36,7 +36,7 @@ def torque_drag(
         kinds = [operation] if isinstance(operation, str) else list(operation)
         if not kinds:
             raise InputError("at least one kind of operation", key="operation", value=[])
-        rates = {kind: steady_rates(case, kind, speed, rpm) for kind in kinds}
+        rates = rates_of_all(case, kinds, speed, rpm)
         factors = _factors(friction)
         solvers = [Solver(case if factor is None else with_friction(case, factor)) for factor in factors]
         rows = []

@@ -12,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import fctd
-from fctd.cli_steady import MOST_DEPTHS, read_depths
+from fctd.case import KINDS
+from fctd.cli_steady import MOST_DEPTHS, read_depths, stretches
 from fctd.errors import InputError
 from tests.test_cli import run
 
@@ -261,6 +262,40 @@ def test_all_operations_do_not_hide_a_wrong_one(
     kinds = ("--operation", "all", "--operation", "wiggle")
     assert run(monkeypatch, "chart", case_file, *kinds, "--depths", "500:800:100") == 2
     assert "wiggle" in capsys.readouterr().err
+
+
+def test_one_string_is_of_one_operation(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kinds = ("--operation", "trip_in", "--operation", "trip_out")
+    assert run(monkeypatch, "equilibrium", case_file, *kinds, "--bit-depth", "800") == 2
+    message = capsys.readouterr().err
+    assert "--operation" in message
+    assert "one kind of operation" in message
+
+
+def test_rates_go_to_the_operations_that_have_them(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("matplotlib")
+    out, picture = tmp_path / "chart.csv", tmp_path / "profiles.png"
+    rates = ("--speed", "0.7 m/s", "--rpm", "80", "--plot-profile", picture)
+    chart = ("chart", case_file, "--operation", "all", "--depths", "800:800:10", "--out", out, "--quiet")
+    assert run(monkeypatch, *chart, *rates) == 0
+    found = json.loads((tmp_path / "chart.csv.json").read_text())["rates"]
+    speeds = {kind: abs(rate["speed_m_s"]) for kind, rate in found.items()}
+    spins = {kind: rate["spin_rad_s"] for kind, rate in found.items()}
+    assert speeds == {kind: 0.0 if kind == "rotate_off_bottom" else 0.7 for kind in KINDS}
+    assert spins == pytest.approx({kind: 0.0 if kind == "drill_sliding" else 80 * np.pi / 30 for kind in KINDS})
+    assert picture.exists()
+
+
+def test_buckled_stretches_are_told_apart() -> None:
+    modes = ["none", "helical", "helical", "sinusoidal", "none", "helical", "none"]
+    profile = pd.DataFrame({"md_m": 100.0 * np.arange(7), "buckling": modes})
+    assert stretches(profile, "helical") == [(100.0, 200.0), (500.0, 500.0)]
+    assert stretches(profile, "sinusoidal") == [(300.0, 300.0)]
+    assert stretches(profile.iloc[:1], "helical") == []
 
 
 def test_a_file_that_fails_to_be_written_is_one_message(

@@ -36,7 +36,7 @@ def test_the_python_examples_run(number: int, printed: list[str]) -> None:
 def test_the_command_line_examples_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("matplotlib")
     commands = re.findall(r"^\.venv/bin/(fctd .*)$", "\n".join(blocks("sh")).replace("\\\n", " "), re.MULTILINE)
-    assert [command.split()[1] for command in commands] == ["simulate", "chart", "equilibrium"]
+    assert [command.split()[1] for command in commands] == ["simulate", "chart", "equilibrium", "refine"]
     monkeypatch.chdir(tmp_path)
     for command in commands:
         monkeypatch.setattr("sys.argv", shlex.split(command.replace(" validation/", f" {ROOT}/validation/")))
@@ -52,6 +52,7 @@ def test_the_command_line_examples_run(tmp_path: Path, monkeypatch: pytest.Monke
         "profiles.png",
         "profile.parquet",
         "profile.svg",
+        "fine.toml",
     }
 
 

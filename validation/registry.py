@@ -21,6 +21,8 @@ STUDIES: dict[str, str] = {
     "mud_effects": "validation.mud_effects",
     "beam_in_hole": "validation.beam_in_hole",
     "johancsik": "validation.johancsik",
+    "segment_count": "validation.segment_count",
+    "refine": "validation.refine",
     "contact_accuracy": "validation.contact_accuracy",
     "contact_swap": "validation.contact_swap",
     "mesh_torque": "validation.mesh_torque",
@@ -28,6 +30,7 @@ STUDIES: dict[str, str] = {
     "speed": "validation.speed",
     "real_survey": "validation.real_survey",
     "real_chart": "validation.real_chart",
+    "refine_real": "validation.refine_real",
     # Last: it reads the results of the others.
     "claims": "validation.claims",
 }

@@ -38,11 +38,14 @@ MODULES: dict[str, str] = {
     "mud_effects": "reports.figures.mud_effects",
     "beam_in_hole": "reports.figures.beam_in_hole",
     "real_chart": "reports.figures.real_chart",
+    "segment_count": "reports.figures.segment_count",
+    "refine": "reports.figures.refine",
     "contact_accuracy": "reports.figures.contact_accuracy",
     "contact_swap": "reports.figures.contact_swap",
     "mesh_torque": "reports.figures.mesh_torque",
     "engines_agree": "reports.figures.engines_agree",
     "speed": "reports.figures.speed",
+    "refine_real": "reports.figures.refine",
     "real_survey": "reports.figures.real_survey",
 }
 

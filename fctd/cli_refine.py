@@ -1,0 +1,121 @@
+"""``fctd refine CASE``: how many segments a tolerance needs, and the case cut so."""
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from fctd.case import parse_override
+from fctd.cli_options import (
+    FAILED,
+    CaseFile,
+    Friction,
+    Overrides,
+    Quiet,
+    check_target,
+    messages,
+    read_case,
+    read_quantity,
+    read_share,
+    screen,
+)
+from fctd.cli_steady import KIND_HELP, Rpm, Speed, Units, read_drive
+from fctd.refine import Refinement, refine
+from fctd.refined_file import write_refined
+from fctd.unit_systems import System, shown
+from fctd.units import LENGTH
+
+
+def refine_command(
+    case_file: CaseFile,
+    tolerance: Annotated[
+        str, typer.Option("--tolerance", metavar="X", help="Relative error of hook load and torque, '1%' or 0.01.")
+    ] = "1%",
+    operations: Annotated[
+        list[str],
+        typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}; may be repeated; else the case's first."),
+    ] = [],  # noqa: B006 (typer copies it)
+    bit_depth: Annotated[
+        str | None, typer.Option("--bit-depth", metavar="D", help="Depth of the bit; else that operation's end.")
+    ] = None,
+    graded: Annotated[
+        bool, typer.Option("--graded", help="Short segments in bends and near the bit, long ones elsewhere.")
+    ] = False,
+    most: Annotated[int, typer.Option("--most", metavar="N", help="Segments at most.")] = 5000,
+    speed: Speed = None,
+    rpm: Rpm = None,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    friction: Friction = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="FILE", help="The case with this string and hole, .toml.", show_default=False),
+    ] = None,
+    units: Units = "si",
+    quiet: Quiet = False,
+) -> None:
+    """Cut the string of a case finer until hook load and torque no longer change, and say what error is left."""
+    check_target(out, "--out", (".toml",))
+    share = read_share(tolerance, "--tolerance")
+    case = read_case(case_file, overrides, friction)
+    depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth")
+    with messages.status("compiling") as status:
+        if quiet:
+            status.stop()
+        refined = refine(
+            case, share, operations or None, depth, graded, most, **read_drive(speed, rpm), progress=status.update
+        )
+    _print(refined, units)
+    if out is not None and refined.status != "no_answer":
+        changes = dict(parse_override(text) for text in overrides)
+        if friction is not None:
+            changes["friction"] = friction
+        write_refined(refined, case_file, changes, out)
+        screen.print(f"Written: {out}", soft_wrap=True, highlight=False)
+    elif out is not None:
+        messages.print("Nothing is written: no string has an answer.")
+    if refined.status != "within_tolerance":
+        raise typer.Exit(FAILED)
+
+
+def _print(refined: Refinement, units: System) -> None:
+    """Print every level, and what follows."""
+    metre, load, torque = (shown(name, units) for name in ("bit_depth_m", "hookload_N", "surface_torque_N_m"))
+    title = f"{refined.case.name}: bit at {refined.bit_depth * metre.factor:.1f} {metre.label}"
+    screen.print(title, style="bold", highlight=False, markup=False)
+    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
+    table.add_column("", no_wrap=True)
+    table.add_column("operation", no_wrap=True)
+    for heading in (f"hook load\n{load.label}", f"torque\n{torque.label}", "change\n%", "left\n%", "time\nms"):
+        table.add_column(heading, justify="right", overflow="fold")
+    across = shown("clearance_m", units)
+    for (stage, _), rows in refined.steps.groupby(["stage", "level"], sort=False):
+        chord, segments = rows["chord_m"].iloc[0] * across.factor, rows["segments"].iloc[0]
+        name = f"chords {chord:.3g} {across.label}" if stage == "hole" else f"{segments} segments"
+        for row in rows.to_dict("records"):
+            answer = (
+                f"{row['hookload_N'] * load.factor:z.2f}",
+                f"{row['surface_torque_N_m'] * torque.factor:z.3f}",
+                _percent(np.maximum(row["hookload_change"], row["torque_change"])),
+                _percent(np.maximum(row["hookload_error"], row["torque_error"])),
+            )
+            nothing = ("–", "–", row["status"], "–")
+            loads = nothing if np.isnan(row["hookload_N"]) else answer
+            table.add_row(name, row["operation"], *loads, f"{1e3 * row['time_s']:.0f}")
+            name = ""
+    screen.print(table)
+    if refined.status == "within_tolerance":
+        lengths = refined.steps.iloc[-1]["shortest_m"] * metre.factor
+        screen.print(
+            f"{refined.segments} segments, from {lengths:.3g} {metre.label} up: an error of "
+            f"{_percent(refined.error)} % is left, {_percent(refined.tolerance)} % is allowed.",
+            highlight=False, soft_wrap=True,
+        )  # fmt: skip
+    else:
+        messages.print(f"[bold]{refined.status}[/bold]: {refined.message}", highlight=False, soft_wrap=True)
+
+
+def _percent(share: float) -> str:
+    return "–" if not np.isfinite(share) else f"{100 * share:.2g}"

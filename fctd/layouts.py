@@ -1,0 +1,162 @@
+"""How finely a string is cut: all of it alike, or short in bends and near the bit and long elsewhere.
+
+Both layouts are plain components of a case, so everything that takes a case takes them.  A graded one is a run of
+components of the same pipe; it is positioned from the bit upwards, for one bit depth.
+"""
+
+from collections.abc import Callable
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd import survey
+from fctd.case import Case
+from fctd.drillstring import section_of
+from fctd.specs import ComponentSpec
+
+Array = NDArray[np.float64]
+Components = tuple[ComponentSpec, ...]
+# A case, a bit depth [m] and the length of the shortest segments [m] to components.
+Layout = Callable[[Case, float, float], Components]
+
+# Segments elsewhere are up to so many times as long as the shortest; lengths differ by factors of two.
+LONGEST = 8.0
+# A hole that bends less all along counts as straight [1/m].
+STRAIGHT = np.radians(0.5) / 30
+SAMPLES = 4000
+
+
+def with_components(case: Case, components: Components) -> Case:
+    """The case with another string."""
+    return case.model_copy(update={"string": case.string.model_copy(update={"components": components})})
+
+
+def uniform(case: Case, bit_depth: float, length: float) -> Components:
+    """Every component in equal segments of about ``length`` [m]; shorter ones are one, a long segment stays."""
+    return tuple(_cut(part, length) for part in case.string.components)
+
+
+def graded(case: Case, bit_depth: float, length: float) -> Components:
+    """Segments of about ``length`` [m] at the bit and in the sharpest bend, longer where ``coarseness`` is more."""
+    above_bit, factor = coarseness(case, bit_depth)
+    pieces: list[ComponentSpec] = []
+    start, total = 0.0, bit_depth - case.string.top_md
+    for part in case.string.components:
+        end = total if part.length is None else min(start + part.length, total)
+        if start >= total or is_long(part):
+            pieces.append(part)
+        else:
+            pieces += _grade(part, _walk(start, end, length, above_bit, factor))
+        start = end
+    return tuple(pieces)
+
+
+def coarseness(case: Case, bit_depth: float) -> tuple[Array, Array]:
+    """Distances above the bit (n,) [m] and how many times as long as the shortest a segment may be there (n,).
+
+    A segment's chord misses a bend of curvature κ by κh²/8, so lengths go with 1/√κ.  Away from bends and bit they
+    grow by the shortest one over the length of a wave in which a string lies in the hole, 2π (EI r/w)^¼ (Dawson &
+    Paslay 1984).
+    """
+    stations = survey.to_radians(case.wellbore.read_stations())
+    above_bit = np.linspace(0.0, bit_depth - case.string.top_md, SAMPLES)
+    md = bit_depth - above_bit
+    course = np.clip(np.searchsorted(stations[:, 0], md, side="right") - 1, 0, len(stations) - 2)
+    curvature = (survey.dogleg(stations) / np.diff(stations[:, 0]))[course]
+    sharpest = max(float(curvature.max()), STRAIGHT)
+    factor = np.minimum(np.sqrt(sharpest / np.maximum(curvature, 1e-12)), LONGEST)
+    factor[0] = 1.0
+    travelled = np.concatenate([[0.0], np.cumsum(np.diff(above_bit) / _wave(case, md, above_bit)[1:])])
+    factor = np.minimum.accumulate(factor - travelled) + travelled
+    factor = (np.minimum.accumulate((factor + travelled)[::-1]))[::-1] - travelled
+    return above_bit, factor
+
+
+def _wave(case: Case, md: Array, above_bit: Array) -> Array:
+    """2π (EI r/w)^¼ [m] along the string."""
+    parts = case.string.components
+    ends = np.cumsum([np.inf if part.length is None else part.length for part in parts])
+    k = np.minimum(np.searchsorted(ends, above_bit), len(parts) - 1)
+    sections = [section_of(part, case.mud.density) for part in parts]
+    intervals = case.wellbore.intervals
+    i = np.minimum(np.searchsorted([interval.to_md for interval in intervals], md), len(intervals) - 1)
+    hole = np.array([0.5 * interval.diameter for interval in intervals])[i]
+    slack = np.maximum(hole - np.array([s.contact_radius for s in sections])[k], 1e-3)
+    stiffness, weight = (np.array([getattr(s, name) for s in sections])[k] for name in ("EI", "weight"))
+    return np.asarray(2 * np.pi * (stiffness * slack / weight) ** 0.25)
+
+
+def segments_in_hole(case: Case, bit_depth: float) -> int:
+    """How many segments a string has in the hole, about; cheap, however many there are."""
+    remaining, count = bit_depth - case.string.top_md, 0.0
+    for part in case.string.components:
+        take = remaining if part.length is None else min(part.length, remaining)
+        if take <= 0:
+            break
+        nominal = part.segment_length or (take if part.length is None else part.length) / (part.segments or 1)
+        count += max(take / nominal, 1)
+        remaining -= take
+    return round(count)
+
+
+def is_long(part: ComponentSpec) -> bool:
+    """Whether a component is the paper's long segment."""
+    return part.length is None and part.segments == 1
+
+
+def _cut(part: ComponentSpec, length: float) -> ComponentSpec:
+    if is_long(part):
+        return part
+    if part.length is None:
+        return part.model_copy(update={"segments": None, "segment_length": length})
+    count = max(round(part.length / length), 1)
+    return part.model_copy(update={"segments": count, "segment_length": None})
+
+
+def _grade(part: ComponentSpec, runs: list[tuple[float, int]]) -> Components:
+    """A component as runs of equal segments, from the lower end upwards; a bend stays at its upper end."""
+    # A single segment between longer ones would pass for a stabiliser, which touches at its middle.
+    runs = [(length, max(count, 2) if len(runs) > 1 else count) for length, count in runs]
+    pieces = [
+        part.model_copy(update={"length": length, "segments": count, "segment_length": None, "bend": 0.0})
+        for length, count in runs
+    ]
+    length, count = runs[-1]
+    top: dict[str, Any] = {"bend": part.bend}
+    if part.length is not None:
+        top["length"] = part.length - sum(run for run, _ in runs[:-1])
+    if part.length is None or top["length"] > length + 0.01:  # more of it than is in the hole
+        top |= {"length": top.get("length"), "segments": None, "segment_length": round(length / count, 6)}
+    return (*pieces[:-1], pieces[-1].model_copy(update=top))
+
+
+def _walk(start: float, end: float, length: float, above_bit: Array, factor: Array) -> list[tuple[float, int]]:
+    """Runs of equal segments from ``start`` to ``end`` above the bit [m]: length of a run, segments in it."""
+    lengths: list[float] = []
+    at = start
+    while at < end - 1e-9:
+        step = length
+        # Twice as long while the string allows it all along the segment.
+        while step < LONGEST * length and _least(at, at + 2 * step, above_bit, factor) > 1.999 * step / length:
+            step *= 2
+        lengths.append(min(step, end - at))
+        at += step
+    if len(lengths) > 1 and lengths[-1] < 0.5 * lengths[-2]:
+        left_over = lengths.pop()
+        lengths[-1] += left_over
+    # What is left over at the upper end is shared out among its run.
+    runs = [list(same) for _, same in groupby(lengths[:-1])]
+    if runs and lengths[-1] < 1.5 * runs[-1][0]:
+        runs[-1].append(lengths[-1])
+    else:
+        runs.append(lengths[-1:])
+    # In millimetres, for those who read the case file.
+    return [(round(float(sum(run)), 3), len(run)) for run in runs]
+
+
+def _least(start: float, end: float, above_bit: Array, factor: Array) -> float:
+    """The least factor between two distances above the bit."""
+    first, last = np.searchsorted(above_bit, [start, end])
+    return float(factor[min(first, len(factor) - 1) : last + 1].min())

@@ -1,0 +1,369 @@
+"""How many segments are enough: a string cut finer until its loads no longer change (§5.6), with the error left.
+
+First the hole's cylinders are halved until they hardly matter, then the segments.  What is left is estimated from the
+changes seen so far, as Richardson does, at the order that is safe: the ends of contact move by whole segments,
+so torque converges irregularly, at first order or a little better, and one small change may be luck.
+"""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, Final, Literal, NamedTuple
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fctd import layouts, survey
+from fctd.case import Case, check_bit_depth
+from fctd.drillstring import lay_out
+from fctd.equilibrium import Equilibrium, Solver
+from fctd.errors import InputError
+from fctd.operations import SteadyRates, rates_of_all
+from fctd.state import MAX_SEGMENTS
+
+Array = NDArray[np.float64]
+# Called before every level with what is about to be solved.
+Progress = Callable[[str], None]
+
+# A string in its balance, or one that cannot be pushed: the others' loads are nobody's.
+SOUND: Final = ("converged", "locked_up")
+# Segments of a first string, and of the one in which the hole is refined.
+FIRST, IN_HOLE = 16, (128, 512)
+# Cylinders are halved so many times at most.
+HALVINGS = 6
+# Share of the tolerance that the cylinders may take.
+SHARE_OF_HOLE = 0.25
+# Roache's factor of a grid convergence index (1994).
+SAFETY = 1.25
+# Answers before an estimate is believed, and finer levels without one before it is given up.
+ANSWERS, UNANSWERED = 3, 2
+# A load near zero is measured against this share of what it is made of.
+SHARE_OF_WHOLE = 0.1
+Status = Literal["within_tolerance", "not_reached", "no_answer"]
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """A case cut finely enough, or as finely as was tried.
+
+    status : ``within_tolerance``, ``not_reached`` (the estimate stayed above the tolerance up to the most segments)
+    or ``no_answer`` (no string found its balance).  case : the last string that has an answer, else the one given.
+    tolerance, error : allowed and estimated relative error of hook load and torque, the largest over the
+    operations.  segments : of the string in the hole.  steps : a row per stage, level and operation; columns stage,
+    level, operation, segments, shortest_m, chord_m (the most a cylinder misses the hole by), hookload_N,
+    surface_torque_N_m, hookload_change, torque_change, hookload_error, torque_error (all relative; NaN where there
+    is none yet), status, time_s.
+    """
+
+    status: Status
+    message: str
+    case: Case
+    operations: tuple[str, ...]
+    bit_depth: float
+    tolerance: float
+    error: float
+    segments: int
+    steps: pd.DataFrame
+
+
+def refine(
+    case: Case,
+    tolerance: float = 0.01,
+    operation: str | Sequence[str] | None = None,
+    bit_depth: float | None = None,
+    graded: bool = False,
+    most: int = 5000,
+    speed: float | None = None,
+    rpm: float | None = None,
+    progress: Progress | None = None,
+) -> Refinement:
+    """Cut the string of a case finer until hook load and torque are within ``tolerance`` (0.01 is 1 %).
+
+    operation : kind or kinds, else that of the case's first operation; bit_depth [m], else that operation's end.
+    graded : short segments in bends and near the bit, long ones elsewhere, else all of one length; a graded string
+    belongs to this one bit depth.  most : segments at most.  speed [m/s], rpm : as of ``torque_drag``.  The
+    tolerance is a share of the load, or of a tenth of what the load is made of (the string's weight, Σ r μ F_n)
+    where that is more.  Raises InputError for input that cannot be used.
+    """
+    try:
+        kinds = _kinds(case, operation)
+        depth = _depth(case, kinds[0], bit_depth)
+        _check(case, tolerance, most, depth)
+        task = _Task(
+            rates_of_all(case, kinds, speed, rpm), depth, layouts.graded if graded else layouts.uniform, most, progress
+        )
+        _solve("string", _cut(case, task, _divided(case, depth) / FIRST), task)  # compile, so that times tell
+        holes = _refine_hole(case, task, SHARE_OF_HOLE * tolerance)
+        error_of_hole = _error(holes) if holes else 0.0
+        held = case.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else case
+        strings = _refine_string(held, task, tolerance - error_of_hole)
+        return _result(case, task, tolerance, error_of_hole, holes, strings)
+    except InputError as error:
+        raise (error if case.file is None else error.in_file(case.file)) from None
+
+
+class _Task(NamedTuple):
+    """What is asked of every level."""
+
+    rates: Mapping[str, SteadyRates]
+    bit_depth: float
+    layout: layouts.Layout
+    most: int
+    progress: Progress | None
+
+
+class _Level(NamedTuple):
+    """The strings of one fineness, each level twice as fine as the one before.
+
+    loads (operations, 2) : hook load [N] and torque [N m], NaN where a string has no answer; scales (operations, 2) :
+    what an error is measured against; seconds (operations,).
+    """
+
+    stage: str
+    case: Case
+    segments: int
+    shortest: float
+    loads: Array
+    scales: Array
+    points: list[Equilibrium]
+    seconds: list[float]
+
+    @property
+    def answered(self) -> bool:
+        """Whether every operation has its loads."""
+        return bool(np.isfinite(self.loads).all())
+
+
+def _refine_hole(case: Case, task: _Task, allowed: float) -> list[_Level]:
+    """Levels of ever shorter cylinders, until what they leave is allowed; none where there are no cylinders."""
+    levels: list[_Level] = []
+    if case.wellbore.geometry == "arcs" or not case.contact.enabled:
+        return levels
+    for segments in IN_HOLE:
+        cut = _cut(case, task, _divided(case, task.bit_depth) / segments)
+        levels = [_solve("hole", cut, task)]
+        if levels[0].answered:
+            break
+    while len(levels) <= HALVINGS and not (_error(levels) <= allowed):
+        cut = _shorter_cylinders(cut)
+        levels.append(_solve("hole", cut, task))
+    return levels
+
+
+def _refine_string(case: Case, task: _Task, allowed: float) -> list[_Level]:
+    """Levels of ever shorter segments, until what they leave is allowed or there would be too many."""
+    levels: list[_Level] = []
+    length = _divided(case, task.bit_depth) / FIRST
+    while True:
+        cut = _cut(case, task, length)
+        if levels and layouts.segments_in_hole(cut, task.bit_depth) > task.most:
+            return levels
+        levels.append(_solve("string", cut, task))
+        answered = [k for k, level in enumerate(levels) if level.answered]
+        if len(answered) >= ANSWERS and _error(levels) <= allowed:
+            return levels
+        if answered and len(levels) - answered[-1] > UNANSWERED:
+            return levels
+        length /= 2
+
+
+def _solve(stage: str, case: Case, task: _Task) -> _Level:
+    """The strings of all operations."""
+    string = lay_out(case, task.bit_depth)
+    weight = float(string.of("weight") @ string.length)
+    if task.progress is not None:
+        task.progress(f"{stage}: {string.segments} segments")
+    points, seconds = [], []
+    began = time.perf_counter()
+    solver = Solver(case)
+    for kind, rates in task.rates.items():
+        points.append(solver.solve(kind, rates, task.bit_depth))
+        seconds.append(time.perf_counter() - began)
+        began = time.perf_counter()
+    loads = [_loads(p) if p.status in SOUND else (np.nan, np.nan) for p in points]
+    scales = [_scales(p, weight) for p in points]
+    return _Level(
+        stage, case, string.segments, float(string.length.min()), np.array(loads), np.array(scales), points, seconds
+    )
+
+
+def relative_difference(point: Equilibrium, other: Equilibrium) -> tuple[float, float]:
+    """Differences in hook load and torque, relative as those of a refinement are, to the loads of ``other``."""
+    string = lay_out(other.case, other.bit_depth)
+    scales = _scales(other, float(string.of("weight") @ string.length))
+    hookload, torque = np.abs(np.subtract(_loads(point), _loads(other))) / scales
+    return float(hookload), float(torque)
+
+
+def _loads(point: Equilibrium) -> tuple[float, float]:
+    return point.hookload, point.surface_torque
+
+
+def _scales(point: Equilibrium, weight: float) -> tuple[float, float]:
+    """What errors in hook load and torque are measured against, given the buoyed weight of the string [N]."""
+    # Without friction there is no torque to be wrong about but rounding.
+    friction = max(point.sum_r_mu_fn, 1e-5 * weight)
+    return max(abs(point.hookload), SHARE_OF_WHOLE * weight), max(abs(point.surface_torque), SHARE_OF_WHOLE * friction)
+
+
+def _errors(levels: Sequence[_Level]) -> tuple[Array, Array]:
+    """Relative change since the answer before, and estimated error, of the last level: (operations, 2) each.
+
+    At first order the changes of doubled counts go on as a geometric series: what is missing is as much as the last
+    change.  An earlier change that would have left more than that, had it been followed by such a series, counts
+    instead: the last one was luck.
+    """
+    last = levels[-1]
+    change, missing = np.full((2, *last.loads.shape), np.nan)
+    for k, column in np.ndindex(last.loads.shape):
+        answers = [i for i, level in enumerate(levels) if np.isfinite(level.loads[k, column])]
+        if len(answers) < 2 or answers[-1] != len(levels) - 1:
+            continue
+        changes = [abs(levels[j].loads[k, column] - levels[i].loads[k, column]) for i, j in pairwise(answers)]
+        left = [
+            step / (2.0 ** (j - i) - 1) * 0.5 ** (len(levels) - 1 - j)
+            for step, (i, j) in zip(changes, pairwise(answers), strict=True)
+        ]
+        change[k, column], missing[k, column] = changes[-1], max(left)
+    return change / last.scales, SAFETY * missing / last.scales
+
+
+def _error(levels: Sequence[_Level]) -> float:
+    """The largest estimated error of the last level; infinite while there is none."""
+    worst = float(_errors(levels)[1].max())
+    return worst if np.isfinite(worst) else np.inf
+
+
+def _result(
+    case: Case, task: _Task, tolerance: float, error_of_hole: float, holes: list[_Level], strings: list[_Level]
+) -> Refinement:
+    """What the levels come to."""
+    answered = [k for k, level in enumerate(strings) if level.answered]
+    steps = pd.DataFrame(_rows(task, holes) + _rows(task, strings))
+
+    def finish(status: Status, message: str, of: Case, error: float, segments: int) -> Refinement:
+        kinds = tuple(task.rates)
+        return Refinement(status, message, of, kinds, task.bit_depth, tolerance, error, segments, steps)
+
+    if not answered:
+        point = next(point for point in strings[-1].points if point.status not in SOUND)
+        message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has an answer in "
+        return finish("no_answer", f"{message}{point.operation} ({point.status}: {point.message})", case, np.inf, 0)
+    found = strings[answered[-1]]
+    error = error_of_hole + _error(strings[: answered[-1] + 1])
+    if answered[-1] == len(strings) - 1 and error <= tolerance and len(answered) >= ANSWERS:
+        return finish("within_tolerance", "", found.case, error, found.segments)
+    left = f"an error of {100 * error:.3g} %" if np.isfinite(error) else "an unknown error"
+    message = f"{left} is left at {found.segments} segments, the most that were tried"
+    if answered[-1] != len(strings) - 1:
+        lost = next(point for point in strings[-1].points if point.status not in SOUND)
+        why = f"{lost.operation}: {lost.status}"
+        message = f"strings of more than {found.segments} segments have no answer ({why}); {left} is left there"
+    if tolerance < error_of_hole < np.inf:
+        message += f"; {100 * error_of_hole:.3g} % of it is the cylinders'"
+    return finish("not_reached", message, found.case, error, found.segments)
+
+
+def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
+    """A row per level and operation."""
+    rows = []
+    for k, level in enumerate(levels):
+        change, error = _errors(levels[: k + 1])
+        for i, kind in enumerate(task.rates):
+            rows.append(
+                {
+                    "stage": level.stage,
+                    "level": k,
+                    "operation": kind,
+                    "segments": level.segments,
+                    "shortest_m": level.shortest,
+                    "chord_m": _chord(level.case),
+                    "hookload_N": level.loads[i, 0],
+                    "surface_torque_N_m": level.loads[i, 1],
+                    "hookload_change": change[i, 0],
+                    "torque_change": change[i, 1],
+                    "hookload_error": error[i, 0],
+                    "torque_error": error[i, 1],
+                    "status": level.points[i].status,
+                    "time_s": level.seconds[i],
+                }
+            )
+    return rows
+
+
+def _cut(case: Case, task: _Task, length: float) -> Case:
+    return layouts.with_components(case, task.layout(case, task.bit_depth, length))
+
+
+def _divided(case: Case, bit_depth: float) -> float:
+    """Length of the string in the hole that is cut: all but the paper's long segment [m]."""
+    in_hole = bit_depth - case.string.top_md
+    last = case.string.components[-1]
+    if not layouts.is_long(last):
+        return in_hole
+    cut = sum(part.length or 0.0 for part in case.string.components)
+    if cut == 0:
+        raise InputError("a component that can be cut, beside the long segment", key="string.components")
+    return min(in_hole, cut)
+
+
+def _sharpest(case: Case) -> float:
+    """The largest curvature of the hole [1/m]."""
+    stations = survey.to_radians(case.wellbore.read_stations())
+    return float((survey.dogleg(stations) / np.diff(stations[:, 0])).max())
+
+
+def _chord(case: Case) -> float:
+    """By how much the longest chord of a cylinder may miss the hole [m]."""
+    hole = case.wellbore
+    if hole.geometry == "arcs":
+        return 0.0
+    if hole.cylinder_length is None:
+        assert hole.chord_tolerance is not None  # the case makes sure that one of the two is given
+        return hole.chord_tolerance
+    return _sharpest(case) * hole.cylinder_length**2 / 8
+
+
+def _shorter_cylinders(case: Case) -> Case:
+    """The case with cylinders half as long in its bends; they stay longer than their overlap."""
+    hole = case.wellbore
+    if hole.cylinder_length is None:
+        assert hole.chord_tolerance is not None
+        chord = hole.chord_tolerance / 4
+        update = {"chord_tolerance": chord}
+        length = np.sqrt(8 * chord / max(_sharpest(case), 1e-12))
+    else:
+        length = hole.cylinder_length / 2
+        update = {"cylinder_length": length}
+    update["overlap"] = min(hole.overlap, 0.5 * length)
+    return case.model_copy(update={"wellbore": hole.model_copy(update=update)})
+
+
+def _kinds(case: Case, operation: str | Sequence[str] | None) -> list[str]:
+    if operation is None:
+        if not case.operations:
+            raise InputError("a kind of operation, as the case has none", key="operation")
+        return [case.operations[0].kind]
+    kinds = [operation] if isinstance(operation, str) else list(dict.fromkeys(operation))
+    if not kinds:
+        raise InputError("at least one kind of operation", key="operation", value=[])
+    return kinds
+
+
+def _depth(case: Case, kind: str, bit_depth: float | None) -> float:
+    """The bit depth asked for, else the end of the case's first operation of that kind, else of its first."""
+    if bit_depth is not None:
+        return float(bit_depth)
+    if not case.operations:
+        raise InputError("a bit depth, as the case has no operation", key="bit_depth")
+    return next((o for o in case.operations if o.kind == kind), case.operations[0]).end_md
+
+
+def _check(case: Case, tolerance: float, most: int, depth: float) -> None:
+    if not 0 < tolerance < 1:
+        raise InputError("a share above 0 and below 1, such as 0.01", key="tolerance", value=tolerance)
+    if not FIRST <= most <= MAX_SEGMENTS:
+        raise InputError(f"{FIRST} to {MAX_SEGMENTS} segments", key="most", value=most)
+    check_bit_depth(depth, *case.depths, "bit_depth", f"{depth:g} m")

@@ -1,0 +1,70 @@
+"""Graded strings beside uniform ones, and where ``fctd refine`` landed."""
+
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+LAYOUTS = ("uniform", "graded")
+
+
+def layouts(tables: Tables) -> Canvas:
+    """A column a well: torque above, hook load below."""
+    table = tables["layouts"]
+    wells = list(table["well"].unique())
+    canvas = style.figure(5.0)
+    axes = canvas.subplots(2, len(wells), sharex="col", squeeze=False)
+    for column, well in enumerate(wells):
+        for row, (quantity, label) in enumerate((("torque", "torque"), ("hookload", "hook load"))):
+            ax = axes[row, column]
+            for index, layout in enumerate(LAYOUTS):
+                of_kind = table[(table["well"] == well) & (table["layout"] == layout)]
+                look = style.line(index) | {"marker": style.MARKERS[index], "markersize": 4}
+                ax.plot(of_kind["segments"], of_kind[f"{quantity}_percent"], **look, label=layout)
+            ax.set(xscale="log", yscale="log")
+            style.plain_log_ticks(ax.xaxis)
+            low, high = ax.get_ylim()
+            if high < 100 * low:
+                style.plain_log_ticks(ax.yaxis)
+            if column == 0:
+                ax.set_ylabel(f"error of {label}, %")
+        axes[0, column].set_title(well)
+        axes[1, column].set_xlabel("segments, count")
+    canvas.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    return canvas
+
+
+def landed(tables: Tables) -> Canvas:
+    """Estimated error, and the difference from a run four times as fine, over the tolerance."""
+    table = tables["landed"]
+    canvas = style.figure(3.6)
+    ax = canvas.subplots()
+    labels = []
+    groups = table.groupby(["well", "tolerance_percent", "layout"], sort=False)
+    for at, ((well, tolerance, layout), rows) in enumerate(groups):
+        off = rows[["hookload_off_percent", "torque_off_percent"]].max(axis=1).max()
+        for index, (value, label) in enumerate(((rows["estimate_percent"].iloc[0], "estimated"), (off, "found"))):
+            ax.plot(value / tolerance, at, **style.dots(index), markersize=7, label=label if at == 0 else None)
+        labels.append(f"{well}, {tolerance:g} %, {layout}: {rows['segments'].iloc[0]} segments")
+    ax.axvline(1.0, color=style.QUIET, linewidth=1, linestyle=(0, (4, 2)), label="tolerance")
+    ax.set_yticks(np.arange(len(labels)), labels)
+    ax.set_ylim(len(labels) - 0.5, -0.5)
+    ax.set(xlabel="error, tolerances", xlim=(0, 1.1))
+    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=3)
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "layouts",
+        "Error of uniform and graded strings of equal counts: torque turning off bottom (above), hook load picking up "
+        "(below).",
+        layouts,
+    ),
+    Figure(
+        "landed",
+        "Where fctd refine landed for three operations at once: the error it estimated, and the largest difference "
+        "from a run with segments and cylinders a quarter as long.",
+        landed,
+    ),
+]

@@ -1,0 +1,160 @@
+"""``fctd refine`` as a user meets it: the table, the refined case file, exit codes."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import fctd
+from fctd.cli_options import read_share
+from fctd.errors import InputError
+from tests.test_cli import run
+
+CASE = """
+name = "tiny"  # mine
+[wellbore]
+survey = "hole.csv"
+chord_tolerance = "50 mm"
+[[wellbore.intervals]]
+to_md = "900 m"
+diameter = "8.5 in"
+friction = 0.2
+[string]
+[[string.components]]
+name = "collar"
+length = "300 ft"
+outer_diameter = "6.5 in"
+inner_diameter = "2.8125 in"
+segments = 3
+bend = "1 deg"
+[[string.components]]
+name = "pipe"
+outer_diameter = "5 in"  # as on the rack
+inner_diameter = "4.276 in"
+segment_length = "40 m"
+[mud]
+density = "1.2 sg"
+[[operations]]
+kind = "trip_out"
+from_md = "880 m"
+to_md = "850 m"
+speed = "0.2 m/s"
+"""
+HOLE = "md_m,inc_deg,azi_deg\n0,0,0\n100,0,0\n550,90,0\n900,90,0\n"
+
+
+@pytest.fixture
+def case_file(tmp_path: Path) -> Path:
+    (tmp_path / "hole.csv").write_text(HOLE)
+    path = tmp_path / "tiny.toml"
+    path.write_text(CASE)
+    return path
+
+
+@pytest.mark.parametrize("graded", [False, True])
+def test_the_case_is_written_as_the_user_has_it(
+    graded: bool, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "new" / "fine.toml"
+    options = ("--tolerance", "2 %", "--friction", "0.3", "--set", "string.components[0].bend=", "--out", out)
+    assert run(monkeypatch, "refine", case_file, *options, *(["--graded"] if graded else []), "--quiet") == 0
+    case = fctd.load_case(case_file, {"friction": 0.3, "string.components[0].bend": None})
+    found = fctd.refine(case, 0.02, graded=graded)
+    screen = capsys.readouterr().out
+    assert "bit at 850.0 m" in screen
+    assert f"{found.segments} segments, from" in screen
+    assert f"{found.steps['hookload_N'].iloc[-1] / 1e3:.2f}" in screen
+
+    text = out.read_text()
+    written = fctd.load_case(out)
+    assert "# mine" in text
+    assert "# as on the rack" in text
+    raw = tomllib.loads(text)
+    assert raw["string"]["components"][-1]["outer_diameter"] == "5 in"
+    assert raw["wellbore"]["survey"] == "../hole.csv"
+    assert "bend" not in text
+    assert written.wellbore.intervals[0].friction == 0.3
+    assert written.wellbore.chord_tolerance == pytest.approx(found.case.wellbore.chord_tolerance)
+    assert len(written.string.components) == len(found.case.string.components)
+    point, same = (fctd.equilibrium(c, "trip_out", 850.0) for c in (written, found.case))
+    assert len(point.profile) == len(same.profile)
+    assert point.hookload == pytest.approx(same.hookload, rel=1e-6)
+
+
+def test_a_bent_housing_is_bent_at_its_upper_end_in_the_file(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "fine.toml"
+    options = ("--tolerance", "3%", "--graded", "--out", out, "--bit-depth", "2700 ft", "--quiet")
+    assert run(monkeypatch, "refine", case_file, *options) == 0
+    collars = [part for part in fctd.load_case(out).string.components if part.name == "collar"]
+    assert [part.bend > 0 for part in collars] == [False] * (len(collars) - 1) + [True]
+    assert sum(part.length or 0.0 for part in collars) == pytest.approx(300 * 0.3048)
+
+
+def test_several_operations_and_field_units(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kinds = ("--operation", "trip_in", "--operation", "rotate_off_bottom")
+    assert run(monkeypatch, "refine", case_file, *kinds, "--bit-depth", "880", "--tolerance", "0.03", "--rpm", "80",
+               "--units", "field", "--quiet") == 0  # fmt: skip
+    screen = capsys.readouterr().out
+    assert "klbf" in screen
+    assert "bit at 2887.1 ft" in screen
+    assert screen.count("trip_in") == screen.count("rotate_off_bottom") > 3
+
+
+def test_a_tolerance_out_of_reach_is_exit_code_1(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "fine.toml"
+    assert run(monkeypatch, "refine", case_file, "--tolerance", "1e-9", "--most", "100", "--out", out) == 1
+    captured = capsys.readouterr()
+    assert "not_reached: an error of" in captured.err
+    assert "tolerance 1e-07 %" in out.read_text()
+
+
+def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "fine.toml"
+    options = ("--most", "40", "--out", out, "--set", "contact.enabled=false")
+    assert run(monkeypatch, "refine", case_file, *options) == 1
+    captured = capsys.readouterr()
+    assert "no_answer: no string of" in captured.err
+    assert "max_iterations" in captured.out
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        (("--tolerance", "0"), ["--tolerance", '"0"', "above 0 and below 100 %"]),
+        (("--tolerance", "-1%"), ["--tolerance", '"-1%"']),
+        (("--tolerance", "1 permille"), ["--tolerance", "1 permille"]),
+        (("--out", "fine.txt"), ["--out", "fine.txt", ".toml"]),
+        (("--operation", "trip"), ["tiny.toml", "operation", "trip"]),
+        (("--bit-depth", "950 m"), ["tiny.toml", "bit_depth", "950 m", "900 m"]),
+        (("--most", "3"), ["tiny.toml", "most", "16 to 10000"]),
+    ],
+)
+def test_bad_input_is_one_message_and_exit_code_2(
+    options: tuple[str, str], expected: list[str], case_file: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    assert run(monkeypatch, "refine", case_file, *options) == 2
+    message = capsys.readouterr().err
+    assert "Traceback" not in message
+    for part in expected:
+        assert part in message
+
+
+@pytest.mark.parametrize(("text", "share"), [("1%", 0.01), ("1 %", 0.01), ("0.01", 0.01), (" 2.5% ", 0.025)])
+def test_a_share_is_read_with_and_without_percent(text: str, share: float) -> None:
+    assert read_share(text, "--tolerance") == pytest.approx(share)
+
+
+@pytest.mark.parametrize("text", ["", "%", "one", "nan", "inf", "1", "100%", "0%", "1%%"])
+def test_what_is_no_share_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match="--tolerance"):
+        read_share(text, "--tolerance")

@@ -1,0 +1,207 @@
+"""Refinement: what is estimated, what is found, and what is said where nothing is."""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fctd
+from fctd import Case, Equilibrium, InputError
+from fctd.equilibrium import Solver
+from fctd.layouts import uniform, with_components
+from fctd.operations import SteadyRates
+from fctd.refine import SAFETY, _errors, _Level, relative_difference
+from tests.cases import make_case, pipe, rotation, trip
+from validation.refine import finer
+
+BUILD = [[0, 0, 0], [400, 0, 0], [800, 60, 0], [1300, 60, 0]]
+
+
+def build_case(**more: Any) -> Case:
+    return make_case(BUILD, [pipe(None, None, segment_length=10.0)], mud={"density": 1200.0}, **more)
+
+
+def levels(values: list[float]) -> list[_Level]:
+    """A sequence of answers of one load, NaN for none."""
+    return [
+        _Level("string", build_case(), 2**k, 1.0, np.array([[value, 0.0]]), np.ones((1, 2)), [], [])
+        for k, value in enumerate(values)
+    ]
+
+
+def test_the_estimate_of_a_regular_sequence_is_what_is_missing() -> None:
+    """First order: v_k = 1 + 2^-k is 2^-k off; the factor of safety is on top."""
+    for last in (1, 3, 6):
+        _, error = _errors(levels([1 + 2.0**-k for k in range(last + 1)]))
+        assert error[0, 0] == pytest.approx(SAFETY * 2.0**-last)
+
+
+def test_a_small_change_by_luck_does_not_pass_for_convergence() -> None:
+    change, error = _errors(levels([1.0, 1.4, 1.3, 1.3001]))
+    assert change[0, 0] == pytest.approx(1e-4)
+    assert error[0, 0] == pytest.approx(SAFETY * 0.1)  # of the first change, halved twice
+
+
+def test_a_level_without_an_answer_is_bridged() -> None:
+    """A change over two doublings is three times what is missing after it."""
+    _, error = _errors(levels([1.3, math.nan, 1.0]))
+    assert error[0, 0] == pytest.approx(SAFETY * 0.1)
+    _, error = _errors(levels([1.3, 1.2, math.nan]))
+    assert np.isnan(error[0, 0])
+
+
+@pytest.mark.parametrize("graded", [False, True])
+def test_what_is_found_is_within_the_tolerance_of_a_finer_run(graded: bool) -> None:
+    case = build_case()
+    kinds = ["rotate_off_bottom", "trip_out"]
+    found = fctd.refine(case, 0.01, kinds, 1300.0, graded)
+    assert found.status == "within_tolerance"
+    assert found.error <= 0.01
+    assert found.operations == tuple(kinds)
+    for kind in kinds:
+        point = fctd.equilibrium(found.case, kind, 1300.0)
+        assert len(point.profile) - 1 == found.segments
+        off = relative_difference(point, fctd.equilibrium(finer(found.case), kind, 1300.0))
+        assert max(off) <= 0.01
+    steps = found.steps[found.steps["stage"] == "string"]
+    assert steps["segments"].iloc[-1] == found.segments
+    assert steps["torque_error"].isna().tolist() == [True, True] + [False] * (len(steps) - 2)
+    assert (found.steps["time_s"] > 0).all()
+
+
+def test_grading_takes_fewer_segments() -> None:
+    """A build between two straights."""
+    even, cut = (fctd.refine(build_case(), 0.003, "rotate_off_bottom", 1300.0, graded) for graded in (False, True))
+    assert cut.segments < 0.8 * even.segments
+
+
+@pytest.mark.parametrize(("size", "first"), [({"chord_tolerance": 0.2}, 0.2), ({"cylinder_length": 12.0}, None)])
+def test_cylinders_that_are_too_long_are_cut_as_well(size: dict[str, Any], first: float | None) -> None:
+    case = build_case(wellbore=size)
+    found = fctd.refine(case, 0.01, "rotate_off_bottom", 1300.0)
+    assert found.status == "within_tolerance"
+    hole = found.steps[found.steps["stage"] == "hole"]
+    radius = 400 / math.radians(60)
+    assert hole["chord_m"].iloc[0] == pytest.approx(first or 12.0**2 / (8 * radius))
+    chords = hole["chord_m"].to_numpy()
+    assert len(chords) > 1
+    assert 4 * chords[1:] == pytest.approx(chords[:-1])
+    (key,) = size
+    assert getattr(found.case.wellbore, key) < size[key]
+    exact = case.wellbore.model_copy(update={"geometry": "arcs"})
+    point = fctd.equilibrium(found.case, "rotate_off_bottom", 1300.0)
+    true = fctd.equilibrium(found.case.model_copy(update={"wellbore": exact}), "rotate_off_bottom", 1300.0)
+    assert max(relative_difference(point, true)) < 0.01
+
+
+def test_cylinders_never_get_shorter_than_their_overlap() -> None:
+    found = fctd.refine(build_case(wellbore={"cylinder_length": 0.4}), 0.01, "trip_out", 1300.0)
+    assert found.case.wellbore.cylinder_length is not None
+    assert found.case.wellbore.overlap <= 0.5 * found.case.wellbore.cylinder_length
+
+
+def test_arcs_are_left_alone() -> None:
+    found = fctd.refine(build_case(wellbore={"geometry": "arcs"}), 0.02, "trip_out", 1300.0)
+    assert set(found.steps["stage"]) == {"string"}
+
+
+def test_operation_and_depth_are_the_cases_own() -> None:
+    case = build_case(operations=[trip(1000, 1200), rotation(1200, 10.0)])
+    found = fctd.refine(case, 0.05)
+    assert (found.operations, found.bit_depth) == (("trip_in",), 1200.0)
+    case = build_case(operations=[trip(1000, 1200), trip(1200, 1100)])
+    assert fctd.refine(case, 0.05, "trip_out").bit_depth == 1100.0
+    assert fctd.refine(case, 0.05, "rotate_off_bottom").bit_depth == 1200.0
+
+
+def test_a_tolerance_that_is_not_reached_is_told() -> None:
+    found = fctd.refine(build_case(), 1e-7, "rotate_off_bottom", 1300.0, most=100)
+    assert found.status == "not_reached"
+    assert found.error > 1e-7
+    assert found.segments == 64
+    assert "at 64 segments" in found.message
+    assert fctd.equilibrium(found.case, "rotate_off_bottom", 1300.0).status == "converged"
+
+
+def test_a_string_without_a_balance_is_told() -> None:
+    """Hanging sideways without walls: no steady string at any count."""
+    case = make_case([[0, 60, 0], [300, 60, 0]], [pipe(None, None, segment_length=10.0)], contact={"enabled": False})
+    found = fctd.refine(case, 0.01, "trip_in", 300.0, most=64)
+    assert found.status == "no_answer"
+    assert found.case == case
+    assert "trip_in (max_iterations:" in found.message
+    assert found.steps["hookload_N"].isna().all()
+
+
+def test_a_turning_string_without_friction_has_no_torque_to_be_wrong_about() -> None:
+    hole = {"intervals": [{"to_md": 1300, "diameter": 0.2159, "friction": 0.0}]}
+    assert fctd.refine(build_case(wellbore=hole), 0.01, "rotate_off_bottom", 1300.0).status == "within_tolerance"
+
+
+@pytest.mark.parametrize(
+    ("call", "expected"),
+    [
+        ({"tolerance": 0.0}, "tolerance = 0.0: expected a share above 0"),
+        ({"tolerance": -0.01}, "tolerance = -0.01"),
+        ({"tolerance": 1.0}, "tolerance = 1.0"),
+        ({"tolerance": math.nan}, "tolerance = NaN"),
+        ({"most": 10}, "most = 10: expected 16 to 10000 segments"),
+        ({"most": 20_000}, "most = 20000"),
+        ({"operation": "trip_up"}, "expected the kind trip_"),
+        ({"operation": []}, "expected at least one kind"),
+        ({"operation": None}, "operation is missing: expected a kind of operation, as the case has none"),
+        ({"bit_depth": None}, "bit_depth is missing: expected a bit depth, as the case has no operation"),
+        ({"bit_depth": 1301.0}, 'bit_depth = "1301 m": expected a depth below'),
+        ({"speed": -1.0}, "speed = -1.0"),
+    ],
+)
+def test_bad_input_is_answered(call: dict[str, Any], expected: str) -> None:
+    with pytest.raises(InputError) as error:
+        fctd.refine(build_case(), **({"operation": "trip_out", "bit_depth": 1300.0} | call))
+    assert expected.lower() in str(error.value).lower()
+
+
+def test_a_long_segment_alone_cannot_be_cut() -> None:
+    case = make_case([[0, 0, 0], [300, 0, 0]], [pipe(None, 1)])
+    with pytest.raises(InputError, match=r"string.components .*: expected a component that can be cut"):
+        fctd.refine(case, 0.01, "trip_in", 300.0)
+
+
+def test_one_agreement_is_not_enough() -> None:
+    """Hanging straight down the load is the weight at once, and still three strings are asked."""
+    case = make_case([[0, 0, 0], [500, 0, 0]], [pipe(None, None, segment_length=10.0)], wellbore={"geometry": "arcs"})
+    found = fctd.refine(case, 0.1, "trip_in", 500.0)
+    assert found.steps["segments"].tolist() == [16, 32, 64]
+
+
+def test_a_load_near_zero_is_measured_against_what_it_is_made_of() -> None:
+    """Friction carries nearly all of a string in a slant hole: its hook load hangs by a thread."""
+    hole = {"geometry": "arcs", "intervals": [{"to_md": 900, "diameter": 0.2159, "friction": math.tan(0.5235)}]}
+    case = make_case([[0, 60, 0], [900, 60, 0]], [pipe(None, None, segment_length=10.0)], wellbore=hole)
+    coarse, fine = (
+        fctd.equilibrium(with_components(case, uniform(case, 900.0, length)), "trip_in", 900.0) for length in (90.0, 45)
+    )
+    weight = 9.80665 * math.pi / 4 * (0.127**2 - 0.07**2) * 7850 * 900
+    assert abs(fine.hookload) < 0.02 * weight
+    expected = abs(coarse.hookload - fine.hookload) / (0.1 * weight)
+    assert relative_difference(coarse, fine)[0] == pytest.approx(expected)
+
+
+def test_finer_strings_without_an_answer_end_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of a string that buckles only where its segments are short enough to show it."""
+    solve = Solver.solve
+
+    def short_of_breath(self: Solver, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
+        point = solve(self, operation, rates, bit_depth)
+        return replace(point, status="max_iterations") if len(point.profile) > 70 else point
+
+    monkeypatch.setattr(Solver, "solve", short_of_breath)
+    case = build_case(wellbore={"geometry": "arcs"})
+    found = fctd.refine(case, 1e-6, "rotate_off_bottom", 1300.0)
+    assert found.status == "not_reached"
+    assert found.message.startswith("strings of more than 64 segments have no answer (rotate_off_bottom: max_iter")
+    assert found.segments == 64
+    assert found.steps["segments"].tolist() == [16, 32, 64, 128, 256]
+    assert found.steps["hookload_N"].isna().tolist() == [False] * 3 + [True] * 2
