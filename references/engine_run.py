@@ -85,7 +85,7 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     wall = time.perf_counter() - began
     result = recorder.result("", "", wall, 0.0)
     ledger = _ledger(result.energy, held)
-    checks = engine_checks.examine(run, result.history, result.profile, ledger, broken)
+    checks = engine_checks.examine(run, window.start, result.history, result.profile, ledger, broken)
     failed = checks.loc[~checks["passed"], "check"].to_list()
     message = "; ".join([*([broken] if broken else []), *failed])
     return EngineRun(
