@@ -1,7 +1,14 @@
 """The string in Bullet (pybullet): free bodies under our joint wrenches, Bullet's own contact with the concave tube.
 
-Traps: chains of Bullet's own constraints sag by metres; a collision sphere off its body's origin falls through a
-concave mesh, so that each body carries a fixed link with the sphere; damping and sleeping are on by default.
+Traps: chains of Bullet's own constraints sag by metres; a sphere off its body's origin in the body's own shape
+rattles on a concave mesh, so that each body carries a fixed link with the sphere; damping and sleeping are on by
+default.
+
+Friction leans.  Bullet solves it along two directions fixed in its frame (btPlaneSpace1 of the normal), each over the
+effective mass of the body along it, and clips the pair to μN: what comes out opposes M·v, not the sliding v (bullet3
+pull request 4539 says so too).  A pipe gives way to a push across it five times as easily as along it, so that its
+friction leans by up to 20° where the hole lies between those directions and not at all where it lies along one.
+``fair`` settings therefore turn the scene until the lower end of the string heads along x.
 """
 
 from typing import Any, ClassVar, Literal
@@ -27,6 +34,7 @@ FORGET = 1e-3
 ITERATIONS = 50
 # Bits of the collision filter: the wall and the string meet each other and nothing else.
 WALL, STRING = 1, 2
+LINK = 0  # of a body: the one that carries its sphere
 # Fields of a contact point.
 BODY, PLACE, FORCE, FRICTION = 1, 6, 9, (10, 12)
 
@@ -36,22 +44,23 @@ class BulletOptions(StepOptions):
 
     settings : ``fair``, the wall's stiffness and damping of the case, or ``default``, Bullet's hard contact with
     every parameter as it comes.  facets, ring_spacing [m] : of the tube; rings stand at the ends of FCTD's
-    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  sphere : where the string touches,
-    on a fixed ``link`` or ``offset`` in its body's own shape.
+    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  heading [rad] : azimuth that lies along
+    Bullet's x; without one that of the string's lower end where ``fair``, north where ``default``.
     """
 
     settings: Literal["fair", "default"] = "fair"
     facets: int = TubeOptions.model_fields["facets"].default
     ring_spacing: units.PositiveLength | None = None
     unit: units.PositiveLength = 1.0
-    sphere: Literal["link", "offset"] = "link"
+    heading: units.Angle | None = None
 
 
 class _Bodies:
-    """The bodies in a client of pybullet, lengths in ``unit``."""
+    """The bodies in a client of pybullet, lengths in ``unit``, x along the heading."""
 
     def __init__(self, bullet: Any, run: Run, tube: Tube | None, options: BulletOptions) -> None:
         self._bullet, self._scale, self._dt = bullet, 1.0 / options.unit, 0.0
+        self._heading = _heading(run, options)
         self._client = bullet.connect(bullet.DIRECT)
         bullet.setGravity(0, 0, 0, physicsClientId=self._client)
         fair = options.settings == "fair"
@@ -61,23 +70,23 @@ class _Bodies:
                 contactBreakingThreshold=FORGET * self._scale, physicsClientId=self._client,
             )  # fmt: skip
         friction = run.case.wellbore.intervals[0].friction
-        poses, stiffness, damping = poses_of(run), wall_stiffness(run), run.laws.contact_damping
-        self._bodies = [self._add_body(run, j, poses[j], options.sphere, fair) for j in range(run.segments)]
+        poses, stiffness = _turned_poses(poses_of(run), -self._heading), wall_stiffness(run)
+        damping = run.laws.contact_damping
+        self._bodies = [self._add_body(run, j, poses[j], fair) for j in range(run.segments)]
         self._number = {body: j + 1 for j, body in enumerate(self._bodies)}
-        touching = 0 if options.sphere == "link" else -1
         for body, k in zip(self._bodies, stiffness, strict=True):
             soft = {"contactStiffness": k, "contactDamping": damping} if fair and damping > 0 else {}
             bullet.changeDynamics(
-                body, touching, lateralFriction=friction, restitution=0, physicsClientId=self._client, **soft
+                body, LINK, lateralFriction=friction, restitution=0, physicsClientId=self._client, **soft
             )
-            bullet.setCollisionFilterGroupMask(body, touching, STRING, WALL, physicsClientId=self._client)
+            bullet.setCollisionFilterGroupMask(body, LINK, STRING, WALL, physicsClientId=self._client)
         self._wall = -1 if tube is None else self._add_wall(tube)
 
     def _add_wall(self, tube: Tube) -> int:
         bullet, client = self._bullet, self._client
         shape = bullet.createCollisionShape(
             bullet.GEOM_MESH,
-            vertices=(self._scale * np.asarray(tube.mesh.vertices)).tolist(),
+            vertices=(self._scale * _turned(np.asarray(tube.mesh.vertices), -self._heading)).tolist(),
             indices=np.asarray(tube.mesh.faces).ravel().tolist(),
             flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
             physicsClientId=client,
@@ -87,27 +96,23 @@ class _Bodies:
         bullet.setCollisionFilterGroupMask(wall, -1, WALL, STRING, physicsClientId=client)
         return wall
 
-    def _add_body(self, run: Run, j: int, pose: Array, sphere: str, fair: bool) -> int:
-        """Segment j with its sphere at the contact point and the inertia of the engine."""
+    def _add_body(self, run: Run, j: int, pose: Array, fair: bool) -> int:
+        """Segment j with the inertia of the engine, and on its fixed link the sphere of its contact point."""
         bullet, client, u = self._bullet, self._client, self._scale
         mass, across, along, arm, radius = (
             float(run.S[row + 1 + j])
             for row in (state.MASS, state.J_TRANSVERSE, state.J_AXIAL, state.ARM_CONTACT, state.RADIUS)
         )
         at = (0, 0, u * arm)
-        placed = {"collisionFramePosition": at} if sphere == "offset" else {}
-        shape = bullet.createCollisionShape(bullet.GEOM_SPHERE, radius=u * radius, physicsClientId=client, **placed)
+        shape = bullet.createCollisionShape(bullet.GEOM_SPHERE, radius=u * radius, physicsClientId=client)
         x, y, z, qw, qx, qy, qz = pose[:7]
         still = (0, 0, 0, 1)
-        link = {
-            "linkMasses": [0], "linkCollisionShapeIndices": [shape], "linkVisualShapeIndices": [-1],
-            "linkPositions": [at], "linkOrientations": [still], "linkInertialFramePositions": [(0, 0, 0)],
-            "linkInertialFrameOrientations": [still], "linkParentIndices": [0],
-            "linkJointTypes": [bullet.JOINT_FIXED], "linkJointAxis": [(0, 0, 1)],
-        }  # fmt: skip
         body: int = bullet.createMultiBody(
-            mass, shape if sphere == "offset" else -1, -1, (u * x, u * y, u * z), (qx, qy, qz, qw),
-            physicsClientId=client, **(link if sphere == "link" else {}),
+            mass, -1, -1, (u * x, u * y, u * z), (qx, qy, qz, qw), physicsClientId=client,
+            linkMasses=[0], linkCollisionShapeIndices=[shape], linkVisualShapeIndices=[-1],
+            linkPositions=[at], linkOrientations=[still], linkInertialFramePositions=[(0, 0, 0)],
+            linkInertialFrameOrientations=[still], linkParentIndices=[0],
+            linkJointTypes=[bullet.JOINT_FIXED], linkJointAxis=[(0, 0, 1)],
         )  # fmt: skip
         bullet.changeDynamics(
             body, -1, linearDamping=0, angularDamping=0, physicsClientId=client,
@@ -127,8 +132,10 @@ class _Bodies:
             bullet.setTimeStep(dt, physicsClientId=client)
             self._dt = dt
         push, turn, world = bullet.applyExternalForce, bullet.applyExternalTorque, bullet.WORLD_FRAME
-        forces, moments = (u * wrenches[:, :3]).tolist(), (u * u * wrenches[:, 3:]).tolist()
-        for body, force, moment, place in zip(self._bodies, forces, moments, (u * poses[:, :3]).tolist(), strict=True):
+        scales = (u, u, u * u)
+        given = (poses[:, :3], wrenches[:, :3], wrenches[:, 3:])
+        places, forces, moments = ((k * _turned(v, -self._heading)).tolist() for k, v in zip(scales, given, strict=True))
+        for body, force, moment, place in zip(self._bodies, forces, moments, places, strict=True):
             push(body, -1, force, place, world, client)
             turn(body, -1, moment, world, client)
         bullet.stepSimulation(client)
@@ -141,7 +148,7 @@ class _Bodies:
         after = np.array(rows)
         after[:, :3] /= u
         after[:, 7:10] /= u
-        return after
+        return _turned_poses(after, self._heading)
 
     def contacts(self) -> tuple[NDArray[np.int64], Array]:
         """See ``Bodies.contacts``."""
@@ -152,11 +159,36 @@ class _Bodies:
             bodies.append(self._number[hit[BODY]])
             rows.append((*hit[PLACE], hit[FORCE], *(first + second)))
         found = np.array(rows).reshape(-1, 7) / self._scale
+        for vectors in (found[:, :3], found[:, 4:]):
+            vectors[:] = _turned(vectors, self._heading)
         return np.array(bodies, np.int64), found
 
     def close(self) -> None:
         """Disconnect the client, which nothing else frees."""
         self._bullet.disconnect(self._client)
+
+
+def _heading(run: Run, options: BulletOptions) -> float:
+    """Azimuth [rad] that lies along Bullet's x."""
+    if options.heading is not None:
+        return options.heading
+    axis = run.S[[state.AX + run.segments, state.AY + run.segments]]
+    return float(np.arctan2(axis[1], axis[0])) if options.settings == "fair" else 0.0
+
+
+def _turned(vectors: Array, angle: float) -> Array:
+    """Vectors (n, 3) turned about z by an angle [rad]."""
+    c, s = np.cos(angle), np.sin(angle)
+    return vectors @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _turned_poses(poses: Array, angle: float) -> Array:
+    """Poses (n, 13) of a scene that is turned about z by an angle [rad]."""
+    c, s = np.cos(0.5 * angle), np.sin(0.5 * angle)
+    w, x, y, z = poses[:, 3:7].T
+    turned = np.stack([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w], axis=1)
+    place, speed, spin = (_turned(poses[:, k : k + 3], angle) for k in (0, 7, 10))
+    return np.hstack([place, turned, speed, spin])
 
 
 class Bullet:
