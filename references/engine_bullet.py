@@ -27,7 +27,8 @@ from references.tube_mesh import Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
-# Share of the engine's own step: Bullet turns bodies explicitly, which feeds a spinning string at longer ones.
+# Share of FCTD's own step, by the ladder of best_step.py: Bullet turns bodies explicitly, and at all of it a spinning
+# string gains energy until it leaves the hole.
 SHARE = 0.5
 # Distance beyond which Bullet forgets a contact point [m]: its own, 20 mm, holds points that have moved on.
 FORGET = 1e-3

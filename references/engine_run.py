@@ -94,6 +94,14 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     )  # fmt: skip
 
 
+def late(run: EngineRun, seconds: float = np.inf) -> pd.Series:
+    """Means of the history under a Hann window, of its last seconds."""
+    history = run.history[run.history["time_s"] > run.history["time_s"].max() - seconds]
+    numbers = history.select_dtypes("number")
+    weights = np.hanning(len(numbers) + 2)[1:-1]
+    return pd.Series(numbers.mul(weights, axis=0).sum() / weights.sum())
+
+
 def _ledger(table: pd.DataFrame, held: list[Energy]) -> pd.DataFrame:
     """The recorder's ledger with what the engine itself says that the string holds."""
     ledger = table.copy()
