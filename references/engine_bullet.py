@@ -7,7 +7,7 @@ default.
 Friction leans.  Bullet solves it along two directions fixed in its frame (btPlaneSpace1 of the normal), each over the
 effective mass of the body along it, and clips the pair to μN: what comes out opposes M·v, not the sliding v (bullet3
 pull request 4539 says so too).  A pipe gives way to a push across it five times as easily as along it, so that its
-friction leans by up to 20° where the hole lies between those directions and not at all where it lies along one.
+friction leans by up to 30° where the hole lies between those directions and not at all where it lies along one.
 ``fair`` settings therefore turn the scene until the lower end of the string heads along x.
 """
 
@@ -135,7 +135,9 @@ class _Bodies:
         push, turn, world = bullet.applyExternalForce, bullet.applyExternalTorque, bullet.WORLD_FRAME
         scales = (u, u, u * u)
         given = (poses[:, :3], wrenches[:, :3], wrenches[:, 3:])
-        places, forces, moments = ((k * _turned(v, -self._heading)).tolist() for k, v in zip(scales, given, strict=True))
+        places, forces, moments = (
+            (k * _turned(v, -self._heading)).tolist() for k, v in zip(scales, given, strict=True)
+        )
         for body, force, moment, place in zip(self._bodies, forces, moments, places, strict=True):
             push(body, -1, force, place, world, client)
             turn(body, -1, moment, world, client)

@@ -17,7 +17,7 @@ from fctd import state, topdrive
 from fctd.case import Case
 from fctd.contact import query_walls
 from fctd.energy import Energy
-from fctd.errors import Table
+from fctd.errors import InputError, Table
 from fctd.run import Run
 from fctd.topdrive import Motion, planned_speeds
 from references.engine_run import run_window
@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 # Share of the stable step that is taken, by the ladder of best_step.py: PyElastica's gyroscopic moments are explicit and
 # feed a spinning rod, at twice this share a sixth of the work within ten seconds.
 STEP_SHARE = 0.13
+# Largest inclination at the top, where the held element's own friction would be nobody's [rad].
+VERTICAL = np.radians(1.0)
 
 
 @njit(error_model="numpy", cache=True)
@@ -86,7 +88,7 @@ class _Surroundings:
         n = run.segments
         self.run, self.owner, self.walls = run, run.owner[1 : n + 1].copy(), np.empty((n, 7))
         # A long segment hangs half by its lower end, like any other element by its two nodes.
-        weight = run.string.of("weight") * run.string.length
+        weight = run.string.of("weight") * _lengths(run)
         self.weight = 0.5 * (np.append(weight, 0.0) + np.append(0.0, weight))
         self.dt, self.feed, self.rate = 0.0, 0.0, 0.0
 
@@ -104,7 +106,9 @@ class _Surroundings:
             )  # fmt: skip
         rod.external_forces[2] += self.weight
         tension = rod.internal_stress[2]
-        hookload, torque = float(tension[0] + self.weight[0]), -float(rod.internal_couple[2, 0])
+        # PyElastica's stress acts over its stretch.
+        hookload = float(tension[0] / rod.dilatation[0] + self.weight[0])
+        torque = -float(rod.internal_couple[2, 0])
         run.top[topdrive.SUM_HOOKLOAD] += dt * hookload
         run.top[topdrive.SUM_TOP_TORQUE] += dt * torque
         run.top[topdrive.TOP_WORK] += dt * (torque * self.rate - hookload * self.feed)
@@ -191,12 +195,18 @@ class _Stepper:
         """Nothing is held beyond memory."""
 
 
+def _lengths(run: Run) -> Array:
+    """Lengths of the segments (n,) [m] at present, a long one's as it has been fed."""
+    length = run.string.length.copy()
+    if run.string.long_segment:
+        length[0] = run.top[topdrive.TOP_LENGTH]
+    return length
+
+
 def _rod(elastica: ModuleType, run: Run, rotary: str) -> Any:
     """A rod whose elements are the segments of a run, in its pose and motion."""
     S, n, string = run.S, run.segments, run.string
-    length = string.length.copy()
-    if string.long_segment:
-        length[0] = run.top[topdrive.TOP_LENGTH]
+    length = _lengths(run)
     columns = [
         np.stack([state.row(S, k, n) for k in rows], axis=1)
         for rows in (
@@ -212,18 +222,18 @@ def _rod(elastica: ModuleType, run: Run, rotary: str) -> Any:
     bottom = state.row(S, state.ARM_BOTTOM, n)[:, None]
     nodes = np.vstack([S[[state.X, state.Y, state.Z]], centre + bottom * axis])
     speeds = np.vstack([S[[state.VX, state.VY, state.VZ]], speed + np.cross(spin, bottom * axis)])
+    if string.long_segment:
+        speeds[0] = speeds[1]  # pipe that is fed moves at its upper end too
     frames = Rotation.from_quat(turn, scalar_first=True).as_matrix()  # columns: the axes of the body
     directors = np.ascontiguousarray(frames.transpose(2, 1, 0))
-    # The rod stretches in its elements, between the tensions of the joints at their ends; the half of a long segment's
-    # weight hangs by its lower end in both.
+    # A joint opens between its segments; the rod stretches in its elements, so that its nodes stand in the middle of the
+    # open joints.  The joint below a long segment is all of the segment below it.
+    open_joint = (centre - state.row(S, state.ARM_TOP, n)[:, None] * axis)[1:] - nodes[1:-1]
+    if string.long_segment:
+        open_joint[0] = 0.0
+    nodes[1:-1] += 0.5 * open_joint
     tangent = np.diff(nodes, axis=0)
     distance = np.linalg.norm(tangent, axis=1)
-    tension = (distance - length) * state.row(S, state.K_AXIAL, n)
-    mean = 0.5 * (tension + np.append(tension[1:], 0.0))
-    if string.long_segment:
-        mean[0] = tension[0]
-    stretched = tangent * (length * (1 + mean / string.of("EA")) / distance)[:, None]
-    nodes[1:] = nodes[0] + np.cumsum(stretched, axis=0)
     # PyElastica wants directors along its elements to begin with; the true ones lean by the shear.
     tangent /= distance[:, None]
     side = frames[:, :, 0] - (frames[:, :, 0] * tangent).sum(axis=1, keepdims=True) * tangent
@@ -295,6 +305,18 @@ def _simulator(elastica: ModuleType, stepper: _Stepper) -> Any:
     return simulator
 
 
+def _check_top(run: Run) -> None:
+    """Raise InputError where the first element, which the top drive holds, is not vertical: it would touch the wall."""
+    top = run.case.string.top_md
+    tilt = run.hole.inclination(np.linspace(top, top + run.string.length[0], 20)).max()
+    if tilt > VERTICAL:
+        raise InputError(
+            "a hole within 1 deg of vertical along the top segment with elastica",
+            key="string.top_md",
+            value=f"{np.degrees(tilt):.3g} deg",
+        )
+
+
 class ElasticaOptions(StepOptions):
     """What can be set.
 
@@ -321,6 +343,7 @@ class Elastica:
         """See ``StringEngine.begin``."""
         check_coulomb(run.case, self.name)
         check_no_mud(run.case, self.name)
+        _check_top(run)
         return _Stepper(self._elastica, run, self.options.step, self.options.rotary)
 
     def run(self, case: Case, window: Window) -> EngineRun:
