@@ -90,7 +90,9 @@ class _Surroundings:
         # A long segment hangs half by its lower end, like any other element by its two nodes.
         weight = run.string.of("weight") * _lengths(run)
         self.weight = 0.5 * (np.append(weight, 0.0) + np.append(0.0, weight))
-        self.dt, self.feed, self.rate = 0.0, 0.0, 0.0
+        # The held end starts as the first segment moves; pipe that is fed does so over its whole length.
+        self.feed = float(run.S[state.VZ + 1]) if run.string.long_segment else 0.0
+        self.dt, self.rate = 0.0, float(run.S[state.WZ + 1])
 
     def apply(self, rod: Any) -> None:
         """Add external forces and torques of the present step."""
@@ -222,8 +224,6 @@ def _rod(elastica: ModuleType, run: Run, rotary: str) -> Any:
     bottom = state.row(S, state.ARM_BOTTOM, n)[:, None]
     nodes = np.vstack([S[[state.X, state.Y, state.Z]], centre + bottom * axis])
     speeds = np.vstack([S[[state.VX, state.VY, state.VZ]], speed + np.cross(spin, bottom * axis)])
-    if string.long_segment:
-        speeds[0] = speeds[1]  # pipe that is fed moves at its upper end too
     frames = Rotation.from_quat(turn, scalar_first=True).as_matrix()  # columns: the axes of the body
     directors = np.ascontiguousarray(frames.transpose(2, 1, 0))
     # A joint opens between its segments; the rod stretches in its elements, so that its nodes stand in the middle of the
