@@ -135,9 +135,8 @@ class _Bodies:
         push, turn, world = bullet.applyExternalForce, bullet.applyExternalTorque, bullet.WORLD_FRAME
         scales = (u, u, u * u)
         given = (poses[:, :3], wrenches[:, :3], wrenches[:, 3:])
-        places, forces, moments = (
-            (k * _turned(v, -self._heading)).tolist() for k, v in zip(scales, given, strict=True)
-        )
+        turned = (k * _turned(v, -self._heading) for k, v in zip(scales, given, strict=True))
+        places, forces, moments = (vectors.tolist() for vectors in turned)
         for body, force, moment, place in zip(self._bodies, forces, moments, places, strict=True):
             push(body, -1, force, place, world, client)
             turn(body, -1, moment, world, client)
@@ -182,7 +181,7 @@ def _heading(run: Run, options: BulletOptions) -> float:
 def _turned(vectors: Array, angle: float) -> Array:
     """Vectors (n, 3) turned about z by an angle [rad]."""
     c, s = np.cos(angle), np.sin(angle)
-    return vectors @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+    return np.asarray(vectors @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]))
 
 
 def _turned_poses(poses: Array, angle: float) -> Array:

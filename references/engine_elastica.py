@@ -25,8 +25,8 @@ from references.engines import EngineRun, StepOptions, Window, check_coulomb, ch
 
 Array = NDArray[np.float64]
 
-# Share of the stable step that is taken, by the ladder of best_step.py: PyElastica's gyroscopic moments are explicit and
-# feed a spinning rod, at twice this share a sixth of the work within ten seconds.
+# Share of the stable step that is taken, by the ladder of best_step.py: PyElastica's gyroscopic moments are explicit
+# and feed a spinning rod, at twice this share a sixth of the work within ten seconds.
 STEP_SHARE = 0.13
 # Largest inclination at the top, where the held element's own friction would be nobody's [rad].
 VERTICAL = np.radians(1.0)
@@ -226,8 +226,8 @@ def _rod(elastica: ModuleType, run: Run, rotary: str) -> Any:
     speeds = np.vstack([S[[state.VX, state.VY, state.VZ]], speed + np.cross(spin, bottom * axis)])
     frames = Rotation.from_quat(turn, scalar_first=True).as_matrix()  # columns: the axes of the body
     directors = np.ascontiguousarray(frames.transpose(2, 1, 0))
-    # A joint opens between its segments; the rod stretches in its elements, so that its nodes stand in the middle of the
-    # open joints.  The joint below a long segment is all of the segment below it.
+    # A joint opens between its segments; the rod stretches in its elements, so that its nodes stand in the middle of
+    # the open joints.  The joint below a long segment is all of the segment below it.
     open_joint = (centre - state.row(S, state.ARM_TOP, n)[:, None] * axis)[1:] - nodes[1:-1]
     if string.long_segment:
         open_joint[0] = 0.0

@@ -1,5 +1,6 @@
 """How the other engines were set, without a look at FCTD's loads: Coulomb's law for contact, a ladder for the step."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -73,7 +74,7 @@ def impedances() -> pd.DataFrame:
 
 
 def steps(names: tuple[str, ...]) -> pd.DataFrame:
-    """Each engine's ladder of steps, the rotating curved chain spun up from rest; loads against FCTD at its own step."""
+    """Each engine's ladder of steps, the rotating chain spun up from rest; loads against FCTD at its own step."""
     case = load("curved_chain", operations=rotation(2450.0, 11.0, ramp=4.0), record__interval=0.25)
     longest = build("fctd").run(case, Window(0.0, 0.1)).step
     tables: list[pd.DataFrame] = []
@@ -135,7 +136,7 @@ def impedance_check(table: pd.DataFrame) -> Check:
                  "stiffest wall, then nearest to MuJoCo's own, with friction within 0.5 % of μN")  # fmt: skip
 
 
-def step_checks(table: pd.DataFrame, own_steps: dict[str, float]) -> list[Check]:
+def step_checks(table: pd.DataFrame, own_steps: Mapping[str, float]) -> list[Check]:
     """Each engine runs at the best step of its ladder, and there agrees with FCTD when it spins up the string itself.
 
     own_steps [ms] : of the engines' runs of the same chain.
