@@ -4,17 +4,19 @@ Traps: chains of Bullet's own constraints sag by metres; a sphere off its body's
 rattles on a concave mesh, so that each body carries a fixed link with the sphere; damping and sleeping are on by
 default.
 
-Friction leans.  Bullet solves it along two directions fixed in its frame (btPlaneSpace1 of the normal), each over the
-effective mass of the body along it, and clips the pair to μN: what comes out opposes M·v, not the sliding v (bullet3
-pull request 4539 says so too).  A pipe gives way to a push across it five times as easily as along it, so that its
-friction leans by up to 30° where the hole lies between those directions and not at all where it lies along one.
-``fair`` settings therefore turn the scene until the lower end of the string heads along x.
+Friction leans.  Bullet solves it along two directions that follow from the wall's normal and its own axes alone
+(btPlaneSpace1), each over the effective mass of the body along it, and clips the pair to μN: what comes out opposes
+M·v, not the sliding v (bullet3 pull request 4539 says so too).  A pipe gives way to a push across it five times as
+easily as along it, so that its friction leans by up to 30° where the hole lies between those directions and not at all
+where it lies along one.  With Bullet's z across the plane of the hole it lies along one wherever the wall's normal is
+within 45° of that plane; ``fair`` settings turn the scene so for the lower end of the string.
 """
 
 from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from fctd import state, units
 from fctd.case import Case
@@ -45,23 +47,24 @@ class BulletOptions(StepOptions):
 
     settings : ``fair``, the wall's stiffness and damping of the case, or ``default``, Bullet's hard contact with
     every parameter as it comes.  facets, ring_spacing [m] : of the tube; rings stand at the ends of FCTD's
-    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  heading [rad] : azimuth that lies along
-    Bullet's x; without one that of the string's lower end where ``fair``, north where ``default``.
+    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  axes : of Bullet, z across the plane of the
+    ``string`` (fair), or the ``global`` ones (default).
     """
 
     settings: Literal["fair", "default"] = "fair"
     facets: int = TubeOptions.model_fields["facets"].default
     ring_spacing: units.PositiveLength | None = None
     unit: units.PositiveLength = 1.0
-    heading: units.Angle | None = None
+    axes: Literal["string", "global"] | None = None
 
 
 class _Bodies:
-    """The bodies in a client of pybullet, lengths in ``unit``, x along the heading."""
+    """The bodies in a client of pybullet, lengths in ``unit``, vectors along its own axes."""
 
     def __init__(self, bullet: Any, run: Run, tube: Tube | None, options: BulletOptions) -> None:
         self._bullet, self._scale, self._dt = bullet, 1.0 / options.unit, 0.0
-        self._heading = _heading(run, options)
+        own = options.axes or ("string" if options.settings == "fair" else "global")
+        self._axes = _axes_of(run) if own == "string" else np.eye(3)
         self._client = bullet.connect(bullet.DIRECT)
         bullet.setGravity(0, 0, 0, physicsClientId=self._client)
         fair = options.settings == "fair"
@@ -71,7 +74,7 @@ class _Bodies:
                 contactBreakingThreshold=FORGET * self._scale, physicsClientId=self._client,
             )  # fmt: skip
         friction = run.case.wellbore.intervals[0].friction
-        poses, stiffness = _turned_poses(poses_of(run), -self._heading), wall_stiffness(run)
+        poses, stiffness = _turned_poses(poses_of(run), self._axes), wall_stiffness(run)
         damping = run.laws.contact_damping
         self._bodies = [self._add_body(run, j, poses[j], fair) for j in range(run.segments)]
         self._number = {body: j + 1 for j, body in enumerate(self._bodies)}
@@ -87,7 +90,7 @@ class _Bodies:
         bullet, client = self._bullet, self._client
         shape = bullet.createCollisionShape(
             bullet.GEOM_MESH,
-            vertices=(self._scale * _turned(np.asarray(tube.mesh.vertices), -self._heading)).tolist(),
+            vertices=(self._scale * np.asarray(tube.mesh.vertices) @ self._axes.T).tolist(),
             indices=np.asarray(tube.mesh.faces).ravel().tolist(),
             flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
             physicsClientId=client,
@@ -135,7 +138,7 @@ class _Bodies:
         push, turn, world = bullet.applyExternalForce, bullet.applyExternalTorque, bullet.WORLD_FRAME
         scales = (u, u, u * u)
         given = (poses[:, :3], wrenches[:, :3], wrenches[:, 3:])
-        turned = (k * _turned(v, -self._heading) for k, v in zip(scales, given, strict=True))
+        turned = (k * v @ self._axes.T for k, v in zip(scales, given, strict=True))
         places, forces, moments = (vectors.tolist() for vectors in turned)
         for body, force, moment, place in zip(self._bodies, forces, moments, places, strict=True):
             push(body, -1, force, place, world, client)
@@ -150,7 +153,7 @@ class _Bodies:
         after = np.array(rows)
         after[:, :3] /= u
         after[:, 7:10] /= u
-        return _turned_poses(after, self._heading)
+        return _turned_poses(after, self._axes.T)
 
     def contacts(self) -> tuple[NDArray[np.int64], Array]:
         """See ``Bodies.contacts``."""
@@ -162,7 +165,7 @@ class _Bodies:
             rows.append((*hit[PLACE], hit[FORCE], *(first + second)))
         found = np.array(rows).reshape(-1, 7) / self._scale
         for vectors in (found[:, :3], found[:, 4:]):
-            vectors[:] = _turned(vectors, self._heading)
+            vectors[:] = vectors @ self._axes
         return np.array(bodies, np.int64), found
 
     def close(self) -> None:
@@ -170,27 +173,18 @@ class _Bodies:
         self._bullet.disconnect(self._client)
 
 
-def _heading(run: Run, options: BulletOptions) -> float:
-    """Azimuth [rad] that lies along Bullet's x."""
-    if options.heading is not None:
-        return options.heading
-    axis = run.S[[state.AX + run.segments, state.AY + run.segments]]
-    return float(np.arctan2(axis[1], axis[0])) if options.settings == "fair" else 0.0
+def _axes_of(run: Run) -> Array:
+    """Rows x, y, z (3, 3): y down, z across the vertical plane in which the lower end of the string lies."""
+    heading = np.arctan2(run.S[state.AY + run.segments], run.S[state.AX + run.segments])
+    c, s = np.cos(heading), np.sin(heading)
+    return np.array([[c, s, 0.0], [0.0, 0.0, 1.0], [s, -c, 0.0]])
 
 
-def _turned(vectors: Array, angle: float) -> Array:
-    """Vectors (n, 3) turned about z by an angle [rad]."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.asarray(vectors @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]))
-
-
-def _turned_poses(poses: Array, angle: float) -> Array:
-    """Poses (n, 13) of a scene that is turned about z by an angle [rad]."""
-    c, s = np.cos(0.5 * angle), np.sin(0.5 * angle)
-    w, x, y, z = poses[:, 3:7].T
-    turned = np.stack([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w], axis=1)
-    place, speed, spin = (_turned(poses[:, k : k + 3], angle) for k in (0, 7, 10))
-    return np.hstack([place, turned, speed, spin])
+def _turned_poses(poses: Array, axes: Array) -> Array:
+    """Poses (n, 13) seen along axes, rows (3, 3)."""
+    turned = Rotation.from_matrix(axes) * Rotation.from_quat(poses[:, 3:7], scalar_first=True)
+    place, speed, spin = (poses[:, k : k + 3] @ axes.T for k in (0, 7, 10))
+    return np.hstack([place, turned.as_quat(scalar_first=True), speed, spin])
 
 
 class Bullet:

@@ -93,6 +93,7 @@ class _Surroundings:
         # The held end starts as the first segment moves; pipe that is fed does so over its whole length.
         self.feed = float(run.S[state.VZ + 1]) if run.string.long_segment else 0.0
         self.dt, self.rate = 0.0, float(run.S[state.WZ + 1])
+        self.gained = (0.0, 0.0)  # of feed and rate over the step
 
     def apply(self, rod: Any) -> None:
         """Add external forces and torques of the present step."""
@@ -108,9 +109,10 @@ class _Surroundings:
             )  # fmt: skip
         rod.external_forces[2] += self.weight
         tension = rod.internal_stress[2]
-        # PyElastica's stress acts over its stretch.
-        hookload = float(tension[0] / rod.dilatation[0] + self.weight[0])
-        torque = -float(rod.internal_couple[2, 0])
+        # PyElastica's stress acts over its stretch.  The held node and element are the top drive's to carry and to move.
+        hookload = float(tension[0] / rod.dilatation[0] + self.weight[0] - rod.mass[0] * self.gained[0] / dt)
+        inertia = rod.mass_second_moment_of_inertia[2, 2, 0]
+        torque = float(inertia * self.gained[1] / dt - rod.internal_couple[2, 0])
         run.top[topdrive.SUM_HOOKLOAD] += dt * hookload
         run.top[topdrive.SUM_TOP_TORQUE] += dt * torque
         run.top[topdrive.TOP_WORK] += dt * (torque * self.rate - hookload * self.feed)
@@ -139,7 +141,9 @@ class _Stepper:
         steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
         around.dt = duration / steps
         for _ in range(steps):
-            around.feed, around.rate = planned_speeds(run.top, motion, around.dt)
+            feed, rate = planned_speeds(run.top, motion, around.dt)
+            around.gained = (feed - around.feed, rate - around.rate)
+            around.feed, around.rate = feed, rate
             self._time = self._stepper.step(self._simulator, self._time, np.float64(around.dt))
             run.top[topdrive.TOP_TIME] += around.dt
             run.top[topdrive.TOP_LENGTH] += around.dt * around.feed

@@ -17,7 +17,7 @@ from validation.study import Check
 FRICTION: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("FCTD", "fctd", {}),
     ("Bullet", "bullet", {}),
-    ("Bullet, x north", "bullet", {"heading": 0.0}),
+    ("Bullet, global axes", "bullet", {"axes": "global"}),
     ("MuJoCo", "mujoco", {}),
     ("MuJoCo, default", "mujoco", {"settings": "default"}),
 )
@@ -36,7 +36,7 @@ def friction(azimuths: tuple[float, ...], missing: list[str]) -> pd.DataFrame:
             if label.partition(",")[0] in missing:
                 continue
             found = sliding(name, azimuth, **options)
-            fixed = options.get("heading") is not None
+            fixed = "axes" in options
             rows.append(
                 {
                     "engine": label,
@@ -118,11 +118,11 @@ def friction_checks(table: pd.DataFrame, missing: list[str]) -> list[Check]:
             Check(f"{label}: lean of that friction off the sliding", float(own["lean_deg"].abs().max()), 0.5, "at_most",
                   "deg", "Coulomb's law: 0"),
         ]  # fmt: skip
-    fixed = table[table["engine"] == "Bullet, x north"]
+    fixed = table[table["engine"] == "Bullet, global axes"]
     if len(fixed):
         wrong = (fixed["lean_deg"] - fixed["two_directions_lean_deg"]).abs().max()
         made.append(
-            Check("Bullet, x north: lean of friction against that of two fixed directions", float(wrong), 2.0,
+            Check("Bullet, global axes: lean of friction against that of two fixed directions", float(wrong), 2.0,
                   "at_most", "deg", "effective masses along north and east; the lean itself is up to 32 deg")
         )  # fmt: skip
     return made

@@ -358,15 +358,17 @@ def notes(missing: list[str]) -> list[str]:
         "How the engines were set, none by FCTD's loads: the step of each is the best of its ladder by one definition; "
         "MuJoCo's contact is that which gives Coulomb's law back to a pipe in a straight hole. Changed since a first "
         "round, whose settings had been chosen beside FCTD's torque: MuJoCo lost a contact margin of 5 mm and took "
-        "impedance 0.3 for 0.5 (torque −0.4 % then); Bullet is given the hole along its own x (−4.8 % torque and "
-        "+1.3 % hook load in the turning hole then); PyElastica's step went from 1.03 to 0.45 ms, and its string weighs "
-        "the pipe that FCTD had fed before the window (0.4 % of hook load in trips then).",
-        "Bullet's friction leans: it is solved along two directions fixed in space, each over the body's effective "
-        "mass along it, and opposes M·v in place of v. The table of friction shows it: in a straight hole that heads "
-        "15° off the axes it leans 32°, as those masses say, and not at all along an axis. In a bend the wall's "
-        "normal turns and some of the lean stays, which holds 0.5 % of hook load. Its other solver, for bodies in "
-        "maximal coordinates, holds the second direction with a μN of its own, and locks axial force in.",
-        "MuJoCo's default cone is a pyramid with the same fixed directions and pulls aside by as much; its fair one is "
+        "impedance 0.3 for 0.5; Bullet is given the hole along its own axes (default: the global ones); PyElastica's "
+        "step went from 1.03 to 0.45 ms. Faults of ours mended since: PyElastica's string lacked the weight of pipe "
+        "that had been fed before the window (0.4 % of hook load in trips), its nodes stood beside its open joints, "
+        "and its ledger lacked what the drive does to the held element.",
+        "Bullet's friction leans: it is solved along two directions that follow from the wall's normal and Bullet's "
+        "axes, each over the body's effective mass along it, and opposes M·v in place of v. The table of friction "
+        "shows it: in a straight hole that heads 15° off the axes it leans 32°, as those masses say, and not at all "
+        "along an axis. Turned so that its z is across the plane of the hole Bullet agrees; in a hole that turns no "
+        "axes do for all of it, and the rest of the lean is what is left there. Tried and not taken: bodies in maximal "
+        "coordinates, whose friction follows the sliding but whose second direction holds a μN of its own.",
+        "MuJoCo's default cone is a pyramid along fixed directions and pulls aside by as much; its fair one is "
         "elliptic. Its friction is a soft constraint, and a wall as stiff as the case's chatters.",
         "Bullet, MuJoCo and PyElastica turn spinning bodies by an explicit gyroscopic moment, which feeds them energy: "
         "at FCTD's own step Bullet's and MuJoCo's string leaves the hole within 10 s, and PyElastica's at 0.9 ms gains "
