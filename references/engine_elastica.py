@@ -109,7 +109,7 @@ class _Surroundings:
             )  # fmt: skip
         rod.external_forces[2] += self.weight
         tension = rod.internal_stress[2]
-        # PyElastica's stress acts over its stretch.  The held node and element are the top drive's to carry and to move.
+        # PyElastica's stress acts over its stretch.  The held node and element are the top drive's to carry and move.
         hookload = float(tension[0] / rod.dilatation[0] + self.weight[0] - rod.mass[0] * self.gained[0] / dt)
         inertia = rod.mass_second_moment_of_inertia[2, 2, 0]
         torque = float(inertia * self.gained[1] / dt - rod.internal_couple[2, 0])

@@ -51,7 +51,10 @@ def _compare(count: int) -> dict[str, Any]:
     if result.status != "completed":
         raise RuntimeError(f"{case.name}: {result.status}, {result.message}")
     hole, pipe = build_wellbore(case), section_of(case.string.components[0], case.mud.density)
-    stiffness, clearance = case.wellbore.stiffness_per_length, 0.5 * case.wellbore.intervals[0].diameter - pipe.outer
+    stiffness, clearance = (
+        case.wellbore.stiffness_per_length,
+        0.5 * case.wellbore.intervals[0].diameter - pipe.contact_radius,
+    )
     assert stiffness is not None
     rod = rest(hole, pipe, TOP, BIT, count, stiffness, damping=10.0, tolerance=TOLERANCE, longest=30.0)
     force = np.linalg.norm(rod.wall_force[1:], axis=1)
