@@ -42,6 +42,8 @@ def turn_and_build(context: Context) -> tuple[pd.DataFrame, list[Check]]:
         Check(f"contact force {where}", abs(finest["force_difference_percent"]), 3.0, "at_most", "%", "target"),
         Check(f"displacement {where}", finest["displacement_max_percent"], 1.0, "at_most", "%",
               "target: largest along the string, over the clearance"),
+        Check(f"contact angle {where}", finest["angle_difference_deg"], 0.5, "at_most", "deg",
+              "target: mean, weighted by the force"),
     ]  # fmt: skip
 
 
