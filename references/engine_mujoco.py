@@ -1,9 +1,10 @@
 """The string in MuJoCo: free bodies under our joint wrenches, MuJoCo's own contact with the tube as a ``flex``.
 
 MuJoCo's friction is a soft constraint: a sliding point is lifted off its wall and falls back, and where a blow stops
-it within the step friction is less than μN.  Its default cone is a pyramid, whose corners pull aside.  The ``fair`` settings are those that return Coulomb's law to a pipe turning in a straight hole
-(``references/friction_law.py``, measured in the study engines_agree): an elliptic cone, a wall of at most STIFFNESS,
-and of the impedances the nearest to MuJoCo's own 0.9 that keeps friction within half a percent of μN.
+it within the step friction is less than μN.  Its default cone is a pyramid, whose corners pull aside.  The ``fair``
+settings are those that return Coulomb's law to a pipe turning in a straight hole (``references/friction_law.py``,
+measured in the study engines_agree): an elliptic cone, a wall of at most STIFFNESS, and of the impedances the nearest
+to MuJoCo's own 0.9 that keeps friction within half a percent of μN.
 """
 
 from typing import Annotated, Any, ClassVar, Literal
