@@ -61,8 +61,8 @@ def friction(tables: Tables) -> Canvas:
         ax.plot(at["azimuth_deg"], at["lean_deg"], **style.dots(index), markersize=6, label=name)
     given = table.dropna(subset="two_directions_lean_deg")
     ax.plot(
-        given["azimuth_deg"], given["two_directions_lean_deg"], color=style.QUIET, linewidth=1,
-        label="M·v along north and east",
+        given["azimuth_deg"], given["two_directions_lean_deg"], color=style.QUIET, linestyle="none", marker="o",
+        markersize=12, markerfacecolor="none", label="against M·v, north and east",
     )  # fmt: skip
     ax.set(xlabel="azimuth of the hole, °", ylabel="lean of friction, °")
     style.legend_above(ax, columns=3)
@@ -105,7 +105,7 @@ FIGURES = [
     Figure(
         "friction",
         "A pipe turning in a straight, horizontal hole: how far friction leans off the sliding, up the hole, over the "
-        "direction in which the hole heads. By Coulomb's law it does not. The line is what friction against M·v gives, "
+        "direction in which the hole heads. By Coulomb's law it does not. Rings are what friction against M·v gives, "
         "M the effective masses along two fixed directions.",
         friction,
     ),
