@@ -77,7 +77,8 @@ def steps(names: tuple[str, ...]) -> pd.DataFrame:
     """Each engine's ladder of steps, the rotating chain spun up from rest; loads against FCTD at its own step."""
     case = load("curved_chain", operations=rotation(2450.0, 11.0, ramp=4.0), record__interval=0.25)
     longest = build("fctd").run(case, Window(0.0, 0.1)).step
-    tables, own = [], pd.Series(dtype=float)
+    tables: list[pd.DataFrame] = []
+    own = pd.Series(dtype=float)
     for label in names:
         found = ladder(label_name(label), case, SPIN_UP, longest, RUNGS[label], SECONDS)
         own = own if tables else found.iloc[0]
