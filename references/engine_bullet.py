@@ -1,13 +1,22 @@
 """The string in Bullet (pybullet): free bodies under our joint wrenches, Bullet's own contact with the concave tube.
 
-Traps: chains of Bullet's own constraints sag by metres; a collision sphere off its body's origin falls through a
-concave mesh, so that each body carries a fixed link with the sphere; damping and sleeping are on by default.
+Traps: chains of Bullet's own constraints sag by metres; a sphere off its body's origin in the body's own shape
+rattles on a concave mesh, so that each body carries a fixed link with the sphere; damping and sleeping are on by
+default.
+
+Friction leans.  Bullet solves it along two directions that follow from the wall's normal and its own axes alone
+(btPlaneSpace1), each over the effective mass of the body along it, and clips the pair to μN: what comes out opposes
+M·v, not the sliding v (bullet3 pull request 4539 says so too).  A pipe gives way to a push across it five times as
+easily as along it, so that its friction leans by up to 30° where the hole lies between those directions and not at all
+where it lies along one.  With Bullet's z across the plane of the hole it lies along one wherever the wall's normal is
+within 45° of that plane; ``fair`` settings turn the scene so for the lower end of the string.
 """
 
 from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from fctd import state, units
 from fctd.case import Case
@@ -20,13 +29,15 @@ from references.tube_mesh import Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
-# Share of the engine's own step: Bullet turns bodies explicitly, which feeds a spinning string at longer ones.
+# Share of FCTD's own step, by the ladder of best_step.py: Bullet turns bodies explicitly, and at all of it a spinning
+# string gains energy until it leaves the hole.
 SHARE = 0.5
 # Distance beyond which Bullet forgets a contact point [m]: its own, 20 mm, holds points that have moved on.
 FORGET = 1e-3
 ITERATIONS = 50
 # Bits of the collision filter: the wall and the string meet each other and nothing else.
 WALL, STRING = 1, 2
+LINK = 0  # of a body: the one that carries its sphere
 # Fields of a contact point.
 BODY, PLACE, FORCE, FRICTION = 1, 6, 9, (10, 12)
 
@@ -36,22 +47,24 @@ class BulletOptions(StepOptions):
 
     settings : ``fair``, the wall's stiffness and damping of the case, or ``default``, Bullet's hard contact with
     every parameter as it comes.  facets, ring_spacing [m] : of the tube; rings stand at the ends of FCTD's
-    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  sphere : where the string touches,
-    on a fixed ``link`` or ``offset`` in its body's own shape.
+    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  axes : of Bullet, z across the plane of the
+    ``string`` (fair), or the ``global`` ones (default).
     """
 
     settings: Literal["fair", "default"] = "fair"
     facets: int = TubeOptions.model_fields["facets"].default
     ring_spacing: units.PositiveLength | None = None
     unit: units.PositiveLength = 1.0
-    sphere: Literal["link", "offset"] = "link"
+    axes: Literal["string", "global"] | None = None
 
 
 class _Bodies:
-    """The bodies in a client of pybullet, lengths in ``unit``."""
+    """The bodies in a client of pybullet, lengths in ``unit``, vectors along its own axes."""
 
     def __init__(self, bullet: Any, run: Run, tube: Tube | None, options: BulletOptions) -> None:
         self._bullet, self._scale, self._dt = bullet, 1.0 / options.unit, 0.0
+        own = options.axes or ("string" if options.settings == "fair" else "global")
+        self._axes = _axes_of(run) if own == "string" else np.eye(3)
         self._client = bullet.connect(bullet.DIRECT)
         bullet.setGravity(0, 0, 0, physicsClientId=self._client)
         fair = options.settings == "fair"
@@ -61,23 +74,23 @@ class _Bodies:
                 contactBreakingThreshold=FORGET * self._scale, physicsClientId=self._client,
             )  # fmt: skip
         friction = run.case.wellbore.intervals[0].friction
-        poses, stiffness, damping = poses_of(run), wall_stiffness(run), run.laws.contact_damping
-        self._bodies = [self._add_body(run, j, poses[j], options.sphere, fair) for j in range(run.segments)]
+        poses, stiffness = _turned_poses(poses_of(run), self._axes), wall_stiffness(run)
+        damping = run.laws.contact_damping
+        self._bodies = [self._add_body(run, j, poses[j], fair) for j in range(run.segments)]
         self._number = {body: j + 1 for j, body in enumerate(self._bodies)}
-        touching = 0 if options.sphere == "link" else -1
         for body, k in zip(self._bodies, stiffness, strict=True):
             soft = {"contactStiffness": k, "contactDamping": damping} if fair and damping > 0 else {}
             bullet.changeDynamics(
-                body, touching, lateralFriction=friction, restitution=0, physicsClientId=self._client, **soft
+                body, LINK, lateralFriction=friction, restitution=0, physicsClientId=self._client, **soft
             )
-            bullet.setCollisionFilterGroupMask(body, touching, STRING, WALL, physicsClientId=self._client)
+            bullet.setCollisionFilterGroupMask(body, LINK, STRING, WALL, physicsClientId=self._client)
         self._wall = -1 if tube is None else self._add_wall(tube)
 
     def _add_wall(self, tube: Tube) -> int:
         bullet, client = self._bullet, self._client
         shape = bullet.createCollisionShape(
             bullet.GEOM_MESH,
-            vertices=(self._scale * np.asarray(tube.mesh.vertices)).tolist(),
+            vertices=(self._scale * np.asarray(tube.mesh.vertices) @ self._axes.T).tolist(),
             indices=np.asarray(tube.mesh.faces).ravel().tolist(),
             flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
             physicsClientId=client,
@@ -87,27 +100,23 @@ class _Bodies:
         bullet.setCollisionFilterGroupMask(wall, -1, WALL, STRING, physicsClientId=client)
         return wall
 
-    def _add_body(self, run: Run, j: int, pose: Array, sphere: str, fair: bool) -> int:
-        """Segment j with its sphere at the contact point and the inertia of the engine."""
+    def _add_body(self, run: Run, j: int, pose: Array, fair: bool) -> int:
+        """Segment j with the inertia of the engine, and on its fixed link the sphere of its contact point."""
         bullet, client, u = self._bullet, self._client, self._scale
         mass, across, along, arm, radius = (
             float(run.S[row + 1 + j])
             for row in (state.MASS, state.J_TRANSVERSE, state.J_AXIAL, state.ARM_CONTACT, state.RADIUS)
         )
         at = (0, 0, u * arm)
-        placed = {"collisionFramePosition": at} if sphere == "offset" else {}
-        shape = bullet.createCollisionShape(bullet.GEOM_SPHERE, radius=u * radius, physicsClientId=client, **placed)
+        shape = bullet.createCollisionShape(bullet.GEOM_SPHERE, radius=u * radius, physicsClientId=client)
         x, y, z, qw, qx, qy, qz = pose[:7]
         still = (0, 0, 0, 1)
-        link = {
-            "linkMasses": [0], "linkCollisionShapeIndices": [shape], "linkVisualShapeIndices": [-1],
-            "linkPositions": [at], "linkOrientations": [still], "linkInertialFramePositions": [(0, 0, 0)],
-            "linkInertialFrameOrientations": [still], "linkParentIndices": [0],
-            "linkJointTypes": [bullet.JOINT_FIXED], "linkJointAxis": [(0, 0, 1)],
-        }  # fmt: skip
         body: int = bullet.createMultiBody(
-            mass, shape if sphere == "offset" else -1, -1, (u * x, u * y, u * z), (qx, qy, qz, qw),
-            physicsClientId=client, **(link if sphere == "link" else {}),
+            mass, -1, -1, (u * x, u * y, u * z), (qx, qy, qz, qw), physicsClientId=client,
+            linkMasses=[0], linkCollisionShapeIndices=[shape], linkVisualShapeIndices=[-1],
+            linkPositions=[at], linkOrientations=[still], linkInertialFramePositions=[(0, 0, 0)],
+            linkInertialFrameOrientations=[still], linkParentIndices=[0],
+            linkJointTypes=[bullet.JOINT_FIXED], linkJointAxis=[(0, 0, 1)],
         )  # fmt: skip
         bullet.changeDynamics(
             body, -1, linearDamping=0, angularDamping=0, physicsClientId=client,
@@ -127,8 +136,11 @@ class _Bodies:
             bullet.setTimeStep(dt, physicsClientId=client)
             self._dt = dt
         push, turn, world = bullet.applyExternalForce, bullet.applyExternalTorque, bullet.WORLD_FRAME
-        forces, moments = (u * wrenches[:, :3]).tolist(), (u * u * wrenches[:, 3:]).tolist()
-        for body, force, moment, place in zip(self._bodies, forces, moments, (u * poses[:, :3]).tolist(), strict=True):
+        scales = (u, u, u * u)
+        given = (poses[:, :3], wrenches[:, :3], wrenches[:, 3:])
+        turned = (k * v @ self._axes.T for k, v in zip(scales, given, strict=True))
+        places, forces, moments = (vectors.tolist() for vectors in turned)
+        for body, force, moment, place in zip(self._bodies, forces, moments, places, strict=True):
             push(body, -1, force, place, world, client)
             turn(body, -1, moment, world, client)
         bullet.stepSimulation(client)
@@ -141,7 +153,7 @@ class _Bodies:
         after = np.array(rows)
         after[:, :3] /= u
         after[:, 7:10] /= u
-        return after
+        return _turned_poses(after, self._axes.T)
 
     def contacts(self) -> tuple[NDArray[np.int64], Array]:
         """See ``Bodies.contacts``."""
@@ -152,11 +164,27 @@ class _Bodies:
             bodies.append(self._number[hit[BODY]])
             rows.append((*hit[PLACE], hit[FORCE], *(first + second)))
         found = np.array(rows).reshape(-1, 7) / self._scale
+        for vectors in (found[:, :3], found[:, 4:]):
+            vectors[:] = vectors @ self._axes
         return np.array(bodies, np.int64), found
 
     def close(self) -> None:
         """Disconnect the client, which nothing else frees."""
         self._bullet.disconnect(self._client)
+
+
+def _axes_of(run: Run) -> Array:
+    """Rows x, y, z (3, 3): y down, z across the vertical plane in which the lower end of the string lies."""
+    heading = np.arctan2(run.S[state.AY + run.segments], run.S[state.AX + run.segments])
+    c, s = np.cos(heading), np.sin(heading)
+    return np.array([[c, s, 0.0], [0.0, 0.0, 1.0], [s, -c, 0.0]])
+
+
+def _turned_poses(poses: Array, axes: Array) -> Array:
+    """Poses (n, 13) seen along axes, rows (3, 3)."""
+    turned = Rotation.from_matrix(axes) * Rotation.from_quat(poses[:, 3:7], scalar_first=True)
+    place, speed, spin = (poses[:, k : k + 3] @ axes.T for k in (0, 7, 10))
+    return np.hstack([place, turned.as_quat(scalar_first=True), speed, spin])
 
 
 class Bullet:

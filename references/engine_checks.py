@@ -6,6 +6,7 @@ its energy, and a hook load that no longer drifts.
 
 import numpy as np
 import pandas as pd
+from scipy.linalg import eigh_tridiagonal
 
 from fctd import state
 from fctd.energy import penetration
@@ -19,18 +20,23 @@ DEEPEST = 0.2
 LENGTH = 1e-4
 # Energy that came from nowhere or went there, over the energy that was turned over.
 ENERGY = 0.05
-# Hook load of the last third of a window against the third before, relative.
+# Hook load at the end of a window against that before it, over hook load or contact force.
 DRIFT = 0.01
 
 
-def examine(run: Run, history: pd.DataFrame, profile: pd.DataFrame, energy: pd.DataFrame, broken: str) -> pd.DataFrame:
-    """A row per check: check, value, bound, passed.  broken : how the run ended early, or nothing."""
+def examine(
+    run: Run, start: float, history: pd.DataFrame, profile: pd.DataFrame, energy: pd.DataFrame, broken: str
+) -> pd.DataFrame:
+    """A row per check: check, value, bound, passed.
+
+    start [s] : of the window; broken : how the run ended early, or nothing.
+    """
     values = {
         "finite state": (_not_finite(run, history) + bool(broken), 0.0),
         "end points inside the hole": (_deepest(run), DEEPEST),
         "chain length": (_length_error(run, profile), LENGTH),
         "energy": (energy_error(energy), ENERGY),
-        "settled hook load": (_drift(history), DRIFT),
+        "settled hook load": (drift(start, history, axial_period(run)), DRIFT),
     }
     rows = [
         {"check": name, "value": value, "bound": bound, "passed": bool(np.isfinite(value) and value <= bound)}
@@ -77,8 +83,33 @@ def _length_error(run: Run, profile: pd.DataFrame) -> float:
     return float(abs(measured / expected - 1))
 
 
-def _drift(history: pd.DataFrame) -> float:
-    late, last = np.array_split(history["hookload_N"].to_numpy(), 3)[1:]
-    if not len(last):
+def axial_period(run: Run) -> float:
+    """Longest period [s] with which the string rings along itself, held at the top, free at the bit, no friction.
+
+    A string that slides rings on: Coulomb friction is the same at any speed of sliding and takes nothing from it.
+    """
+    mass, spring = state.row(run.S, state.MASS, run.segments), state.row(run.S, state.K_AXIAL, run.segments)
+    diagonal = (spring + np.append(spring[1:], 0.0)) / mass
+    beside = -spring[1:] / np.sqrt(mass[1:] * mass[:-1])
+    lowest = eigh_tridiagonal(diagonal, beside, eigvals_only=True, select="i", select_range=(0, 0))[0]
+    return float(2 * np.pi / np.sqrt(lowest))
+
+
+def drift(start: float, history: pd.DataFrame, period: float) -> float:
+    """Mean hook load of the last period against that of all whole periods before it in a window, relative.
+
+    In a window without two periods its halves are compared, and ringing counts as drift.
+    """
+    times = np.append(start, history["time_s"])
+    if len(times) < 3 or history["hookload_N"].isna().any():
         return np.nan
-    return float(abs(last.mean() - late.mean()) / np.abs(history["hookload_N"]).mean())
+    summed = np.append(0.0, np.cumsum(history["hookload_N"].to_numpy() * np.diff(times)))
+    end, length = times[-1], times[-1] - start
+    # Rows are means: what the sum is between their ends is a matter of the record interval.
+    periods = int(length / period * (1 + 1e-9))
+    last = period if periods >= 2 else 0.5 * length
+    first = end - periods * period if periods >= 2 else start
+    before, middle, after = np.interp([first, end - last, end], times, summed)
+    early, late = (middle - before) / (end - last - first), (after - middle) / last
+    scale = max(abs(summed[-1]) / length, float(history["total_contact_force_N"].mean()))
+    return float(abs(late - early) / scale) if scale > 0 else np.nan

@@ -1,11 +1,13 @@
 """The string in MuJoCo: free bodies under our joint wrenches, MuJoCo's own contact with the tube as a ``flex``.
 
-MuJoCo's friction is a soft constraint: a sliding point rides on its wall by about the speed of sliding over the
-contact's rate, and leaves it and falls back where that lifts it out of contact.  ``fair`` settings therefore hold the
-contact from a margin on, wall and sphere moved apart so that it acts at the string's own radius.
+MuJoCo's friction is a soft constraint: a sliding point is lifted off its wall and falls back, and where a blow stops
+it within the step friction is less than μN.  Its default cone is a pyramid, whose corners pull aside.  The ``fair``
+settings are those that return Coulomb's law to a pipe turning in a straight hole (``references/friction_law.py``,
+measured in the study engines_agree): an elliptic cone, a wall of at most STIFFNESS, and of the impedances the nearest
+to MuJoCo's own 0.9 that keeps friction within half a percent of μN.
 """
 
-from typing import Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +23,11 @@ from references.tube_mesh import Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
-# Share of the engine's own step: MuJoCo turns bodies explicitly, which feeds a spinning string at longer ones.
+# Share of FCTD's own step, by the ladder of best_step.py: MuJoCo turns bodies explicitly, and at all of it a spinning
+# string gains energy until it leaves the hole.
 SHARE = 0.5
-# Distance over which contact is held [m], impedance and stiffness [N/m] of the fair contact; a stiffer wall chatters.
-MARGIN, IMPEDANCE, STIFFNESS = 0.005, 0.5, 1e6
+# Impedance and stiffness [N/m] of the fair contact, chosen as above; a stiffer wall chatters.
+IMPEDANCE, STIFFNESS = 0.3, 1e6
 FACE_RADIUS = 1e-6  # a flex has a thickness, which cannot be 0 [m]
 
 
@@ -33,14 +36,14 @@ class MuJoCoOptions(StepOptions):
 
     settings : ``fair`` as above, with an elliptic cone, or ``default``: contact and cone as they come.  facets,
     ring_spacing [m] : of the tube; rings stand at the ends of FCTD's cylinders at least.  stiffness [N/m] of a point
-    of the wall and margin [m], both of ``fair``.
+    of the wall at most, and impedance of a contact, both of ``fair``.
     """
 
     settings: Literal["fair", "default"] = "fair"
     facets: int = TubeOptions.model_fields["facets"].default
     ring_spacing: units.PositiveLength | None = None
     stiffness: units.PositiveStiffness = STIFFNESS
-    margin: units.Length = MARGIN
+    impedance: Annotated[float, units.Number(noun="an impedance", above=0.0, at_most=0.9999)] = IMPEDANCE
 
 
 class _Bodies:
@@ -88,7 +91,6 @@ def _model(run: Run, tube: Tube | None, options: MuJoCoOptions) -> str:
     """MuJoCo's description of string and wall."""
     fair = options.settings == "fair"
     friction = run.case.wellbore.intervals[0].friction
-    margin = options.margin if fair else 0.0
     per_point = np.minimum(wall_stiffness(run), options.stiffness)
     bodies = ""
     for j, pose in enumerate(poses_of(run)):
@@ -99,13 +101,13 @@ def _model(run: Run, tube: Tube | None, options: MuJoCoOptions) -> str:
         soft = ""
         if fair:
             # MuJoCo's stiffness is an acceleration per metre: N/m times what the contact point gives way to a force.
-            rate = float(per_point[j]) * (1 - IMPEDANCE) * (1 / mass + arm * arm / across)
-            soft = f'solref="{-rate!r} {-2 * rate**0.5!r}" solimp="{IMPEDANCE} {IMPEDANCE} 0.001"'
+            rate = float(per_point[j]) * (1 - options.impedance) * (1 / mass + arm * arm / across)
+            soft = f'solref="{-rate!r} {-2 * rate**0.5!r}" solimp="{options.impedance} {options.impedance} 0.001"'
         place, turn = " ".join(map(repr, pose[:3].tolist())), " ".join(map(repr, pose[3:7].tolist()))
         bodies += (
             f'<body pos="{place}" quat="{turn}"><freejoint/>'
             f'<inertial pos="0 0 0" mass="{mass!r}" diaginertia="{across!r} {across!r} {along!r}"/>'
-            f'<geom type="sphere" size="{radius - 0.5 * margin!r}" pos="0 0 {arm!r}" margin="{margin!r}" {soft} '
+            f'<geom type="sphere" size="{radius!r}" pos="0 0 {arm!r}" {soft} '
             f'friction="{friction!r} 0 0" condim="3" priority="1" contype="1" conaffinity="2"/></body>'
         )
     wall = ""
@@ -143,16 +145,9 @@ class MuJoCo:
         if run.case.contact.enabled:
             spacing = self.options.ring_spacing or run.hole.total_depth
             mesh = TubeOptions(facets=self.options.facets, ring_spacing=spacing)
-            margin = self.options.margin if self.options.settings == "fair" else 0.0
-            tube = build_tube(_wider(run.case, margin), mesh)
+            tube = build_tube(run.case, mesh)
         return FreeBodies(run, _Bodies(self._mujoco, run, tube, self.options), self.options.step or SHARE * run.step)
 
     def run(self, case: Case, window: Window) -> EngineRun:
         """See ``StringEngine.run``."""
         return run_window(case, window, self.begin)
-
-
-def _wider(case: Case, by: float) -> Case:
-    """The case in a hole wider by so much [m]."""
-    intervals = tuple(i.model_copy(update={"diameter": i.diameter + by}) for i in case.wellbore.intervals)
-    return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})

@@ -85,13 +85,21 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     wall = time.perf_counter() - began
     result = recorder.result("", "", wall, 0.0)
     ledger = _ledger(result.energy, held)
-    checks = engine_checks.examine(run, result.history, result.profile, ledger, broken)
+    checks = engine_checks.examine(run, window.start, result.history, result.profile, ledger, broken)
     failed = checks.loc[~checks["passed"], "check"].to_list()
     message = "; ".join([*([broken] if broken else []), *failed])
     return EngineRun(
         result.history, result.profile, "invalid" if failed else "valid", message, ledger, checks,
         stepper.step, run.steps, wall,
     )  # fmt: skip
+
+
+def late(run: EngineRun, seconds: float = np.inf) -> pd.Series:
+    """Means of the history under a Hann window, of its last seconds."""
+    history = run.history[run.history["time_s"] > run.history["time_s"].max() - seconds]
+    numbers = history.select_dtypes("number")
+    weights = np.hanning(len(numbers) + 2)[1:-1]
+    return pd.Series(numbers.mul(weights, axis=0).sum() / weights.sum())
 
 
 def _ledger(table: pd.DataFrame, held: list[Energy]) -> pd.DataFrame:

@@ -39,7 +39,7 @@ class PlanarHole:
         """
         md, inclination, azimuth = stations.T
         inclined = inclination > 0
-        if inclined.any() and np.ptp(azimuth[inclined]) > 0:
+        if inclined.any() and np.ptp(azimuth[inclined] % 360) > 0:
             raise ValueError("a planar hole has one azimuth")
         if np.ptp(inclination) > 90:
             raise ValueError("a planar hole may turn by at most 90 deg")

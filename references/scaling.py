@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 from fctd.case import Case
 
-READINGS = ("similar", "relabelled", "naive")
 SCALE = 1e-3
 
 

@@ -42,6 +42,8 @@ def turn_and_build(context: Context) -> tuple[pd.DataFrame, list[Check]]:
         Check(f"contact force {where}", abs(finest["force_difference_percent"]), 3.0, "at_most", "%", "target"),
         Check(f"displacement {where}", finest["displacement_max_percent"], 1.0, "at_most", "%",
               "target: largest along the string, over the clearance"),
+        Check(f"contact angle {where}", finest["angle_difference_deg"], 0.5, "at_most", "deg",
+              "target: mean, weighted by the force"),
     ]  # fmt: skip
 
 
@@ -51,7 +53,10 @@ def _compare(count: int) -> dict[str, Any]:
     if result.status != "completed":
         raise RuntimeError(f"{case.name}: {result.status}, {result.message}")
     hole, pipe = build_wellbore(case), section_of(case.string.components[0], case.mud.density)
-    stiffness, clearance = case.wellbore.stiffness_per_length, 0.5 * case.wellbore.intervals[0].diameter - pipe.outer
+    stiffness, clearance = (
+        case.wellbore.stiffness_per_length,
+        0.5 * case.wellbore.intervals[0].diameter - pipe.contact_radius,
+    )
     assert stiffness is not None
     rod = rest(hole, pipe, TOP, BIT, count, stiffness, damping=10.0, tolerance=TOLERANCE, longest=30.0)
     force = np.linalg.norm(rod.wall_force[1:], axis=1)

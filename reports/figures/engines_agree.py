@@ -10,17 +10,19 @@ def loads(tables: Tables) -> Canvas:
     """A dot per engine and operation: hook load and torque against FCTD; open dots failed a check."""
     numbers = tables["chain"]
     numbers = numbers[numbers["engine"] != "FCTD"]
-    names, kinds = list(numbers["engine"].unique()), list(numbers["operation"].unique())
-    canvas = style.figure(1.4 + 0.36 * len(names))
+    names = list(numbers["engine"].unique())
+    windows = list(numbers.groupby(["hole", "operation"], sort=False))
+    canvas = style.figure(1.8 + 0.42 * len(names))
     axes = canvas.subplots(1, 2, sharey=True)
     columns = (("hookload_off_percent", "hook load − FCTD's, %"), ("torque_off_percent", "torque − FCTD's, %"))
     for ax, (column, label) in zip(axes, columns, strict=True):
-        for index, kind in enumerate(kinds):
-            for _, row in numbers[numbers["operation"] == kind].iterrows():
-                height = names.index(row["engine"]) + 0.18 * (index - (len(kinds) - 1) / 2)
+        for index, ((hole, kind), rows) in enumerate(windows):
+            turning = ", hole that turns" if hole == "turning" else ""
+            for _, row in rows.iterrows():
+                height = names.index(row["engine"]) + 0.16 * (index - (len(windows) - 1) / 2)
                 ax.plot(
                     row[column], height, **style.dots(index, filled=row["status"] == "valid"), markersize=6,
-                    label=words.name(kind),
+                    label=words.name(str(kind)) + turning,
                 )  # fmt: skip
         ax.axvline(0, color=style.QUIET, linewidth=1)
         ax.set_xlabel(label)
@@ -29,14 +31,14 @@ def loads(tables: Tables) -> Canvas:
     axes[0].set_ylim(len(names) - 0.5, -0.5)
     handles, labels = axes[0].get_legend_handles_labels()
     first = {label: handle for handle, label in zip(handles, labels, strict=True)}
-    canvas.legend(first.values(), first.keys(), loc="outside upper left", ncols=len(first))
+    canvas.legend(first.values(), first.keys(), loc="outside upper left", ncols=2)
     return canvas
 
 
 def contact(tables: Tables) -> Canvas:
     """Contact force along the turning chain, one line for each engine that is at its best."""
     profiles = tables["profiles"]
-    turning = profiles[profiles["operation"] == "rotate_off_bottom"]
+    turning = profiles[(profiles["operation"] == "rotate_off_bottom") & (profiles["hole"] == "planar")]
     names = [name for name in turning["engine"].unique() if "default" not in name]
     canvas = style.figure(3.4)
     ax = canvas.subplots()
@@ -46,6 +48,23 @@ def contact(tables: Tables) -> Canvas:
     touched = turning.loc[turning["contact_force_N"] > 0, "md_m"]
     ax.set(xlabel="measured depth, m", ylabel="contact force, kN", xlim=(touched.min() - 50, touched.max() + 20))
     style.legend_above(ax, columns=4)
+    return canvas
+
+
+def friction(tables: Tables) -> Canvas:
+    """How far friction leans off the sliding over the azimuth of a straight hole, and what two directions give."""
+    table = tables["friction"]
+    canvas = style.figure(3.2)
+    ax = canvas.subplots()
+    for index, (name, at) in enumerate(table.groupby("engine", sort=False)):
+        ax.plot(at["azimuth_deg"], at["lean_deg"], **style.dots(index), markersize=6, label=name)
+    given = table.dropna(subset="two_directions_lean_deg")
+    ax.plot(
+        given["azimuth_deg"], given["two_directions_lean_deg"], color=style.QUIET, linestyle="none", marker="o",
+        markersize=12, markerfacecolor="none", label="against M·v, north and east",
+    )  # fmt: skip
+    ax.set(xlabel="azimuth of the hole, °", ylabel="lean of friction, °")
+    style.legend_above(ax, columns=3)
     return canvas
 
 
@@ -61,5 +80,12 @@ FIGURES = [
         "Contact force along the turning chain in each engine at its best configuration, means over the last quarter "
         "of a second.",
         contact,
+    ),
+    Figure(
+        "friction",
+        "A pipe turning in a straight, horizontal hole: how far friction leans off the sliding, up the hole, over the "
+        "direction in which the hole heads. By Coulomb's law it does not. Rings are what friction against M·v gives, "
+        "M the effective masses along two fixed directions.",
+        friction,
     ),
 ]

@@ -45,3 +45,13 @@ def test_normal_and_turn_are_derivatives_of_the_offset(md, offset):
 def test_other_holes_are_refused(stations, words):
     with pytest.raises(ValueError, match=words):
         PlanarHole(np.array(stations, dtype=float))
+
+
+def test_one_plane_is_one_plane_whatever_its_azimuth_is_called():
+    stations = STATIONS.copy()
+    stations[3:, 2] = 360.0
+    point = np.array([60.0, 5.0])
+    assert PlanarHole(stations).axis(point).offset == PlanarHole(STATIONS).axis(point).offset
+    stations[3:, 2] = 359.0
+    with pytest.raises(ValueError, match="one azimuth"):
+        PlanarHole(stations)

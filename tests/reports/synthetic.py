@@ -442,18 +442,26 @@ def engines_agree() -> dict[str, pd.DataFrame]:
         "chain": pd.DataFrame(
             {
                 "operation": kind,
+                "hole": hole,
                 "engine": name,
                 "status": "valid" if k < 2 else "invalid",
                 "hookload_off_percent": 0.3 * k,
                 "torque_off_percent": -2.0 * k if kind == kinds[0] else np.nan,
             }
-            for kind in kinds
+            for hole, kind in (("planar", kinds[0]), ("planar", kinds[1]), ("turning", kinds[0]))
             for k, name in enumerate(names)
         ),
         "profiles": pd.concat(
             pd.DataFrame(
-                {"operation": kinds[0], "engine": name, "md_m": md, "contact_force_N": 5e3 * (md > 1750) + 9 * k}
+                {"operation": kinds[0], "hole": "planar", "engine": name, "md_m": md}
+                | {"contact_force_N": 5e3 * (md > 1750) + 9 * k}
             )
+            for k, name in enumerate(names)
+        ),
+        "friction": pd.DataFrame(
+            {"engine": name, "azimuth_deg": azimuth, "lean_deg": k * azimuth}
+            | {"two_directions_lean_deg": 1.1 * azimuth if k == 1 else np.nan}
+            for azimuth in (0.0, 15.0, 30.0)
             for k, name in enumerate(names)
         ),
     }

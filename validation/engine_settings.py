@@ -1,0 +1,164 @@
+"""How the other engines were set, without a look at FCTD's loads: Coulomb's law for contact, a ladder for the step."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from references.best_step import best_step, ladder
+from references.engine_mujoco import IMPEDANCE
+from references.engines import Window, build
+from references.friction_law import lean_of_two_directions, sliding
+from validation.cases import load, rotation
+from validation.study import Check
+
+# Engine, configuration, its name and options.  PyElastica has no wall of its own.
+FRICTION: tuple[tuple[str, str, dict[str, Any]], ...] = (
+    ("FCTD", "fctd", {}),
+    ("Bullet", "bullet", {}),
+    ("Bullet, global axes", "bullet", {"axes": "global"}),
+    ("MuJoCo", "mujoco", {}),
+    ("MuJoCo, default", "mujoco", {"settings": "default"}),
+)
+AZIMUTHS = (0.0, 15.0, 30.0, 45.0, 60.0)
+# Of MuJoCo's contact: its own 0.9 and less, the case's own wall and a softer one [N/m].
+IMPEDANCES, STIFFNESSES = (0.9, 0.7, 0.5, 0.3, 0.1), (1e7, 1e6)
+KEPT = 0.995  # least share of μN
+SPIN_UP, RUNGS, SECONDS = Window(0.0, 10.0), {"FCTD": 3, "Bullet": 3, "MuJoCo": 3, "PyElastica": 5}, 4.0
+
+
+def friction(azimuths: tuple[float, ...], missing: list[str]) -> pd.DataFrame:
+    """Friction of a pipe turning in a straight hole in every engine, over azimuths of the hole [deg]."""
+    rows = []
+    for azimuth in azimuths:
+        for label, name, options in FRICTION:
+            if label.partition(",")[0] in missing:
+                continue
+            found = sliding(name, azimuth, **options)
+            fixed = "axes" in options
+            rows.append(
+                {
+                    "engine": label,
+                    "azimuth_deg": azimuth,
+                    "status": found.status,
+                    "failed": found.failed,
+                    "share_of_mu_n": found.share,
+                    "lean_deg": np.degrees(found.lean),
+                    "two_directions_lean_deg": np.degrees(lean_of_two_directions(azimuth)) if fixed else np.nan,
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def impedances() -> pd.DataFrame:
+    """MuJoCo's contact over its impedance and the stiffness of its wall: friction of a pipe turning in a hole."""
+    rows = []
+    for stiffness in STIFFNESSES:
+        for impedance in IMPEDANCES:
+            found = sliding("mujoco", 30.0, stiffness=stiffness, impedance=impedance)
+            rows.append(
+                {
+                    "stiffness_N_per_m": stiffness,
+                    "impedance": impedance,
+                    "status": found.status,
+                    "failed": found.failed,
+                    "share_of_mu_n": found.share,
+                    "lean_deg": np.degrees(found.lean),
+                }
+            )
+    table = pd.DataFrame(rows)
+    # The stiffest wall, and there the impedance nearest to MuJoCo's own, that keeps enough: rows are in this order.
+    good = (table["status"] == "valid") & (table["share_of_mu_n"] >= KEPT)
+    return table.assign(chosen=good & (good.cumsum() == 1))
+
+
+def steps(names: tuple[str, ...]) -> pd.DataFrame:
+    """Each engine's ladder of steps, the rotating chain spun up from rest; loads against FCTD at its own step."""
+    case = load("curved_chain", operations=rotation(2450.0, 11.0, ramp=4.0), record__interval=0.25)
+    longest = build("fctd").run(case, Window(0.0, 0.1)).step
+    tables: list[pd.DataFrame] = []
+    own = pd.Series(dtype=float)
+    for label in names:
+        found = ladder(label_name(label), case, SPIN_UP, longest, RUNGS[label], SECONDS)
+        own = own if tables else found.iloc[0]
+        tables.append(
+            pd.DataFrame(
+                {
+                    "engine": label,
+                    "step_ms": 1e3 * found["step_s"],
+                    "status": found["status"],
+                    "failed": found["failed"],
+                    "hookload_off_percent": 100 * (found["hookload_N"] / own["hookload_N"] - 1),
+                    "torque_off_percent": 100 * (found["surface_torque_N_m"] / own["surface_torque_N_m"] - 1),
+                    "finer_off_percent": 100 * found["off"],
+                    "energy_error_percent": 100 * found["energy_error"],
+                    "wall_s": found["wall_s"],
+                    "best": found["step_s"] == best_step(found),
+                }
+            )
+        )
+    return pd.concat(tables, ignore_index=True)
+
+
+def label_name(label: str) -> str:
+    """The key in ``references.engines`` of an engine's best configuration."""
+    return {"FCTD": "fctd", "Bullet": "bullet", "MuJoCo": "mujoco", "PyElastica": "elastica"}[label]
+
+
+def friction_checks(table: pd.DataFrame, missing: list[str]) -> list[Check]:
+    """Best configurations obey Coulomb's law, and Bullet's lean off its axes is what its two directions give."""
+    made = []
+    for label in ("Bullet", "MuJoCo"):
+        if label in missing:
+            continue
+        own = table[table["engine"] == label]
+        made += [
+            Check(f"{label}: friction of a pipe turning in a straight hole over μN",
+                  float(own["share_of_mu_n"].min()), (0.98, 1.005), "within", "", "Coulomb's law: 1"),
+            Check(f"{label}: lean of that friction off the sliding", float(own["lean_deg"].abs().max()), 0.5, "at_most",
+                  "deg", "Coulomb's law: 0"),
+        ]  # fmt: skip
+    fixed = table[table["engine"] == "Bullet, global axes"]
+    if len(fixed):
+        wrong = (fixed["lean_deg"] - fixed["two_directions_lean_deg"]).abs().max()
+        made.append(
+            Check("Bullet, global axes: lean of friction against that of two fixed directions", float(wrong), 2.0,
+                  "at_most", "deg", "effective masses along north and east; the lean itself is up to 32 deg")
+        )  # fmt: skip
+    return made
+
+
+def impedance_check(table: pd.DataFrame) -> Check:
+    """The impedance that MuJoCo is given is the one that the rule gives."""
+    chosen = table.loc[table["chosen"], "impedance"]
+    taken = float(chosen.iloc[0]) / IMPEDANCE if len(chosen) else np.nan
+    return Check("MuJoCo: impedance by the rule over the one taken", taken, (0.999, 1.001), "within", "",
+                 "stiffest wall, then nearest to MuJoCo's own, with friction within 0.5 % of μN")  # fmt: skip
+
+
+def step_checks(table: pd.DataFrame, own_steps: Mapping[str, float]) -> list[Check]:
+    """Each engine runs at the best step of its ladder, and there agrees with FCTD when it spins up the string itself.
+
+    own_steps [ms] : of the engines' runs of the same chain.
+    """
+    made = []
+    for label, step in own_steps.items():
+        best = table[(table["engine"] == label) & table["best"]]
+        ratio = step / float(best["step_ms"].iloc[0]) if len(best) else np.nan
+        made.append(
+            Check(f"{label}: its own step over the best of its ladder", ratio, (0.7, 1.42), "within", "",
+                  "largest step that halves from FCTD's own, passes the checks and is within 1 % of the next finer")
+        )  # fmt: skip
+        if label != "FCTD":
+            hookload, torque = (
+                float(best[column].abs().iloc[0]) if len(best) else np.nan
+                for column in ("hookload_off_percent", "torque_off_percent")
+            )
+            made += [
+                Check(f"{label}: spun up from rest, hook load against FCTD's over the same window", hookload, 1.0,
+                      "at_most", "%", "as from the same state in motion"),
+                Check(f"{label}: spun up from rest, torque against FCTD's over the same window", torque, 5.0, "at_most",
+                      "%", "as from the same state in motion"),
+            ]  # fmt: skip
+    return made
