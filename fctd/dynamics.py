@@ -13,9 +13,7 @@ from fctd.friction import approach, coulomb_impulse, normal_impulse, paper_impul
 from fctd.joints import update_joint_loads
 from fctd.rotations import rotation_columns, turned
 from fctd.state import (
-    ARM_BOTTOM,
     ARM_CONTACT,
-    ARM_TOP,
     AX,
     AY,
     AZ,
@@ -104,15 +102,12 @@ def free_motion(S, j, dt):
     v = yx * vx + yy * vy + yz * vz
     w = zx * vx + zy * vy + zz * vz
 
-    # Joint forces act at the arms along the body's z axis: their moment is z × (their weighted sum).
-    top, bottom = S[ARM_TOP + j], S[ARM_BOTTOM + j]
-    hx, hy, hz = top * fx + bottom * gx, top * fy + bottom * gy, top * fz + bottom * gz
     mx = S[LX + j] + S[UX + j + 1]
     my = S[LY + j] + S[UY + j + 1]
     mz = S[LZ + j] + S[UZ + j + 1]
     a, b, c = spin(S, j)
-    a += dt * it * (xx * mx + xy * my + xz * mz + yx * hx + yy * hy + yz * hz)
-    b += dt * it * (yx * mx + yy * my + yz * mz - xx * hx - xy * hy - xz * hz)
+    a += dt * it * (xx * mx + xy * my + xz * mz)
+    b += dt * it * (yx * mx + yy * my + yz * mz)
     c += dt * ia * (zx * mx + zy * my + zz * mz)
     return u, v, w, a, b, c
 

@@ -49,8 +49,8 @@ MUD_AXIAL, MUD_LATERAL, MUD_SPIN = 31 * STRIDE, 32 * STRIDE, 33 * STRIDE
 # the quaternions cannot hold [rad].
 K_AXIAL, K_SHEAR, K_BEND, K_TWIST = 34 * STRIDE, 35 * STRIDE, 36 * STRIDE, 37 * STRIDE
 TURNS = 38 * STRIDE
-# Joint loads, global: force on the lower body [N] (the upper feels the opposite), moments on the upper and
-# on the lower body [N m].
+# Joint loads, global: force on the lower body [N] (the upper feels the opposite), moments about the centres
+# of mass of the upper and of the lower body [N m].
 FX, FY, FZ = 39 * STRIDE, 40 * STRIDE, 41 * STRIDE
 UX, UY, UZ = 42 * STRIDE, 43 * STRIDE, 44 * STRIDE
 LX, LY, LZ = 45 * STRIDE, 46 * STRIDE, 47 * STRIDE

@@ -45,14 +45,11 @@ def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untype
     for j in range(1, n + 1):
         fx, fy, fz = state.joint_force(S, j)
         gx, gy, gz = state.joint_force(S, j + 1)
-        ax, ay, az = state.axis(S, j)
-        above, below = S[state.ARM_TOP + j], S[state.ARM_BOTTOM + j]
-        hx, hy, hz = above * fx + below * gx, above * fy + below * gy, above * fz + below * gz
         row = out[j - 1]
         row[0], row[1], row[2] = fx - gx, fy - gy, fz - gz + S[state.WEIGHT + j]
-        row[3] = S[state.LX + j] + S[state.UX + j + 1] - (ay * hz - az * hy)
-        row[4] = S[state.LY + j] + S[state.UY + j + 1] - (az * hx - ax * hz)
-        row[5] = S[state.LZ + j] + S[state.UZ + j + 1] - (ax * hy - ay * hx)
+        row[3] = S[state.LX + j] + S[state.UX + j + 1]
+        row[4] = S[state.LY + j] + S[state.UY + j + 1]
+        row[5] = S[state.LZ + j] + S[state.UZ + j + 1]
     return feed, rate
 
 
