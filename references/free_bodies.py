@@ -11,7 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from fctd import state
-from fctd.dynamics import update_loads, whole_operations
+from fctd.dynamics import update_axes, update_loads, whole_operations
 from fctd.energy import Energy, energy_of
 from fctd.rotations import rotation_columns
 from fctd.run import Run
@@ -41,6 +41,7 @@ class Bodies(Protocol):
 @njit(error_model="numpy", cache=True)
 def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untyped-def]
     """Loads of the present poses; out (n, 6) force and moment about the centre of mass; returns feed and rotation."""
+    update_axes(S, whole_operations(n))
     feed, rate = update_loads(S, top, whole_operations(n), laws, motion, pipe, dt)
     for j in range(1, n + 1):
         fx, fy, fz = state.joint_force(S, j)
