@@ -30,7 +30,7 @@ def _cache_folder() -> Path:
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
 # numba reads the environment when it is imported, which may have been before this package.
-numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
+setattr(numba.config, "CACHE_DIR", os.environ["NUMBA_CACHE_DIR"])  # noqa: B010 (made at run time)
 
 from fctd.case import Case, load_case  # noqa: E402
 from fctd.equilibrium import Equilibrium, equilibrium  # noqa: E402

@@ -83,7 +83,9 @@ def store_axis(S, j, w, x, y, z, a, b, c):
 def update_axes(S, n):
     """Update axis and global spin of every body, given orientation and body-frame spin."""
     for j in range(1, n + 1):
-        store_axis(S, j, *quaternion(S, j), *spin(S, j))
+        w, x, y, z = quaternion(S, j)
+        a, b, c = spin(S, j)
+        store_axis(S, j, w, x, y, z, a, b, c)
 
 
 @njit(forceinline=True)
@@ -213,7 +215,8 @@ def move_bodies(S, n, dt):
         k = 1 / (1 + h * h)
         cosine, sine = k * (1 - h * h), 2 * k * h
         a, b = cosine * a + sine * b, cosine * b - sine * a
-        w, x, y, z = turned(*quaternion(S, j), dt * a, dt * b, dt * c)
+        w, x, y, z = quaternion(S, j)
+        w, x, y, z = turned(w, x, y, z, dt * a, dt * b, dt * c)
         a, b = cosine * a + sine * b, cosine * b - sine * a
         S[QW + j], S[QX + j], S[QY + j], S[QZ + j] = w, x, y, z
         S[WX + j], S[WY + j] = a, b

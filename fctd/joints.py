@@ -99,9 +99,9 @@ def joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt):
 def joint_damping(ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz, ca, cs, cb, ct):
     """Damping of one joint, on relative motion only.
 
-    a, b : unit axes of the upper and lower body; r : velocity [m/s] and w : spin [rad/s] of the lower body relative to the
-    upper, both in the middle of the gap; ca, cs [N s/m], cb, ct [N m s/rad].  Returns force and couple on the
-    lower body in the middle of the gap and the power lost [W]: seven scalars.
+    a, b : unit axes of the upper and lower body; r : velocity [m/s] and w : spin [rad/s] of the lower body
+    relative to the upper, both in the middle of the gap; ca, cs [N s/m], cb, ct [N m s/rad].  Returns force and
+    couple on the lower body in the middle of the gap and the power lost [W]: seven scalars.
     """
     sx, sy, sz, share = halfway(ax, ay, az, bx, by, bz)
     along = (ca - cs) * share * (sx * rx + sy * ry + sz * rz)
@@ -184,9 +184,7 @@ def update_joint_loads(S, n, damping_time, dt):
         twist = joint_twist(S, j)
         ka, ks, kb, kt = S[K_AXIAL + j], S[K_SHEAR + j], S[K_BEND + j], S[K_TWIST + j]
         fx, fy, fz, cx, cy, cz, tension = joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt)
-        px, py, pz, qx, qy, qz = arms_to_gap(
-            ax, ay, az, bx, by, bz, dx, dy, dz, S[ARM_BOTTOM + j - 1], S[ARM_TOP + j]
-        )
+        px, py, pz, qx, qy, qz = arms_to_gap(ax, ay, az, bx, by, bz, dx, dy, dz, S[ARM_BOTTOM + j - 1], S[ARM_TOP + j])
         rx, ry, rz, wx, wy, wz = relative_motion(S, j, px, py, pz, qx, qy, qz)
         gx, gy, gz, mx, my, mz, power = joint_damping(
             ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz,
