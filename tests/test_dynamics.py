@@ -213,7 +213,7 @@ def test_the_largest_step_is_stable_and_hardly_more_is_not() -> None:
     largest = pulled("largest")
     largest.check()
     assert pulled("auto").step == pytest.approx(0.8 * largest.step)
-    with pytest.raises(UnstableError, match="finite|folded|left"):
+    with pytest.raises(UnstableError, match=r"finite|folded|left"):
         pulled("largest", 1.02).check()
 
 
