@@ -13,6 +13,8 @@ import hashlib
 import os
 from pathlib import Path
 
+import numba
+
 
 def _cache_folder() -> Path:
     """A compile cache for exactly these sources.
@@ -27,8 +29,9 @@ def _cache_folder() -> Path:
     return base / "fctd" / digest.hexdigest()[:16]
 
 
-# Before the first import of numba, which reads it once.
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
+# numba reads the environment when it is imported, which may have been before this package.
+setattr(numba.config, "CACHE_DIR", os.environ["NUMBA_CACHE_DIR"])  # noqa: B010 (made at run time)
 
 from fctd.case import Case, load_case  # noqa: E402
 from fctd.equilibrium import Equilibrium, equilibrium  # noqa: E402

@@ -21,11 +21,9 @@ from fctd.state import (
     ARM_CONTACT,
     CURVE,
     CYLINDERS,
-    END_ALONG,
     END_COS,
     END_SIN,
     FRICTION,
-    HOLD,
     HOLE,
     K_WALL,
     MARGIN_END,
@@ -39,6 +37,7 @@ from fctd.state import (
     PX,
     PY,
     PZ,
+    SLACK,
     TRIBUTARY,
     TX,
     TY,
@@ -212,19 +211,23 @@ def contact_point(S, j):
     return x + arm * ax, y + arm * ay, z + arm * az
 
 
+@njit(forceinline=True)
+def store_slack(S, j, start, end):
+    """Write how far point j is inside its piece, given distances past the start and along the end of it [m]."""
+    start, end = start - S[MARGIN_TOP + j], S[MARGIN_END + j] - end
+    S[SLACK + j] = start if start < end else end
+
+
 @njit(error_model="numpy", fastmath={"contract"})
 def follow_cylinders(S, n):
-    """Update PT of every point from the cylinder it remembers.
-
-    Leaves the distance along the cylinder in END_ALONG.
-    """
+    """Update PT of every point from the cylinder it remembers, and how far inside it the point is."""
     for j in range(1, n + 1):
         x, y, z = contact_point(S, j)
         dx, dy, dz = x - S[OX + j], y - S[OY + j], z - S[OZ + j]
         tx, ty, tz = S[TX + j], S[TY + j], S[TZ + j]
         s = dx * tx + dy * ty + dz * tz
         S[PX + j], S[PY + j], S[PZ + j] = dx - s * tx, dy - s * ty, dz - s * tz
-        S[END_ALONG + j] = s
+        store_slack(S, j, s, s)
 
 
 @njit(error_model="numpy")
@@ -232,8 +235,7 @@ def refresh_cylinders(S, owner, n, C):
     """Look up in the table every point that is near an end of its cylinder or in an overlap."""
     last = C.shape[0] - 1
     for j in range(1, n + 1):
-        s = S[END_ALONG + j]
-        if s > S[MARGIN_TOP + j] and s < S[MARGIN_END + j]:
+        if S[SLACK + j] > 0:
             continue
         x, y, z = contact_point(S, j)
         i = cylinder_owner(C, owner[j], x, y, z)
@@ -250,10 +252,7 @@ def refresh_cylinders(S, owner, n, C):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def follow_arcs(S, n):
-    """Update PT of every point from the arc it remembers.
-
-    Leaves the distance past the plane at A in MARGIN_TOP and past the end plane in MARGIN_END.
-    """
+    """Update PT of every point from the arc it remembers, and how far inside it the point is."""
     for j in range(1, n + 1):
         x, y, z = contact_point(S, j)
         dx, dy, dz = x - S[OX + j], y - S[OY + j], z - S[OZ + j]
@@ -265,8 +264,7 @@ def follow_arcs(S, n):
         w = dx * bx + dy * by + dz * bz
         px, py, pz, _, _, _ = arc_offset(u, v, w, S[CURVE + j], tx, ty, tz, nx, ny, nz, bx, by, bz)
         S[PX + j], S[PY + j], S[PZ + j] = px, py, pz
-        S[MARGIN_TOP + j] = u
-        S[MARGIN_END + j] = u * S[END_COS + j] + v * S[END_SIN + j] - S[END_ALONG + j]
+        store_slack(S, j, u, u * S[END_COS + j] + v * S[END_SIN + j])
 
 
 @njit(error_model="numpy")
@@ -274,12 +272,10 @@ def refresh_arcs(S, owner, n, C):
     """Look up in the table every point that has left its arc, or is in one whose wall changes along it."""
     last = C.shape[0] - 1
     for j in range(1, n + 1):
-        i = owner[j]
-        before, after = S[MARGIN_TOP + j] < 0, S[MARGIN_END + j] >= 0
-        if S[HOLD + j] > 0 and not (before and i > 0) and not (after and i < last):
+        if S[SLACK + j] > 0:
             continue
         x, y, z = contact_point(S, j)
-        i = arc_owner(C, i, x, y, z)
+        i = arc_owner(C, owner[j], x, y, z)
         owner[j] = i
         px, py, pz, hole, stiffness, friction, _ = arc_wall(C, i, x, y, z)
         store_wall(S, j, px, py, pz, hole, stiffness, friction)
@@ -289,9 +285,12 @@ def refresh_arcs(S, owner, n, C):
         k, length = C[i, CURVATURE], C[i, LENGTH]
         angle = k * length
         S[CURVE + j], S[END_COS + j], S[END_SIN + j] = k, np.cos(angle), np.sin(angle)
-        S[END_ALONG + j] = np.sin(angle) / k if angle > 1e-6 else length
+        end = np.sin(angle) / k if angle > 1e-6 else length
         changes = C[i, RADIUS_GAIN] != 0 or C[i, STIFFNESS_GAIN] != 0 or C[i, FACTOR_GAIN] != 0
-        S[HOLD + j] = 0.0 if changes else 1.0
+        end = end if i < last else np.inf
+        S[MARGIN_TOP + j] = 0.0 if i > 0 else -np.inf
+        # A wall that changes along its piece is looked up at every step.
+        S[MARGIN_END + j] = -np.inf if changes else end
 
 
 @njit(error_model="numpy", cache=True)

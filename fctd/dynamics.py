@@ -13,9 +13,7 @@ from fctd.friction import approach, coulomb_impulse, normal_impulse, paper_impul
 from fctd.joints import update_joint_loads
 from fctd.rotations import rotation_columns, turned
 from fctd.state import (
-    ARM_BOTTOM,
     ARM_CONTACT,
-    ARM_TOP,
     AX,
     AY,
     AZ,
@@ -71,17 +69,23 @@ from fctd.state import (
 from fctd.topdrive import move_top_drive, planned_speeds, read_top_drive
 
 
+@njit(forceinline=True)
+def store_axis(S, j, w, x, y, z, a, b, c):
+    """Write axis and global spin of body j, given its orientation and its spin in its own frame."""
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
+    S[AX + j], S[AY + j], S[AZ + j] = zx, zy, zz
+    S[GX + j] = a * xx + b * yx + c * zx
+    S[GY + j] = a * xy + b * yy + c * zy
+    S[GZ + j] = a * xz + b * yz + c * zz
+
+
 @njit(error_model="numpy", fastmath={"contract"}, cache=True)
 def update_axes(S, n):
     """Update axis and global spin of every body, given orientation and body-frame spin."""
     for j in range(1, n + 1):
         w, x, y, z = quaternion(S, j)
         a, b, c = spin(S, j)
-        xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
-        S[AX + j], S[AY + j], S[AZ + j] = zx, zy, zz
-        S[GX + j] = a * xx + b * yx + c * zx
-        S[GY + j] = a * xy + b * yy + c * zy
-        S[GZ + j] = a * xz + b * yz + c * zz
+        store_axis(S, j, w, x, y, z, a, b, c)
 
 
 @njit(forceinline=True)
@@ -104,15 +108,12 @@ def free_motion(S, j, dt):
     v = yx * vx + yy * vy + yz * vz
     w = zx * vx + zy * vy + zz * vz
 
-    # Joint forces act at the arms along the body's z axis: their moment is z × (their weighted sum).
-    top, bottom = S[ARM_TOP + j], S[ARM_BOTTOM + j]
-    hx, hy, hz = top * fx + bottom * gx, top * fy + bottom * gy, top * fz + bottom * gz
     mx = S[LX + j] + S[UX + j + 1]
     my = S[LY + j] + S[UY + j + 1]
     mz = S[LZ + j] + S[UZ + j + 1]
     a, b, c = spin(S, j)
-    a += dt * it * (xx * mx + xy * my + xz * mz + yx * hx + yy * hy + yz * hz)
-    b += dt * it * (yx * mx + yy * my + yz * mz - xx * hx - xy * hy - xz * hz)
+    a += dt * it * (xx * mx + xy * my + xz * mz)
+    b += dt * it * (yx * mx + yy * my + yz * mz)
     c += dt * ia * (zx * mx + zy * my + zz * mz)
     return u, v, w, a, b, c
 
@@ -160,74 +161,83 @@ def touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt):
 
 
 @njit(forceinline=True)
-def move(S, j, u, v, w, a, b, c, dt):
-    """Store velocity (given in the body frame) and spin of body j and move it with them.
+def store_motion(S, j, u, v, w, a, b, c):
+    """Write velocity and spin of body j, both given in its own frame."""
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(*quaternion(S, j))
+    S[VX + j] = xx * u + yx * v + zx * w
+    S[VY + j] = xy * u + yy * v + zy * w
+    S[VZ + j] = xz * u + yz * v + zz * w
+    S[WX + j], S[WY + j], S[WZ + j] = a, b, c
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def push_with_coulomb(S, n, laws, dt):
+    """Update velocity and spin of every body in a hole with law ``coulomb`` (stages 4 and 5)."""
+    for j in range(1, n + 1):
+        u, v, w, a, b, c = free_motion(S, j, dt)
+        u, v, w, a, b, c = touch_wall(S, j, u, v, w, a, b, c, coulomb_impulse, laws, dt)
+        store_motion(S, j, u, v, w, a, b, c)
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def push_with_paper(S, n, laws, dt):
+    """Update velocity and spin of every body in a hole with law ``paper`` (stages 4 and 5)."""
+    for j in range(1, n + 1):
+        u, v, w, a, b, c = free_motion(S, j, dt)
+        u, v, w, a, b, c = touch_wall(S, j, u, v, w, a, b, c, paper_impulse, laws, dt)
+        store_motion(S, j, u, v, w, a, b, c)
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def push_freely(S, n, laws, dt):
+    """Update velocity and spin of every body where there is no wall."""
+    for j in range(1, n + 1):
+        u, v, w, a, b, c = free_motion(S, j, dt)
+        u, v, w, a, b, c = brake(S, j, u, v, w, a, b, c, laws.settling, dt)
+        store_motion(S, j, u, v, w, a, b, c)
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def move_bodies(S, n, dt):
+    """Update position, orientation, axis and spin of every body, given its velocity and spin.
 
     The gyroscopic term of Eq. 2 turns the transverse spin about the axis.  Here it is a rotation in Cayley's
     form, half before and half after the body turns: an explicit term would feed energy to a spinning string,
     and a rotation before the impulses would turn every moment by the angle of the step.
     """
-    qw, qx, qy, qz = quaternion(S, j)
-    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(qw, qx, qy, qz)
-    vx = xx * u + yx * v + zx * w
-    vy = xy * u + yy * v + zy * w
-    vz = xz * u + yz * v + zz * w
-    S[VX + j], S[VY + j], S[VZ + j] = vx, vy, vz
-    S[X + j] += dt * vx
-    S[Y + j] += dt * vy
-    S[Z + j] += dt * vz
-    h = 0.25 * dt * c * (1 - S[J_AXIAL + j] * S[INVERSE_JT + j])
-    k = 1 / (1 + h * h)
-    cosine, sine = k * (1 - h * h), 2 * k * h
-    a, b = cosine * a + sine * b, cosine * b - sine * a
-    qw, qx, qy, qz = turned(qw, qx, qy, qz, dt * a, dt * b, dt * c)
-    S[QW + j], S[QX + j], S[QY + j], S[QZ + j] = qw, qx, qy, qz
-    S[WX + j], S[WY + j] = cosine * a + sine * b, cosine * b - sine * a
-    S[WZ + j] = c
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def move_with_coulomb(S, n, laws, dt):
-    """Update the motion of every body in a hole with law ``coulomb`` (stages 4 and 5)."""
     for j in range(1, n + 1):
-        u, v, w, a, b, c = free_motion(S, j, dt)
-        u, v, w, a, b, c = touch_wall(S, j, u, v, w, a, b, c, coulomb_impulse, laws, dt)
-        move(S, j, u, v, w, a, b, c, dt)
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def move_with_paper(S, n, laws, dt):
-    """Update the motion of every body in a hole with law ``paper`` (stages 4 and 5)."""
-    for j in range(1, n + 1):
-        u, v, w, a, b, c = free_motion(S, j, dt)
-        u, v, w, a, b, c = touch_wall(S, j, u, v, w, a, b, c, paper_impulse, laws, dt)
-        move(S, j, u, v, w, a, b, c, dt)
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def move_freely(S, n, laws, dt):
-    """Update the motion of every body where there is no wall."""
-    for j in range(1, n + 1):
-        u, v, w, a, b, c = free_motion(S, j, dt)
-        u, v, w, a, b, c = brake(S, j, u, v, w, a, b, c, laws.settling, dt)
-        move(S, j, u, v, w, a, b, c, dt)
+        u, v, w = velocity(S, j)
+        S[X + j] += dt * u
+        S[Y + j] += dt * v
+        S[Z + j] += dt * w
+        a, b, c = spin(S, j)
+        h = 0.25 * dt * c * (1 - S[J_AXIAL + j] * S[INVERSE_JT + j])
+        k = 1 / (1 + h * h)
+        cosine, sine = k * (1 - h * h), 2 * k * h
+        a, b = cosine * a + sine * b, cosine * b - sine * a
+        w, x, y, z = quaternion(S, j)
+        w, x, y, z = turned(w, x, y, z, dt * a, dt * b, dt * c)
+        a, b = cosine * a + sine * b, cosine * b - sine * a
+        S[QW + j], S[QX + j], S[QY + j], S[QZ + j] = w, x, y, z
+        S[WX + j], S[WY + j] = a, b
+        store_axis(S, j, w, x, y, z, a, b, c)
 
 
 @njit(error_model="numpy")
 def update_motion(S, n, laws, dt):
     """Update velocities, positions and orientations, given joint loads and walls."""
     if laws.geometry == OPEN:
-        move_freely(S, n, laws, dt)
+        push_freely(S, n, laws, dt)
     elif laws.friction == PAPER:
-        move_with_paper(S, n, laws, dt)
+        push_with_paper(S, n, laws, dt)
     else:
-        move_with_coulomb(S, n, laws, dt)
+        push_with_coulomb(S, n, laws, dt)
+    move_bodies(S, n, dt)
 
 
 @njit(forceinline=True)
 def update_loads(S, top, packed, laws, motion, pipe, dt):
-    """Update axes, joint loads and the top drive's readings; returns its feed [m/s] and rotation [rad/s]."""
-    update_axes(S, packed)
+    """Update joint loads and the top drive's readings, given axes; returns its feed [m/s] and rotation [rad/s]."""
     update_joint_loads(S, packed, laws.joint_damping, dt)
     feed, rate = planned_speeds(top, motion, dt)
     read_top_drive(S, top, pipe, dt * feed, dt * rate, dt)
@@ -259,5 +269,6 @@ def step(S, top, owner, n, C, laws, motion, pipe, dt):
 @njit(error_model="numpy", cache=True)
 def advance(S, top, owner, n, C, laws, motion, pipe, dt, steps):
     """Advance by ``steps`` steps of ``dt`` [s]; the one compiled entry of a run, allocating nothing."""
+    update_axes(S, whole_operations(n))
     for _ in range(steps):
         step(S, top, owner, n, C, laws, motion, pipe, dt)

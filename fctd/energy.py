@@ -1,5 +1,6 @@
 """The energy of the string, for the ledger of a run."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -7,6 +8,19 @@ from numba import njit
 
 from fctd import state
 from fctd.joints import strain_energy
+from fctd.state import (
+    HOLE,
+    J_AXIAL,
+    J_TRANSVERSE,
+    K_WALL,
+    MASS,
+    RADIUS,
+    WEIGHT,
+    Z,
+    radial,
+    spin,
+    velocity,
+)
 
 
 class Energy(NamedTuple):
@@ -19,11 +33,20 @@ class Energy(NamedTuple):
 
 
 @njit(error_model="numpy", cache=True)
-def _strain(S, n):
-    total = 0.0
+def _energies(S, n):
+    kinetic = gravity = strain = contact = 0.0
     for j in range(1, n + 1):
-        total += strain_energy(S, j)
-    return total
+        vx, vy, vz = velocity(S, j)
+        wx, wy, wz = spin(S, j)
+        kinetic += 0.5 * S[MASS + j] * (vx * vx + vy * vy + vz * vz)
+        kinetic += 0.5 * (S[J_TRANSVERSE + j] * (wx * wx + wy * wy) + S[J_AXIAL + j] * wz * wz)
+        gravity -= S[WEIGHT + j] * S[Z + j]
+        strain += strain_energy(S, j)
+        px, py, pz = radial(S, j)
+        pressed = math.sqrt(px * px + py * py + pz * pz) - S[HOLE + j] + S[RADIUS + j]
+        if S[HOLE + j] > 0 and pressed > 0:
+            contact += 0.5 * S[K_WALL + j] * pressed * pressed
+    return kinetic, gravity, strain, contact
 
 
 def penetration(S: np.ndarray, n: int) -> np.ndarray:
@@ -35,17 +58,4 @@ def penetration(S: np.ndarray, n: int) -> np.ndarray:
 
 def energy_of(S: np.ndarray, n: int) -> Energy:
     """Energy of the state, given axes and walls that belong to its positions."""
-
-    def row(offset: int) -> np.ndarray:
-        return state.row(S, offset, n)
-
-    speed = row(state.VX) ** 2 + row(state.VY) ** 2 + row(state.VZ) ** 2
-    swing = row(state.WX) ** 2 + row(state.WY) ** 2
-    kinetic = row(state.MASS) * speed + row(state.J_TRANSVERSE) * swing + row(state.J_AXIAL) * row(state.WZ) ** 2
-    pressed = np.maximum(penetration(S, n), 0.0)
-    return Energy(
-        kinetic=0.5 * float(kinetic.sum()),
-        gravity=-float((row(state.WEIGHT) * row(state.Z)).sum()),
-        strain=float(_strain(S, n)),
-        contact=0.5 * float((row(state.K_WALL) * pressed**2).sum()),
-    )
+    return Energy(*_energies(S, n))

@@ -7,7 +7,8 @@ between the axes and τ the twist, t = (a + b)/|a + b| is the direction half-way
 
 A drill string is round, so shear and bending need no lateral directions: the half-way direction is all of
 the mid-frame that the potential sees, and bending does not mix with any amount of twist.  The loads are
-minus the exact derivatives of U.  Net force and moment on a free pair therefore vanish, a closed path does
+minus the exact derivatives of U.  Taken in the middle of the gap they are one force and one couple, opposite
+on the two bodies.  Net force and moment on a free pair therefore vanish, a closed path does
 no work, and the torque about each body's own axis is k_t τ whatever the bend.
 """
 
@@ -53,67 +54,66 @@ def cross(ax, ay, az, bx, by, bz):
 
 
 @njit(forceinline=True)
+def halfway(ax, ay, az, bx, by, bz):
+    """The sum s of two unit axes and 1/|s|².
+
+    With t = s/|s| the vector t (t·v) is s (s·v)/|s|²: no square root on the way to the loads.
+    """
+    return ax + bx, ay + by, az + bz, reciprocal(2 + 2 * (ax * bx + ay * by + az * bz) + TINY)
+
+
+@njit(forceinline=True)
 def joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt):
     """Loads of one joint's springs.
 
     a, b : unit axes of the upper and lower body; d : gap from the upper to the lower hinge point [m];
-    twist [rad]; ka, ks [N/m], kb, kt [N m/rad].  Returns force on the lower body [N], moment on the upper
-    and on the lower body [N m], all global, and the tension [N]: ten scalars.
+    twist [rad]; ka, ks [N/m], kb, kt [N m/rad].  Returns the force on the lower body in the middle of the
+    gap [N], the couple on it [N m] and the tension [N], all global: seven scalars.  The upper body feels the
+    opposite force and couple.
     """
     c = ax * bx + ay * by + az * bz
-    sx, sy, sz = ax + bx, ay + by, az + bz
-    inverse = reciprocal(root(2 + 2 * c + TINY))
-    tx, ty, tz = sx * inverse, sy * inverse, sz * inverse
-    stretch = tx * dx + ty * dy + tz * dz
-    px, py, pz = dx - stretch * tx, dy - stretch * ty, dz - stretch * tz
-
-    tension = ka * stretch
-    fx = -tension * tx - ks * px
-    fy = -tension * ty - ks * py
-    fz = -tension * tz - ks * pz
+    sx, sy, sz, share = halfway(ax, ay, az, bx, by, bz)
+    along = share * (sx * dx + sy * dy + sz * dz)
+    offset = (ka - ks) * along
+    fx = -ks * dx - offset * sx
+    fy = -ks * dy - offset * sy
+    fz = -ks * dz - offset * sz
 
     # Bending turns b towards a; twist acts along a + b, whose share along either axis is exactly k_t τ;
-    # the last term is the moment of the hinge offset, shared by the turning of the half-way direction.
-    bend = kb * angle_over_sine(c)
+    # the rest is the moment of the hinge offset, shared by the turning of the half-way direction.
+    bend = kb * angle_over_sine(c) + offset * along
+    torque = 2 * share * kt * twist
+    half = 0.5 * offset
     cx, cy, cz = cross(bx, by, bz, ax, ay, az)
-    torque = 2 * inverse * inverse * kt * twist
-    offset = (ka - ks) * stretch * inverse
-    apx, apy, apz = cross(ax, ay, az, px, py, pz)
-    bpx, bpy, bpz = cross(bx, by, bz, px, py, pz)
-    mx = bend * cx - torque * sx
-    my = bend * cy - torque * sy
-    mz = bend * cz - torque * sz
+    ex, ey, ez = cross(ax - bx, ay - by, az - bz, dx, dy, dz)
     return (
         fx, fy, fz,
-        -mx - offset * apx, -my - offset * apy, -mz - offset * apz,
-        mx - offset * bpx, my - offset * bpy, mz - offset * bpz,
-        tension,
+        bend * cx - torque * sx + half * ex,
+        bend * cy - torque * sy + half * ey,
+        bend * cz - torque * sz + half * ez,
+        ka * along * root(2 + 2 * c),
     )  # fmt: skip
 
 
 @njit(forceinline=True)
-def joint_damping(ax, ay, az, bx, by, bz, dx, dy, dz, rx, ry, rz, wx, wy, wz, ca, cs, cb, ct):
+def joint_damping(ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz, ca, cs, cb, ct):
     """Damping of one joint, on relative motion only.
 
-    d : gap [m]; r : its rate seen from a frame that turns with the pair [m/s]; w : spin of the lower body
-    relative to the upper [rad/s]; ca, cs [N s/m], cb, ct [N m s/rad].  Returns force on the lower body,
-    moment on the upper and lower body and the power lost [W]: ten scalars.
+    a, b : unit axes of the upper and lower body; r : velocity [m/s] and w : spin [rad/s] of the lower body
+    relative to the upper, both in the middle of the gap; ca, cs [N s/m], cb, ct [N m s/rad].  Returns force and
+    couple on the lower body in the middle of the gap and the power lost [W]: seven scalars.
     """
-    c = ax * bx + ay * by + az * bz
-    inverse = reciprocal(root(2 + 2 * c + TINY))
-    tx, ty, tz = (ax + bx) * inverse, (ay + by) * inverse, (az + bz) * inverse
-    along = tx * rx + ty * ry + tz * rz
-    fx = -cs * rx - (ca - cs) * along * tx
-    fy = -cs * ry - (ca - cs) * along * ty
-    fz = -cs * rz - (ca - cs) * along * tz
-    about = tx * wx + ty * wy + tz * wz
-    mx = -cb * wx - (ct - cb) * about * tx
-    my = -cb * wy - (ct - cb) * about * ty
-    mz = -cb * wz - (ct - cb) * about * tz
-    # The force works at a gap: its couple is shared equally, as the turning of the pair is their mean.
-    ox, oy, oz = cross(0.5 * dx, 0.5 * dy, 0.5 * dz, fx, fy, fz)
+    sx, sy, sz, share = halfway(ax, ay, az, bx, by, bz)
+    along = (ca - cs) * share * (sx * rx + sy * ry + sz * rz)
+    fx = -cs * rx - along * sx
+    fy = -cs * ry - along * sy
+    fz = -cs * rz - along * sz
+    about = (ct - cb) * share * (sx * wx + sy * wy + sz * wz)
+    mx = -cb * wx - about * sx
+    my = -cb * wy - about * sy
+    mz = -cb * wz - about * sz
     power = -(fx * rx + fy * ry + fz * rz + mx * wx + my * wy + mz * wz)
-    return fx, fy, fz, -mx - ox, -my - oy, -mz - oz, mx - ox, my - oy, mz - oz, power
+    return fx, fy, fz, mx, my, mz, power
 
 
 @njit(forceinline=True)
@@ -123,6 +123,15 @@ def gap(ex, ey, ez, ax, ay, az, bx, by, bz, bottom, top):
     e : from centre to centre [m]; a, b : unit axes; bottom, top : arms to the joint along them [m].
     """
     return ex - top * bx - bottom * ax, ey - top * by - bottom * ay, ez - top * bz - bottom * az
+
+
+@njit(forceinline=True)
+def arms_to_gap(ax, ay, az, bx, by, bz, dx, dy, dz, bottom, top):
+    """Vectors from the centre of the upper and of the lower body to the middle of the gap [m]; see ``gap``."""
+    return (
+        bottom * ax + 0.5 * dx, bottom * ay + 0.5 * dy, bottom * az + 0.5 * dz,
+        -top * bx - 0.5 * dx, -top * by - 0.5 * dy, -top * bz - 0.5 * dz,
+    )  # fmt: skip
 
 
 @njit(forceinline=True)
@@ -145,22 +154,19 @@ def joint_twist(S, j):
 
 
 @njit(forceinline=True)
-def gap_rate(S, j, dx, dy, dz):
-    """Rate of the gap seen from the turning pair [m/s] and relative spin [rad/s] of joint j, global."""
+def relative_motion(S, j, px, py, pz, qx, qy, qz):
+    """Velocity [m/s] and spin [rad/s] of body j relative to body j - 1 in the middle of joint j's gap, global.
+
+    p, q : vectors from the two centres to the middle [m].
+    """
     u0, v0, w0 = velocity(S, j - 1)
     u1, v1, w1 = velocity(S, j)
-    ax, ay, az = axis(S, j - 1)
-    bx, by, bz = axis(S, j)
     gx, gy, gz = global_spin(S, j - 1)
     hx, hy, hz = global_spin(S, j)
-    bottom, top = S[ARM_BOTTOM + j - 1], S[ARM_TOP + j]
-    px, py, pz = cross(gx, gy, gz, ax, ay, az)
-    qx, qy, qz = cross(hx, hy, hz, bx, by, bz)
-    mx, my, mz = cross(0.5 * (gx + hx), 0.5 * (gy + hy), 0.5 * (gz + hz), dx, dy, dz)
     return (
-        u1 - u0 - top * qx - bottom * px - mx,
-        v1 - v0 - top * qy - bottom * py - my,
-        w1 - w0 - top * qz - bottom * pz - mz,
+        u1 + (hy * qz - hz * qy) - (u0 + (gy * pz - gz * py)),
+        v1 + (hz * qx - hx * qz) - (v0 + (gz * px - gx * pz)),
+        w1 + (hx * qy - hy * qx) - (w0 + (gx * py - gy * px)),
         hx - gx, hy - gy, hz - gz,
     )  # fmt: skip
 
@@ -177,17 +183,20 @@ def update_joint_loads(S, n, damping_time, dt):
         dx, dy, dz = hinge_gap(S, j)
         twist = joint_twist(S, j)
         ka, ks, kb, kt = S[K_AXIAL + j], S[K_SHEAR + j], S[K_BEND + j], S[K_TWIST + j]
-        fx, fy, fz, ux, uy, uz, lx, ly, lz, tension = joint_loads(
-            ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt
-        )
-        rx, ry, rz, wx, wy, wz = gap_rate(S, j, dx, dy, dz)
-        gx, gy, gz, vx, vy, vz, mx, my, mz, power = joint_damping(
-            ax, ay, az, bx, by, bz, dx, dy, dz, rx, ry, rz, wx, wy, wz,
+        fx, fy, fz, cx, cy, cz, tension = joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt)
+        px, py, pz, qx, qy, qz = arms_to_gap(ax, ay, az, bx, by, bz, dx, dy, dz, S[ARM_BOTTOM + j - 1], S[ARM_TOP + j])
+        rx, ry, rz, wx, wy, wz = relative_motion(S, j, px, py, pz, qx, qy, qz)
+        gx, gy, gz, mx, my, mz, power = joint_damping(
+            ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz,
             damping_time * ka, damping_time * ks, damping_time * kb, damping_time * kt,
         )  # fmt: skip
-        S[FX + j], S[FY + j], S[FZ + j] = fx + gx, fy + gy, fz + gz
-        S[UX + j], S[UY + j], S[UZ + j] = ux + vx, uy + vy, uz + vz
-        S[LX + j], S[LY + j], S[LZ + j] = lx + mx, ly + my, lz + mz
+        fx, fy, fz = fx + gx, fy + gy, fz + gz
+        cx, cy, cz = cx + mx, cy + my, cz + mz
+        ux, uy, uz = cross(fx, fy, fz, px, py, pz)
+        lx, ly, lz = cross(qx, qy, qz, fx, fy, fz)
+        S[FX + j], S[FY + j], S[FZ + j] = fx, fy, fz
+        S[UX + j], S[UY + j], S[UZ + j] = ux - cx, uy - cy, uz - cz
+        S[LX + j], S[LY + j], S[LZ + j] = lx + cx, ly + cy, lz + cz
         S[SUM_TENSION + j] += dt * tension
         S[SUM_TORQUE + j] += -dt * kt * twist
         S[LOST_JOINT + j] += dt * power

@@ -82,7 +82,7 @@ class Recorder:
                 "time_s": self.last_time,
                 "operation": kind,
                 "bit_depth_m": self.bit_depth,
-                "bit_md_m": float(self._walls()[1][-1, 6]),
+                "bit_md_m": self._bit_md(),
                 "hookload_N": hookload,
                 "surface_torque_N_m": torque,
                 "weight_indicator_N": indicator,
@@ -124,6 +124,13 @@ class Recorder:
         }
         profile = pd.concat(list(self.profiles.values()), ignore_index=True) if self.profiles else pd.DataFrame()
         return SimulationResult(run.case, status, message, pd.DataFrame(self.history), profile, energy, numbers)
+
+    def _bit_md(self) -> float:
+        """Where the bit is along the hole [m]."""
+        run, n = self.run, self.run.segments
+        place, arm = run.S[[state.X + n, state.Y + n, state.Z + n]], run.S[state.ARM_CONTACT + n]
+        bit = place + arm * run.S[[state.AX + n, state.AY + n, state.AZ + n]]
+        return float(run.hole.walls(bit, run.owner[n : n + 1])[0, 6])
 
     def _walls(self) -> tuple[Array, Array]:
         """Contact points (n, 3) [m] and the walls beside them (Wellbore.walls)."""

@@ -32,8 +32,9 @@ def turned(w, x, y, z, a, b, c):
     step limit on spin guarantees.
     """
     h = 0.25 * (a * a + b * b + c * c)
-    s = 0.5 * (1 - h / 6 * (1 - h / 20 * (1 - h / 42)))
-    p = 1 - h / 2 * (1 - h / 12 * (1 - h / 30))
+    # The factors are written as powers of h: division by a constant is a division too.
+    s = 0.5 + h * (-1 / 12 + h * (1 / 240 - h * (1 / 10080)))
+    p = 1 + h * (-1 / 2 + h * (1 / 24 - h * (1 / 720)))
     a, b, c = s * a, s * b, s * c
     nw = w * p - x * a - y * b - z * c
     nx = w * a + x * p + y * c - z * b
@@ -70,12 +71,8 @@ def twist_angle(aw, ax, ay, az, bw, bx, by, bz):
 def angle_over_sine(c):
     """β / sin β from c = cos β: ₂F₁(1, 1; 3/2; p) with p = sin²(β/2), 1e-10 relative at 0.5 rad."""
     p = 0.5 - 0.5 * c
-    return 1 + p * (2 / 3) * (
-        1 + p * (4 / 5) * (
-            1 + p * (6 / 7) * (
-                1 + p * (8 / 9) * (
-                    1 + p * (10 / 11) * (
-                        1 + p * (12 / 13) * (1 + p * (14 / 15) * (1 + p * (16 / 17))))))))  # fmt: skip
+    return 1 + p * (2 / 3 + p * (8 / 15 + p * (16 / 35 + p * (128 / 315 + p * (
+        256 / 693 + p * (1024 / 3003 + p * (2048 / 6435 + p * (32768 / 109395))))))))  # fmt: skip
 
 
 def quaternion_from_axis(axis: np.ndarray) -> np.ndarray:

@@ -10,11 +10,11 @@ from fctd import dynamics, state, topdrive
 from fctd.case import DRILLING, Case
 from fctd.contact import update_walls
 from fctd.drillstring import String, check_fit, fill, lay_out
-from fctd.energy import penetration
 from fctd.errors import InputError
+from fctd.faults import UnstableError, check
 from fctd.operations import Stretch, depth_range, rad_per_s, schedule
 from fctd.rotations import quaternion_from_axis
-from fctd.stability import AUTO_SHARE, stable_step, stiffest_mode
+from fctd.stability import SHARES, stable_step, stiffest_mode
 from fctd.topdrive import Motion, PerMetre
 from fctd.wall_query import QueriedWall, WallQuery
 from fctd.wellbore import Wellbore, build_wellbore
@@ -30,10 +30,6 @@ VELOCITY, PLACE = (state.VX, state.VY, state.VZ), (state.X, state.Y, state.Z)
 # Beyond these a run would take hours or not fit into memory: a slip in the case, not a wish.
 MOST_STEPS = 100_000_000
 MOST_RECORDS = 1_000_000
-
-
-class UnstableError(Exception):
-    """The run left what the model can describe; its text says how."""
 
 
 @dataclass
@@ -83,22 +79,7 @@ class Run:
 
     def check(self) -> None:
         """Raise UnstableError when the state is no longer finite, or has left the hole or the joint law."""
-        n = self.segments
-        rows = [state.row(self.S, offset, n) for offset in (state.X, state.Y, state.Z, state.VX, state.WZ)]
-        if not all(np.isfinite(r).all() for r in rows):
-            raise UnstableError("a position or velocity is not finite")
-        deep = penetration(self.S, n) - state.row(self.S, state.HOLE, n)
-        if (deep > 0).any():
-            raise UnstableError(f"segment {int(np.argmax(deep)) + 1} has left the hole")
-        axes = np.stack([state.row(self.S, a, n) for a in (state.AX, state.AY, state.AZ)], axis=1)
-        cosine = np.sum(axes[1:] * axes[:-1], axis=1)
-        if (cosine < 0).any():
-            raise UnstableError(f"the string has folded at segment {int(np.argmin(cosine)) + 2}")
-        turns = np.stack([state.row(self.S, q, n) for q in (state.QW, state.QX, state.QY, state.QZ)], axis=1)
-        half = np.sum(turns[1:] * turns[:-1], axis=1)
-        if (half < 0).any():
-            at = int(np.argmin(half)) + 2
-            raise UnstableError(f"segment {at} is twisted by more than half a turn against the one above: too long")
+        check(self.S, self.segments)
 
 
 def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Stretch]]:
@@ -162,9 +143,12 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
         raise InputError(
             f"at most {MOST_RECORDS:.0g} records", key="record.interval", value=f"{case.record.interval:g} s"
         )
-    step = AUTO_SHARE * limit if case.solver.step == "auto" else case.solver.step
+    wanted = case.solver.step
+    step = SHARES[wanted] * limit if isinstance(wanted, str) else wanted
     if step > limit * (1 + 1e-9):
-        raise InputError(f"'auto' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s")
+        raise InputError(
+            f"'auto', 'largest' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
+        )
     # A walk from the top would stop at the first slab a point lies in, which past 90° may be a far one's.
     owner = np.zeros(n + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))

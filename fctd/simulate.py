@@ -8,9 +8,10 @@ import numpy as np
 
 from fctd import topdrive
 from fctd.case import Case
+from fctd.faults import UnstableError
 from fctd.record import Recorder
 from fctd.results import SimulationResult
-from fctd.run import UnstableError, forget_start, prepare, settle
+from fctd.run import forget_start, prepare, settle
 from fctd.topdrive import Motion
 from fctd.wall_query import WallQuery
 

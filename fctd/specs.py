@@ -190,21 +190,22 @@ class ContactSpec(Table):
 class SolverSpec(Table):
     """The time step [s], and joint damping as a multiple of joint stiffness [s].
 
+    "largest" is the largest step that is certain to be stable, "auto" four fifths of it.
     The default damps like steel, a loss of 0.2 % at 30 Hz: enough to keep sliding segments from chattering.
     """
 
-    step: float | Literal["auto"] = "auto"
+    step: float | Literal["auto", "largest"] = "auto"
     joint_damping: units.Time = 1e-5
 
     @field_validator("step", mode="before")
     @classmethod
     def _read_step(cls, raw: Any) -> Any:
-        if raw == "auto":
+        if raw in ("auto", "largest"):
             return raw
         try:
             return units.Quantity(dimension=units.TIME, above=0.0).parse(raw)
         except InputError as error:
-            raise InputError(f'"auto" or {error.expected}', value=raw) from None
+            raise InputError(f'"auto", "largest" or {error.expected}', value=raw) from None
 
 
 class RecordSpec(Table):

@@ -7,9 +7,10 @@ from fctd import state
 
 Array = NDArray[np.float64]
 
-# Share of the stable step that ``step = "auto"`` takes: the bound is exact for a uniform string, and
-# tension, overlap and curvature shift the stiffest mode by a few percent.
-AUTO_SHARE = 0.8
+# Share of the stable step that a named ``step`` takes.  The bound is exact for the axial mode of a uniform
+# string and a few percent short of the real limit where the wall or shear sets it; tension, overlap and
+# curvature shift a mode by a fraction of that.
+SHARES = {"auto": 0.8, "largest": 1.0}
 # The quaternion update is exact to rounding below this angle a step [rad].
 TURN_A_STEP = 0.2
 

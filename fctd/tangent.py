@@ -22,7 +22,7 @@ from fctd.contact import (
 )
 from fctd.dual import reciprocal, root
 from fctd.friction import along_wall
-from fctd.joints import cross, gap, joint_loads
+from fctd.joints import arms_to_gap, cross, gap, joint_loads
 from fctd.rotations import rotation_columns, twist_angle
 from fctd.state import (
     ARCS,
@@ -115,11 +115,12 @@ def pair_loads(ex, ey, ez, aw, ax, ay, az, bw, bx, by, bz, kw, kx, ky, kz, spin,
     qw, qx, qy, qz = times(aw, ax, ay, az, kw, kx, ky, kz)
     _, _, _, _, _, _, vx, vy, vz = rotation_columns(qw, qx, qy, qz)
     twist = twist_angle(qw, qx, qy, qz, bw, bx, by, bz) + spin
-    fx, fy, fz, px, py, pz, mx, my, mz, _ = joint_loads(vx, vy, vz, lx, ly, lz, dx, dy, dz, twist, ka, ks, kb, kt)
-    ox, oy, oz = cross(ux, uy, uz, fx, fy, fz)
-    hx, hy, hz = cross(lx, ly, lz, fx, fy, fz)
-    pa, pb, pc = in_frame(aw, ax, ay, az, px - bottom * ox, py - bottom * oy, pz - bottom * oz)
-    ma, mb, mc = in_frame(bw, bx, by, bz, mx - top * hx, my - top * hy, mz - top * hz)
+    fx, fy, fz, cx, cy, cz, _ = joint_loads(vx, vy, vz, lx, ly, lz, dx, dy, dz, twist, ka, ks, kb, kt)
+    px, py, pz, qx, qy, qz = arms_to_gap(ux, uy, uz, lx, ly, lz, dx, dy, dz, bottom, top)
+    ox, oy, oz = cross(px, py, pz, fx, fy, fz)
+    hx, hy, hz = cross(qx, qy, qz, fx, fy, fz)
+    pa, pb, pc = in_frame(aw, ax, ay, az, -cx - ox, -cy - oy, -cz - oz)
+    ma, mb, mc = in_frame(bw, bx, by, bz, cx + hx, cy + hy, cz + hz)
     return fx, fy, fz, pa, pb, pc, ma, mb, mc
 
 
@@ -337,7 +338,7 @@ def read_loads(S, n, P, kinks, C, owner, laws, joints, contacts):
         dx, dy, dz = gap(ex, ey, ez, ux, uy, uz, lx, ly, lz, S[ARM_BOTTOM + j - 1], S[ARM_TOP + j])
         twist = twist_angle(qw, qx, qy, qz, bw, bx, by, bz) + P[j, 7] - P[j - 1, 7]
         kb, kt = S[K_BEND + j], S[K_TWIST + j]
-        joints[j, 0] = joint_loads(vx, vy, vz, lx, ly, lz, dx, dy, dz, twist, S[K_AXIAL + j], S[K_SHEAR + j], kb, kt)[9]
+        joints[j, 0] = joint_loads(vx, vy, vz, lx, ly, lz, dx, dy, dz, twist, S[K_AXIAL + j], S[K_SHEAR + j], kb, kt)[6]
         joints[j, 1] = -kt * twist
         cx, cy, cz = cross(vx, vy, vz, lx, ly, lz)
         joints[j, 2] = kb * np.arctan2(np.sqrt(cx * cx + cy * cy + cz * cz), vx * lx + vy * ly + vz * lz)

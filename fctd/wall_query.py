@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fctd import state
 from fctd.contact import contact_point, store_wall
-from fctd.dynamics import update_loads, update_positions, whole_operations
+from fctd.dynamics import update_axes, update_loads, update_positions, whole_operations
 from fctd.state import Laws
 from fctd.topdrive import Motion, PerMetre
 from fctd.wellbore import Contacts, Wellbore
@@ -93,6 +93,7 @@ class QueriedWall:
     def advance(self, S: Array, top: Array, laws: Laws, motion: Motion, pipe: PerMetre, dt: float, steps: int) -> None:
         """Advance by ``steps`` steps of ``dt`` [s]."""
         n, radii = self._segments, self._radii(S)
+        update_axes(S, whole_operations(n))
         for _ in range(steps):
             feed, rate = _before(S, top, n, laws, motion, pipe, dt, self._points)
             hits = self._ask(radii)

@@ -10,9 +10,10 @@ from fctd import state, topdrive
 from fctd.case import Case
 from fctd.energy import Energy
 from fctd.errors import InputError
+from fctd.faults import UnstableError
 from fctd.operations import Stretch
 from fctd.record import LOSSES, Recorder
-from fctd.run import Run, UnstableError, forget_start, prepare, settle
+from fctd.run import Run, forget_start, prepare, settle
 from references import engine_checks
 from references.engines import EngineRun, Stepper, Window
 

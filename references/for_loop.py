@@ -5,7 +5,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from fctd.contact import LENGTH, contact_point, cylinder_wall, distance_along, store_wall
-from fctd.dynamics import update_loads, update_positions, whole_operations
+from fctd.dynamics import update_axes, update_loads, update_positions, whole_operations
 from fctd.state import RADIUS
 
 
@@ -36,6 +36,7 @@ def for_loop_owners(pieces: NDArray[np.float64], points: NDArray[np.float64]) ->
 def advance_with_for_loop(S, top, n, C, laws, motion, pipe, dt, steps):  # type: ignore[no-untyped-def]
     """The engine's ``dynamics.advance``, compiled as a whole, with the FOR-loop in place of its search."""
     packed = whole_operations(n)
+    update_axes(S, packed)
     for _ in range(steps):
         feed, rate = update_loads(S, top, packed, laws, motion, pipe, dt)
         for j in range(1, n + 1):

@@ -11,7 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from fctd import state
-from fctd.dynamics import update_loads, whole_operations
+from fctd.dynamics import update_axes, update_loads, whole_operations
 from fctd.energy import Energy, energy_of
 from fctd.rotations import rotation_columns
 from fctd.run import Run
@@ -41,18 +41,16 @@ class Bodies(Protocol):
 @njit(error_model="numpy", cache=True)
 def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untyped-def]
     """Loads of the present poses; out (n, 6) force and moment about the centre of mass; returns feed and rotation."""
+    update_axes(S, whole_operations(n))
     feed, rate = update_loads(S, top, whole_operations(n), laws, motion, pipe, dt)
     for j in range(1, n + 1):
         fx, fy, fz = state.joint_force(S, j)
         gx, gy, gz = state.joint_force(S, j + 1)
-        ax, ay, az = state.axis(S, j)
-        above, below = S[state.ARM_TOP + j], S[state.ARM_BOTTOM + j]
-        hx, hy, hz = above * fx + below * gx, above * fy + below * gy, above * fz + below * gz
         row = out[j - 1]
         row[0], row[1], row[2] = fx - gx, fy - gy, fz - gz + S[state.WEIGHT + j]
-        row[3] = S[state.LX + j] + S[state.UX + j + 1] - (ay * hz - az * hy)
-        row[4] = S[state.LY + j] + S[state.UY + j + 1] - (az * hx - ax * hz)
-        row[5] = S[state.LZ + j] + S[state.UZ + j + 1] - (ax * hy - ay * hx)
+        row[3] = S[state.LX + j] + S[state.UX + j + 1]
+        row[4] = S[state.LY + j] + S[state.UY + j + 1]
+        row[5] = S[state.LZ + j] + S[state.UZ + j + 1]
     return feed, rate
 
 

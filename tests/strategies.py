@@ -114,8 +114,8 @@ RULES: list[tuple[str, Any, str]] = [
     ("rig.torque_offset", "3 N", "a torque such as '0.5 kN*m'"),
     ("contact.friction_law", "stick", "'coulomb' or 'paper'"),
     ("contact.damping", -1, "a damping coefficient at least 0"),
-    ("solver.step", 0, '"auto" or a time'),
-    ("solver.step", "fast", '"auto" or a time such as'),
+    ("solver.step", 0, '"auto", "largest" or a time'),
+    ("solver.step", "fast", '"auto", "largest" or a time such as'),
     ("solver.joint_damping", "-1 ms", "a time at least 0"),
     ("record.interval", 0, "a time above 0"),
     ("record.profile_at", "1 m", "a list"),
@@ -345,7 +345,9 @@ def cases(draw: st.DrawFn) -> dict[str, Any]:
             }
         ),
         "contact": optional({"friction_law": st.sampled_from(["coulomb", "paper"]), "damping": positive(0, 1e6)}),
-        "solver": optional({"step": st.sampled_from(["auto", "1 ms", 0.002]), "joint_damping": positive(0, 0.01)}),
+        "solver": optional(
+            {"step": st.sampled_from(["auto", "largest", "1 ms", 0.002]), "joint_damping": positive(0, 0.01)}
+        ),
         "record": optional({"interval": st.just("0.5 s"), "profile_at": st.lists(lengths(100, 3000), max_size=3)}),
     }
     return raw | draw(optional(tables))

@@ -12,7 +12,8 @@ from scipy.spatial.transform import Rotation
 
 from fctd import dynamics, friction, joints, state, topdrive
 from fctd.contact import COLUMNS, follow_arcs, follow_cylinders
-from fctd.run import prepare, settle
+from fctd.faults import UnstableError
+from fctd.run import Run, prepare, settle
 from tests.cases import make_case, pipe, rotation
 
 FREE = state.Laws(state.OPEN, state.COULOMB, 1.0, 0.0, 0.0, 0.0)
@@ -139,9 +140,10 @@ def test_stepper_converges_at_first_order() -> None:
         (joints.update_joint_loads, (1e-4, 1e-3)),
         (follow_cylinders, ()),
         (follow_arcs, ()),
-        (dynamics.move_with_coulomb, (FREE, 1e-3)),
-        (dynamics.move_with_paper, (FREE, 1e-3)),
-        (dynamics.move_freely, (FREE, 1e-3)),
+        (dynamics.push_with_coulomb, (FREE, 1e-3)),
+        (dynamics.push_with_paper, (FREE, 1e-3)),
+        (dynamics.push_freely, (FREE, 1e-3)),
+        (dynamics.move_bodies, (1e-3,)),
     ],
 )
 def test_kernels_are_packed(kernel, arguments: tuple) -> None:
@@ -194,8 +196,31 @@ def test_an_inert_column_stays_finite() -> None:
     run, _ = prepare(make_case(components=[pipe(1000, 21)], operations=[rotation(1000, 1)]))
     run.advance(STILL, 100 * run.step)
     per_body = run.S.reshape(state.ROWS, state.STRIDE)[:, run.segments + 1 : run.segments + 9]
-    searching = (state.MARGIN_TOP // state.STRIDE, state.MARGIN_END // state.STRIDE)
-    assert np.isfinite(np.delete(per_body, searching, axis=0)).all()
+    assert np.isfinite(per_body).all()
+
+
+def test_the_largest_step_is_stable_and_hardly_more_is_not() -> None:
+    """Without a wall the axial mode of a uniform string sets the limit, and its bound is exact."""
+
+    def pulled(step: float | str, longer: float = 1.0) -> Run:
+        case = make_case(operations=[rotation(1000, 1)], contact={"enabled": False}, solver={"step": step})
+        run, _ = prepare(case)
+        run.step *= longer
+        run.advance(STILL, 3000 * run.step)
+        run.refresh()
+        return run
+
+    largest = pulled("largest")
+    largest.check()
+    assert pulled("auto").step == pytest.approx(0.8 * largest.step)
+    with pytest.raises(UnstableError, match=r"finite|folded|left"):
+        pulled("largest", 1.02).check()
+
+
+def test_rows_begin_on_cache_lines() -> None:
+    S = state.new_state(3)
+    for offset in (state.X, state.VX, state.LOST_JOINT):
+        assert state.row(S, offset, 3).ctypes.data % 64 == 0
 
 
 def test_steps_allocate_nothing() -> None:

@@ -1,0 +1,59 @@
+"""What the model cannot describe: looked for after every stretch of steps."""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from fctd.state import HOLE, RADIUS, VX, WZ, axis, position, quaternion, radial
+
+
+class UnstableError(Exception):
+    """The run left what the model can describe; its text says how."""
+
+
+@njit(error_model="numpy", cache=True)
+def _worst(S, n):
+    """Whether all is finite, and the worst of three measures of bodies 1..n with the body it is found at.
+
+    Distance beyond twice the hole radius, less the contact radius [m], above 0 outside; cosine of the bend and
+    of half the twist against the body above, below 0 past a right angle.
+    """
+    finite = True
+    outside, bend, twist = (-math.inf, 0), (math.inf, 0), (math.inf, 0)
+    for j in range(1, n + 1):
+        x, y, z = position(S, j)
+        finite = finite and math.isfinite(x + y + z + S[VX + j] + S[WZ + j])
+        px, py, pz = radial(S, j)
+        deep = math.sqrt(px * px + py * py + pz * pz) - 2 * S[HOLE + j] + S[RADIUS + j]
+        if S[HOLE + j] > 0 and deep > outside[0]:
+            outside = (deep, j)
+        if j == 1:
+            continue
+        ax, ay, az = axis(S, j - 1)
+        bx, by, bz = axis(S, j)
+        cosine = ax * bx + ay * by + az * bz
+        if cosine < bend[0]:
+            bend = (cosine, j)
+        aw, ax, ay, az = quaternion(S, j - 1)
+        bw, bx, by, bz = quaternion(S, j)
+        half = aw * bw + ax * bx + ay * by + az * bz
+        if half < twist[0]:
+            twist = (half, j)
+    return finite, outside, bend, twist
+
+
+def check(S: np.ndarray, n: int) -> None:
+    """Raise UnstableError when the state is no longer finite, or has left the hole or the joint law.
+
+    Given axes and walls that belong to the positions.
+    """
+    finite, outside, bend, twist = _worst(S, n)
+    if not finite:
+        raise UnstableError("a position or velocity is not finite")
+    if outside[0] > 0:
+        raise UnstableError(f"segment {outside[1]} has left the hole")
+    if bend[0] < 0:
+        raise UnstableError(f"the string has folded at segment {bend[1]}")
+    if twist[0] < 0:
+        raise UnstableError(f"segment {twist[1]} is twisted by more than half a turn against the one above: too long")
