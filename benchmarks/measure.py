@@ -54,14 +54,17 @@ def workers(*roots: Path) -> Iterator[list[Worker]]:
     """A fresh process for each folder of sources, all starting at once."""
     with ExitStack() as stack:
         # One thread: times are those of one core, and by the clock of one thread.
-        single = {name: "1" for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS")}
+        single = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
         processes = [
             stack.enter_context(
                 subprocess.Popen(
                     [sys.executable, "-m", "benchmarks.worker"],
-                    cwd=root, env={**os.environ, **single, "PYTHONPATH": str(root)},
-                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-                )  # fmt: skip
+                    cwd=root,
+                    env={**os.environ, **single, "PYTHONPATH": str(root)},
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    text=True,
+                )
             )
             for root in roots
         ]

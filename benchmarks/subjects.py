@@ -44,7 +44,7 @@ class Subject:
     size: str
 
 
-def turning(segments: int, changes: Mapping[str, Any] = {}) -> tuple[Run, Motion]:  # noqa: B006 (only read)
+def turning(segments: int, changes: Mapping[str, Any] = {}) -> tuple[Run, Motion]:
     """The curved chain, settled and turning.
 
     Turned for 4 s first: ahead of the first wave velocities are denormal numbers, which take many times longer.
