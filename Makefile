@@ -1,6 +1,6 @@
 # make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them
 # make test        the fast tests
-# make bench       what a step costs, on this machine
+# make bench       what everything costs on this machine, and the kernels beside the last release
 # make lint        style, types, and who may import whom
 # make clean       remove results, report and caches; the environment in .venv stays
 #
@@ -24,6 +24,7 @@ test: $(STAMP)
 
 bench: $(STAMP)
 	$(BIN)/python -m pytest benchmarks --benchmark-enable --benchmark-sort=name
+	$(BIN)/python -m benchmarks compare
 
 lint: $(STAMP)
 	$(BIN)/python -m ruff check

@@ -1,5 +1,7 @@
 """``python -m benchmarks``: the gate, this run against the last release, and a new record."""
 
+import subprocess
+from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
 
@@ -77,13 +79,16 @@ def record_command(
 def measured(release: str = "") -> history.Record:
     """The record of a measurement, now."""
     costs, subjects = measure.alone(PROCESSES, tell=tell)
-    counted: dict[str, float] = {}
+    counted, why_not = {}, "valgrind is not installed"
     if instructions.available():
-        tell("counting instructions")
-        counted = instructions.count()
-    else:
-        tell("instructions are not counted: valgrind is not installed")
-    return history.record_of(costs, subjects, counted, release)
+        tell("counting instructions, about two minutes")
+        try:
+            counted, why_not = instructions.count(), ""
+        except (subprocess.CalledProcessError, OSError, ValueError) as failure:
+            why_not = str(failure)
+    if why_not:
+        tell(f"instructions are not counted: {why_not}")
+    return history.record_of(costs, subjects, counted, release or version("fctd"))
 
 
 if __name__ == "__main__":

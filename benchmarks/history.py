@@ -40,7 +40,7 @@ class Kernel(BaseModel):
     @property
     def ratio(self) -> float:
         """Median of the samples."""
-        return statistics.median(self.samples)
+        return _round(statistics.median(self.samples))
 
     @computed_field  # type: ignore[prop-decorator]
     @property
