@@ -72,7 +72,7 @@ def _recorded(record: Record, missing: str, tell: Tell) -> Outcome:
 
 
 def sampled(how: str, more: Callable[[], tuple[Costs, Costs]], tell: Tell, before: Costs | None = None) -> Outcome:
-    """Verdicts on batches of processes: one batch where all is well, more where a kernel is or may be too slow.
+    """Verdicts on batches of processes: one batch where all is well, more where a kernel may be too slow.
 
     more : measures a batch, before and now.  A kernel is called slower only on a second batch's evidence.
     """

@@ -26,7 +26,7 @@ class Verdict:
 
     status : ``slower`` (by the threshold, beyond noise), ``perhaps slower`` (by the threshold, within noise),
     ``faster`` (by the threshold, beyond noise), ``as before``, ``new``, ``missing`` (measured before, not now) or
-    ``too few`` (samples).  change, low, high : cost now over cost before and its 80 % interval, NaN without one.
+    ``too few`` (samples).  change, low, high : cost now over cost before and its 80 % interval, NaN without one.  threshold : of the change that fails.
     """
 
     kernel: str
@@ -34,6 +34,7 @@ class Verdict:
     change: float = float("nan")
     low: float = float("nan")
     high: float = float("nan")
+    threshold: float = THRESHOLD
 
     @property
     def fails(self) -> bool:
@@ -42,8 +43,8 @@ class Verdict:
 
     @property
     def open(self) -> bool:
-        """Whether more processes are worth their time: a kernel that is, or may be, too slow."""
-        return self.status in ("slower", "perhaps slower")
+        """Whether more processes are worth their time: a kernel that may be too slow for all that noise leaves open."""
+        return self.high >= self.threshold
 
 
 def decide(before: Samples, now: Samples, threshold: float = THRESHOLD) -> list[Verdict]:
@@ -63,7 +64,7 @@ def _one(kernel: str, before: Sequence[float], now: Sequence[float], threshold: 
         status = "perhaps slower"
     else:
         status = "faster" if high <= 1 / threshold else "as before"
-    return Verdict(kernel, status, change, low, high)
+    return Verdict(kernel, status, change, low, high, threshold)
 
 
 def change_of(before: Sequence[float], now: Sequence[float]) -> tuple[float, float, float]:
