@@ -20,7 +20,7 @@ from fctd.errors import InputError
 from fctd.joints import update_joint_loads
 from fctd.operations import steady_rates
 from fctd.run import Run, contact_points, forget_start, prepare, settle
-from fctd.state import OPEN
+from fctd.state import OPEN, RADIUS, row
 from fctd.topdrive import Motion
 from references import base
 
@@ -85,7 +85,7 @@ def subjects() -> dict[str, Subject]:
         wall = base.build("fcl", bent.case)
     except InputError:
         return found
-    points, radii = contact_points(bent.S, SEGMENTS).copy(), np.full(SEGMENTS, 0.051)
+    points, radii = contact_points(bent.S, SEGMENTS), row(bent.S, RADIUS, SEGMENTS).copy()
     return found | {
         FCL: Subject(
             lambda: wall.query(points, radii), SEGMENTS, "point", f"{SEGMENTS} points, {wall.pieces} triangles"

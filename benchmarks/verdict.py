@@ -26,7 +26,8 @@ class Verdict:
 
     status : ``slower`` (by the threshold, beyond noise), ``perhaps slower`` (by the threshold, within noise),
     ``faster`` (by the threshold, beyond noise), ``as before``, ``new``, ``missing`` (measured before, not now) or
-    ``too few`` (samples).  change, low, high : cost now over cost before and its 80 % interval, NaN without one.  threshold : of the change that fails.
+    ``too few`` (samples).  change, low, high : cost now over cost before and its 80 % interval, NaN without one;
+    threshold : of the change that fails.
     """
 
     kernel: str
