@@ -81,7 +81,7 @@ def test_kernels_slower_below_the_threshold_pass(factor: float) -> None:
 
 
 def test_contact_slowed_on_purpose_was_caught_by_name() -> None:
-    """The real gate's own samples of the day it was shown (benchmarks/README.md)."""
+    """The slower of the two copies of benchmarks/README.md, raced once more with its samples kept."""
     slowed = RECORDED["slowed"]
     found = decide(measure.judged(slowed["before"]), measure.judged(slowed["now"]))
     caught = {verdict.kernel for verdict in found if verdict.fails}
