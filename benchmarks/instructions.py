@@ -1,4 +1,4 @@
-"""Instructions that a unit of each subject takes, counted by valgrind: the same in every run, whatever the load.
+"""Instructions that a unit of each subject takes, counted by valgrind: whatever the load.
 
 Compiled for one plain processor without the newest extensions, which valgrind does not know; counts therefore compare
 between machines.  They do not tell time, since instructions differ in cost: they stand in where no times compare.
