@@ -1,6 +1,7 @@
 # make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them
 # make test        the fast tests
-# make bench       what everything costs, on this machine; kept in .benchmarks for --benchmark-compare
+# make bench       what everything costs on this machine, kept in .benchmarks for --benchmark-compare, and the kernels
+#                  beside the last release
 # make lint        style, types, and who may import whom
 # make clean       remove results, report and caches; the environment in .venv stays
 #
@@ -24,6 +25,7 @@ test: $(STAMP)
 
 bench: $(STAMP)
 	$(BIN)/python -m pytest benchmarks --benchmark-enable --benchmark-autosave --benchmark-sort=name
+	$(BIN)/python -m benchmarks compare
 
 lint: $(STAMP)
 	$(BIN)/python -m ruff check

@@ -1,0 +1,95 @@
+"""``python -m benchmarks``: the gate, this run against the last release, and a new record."""
+
+import subprocess
+from importlib.metadata import version
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from benchmarks import history, instructions, measure, tables
+from benchmarks.gate import gate
+from fctd.cli import run
+from fctd.cli_options import FAILED, messages, screen
+from fctd.errors import InputError
+
+PROCESSES = 6  # of a record
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    help="What the kernels cost, against the last release.",
+)
+History = Annotated[Path, typer.Option("--history", metavar="FOLDER", help="Where the records are.")]
+
+
+def tell(line: str) -> None:
+    """Progress, on standard error."""
+    messages.print(line, highlight=False, markup=False)
+
+
+@app.command("gate")
+def gate_command(folder: History = history.HISTORY) -> None:
+    """Fail, naming the kernel, when one has become slower than in the last release by 15 % beyond noise."""
+    last = history.last_release(folder)
+    if last is None:
+        screen.print("no release is recorded: nothing to compare with")
+        return
+    file, record = last
+    outcome = gate(record, file, tell)
+    if not outcome.verdicts:
+        screen.print(outcome.how, markup=False)
+        return
+    screen.print(tables.verdict_table(outcome))
+    screen.print(tables.shown_table(outcome))
+    for verdict in outcome.verdicts:
+        if verdict.status == "slower":
+            screen.print(
+                f"slower: {verdict.kernel} takes {verdict.change:.2f} times what it took"
+                f" (noise leaves {verdict.low:.2f} to {verdict.high:.2f})", markup=False,
+            )  # fmt: skip
+        elif verdict.status == "missing":
+            screen.print(f"missing: {verdict.kernel} is no longer measured; record a new release", markup=False)
+    if not outcome.passed:
+        raise typer.Exit(FAILED)
+
+
+@app.command("compare")
+def compare_command(folder: History = history.HISTORY) -> None:
+    """Measure and print this run beside the last release."""
+    last = history.last_release(folder)
+    record = measured()
+    why_not = "" if last is None else last[1].not_here(record.reference, record.processor, record.versions)
+    screen.print(tables.comparison(record, last[1] if last else None, why_not))
+
+
+@app.command("record")
+def record_command(
+    folder: History = history.HISTORY,
+    release: Annotated[str, typer.Option("--release", help="Its name; default: the engine's version.")] = "",
+) -> None:
+    """Measure and keep a record, with which later runs are compared; the sources have to be committed."""
+    changed = history.uncommitted()
+    if changed:
+        raise InputError("everything committed: a record names its commit", key="git", value=changed)
+    screen.print(str(history.write(measured(release), folder)), markup=False)
+
+
+def measured(release: str = "") -> history.Record:
+    """The record of a measurement, now."""
+    costs, subjects = measure.alone(PROCESSES, tell=tell)
+    counted, why_not = {}, "valgrind is not installed"
+    if instructions.available():
+        tell("counting instructions, about two minutes")
+        try:
+            counted, why_not = instructions.count(), ""
+        except (subprocess.CalledProcessError, OSError, ValueError) as failure:
+            why_not = str(failure)
+    if why_not:
+        tell(f"instructions are not counted: {why_not}")
+    return history.record_of(costs, subjects, counted, release or version("fctd"))
+
+
+if __name__ == "__main__":
+    run(app)

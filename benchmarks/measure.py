@@ -1,0 +1,148 @@
+"""Samples from fresh processes: of these sources alone, or of these and a release's, taking turns."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.subjects import ARCS, CYLINDERS, FCL, FREE, REFERENCE
+from benchmarks.worker import PROTOCOL, reference_digest
+from fctd.errors import InputError
+
+ROOT = Path(__file__).parents[1]
+ROUNDS = 8  # of a process; its processes differ by more than its rounds
+# The part of a step that contact adds, which a slower search or law shows most clearly.
+ADDED = {"contact's addition, cylinders": CYLINDERS, "contact's addition, arcs": ARCS}
+
+Costs = dict[str, list[float]]  # subject -> cost in each process
+
+
+class Worker:
+    """A process that measures the sources in ``root``."""
+
+    def __init__(self, process: "subprocess.Popen[str]", root: Path) -> None:
+        self._process, self._root = process, root
+        self.hello = self._read()
+        if self.hello.get("protocol") != PROTOCOL or self.hello.get("reference") != reference_digest():
+            raise InputError("sources with the same reference kernel and protocol", key="release", value=str(root))
+
+    def round(self) -> dict[str, float]:
+        """Cost of each subject [ns per unit]."""
+        assert self._process.stdin is not None
+        self._process.stdin.write("go\n")
+        self._process.stdin.flush()
+        taken: dict[str, float] = self._read()
+        return taken
+
+    def _read(self) -> dict[str, Any]:
+        assert self._process.stdout is not None
+        line = self._process.stdout.readline()
+        if not line:
+            raise InputError("sources whose worker runs (its error is above)", key="release", value=str(self._root))
+        answer: dict[str, Any] = json.loads(line)
+        return answer
+
+
+@contextmanager
+def workers(*roots: Path) -> Iterator[list[Worker]]:
+    """A fresh process for each folder of sources, all starting at once."""
+    with ExitStack() as stack:
+        # One thread: times are those of one core, and by the clock of one thread.
+        single = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+        processes = [
+            stack.enter_context(
+                subprocess.Popen(
+                    [sys.executable, "-m", "benchmarks.worker"],
+                    cwd=root,
+                    env={**os.environ, **single, "PYTHONPATH": str(root)},
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    text=True,
+                )
+            )
+            for root in roots
+        ]
+        for process in processes:
+            stack.callback(process.terminate)
+        yield [Worker(process, root) for process, root in zip(processes, roots, strict=True)]
+
+
+def alone(processes: int, root: Path = ROOT, tell: Callable[[str], object] = str) -> tuple[Costs, dict[str, Any]]:
+    """Costs in ``processes`` processes [ns per unit], each the median of its rounds; and what was measured.
+
+    The reference kernel is one of the subjects.
+    """
+    samples: list[dict[str, float]] = []
+    hello: dict[str, Any] = {}
+    for k in range(processes):
+        tell(f"process {k + 1} of {processes}")
+        with workers(root) as (worker,):
+            hello = worker.hello["subjects"]
+            samples.append(medians([worker.round() for _ in range(ROUNDS)]))
+    return gathered(samples), hello
+
+
+def side_by_side(release: Path, pairs: int, root: Path = ROOT) -> tuple[Costs, Costs]:
+    """Costs of a release's sources and of these in ``pairs`` pairs of processes that take turns.
+
+    Both in units of the mean cost of the reference kernel in the same round of both processes: what the machine
+    does to a round falls out, and what a process does to its reference kernel falls on both sides alike.
+    """
+    before: list[dict[str, float]] = []
+    now: list[dict[str, float]] = []
+    for pair in range(pairs):
+        with workers(*((release, root) if pair % 2 == 0 else (root, release))) as pair_of:
+            rounds = [[one.round() for one in pair_of] for _ in range(ROUNDS)]
+        scaled = [in_units(both) for both in rounds]
+        first, second = (medians([both[k] for both in scaled]) for k in (0, 1))
+        before.append(first if pair % 2 == 0 else second)
+        now.append(second if pair % 2 == 0 else first)
+    return gathered(before), gathered(now)
+
+
+def in_units(both: Sequence[dict[str, float]]) -> list[dict[str, float]]:
+    """A round of some processes in units of the mean cost of their reference kernels."""
+    unit = float(np.mean([taken[REFERENCE] for taken in both]))
+    return [{name: cost / unit for name, cost in taken.items()} for taken in both]
+
+
+def medians(rounds: Sequence[dict[str, float]]) -> dict[str, float]:
+    """Median of each subject over the rounds of one process."""
+    return {name: float(np.median([taken[name] for taken in rounds])) for name in rounds[0]}
+
+
+def gathered(samples: Sequence[dict[str, float]]) -> Costs:
+    """Lists over processes from one dictionary for each."""
+    return {name: [sample[name] for sample in samples] for name in samples[0]}
+
+
+def ratios(costs: Costs) -> Costs:
+    """Costs over the reference kernel's in the same process."""
+    return {name: _over(costs[name], costs[REFERENCE]) for name in costs if name != REFERENCE}
+
+
+def judged(costs: Costs) -> Costs:
+    """The kernels that a release answers for: FCTD's own, and what contact adds to a step."""
+    own = {name: taken for name, taken in costs.items() if name not in (REFERENCE, FCL)}
+    for name, step in ADDED.items():
+        own[name] = [bent - free for bent, free in zip(costs[step], costs[FREE], strict=True)]
+    return own
+
+
+def shown(costs: Costs) -> Costs:
+    """Ratios of kernels of one run, which are told but not judged: a faster denominator raises them too."""
+    found = {"contact : contact-free, cylinders": _over(costs[CYLINDERS], costs[FREE])}
+    found["contact : contact-free, arcs"] = _over(costs[ARCS], costs[FREE])
+    if FCL in costs:
+        found["FCL query from Python : step, cylinders"] = _over(costs[FCL], costs[CYLINDERS])
+    return found
+
+
+def _over(above: Sequence[float], below: Sequence[float]) -> list[float]:
+    return [a / b for a, b in zip(above, below, strict=True)]

@@ -1,0 +1,134 @@
+"""What the gate measures: a fixed piece of work for every kernel, on one settled, turning string.
+
+A name stands for its work: who changes the work, or the meaning of a unit, gives it a new name, since the gate
+compares equal names of two releases.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from benchmarks import reference_kernel
+from fctd import load_case
+from fctd.contact import query_walls
+from fctd.equilibrium import Solver
+from fctd.errors import InputError
+from fctd.joints import update_joint_loads
+from fctd.operations import steady_rates
+from fctd.run import Run, contact_points, forget_start, prepare, settle
+from fctd.state import OPEN, RADIUS, row
+from fctd.topdrive import Motion
+from references import base
+
+CASE = Path(__file__).parents[1] / "validation" / "cases" / "curved_chain.toml"
+REFERENCE, FREE, CYLINDERS, ARCS = "reference", "step, contact-free", "step, cylinders", "step, arcs"
+FCL = "FCL query from Python"
+SEGMENTS = 60
+BIT_DEPTH = 2450.0  # [m]
+ROTATION = {"kind": "rotate_off_bottom", "at_md": BIT_DEPTH, "duration": 60.0, "rpm": 60.0, "ramp_time": 4.0}
+POINTS = 2_000  # of a compiled query
+JOINTS = 64  # whole packed operations
+
+
+@dataclass(frozen=True)
+class Subject:
+    """One kernel's work: calling ``act`` does ``count`` units; size tells what one call works on."""
+
+    act: Callable[[], object]
+    count: int
+    unit: str
+    size: str
+
+
+def turning(segments: int, changes: Mapping[str, Any] = {}) -> tuple[Run, Motion]:
+    """The curved chain, settled and turning.
+
+    Turned for 4 s first: ahead of the first wave velocities are denormal numbers, which take many times longer.
+    """
+    case = load_case(CASE, {"string.components[0].segments": segments, "operations": [ROTATION], **changes})
+    run, stretches = prepare(case)
+    settle(run)
+    forget_start(run)
+    run.advance(stretches[0].motion, stretches[0].motion.duration)
+    return run, stretches[1].motion
+
+
+@njit(error_model="numpy", cache=True)
+def joint_loads(S, n, count):  # type: ignore[no-untyped-def]
+    """The packed joint arithmetic by itself, springs and damping."""
+    for _ in range(count):
+        update_joint_loads(S, n, 1e-5, 1e-3)
+
+
+def subjects() -> dict[str, Subject]:
+    """Everything measured, the reference kernel first; FCL is left out where it is not installed."""
+    bent, motion = turning(SEGMENTS)
+    free = replace(
+        bent, S=bent.S.copy(), top=bent.top.copy(), owner=bent.owner.copy(), laws=bent.laws._replace(geometry=OPEN)
+    )
+    arcs, _ = turning(SEGMENTS, {"wellbore.geometry": "arcs"})
+    found = {
+        REFERENCE: _reference(2_000),
+        FREE: _steps(free, motion, 1_000),
+        CYLINDERS: _steps(bent, motion, 1_000),
+        ARCS: _steps(arcs, motion, 1_000),
+        "joint loads": _joints(bent.S.copy(), 3_000),
+        "query, cylinders": _query(bent, 60),
+        "query, arcs": _query(arcs, 20),
+        "steady depth": _steady(bent, 2),
+    }
+    try:
+        wall = base.build("fcl", bent.case)
+    except InputError:
+        return found
+    points, radii = contact_points(bent.S, SEGMENTS), row(bent.S, RADIUS, SEGMENTS).copy()
+    return found | {
+        FCL: Subject(
+            lambda: wall.query(points, radii), SEGMENTS, "point", f"{SEGMENTS} points, {wall.pieces} triangles"
+        )
+    }
+
+
+def _reference(passes: int) -> Subject:
+    S = reference_kernel.new_buffer()
+    columns = reference_kernel.COLUMNS
+    return Subject(
+        lambda: reference_kernel.reference_kernel(S, passes), passes * columns, "column", f"{columns} columns"
+    )
+
+
+def _steps(run: Run, motion: Motion, count: int) -> Subject:
+    size = f"{run.segments} segments"
+    return Subject(lambda: run.advance(motion, count * run.step), count * run.segments, "segment-step", size)
+
+
+def _joints(S: Any, count: int) -> Subject:
+    return Subject(lambda: joint_loads(S, JOINTS, count), count * JOINTS, "joint", f"{JOINTS} joints")
+
+
+def _query(run: Run, count: int) -> Subject:
+    """Points beside the wall all along the hole, each with its piece remembered."""
+    hole = run.hole
+    md = np.linspace(10.0, hole.total_depth - 10.0, POINTS)
+    points = hole.at(md)[0] + 0.1 * np.stack([np.cos(md), np.sin(md), np.zeros(POINTS)], axis=1)
+    owner, out = hole.owners(points), np.empty((POINTS, 7))
+
+    def act() -> None:
+        for _ in range(count):
+            query_walls(hole.pieces, hole.geometry, points, owner, out)
+
+    return Subject(act, count * POINTS, "point", f"{POINTS} points, {len(hole.pieces)} pieces")
+
+
+def _steady(run: Run, count: int) -> Subject:
+    solver, rates = Solver(run.case), steady_rates(run.case, "trip_out")
+
+    def act() -> None:
+        for _ in range(count):
+            solver.solve("trip_out", rates, BIT_DEPTH)
+
+    return Subject(act, count, "depth", f"{SEGMENTS} segments")

@@ -1,0 +1,86 @@
+"""What the commands print."""
+
+import statistics
+from collections.abc import Sequence
+
+from rich.table import Table
+
+from benchmarks.gate import Outcome, name_of
+from benchmarks.history import Record
+from benchmarks.measure import Costs, judged, shown
+from benchmarks.verdict import change_of
+
+STYLES = {"slower": "bold red", "missing": "bold red", "perhaps slower": "yellow", "faster": "green"}
+
+
+def verdict_table(outcome: Outcome) -> Table:
+    """The gate's verdicts, a row a kernel; cost before and now in columns of the reference kernel."""
+    table = Table(title=outcome.how, title_justify="left")
+    table.add_column("kernel")
+    for column in ("before", "now", "change", "80 % interval"):
+        table.add_column(column, justify="right")
+    table.add_column("verdict")
+    before, now = judged(outcome.before), judged(outcome.now)
+    for verdict in outcome.verdicts:
+        numbers = ("–", "–") if verdict.change != verdict.change else (
+            f"{verdict.change - 1:+.1%}", f"{verdict.low - 1:+.1%} to {verdict.high - 1:+.1%}"
+        )  # fmt: skip
+        table.add_row(
+            verdict.kernel, _middle(before.get(verdict.kernel)), _middle(now.get(verdict.kernel)), *numbers,
+            verdict.status, style=STYLES.get(verdict.status, ""),
+        )  # fmt: skip
+    return table
+
+
+def shown_table(outcome: Outcome) -> Table:
+    """The ratios between kernels, which are told and not judged."""
+    table = Table(title="ratios within one run (told, not judged)", title_justify="left")
+    table.add_column("ratio")
+    table.add_column("before", justify="right")
+    table.add_column("now", justify="right")
+    before, now = shown(outcome.before), shown(outcome.now)
+    for name, taken in now.items():
+        table.add_row(name, _middle(before.get(name)), _middle(taken))
+    return table
+
+
+def comparison(now: Record, last: Record | None, why_not: str) -> Table:
+    """A run beside the last release: time, ratio to the reference kernel with its range, instructions.
+
+    why_not : why ratios do not compare, empty where they do; the change is printed only then.
+    """
+    title = "this run" if last is None else f"this run against release {name_of(last)}"
+    table = Table(title=title + (f"; ratios do not compare: {why_not}" if why_not else ""), title_justify="left")
+    for column in ("kernel", "size"):
+        table.add_column(column)
+    for column in ("ns a unit", "ratio", "range", "released", "change", "instructions", "released"):
+        table.add_column(column, justify="right")
+    for name, kernel in now.kernels.items():
+        old = None if last is None else last.kernels.get(name)
+        change = "–"
+        if old is not None and not why_not:
+            middle, low, high = change_of(old.samples, kernel.samples)
+            change = f"{middle - 1:+.1%} ({low - 1:+.0%} to {high - 1:+.0%})"
+        table.add_row(
+            name, f"{kernel.size}, a {kernel.unit}", f"{kernel.ns:.4g}", f"{kernel.ratio:.4g}",
+            f"{kernel.spread[0]:.4g} to {kernel.spread[1]:.4g}", _number(None if old is None else old.ratio), change,
+            _number(kernel.instructions), _number(None if old is None else old.instructions),
+        )  # fmt: skip
+    for name, taken in shown(now.ratios).items():
+        table.add_row(
+            name, "", "", _middle(taken), f"{min(taken):.4g} to {max(taken):.4g}",
+            _middle(_shown_of(last).get(name)),
+        )  # fmt: skip
+    return table
+
+
+def _shown_of(record: Record | None) -> Costs:
+    return {} if record is None else shown(record.ratios)
+
+
+def _middle(samples: Sequence[float] | None) -> str:
+    return _number(statistics.median(samples) if samples else None)
+
+
+def _number(value: float | None) -> str:
+    return "–" if value is None else f"{value:.4g}"

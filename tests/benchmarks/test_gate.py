@@ -1,0 +1,161 @@
+"""Which comparison the gate makes, and what its commands say and return."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from benchmarks import __main__ as commands
+from benchmarks import gate as module
+from benchmarks import history, instructions, measure
+from benchmarks.gate import Outcome, gate
+from benchmarks.history import Kernel, Record
+from benchmarks.release import NoSourcesError
+from benchmarks.verdict import decide
+from fctd.errors import InputError
+from tests.benchmarks.test_history import a_record
+
+FILE = Path("record.json")
+COSTS = {measure.REFERENCE: [1.0] * 4, measure.FREE: [5.0] * 4, measure.CYLINDERS: [8.0] * 4, measure.ARCS: [9.0] * 4}
+
+
+def here(**changes: object) -> Record:
+    """A record of this machine, of other sources."""
+    kernels = {
+        name: Kernel(unit="segment-step", size="60 segments", ns=4 * taken[0], samples=tuple(taken))
+        for name, taken in COSTS.items() if name != measure.REFERENCE
+    }  # fmt: skip
+    known = {"reference": history.reference_digest(), "processor": history.processor(), "kernels": kernels}
+    return a_record(**(known | {"versions": history.machine_versions()} | changes))
+
+
+@pytest.fixture
+def no_sources(monkeypatch: pytest.MonkeyPatch) -> None:
+    def absent(*_: object) -> Path:
+        raise NoSourcesError("this shallow clone does not hold commit abc1234")
+
+    monkeypatch.setattr(module, "check_out", absent)
+
+
+def measuring(monkeypatch: pytest.MonkeyPatch, costs: measure.Costs) -> None:
+    monkeypatch.setattr(measure, "alone", lambda processes: ({k: [4 * c for c in v] for k, v in costs.items()}, {}))
+
+
+def test_the_same_sources_need_no_race() -> None:
+    outcome = gate(a_record(sources=history.sources_of(measure.ROOT)), FILE, str)
+    assert outcome.passed
+    assert "nothing to compare" in outcome.how
+
+
+def test_the_release_is_raced_where_the_checkout_has_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Whatever machine the record is of."""
+    monkeypatch.setattr(module, "check_out", lambda *_: tmp_path)
+    slower = COSTS | {measure.FREE: [6.5] * 4}
+    monkeypatch.setattr(measure, "side_by_side", lambda release, pairs, root: (COSTS, slower))
+    outcome = gate(a_record(processor="another"), FILE, str)
+    assert "raced" in outcome.how
+    assert [verdict.kernel for verdict in outcome.verdicts if verdict.fails] == [measure.FREE]
+
+
+@pytest.mark.usefixtures("no_sources")
+def test_without_sources_the_record_of_such_a_processor_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    measuring(monkeypatch, COSTS)
+    outcome = gate(here(), FILE, str)
+    assert outcome.passed
+    assert len(outcome.verdicts) == 5
+    assert "recorded on such a processor (this shallow clone" in outcome.how
+    measuring(monkeypatch, COSTS | {measure.ARCS: [12.0] * 4})
+    failed = {verdict.kernel for verdict in gate(here(), FILE, str).verdicts if verdict.fails}
+    assert failed == {measure.ARCS, "contact's addition, arcs"}
+
+
+@pytest.mark.usefixtures("no_sources")
+def test_the_record_of_another_machine_judges_nothing_and_says_so() -> None:
+    outcome = gate(here(processor="abacus"), FILE, str)
+    assert outcome.passed
+    assert not outcome.verdicts
+    assert "not compared" in outcome.how
+    assert "another processor, abacus" in outcome.how
+
+
+def invoke(*arguments: str) -> tuple[int, str]:
+    done = CliRunner().invoke(commands.app, list(arguments))
+    if isinstance(done.exception, InputError):
+        raise done.exception
+    return done.exit_code, done.output
+
+
+def test_the_command_fails_and_names_the_kernel(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    assert invoke("gate", "--history", str(tmp_path)) == (0, "no release is recorded: nothing to compare with\n")
+    history.write(here(), tmp_path)
+
+    def with_costs(now: measure.Costs) -> tuple[int, str]:
+        verdicts = decide(measure.judged(COSTS), measure.judged(now))
+        monkeypatch.setattr(commands, "gate", lambda *_: Outcome("raced", verdicts, COSTS, now))
+        return invoke("gate", "--history", str(tmp_path))
+
+    code, text = with_costs(COSTS)
+    assert (code, "slower" in text) == (0, False)
+    code, text = with_costs(COSTS | {measure.FREE: [6.5] * 4})
+    assert code == 1
+    assert "slower: step, contact-free takes 1.30 times" in text
+    code, text = with_costs(COSTS | {"steady depth": [1.0] * 4})
+    assert code == 0
+    monkeypatch.setattr(commands, "gate", lambda *_: Outcome("raced", decide({"x": [1.0]}, {}), COSTS, COSTS))
+    code, text = invoke("gate", "--history", str(tmp_path))
+    assert code == 1
+    assert "missing: x is no longer measured" in text
+
+
+def test_a_run_beside_the_last_release(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("COLUMNS", "220")
+    monkeypatch.setattr(commands.screen, "_width", 220)
+    monkeypatch.setattr(commands, "measured", lambda release="": here(release="now"))
+    history.write(here(), tmp_path)
+    code, text = invoke("compare", "--history", str(tmp_path))
+    assert code == 0
+    assert "this run against release 1.0" in text
+    assert "+0.0%" in text
+    assert "contact : contact-free, cylinders" in text
+    history.write(here(processor="abacus", release="2.0", date=here().date.replace(year=2027)), tmp_path)
+    _, text = invoke("compare", "--history", str(tmp_path))
+    assert "another processor, abacus" in text
+    assert "+0.0%" not in text
+
+
+def test_a_measurement_without_valgrind_says_so(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    subject = {name: {"unit": "segment-step", "size": "60 segments"} for name in COSTS}
+    monkeypatch.setattr(measure, "alone", lambda processes, tell: (COSTS, subject))
+    monkeypatch.setattr(instructions, "available", lambda: False)
+    monkeypatch.setattr(commands, "tell", print)
+    record = commands.measured("4.0")
+    assert "valgrind is not installed" in capsys.readouterr().out
+    assert record.counts == {}
+    assert record.ratios == COSTS
+    monkeypatch.setattr(instructions, "available", lambda: True)
+    monkeypatch.setattr(instructions, "count", lambda: {measure.FREE: 200.0})
+    assert commands.measured().counts == {measure.FREE: 200.0}
+    assert record.not_here(history.reference_digest(), history.processor(), history.machine_versions()) == ""
+
+
+def test_a_dump_of_the_counter_is_read(tmp_path: Path) -> None:
+    dump = tmp_path / "counts.1"
+    dump.write_text("events: Ir\nfn=(1) x\n12 34\n\ntotals: 8544699\n")
+    assert instructions._total(dump) == 8544699
+    dump.write_text("events: Ir\n")
+    with pytest.raises(ValueError, match=r"counts\.1 holds no total"):
+        instructions._total(dump)
+
+
+def test_a_record_needs_committed_sources(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(commands, "measured", lambda release="": here(release=release))
+    monkeypatch.setattr(history, "uncommitted", lambda: " M fctd/joints.py")
+    with pytest.raises(InputError, match="everything committed"):
+        invoke("record", "--history", str(tmp_path))
+    monkeypatch.setattr(history, "uncommitted", lambda: "")
+    assert invoke("record", "--history", str(tmp_path), "--release", "3.0")[0] == 0
+    found = history.last_release(tmp_path)
+    assert found is not None
+    assert found[1].release == "3.0"

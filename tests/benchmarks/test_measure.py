@@ -1,0 +1,78 @@
+"""Samples: what falls out of them, and the talk with the processes that take them."""
+
+from pathlib import Path
+
+import pytest
+
+from benchmarks import measure, worker
+from benchmarks.subjects import ARCS, CYLINDERS, FCL, FREE, REFERENCE, Subject
+from fctd.errors import InputError
+
+
+def test_the_machine_and_the_process_fall_out_of_a_round() -> None:
+    """A slow moment doubles all costs; a badly placed reference kernel does not change what is compared."""
+    quiet = measure.in_units([{REFERENCE: 4.0, FREE: 20.0}, {REFERENCE: 6.0, FREE: 22.0}])
+    loaded = measure.in_units([{REFERENCE: 8.0, FREE: 40.0}, {REFERENCE: 12.0, FREE: 44.0}])
+    assert quiet == loaded
+    assert quiet[1][FREE] / quiet[0][FREE] == pytest.approx(22 / 20)
+
+
+def test_what_is_judged_and_what_is_told() -> None:
+    costs = {REFERENCE: [1.0, 1.0], FREE: [5.0, 6.0], CYLINDERS: [8.0, 9.0], ARCS: [10.0, 9.0], FCL: [4000.0, 4500.0]}
+    assert measure.judged(costs) == {
+        FREE: [5.0, 6.0], CYLINDERS: [8.0, 9.0], ARCS: [10.0, 9.0],
+        "contact's addition, cylinders": [3.0, 3.0], "contact's addition, arcs": [5.0, 3.0],
+    }  # fmt: skip
+    assert measure.shown(costs)["FCL query from Python : step, cylinders"] == [500.0, 500.0]
+    del costs[FCL]
+    assert measure.shown(costs)["contact : contact-free, cylinders"] == [1.6, 1.5]
+    assert measure.ratios({REFERENCE: [2.0], FREE: [10.0]}) == {FREE: [5.0]}
+
+
+def test_a_round_takes_the_shortest_of_its_calls(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock, costs = [0.0], iter([3.0, 2.0, 5.0])
+
+    def act() -> None:
+        clock[0] += next(costs)
+
+    monkeypatch.setattr(worker.time, "thread_time", lambda: clock[0])
+    assert worker.one_round({"x": Subject(act, 4, "unit", "size")}, backwards=False) == {"x": pytest.approx(0.5e9)}
+
+
+FAKE = """
+import json, pathlib, sys
+cost = float(pathlib.Path("cost").read_text())
+print(json.dumps({{"protocol": {protocol}, "reference": "{reference}", "subjects": {{}}}}), flush=True)
+for k, _ in enumerate(sys.stdin):
+    print(json.dumps({{"reference": 4.0, "x": cost + (k % 3 == 2)}}), flush=True)
+"""
+
+
+def sources(root: Path, cost: float, protocol: int = worker.PROTOCOL, reference: str = "") -> Path:
+    """Sources whose worker says what it is told to."""
+    package = root / "benchmarks"
+    package.mkdir(parents=True)
+    (package / "__init__.py").touch()
+    program = FAKE.format(protocol=protocol, reference=reference or worker.reference_digest())
+    (package / "worker.py").write_text(program)
+    (root / "cost").write_text(str(cost))
+    return root
+
+
+def test_two_releases_take_turns_in_pairs_of_processes(tmp_path: Path) -> None:
+    release, today = sources(tmp_path / "a", 40.0), sources(tmp_path / "b", 60.0)
+    before, now = measure.side_by_side(release, 2, today)
+    assert before == {REFERENCE: [1.0, 1.0], "x": [10.0, 10.0]}
+    assert now == {REFERENCE: [1.0, 1.0], "x": [15.0, 15.0]}
+    costs, _ = measure.alone(2, today)
+    assert costs["x"] == [60.0, 60.0]
+
+
+def test_a_worker_that_fails_or_measures_otherwise_is_told(tmp_path: Path) -> None:
+    for name, changes in {"old": {"protocol": 0}, "other": {"reference": "another"}}.items():
+        with pytest.raises(InputError, match="same reference kernel and protocol"):
+            measure.alone(1, sources(tmp_path / name, 1.0, **changes))
+    broken = sources(tmp_path / "broken", 1.0)
+    (broken / "benchmarks" / "worker.py").write_text("raise SystemExit('told')")
+    with pytest.raises(InputError, match="whose worker runs"):
+        measure.alone(1, broken)

@@ -1,0 +1,39 @@
+"""The yardstick: that nobody edits it unknowingly, and that it measures arithmetic and nothing else."""
+
+import re
+
+import numpy as np
+from numba import njit
+
+from benchmarks import reference_kernel as kernel
+from benchmarks.worker import reference_digest
+
+# Every record in benchmarks/history/ is in units of this source.  A new yardstick needs new records.
+SOURCE = "306194ad3d1aa4e0"
+
+
+def test_nobody_has_edited_it() -> None:
+    assert reference_digest() == SOURCE
+
+
+def test_values_stay_normal_and_of_order_one() -> None:
+    """Denormal numbers take many times longer, and would make the unit depend on how long it has run."""
+    S = kernel.new_buffer()
+    kernel.reference_kernel(S, 20_000)
+    used = S.reshape(kernel.ROWS, kernel.STRIDE)[:, kernel.FIRST : kernel.FIRST + kernel.COLUMNS]
+    directions, rates, turns = used[0:3], used[3:6], used[6:9]
+    np.testing.assert_allclose(np.linalg.norm(directions, axis=0), 1, rtol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(rates, axis=0), 1, rtol=1e-12)
+    assert directions.std() > 0.3  # they keep turning in all directions
+    assert np.abs(turns).max() < 50
+    assert not (np.abs(S[S != 0]) < np.finfo(float).tiny).any()
+
+
+def test_it_is_packed_arithmetic_with_division_and_root() -> None:
+    fresh = njit(error_model="numpy")(kernel.reference_kernel.py_func)  # numba does not show code from its cache
+    fresh(kernel.new_buffer(), 1)
+    (code,) = fresh.inspect_asm().values()
+    packed, scalar = (len(re.findall(rf"\bv?(?:add|sub|mul|div|sqrt|fn?m\w+){kind}\b", code)) for kind in ("pd", "sd"))
+    assert packed > 10 * scalar
+    assert re.search(r"\bv?divpd\b", code)
+    assert re.search(r"\bv?sqrtpd\b", code)
