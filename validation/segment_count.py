@@ -324,6 +324,7 @@ def run(context: Context) -> Outcome:
         [vary_cylinders(name, CYLINDERS) for name in context.progress(names, "cylinders")], ignore_index=True
     )
     orders, laws = observed_orders(counts), cost_laws(counts, stepped)
+    references = " or ".join(map(str, sorted(counts["reference"].unique())))
     return Outcome(
         tables={
             "counts": counts, "orders": orders, "enough": enough(counts), "cylinders": cylinders, "stepped": stepped,
@@ -332,7 +333,7 @@ def run(context: Context) -> Outcome:
         checks=_checks(counts, orders, cylinders, stepped, laws),
         notes=[
             "Same well, string, friction and wall per metre at every count; geometry arcs. Errors are against the same "
-            f"string in {_references(counts)} segments; the change from half of that is what the reference is in "
+            f"string in {references} segments; the change from half of that is what the reference is in "
             "doubt by, and errors within three times of it take no part in an order.",
             "Torque and side force turning off bottom at 60 rev/min, hook load picking up. Side force is compared as "
             "its sum from the top down, mean difference over depth; moment as RMS along the string, and at one point "
@@ -388,10 +389,6 @@ def _checks(
         Check("torque of the stepper against the steady solver, largest difference",
               float(stepped["off_steady_percent"].abs().max()), 0.1, "at_most", "%", "target: a tenth of a percent"),
     ]  # fmt: skip
-
-
-def _references(counts: pd.DataFrame) -> str:
-    return " or ".join(f"{count}" for count in sorted(counts["reference"].unique()))
 
 
 STUDY = Study(
