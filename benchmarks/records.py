@@ -8,7 +8,8 @@ import numpy as np
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from fctd import state, topdrive
-from fctd.run import Run, UnstableError
+from fctd.faults import UnstableError
+from fctd.run import Run
 from references.timing import machine
 
 # Segment-steps a round of compiled code; the number is fixed so that rounds of two sessions can be compared.

@@ -69,7 +69,7 @@ def race(
 
 
 def turn(
-    actions: Mapping[str, Action], counts: Mapping[str, int], clock: Callable[[], float], backwards: bool
+    actions: Mapping[str, Action], counts: Mapping[str, float], clock: Callable[[], float], backwards: bool
 ) -> dict[str, float]:
     """One round: what a call of each action in turn takes by ``clock`` [s], in ns per unit."""
     taken = {}

@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 import fctd.state
-from fctd.run import Run, UnstableError
+from fctd.faults import UnstableError
+from fctd.run import Run
 from fctd.topdrive import Motion
 from references import base, engines
 from references.engines import Stepper

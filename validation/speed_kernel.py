@@ -10,8 +10,9 @@ import pandas as pd
 from fctd import Case, topdrive
 from fctd.case import KINDS
 from fctd.equilibrium import Solver
+from fctd.faults import UnstableError
 from fctd.operations import steady_rates
-from fctd.run import Run, UnstableError
+from fctd.run import Run
 from fctd.topdrive import Motion
 from references.timing import race, units_for
 from references.workloads import copy_of, fallen, find_walls, free_query, moving, touching, without_wall
