@@ -341,9 +341,7 @@ def run(context: Context) -> Outcome:
             "Loads converge irregularly, at first order or better: the ends of contact move by whole segments. Moment "
             "in a bend converges at second order. Along the whole string it converges at half an order to one: its "
             "peaks stand where contact begins and ends, and at the clamp, over a few metres.",
-            "The steady solver has no answer in the scaled section beyond 640 segments (7 cm), and in 30°/100 ft with "
-            "7; the stepper does not settle paper-well's string of 240 (collars of 2.5 m beside pipe of 9 m). Missing "
-            "values stand for these.",
+            f"Without an answer: {_missing(counts)} (steady solver); {_missing(stepped)} (stepper).",
             "Times are processor times of one machine, the steady ones the least of five; only growth is judged.",
         ],
         display={
@@ -389,6 +387,11 @@ def _checks(
         Check("torque of the stepper against the steady solver, largest difference",
               float(stepped["off_steady_percent"].abs().max()), 0.1, "at_most", "%", "target: a tenth of a percent"),
     ]  # fmt: skip
+
+
+def _missing(table: pd.DataFrame) -> str:
+    rows = table[~table["status"].isin(["converged", "completed"])]
+    return ", ".join(f"{well} in {n}" for well, n in zip(rows["well"], rows["segments"], strict=True)) or "none"
 
 
 STUDY = Study(
