@@ -22,14 +22,12 @@ Array = NDArray[np.float64]
 COUNTS = (5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320, 480, 640)
 QUICK_COUNTS = (20, 40, 60, 80, 160, 320, 640)
 FINEST = (5120, 2560, 1280, 640)
-# Below this a string is a handful of rods; orders are fitted from here on.
-FITTED_FROM = 20
+FITTED_FROM = 20  # orders are; below it a string is a handful of rods
 STEPPED_COUNTS = (15, 30, 60, 120, 240, 480, 960)
-# The stepper does not settle longer strings of paper-well.
+# The stepper hardly settles longer strings of paper-well.
 MOST_STEPPED = {"paper-well": 240, "4.5°/30 m": 960}
 CYLINDERS = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # [m]
-# The string in which the cylinders are varied.
-IN_CYLINDERS = 320
+IN_CYLINDERS = 320  # segments of the string in which the cylinders are varied
 # Refining the string must not stiffen the wall [N/m/m].
 WALL = {"stiffness": None, "stiffness_per_length": 1e6}
 BITE = {f"wellbore__{key}": value for key, value in WALL.items()}
@@ -341,9 +339,7 @@ def run(context: Context) -> Outcome:
             "Loads converge irregularly, at first order or better: the ends of contact move by whole segments. Moment "
             "in a bend converges at second order. Along the whole string it converges at half an order to one: its "
             "peaks stand where contact begins and ends, and at the clamp, over a few metres.",
-            "The steady solver has no answer in the scaled section beyond 640 segments (7 cm), and in 30°/100 ft with "
-            "7; the stepper does not settle paper-well's string of 240 (collars of 2.5 m beside pipe of 9 m). Missing "
-            "values stand for these.",
+            f"Without an answer: {_missing(counts)} (steady solver); {_missing(stepped)} (stepper).",
             "Times are processor times of one machine, the steady ones the least of five; only growth is judged.",
         ],
         display={
@@ -389,6 +385,11 @@ def _checks(
         Check("torque of the stepper against the steady solver, largest difference",
               float(stepped["off_steady_percent"].abs().max()), 0.1, "at_most", "%", "target: a tenth of a percent"),
     ]  # fmt: skip
+
+
+def _missing(table: pd.DataFrame) -> str:
+    rows = table[~table["status"].isin(["converged", "completed"])]
+    return ", ".join(f"{well} in {n}" for well, n in rows[["well", "segments"]].to_numpy()) or "none"
 
 
 STUDY = Study(
