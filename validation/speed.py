@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pandas as pd
 
@@ -16,6 +16,7 @@ from references.free_bodies import FreeBodies
 from references.timing import machine, race, units_for
 from references.workloads import NoWall, asking, copy_of, moving
 from validation import speed_kernel
+from validation.contact_swap import FULL_ONLY, TOO_SLOW
 from validation.speed_kernel import BEST, CONTACT, LEAD, chain
 from validation.study import Check, Context, Kind, Outcome, Progress, Study
 
@@ -28,16 +29,13 @@ FREE, TOUCHING, TAKEN = "no contact", "contact", "wall taken away"
 # In the open, hung from the same top.
 OPEN = {"contact__enabled": False, "wellbore__stations": [[0, 0, 0], [2600, 0, 0]]}
 FCTD, CHAIN = "FCTD", "MuJoCo ball chain"
-# Contact methods in FCTD's loop: key of references.base and options, the cheaper query of each.
-SWAPPED: dict[str, tuple[str, dict[str, Any]]] = {
-    "FCL in our loop": ("fcl", {"query": "collide"}),
-    "coal in our loop": ("coal", {"query": "collide"}),
-}
-# Keys of references.engines; a swapped contact method runs in FCTD's.
-ENGINES = {
-    FCTD: "fctd", **dict.fromkeys(SWAPPED, "fctd"),
-    "Bullet": "bullet", "MuJoCo": "mujoco", "PyElastica": "elastica", CHAIN: "mujoco_chain",
-}  # fmt: skip
+# Other people's engines, keys of references.engines.
+OTHERS = {"Bullet": "bullet", "MuJoCo": "mujoco", "PyElastica": "elastica", CHAIN: "mujoco_chain"}
+# Contact methods that take the place of the engine's in its loop; its own are in the study contact_swap.
+IN_LOOP = " in our loop"
+OURS = ("cylinders", "arcs", "for_loop")
+LABELS = {"fcl": "FCL", "bullet": "Bullet's contact", "mujoco": "MuJoCo's contact"}
+CHEAPER = {"fcl": {"query": "collide"}, "coal": {"query": "collide"}}  # of the two ways to ask
 SWAP_TARGET = 200.0
 LEAST_OTHER = 5.0  # what every other engine costs at least, over FCTD
 
@@ -48,24 +46,33 @@ COLUMNS = [
 ]  # fmt: skip
 
 
-def available() -> tuple[list[str], list[str]]:
+def swapped(quick: bool) -> dict[str, str]:
+    """Name in the tables -> contact method, of all registered ones that are fast enough to be raced."""
+    left_out = {*OURS, TOO_SLOW, *(FULL_ONLY if quick else ())}
+    return {LABELS.get(method, method) + IN_LOOP: method for method in base.METHODS if method not in left_out}
+
+
+def available(quick: bool) -> tuple[list[str], list[str]]:
     """Names that can be raced, and those whose package is missing."""
-    found = {name: engines.installed_version(key) for name, key in ENGINES.items()}
-    found |= {name: base.installed_version(method) for name, (method, _) in SWAPPED.items()}
-    return [name for name in ENGINES if found[name]], [name for name in ENGINES if not found[name]]
+    found = {FCTD: engines.installed_version("fctd")}
+    found |= {name: base.installed_version(method) for name, method in swapped(quick).items()}
+    found |= {name: engines.installed_version(key) for name, key in OTHERS.items()}
+    return [name for name in found if found[name]], [name for name in found if not found[name]]
 
 
 def begin(name: str, start: Run, state: str, step: float | None) -> tuple[Run, Stepper]:
     """A competitor's stepper at the state of a run, and the run that it works on."""
-    if name in SWAPPED:
-        method, chosen = SWAPPED[name]
+    if name.endswith(IN_LOOP):
+        method = swapped(quick=False)[name]
         # Without a wall there is nothing to ask: what is left is our loop of two compiled calls and an empty query.
-        run = asking(start, NoWall() if state != TOUCHING else base.build(method, start.case, **chosen))
+        run = asking(
+            start, base.build(method, start.case, **CHEAPER.get(method, {})) if state == TOUCHING else NoWall()
+        )
     else:
         run = copy_of(start)
     if state == TAKEN:
         run.laws = run.laws._replace(geometry=fctd.state.OPEN)
-    stepper = engines.build(ENGINES[name.partition(",")[0]], **({} if step is None else {"step": step})).begin(run)
+    stepper = engines.build(OTHERS.get(name, "fctd"), **({} if step is None else {"step": step})).begin(run)
     if isinstance(stepper, FreeBodies):
         stepper.watch = False  # what is read for our checks is no cost of the engine
     return run, stepper
@@ -105,7 +112,7 @@ def race_engines(names: list[str], best: dict[int, float], rounds: int, aim: flo
     entries = [entry for entry in entries if entry.state == FREE or entry.engine != CHAIN]
     extra = {
         OWN: [Entry(n, TOUCHING, BEST) for n in best],
-        EQUAL: [Entry(n, TAKEN, name) for n in best for name in (FCTD, *SWAPPED) if name in names],
+        EQUAL: [Entry(n, TAKEN, name) for n in best for name in names if name == FCTD or name.endswith(IN_LOOP)],
     }
     cases = {(n, state): chain(n, **(OPEN if state == FREE else {})) for n in best for state in (FREE, TOUCHING)}
     starts = {key: moving(case, LEAD) for key, case in cases.items()}
@@ -158,9 +165,9 @@ def ratios(times: pd.DataFrame) -> pd.DataFrame:
     at = times.set_index(["state", "step", "segments", "engine"]).sort_index()
     ratio, wall, counts = at["ratio_to_fctd"], at["ms_per_simulated_s"], sorted(times["segments"].unique())
     for name in [name for name in times["engine"].unique() if name not in (FCTD, BEST, CHAIN)]:
-        swapped = name in SWAPPED
+        in_loop = name.endswith(IN_LOOP)
         for n in counts:
-            if swapped:
+            if in_loop:
                 alone = ratio[TOUCHING, EQUAL, n, name] - ratio[TAKEN, EQUAL, n, name]
                 alone /= 1 - ratio[TAKEN, EQUAL, n, FCTD]
                 rows += [
@@ -180,7 +187,7 @@ def ratios(times: pd.DataFrame) -> pd.DataFrame:
         if len(counts) > 1:
             few, many = counts
             across = wall[TOUCHING, OWN, many, name] / wall[TOUCHING, OWN, few, FCTD]
-            what = "contact, call from Python" if swapped else "contact, program, solver, step"
+            what = "contact, call from Python" if in_loop else "contact, program, solver, step"
             rows += [
                 ("ours", f"{name} with {many} segments : FCTD with {few}, contact, own steps", across,
                  f"{what}, number of segments and their shorter step"),
@@ -257,8 +264,8 @@ def table_of(checks: list[Check], kernel: pd.DataFrame) -> pd.DataFrame:
 
 def run(context: Context) -> Outcome:
     """The ladder of steps, the races of all engines, FCTD by itself; quick: 60 segments and fewer, shorter rounds."""
-    names, missing = available()
     quick = context.quick
+    names, missing = available(quick)
     counts = SEGMENTS[:1] if quick else SEGMENTS
     steps = pd.concat([speed_kernel.ladder(n, 5.0 if quick else 60.0) for n in counts], ignore_index=True)
     best = {n: float(steps.loc[steps["holds"] & (steps["segments"] == n), "step_ms"].max()) / 1e3 for n in counts}
@@ -308,8 +315,9 @@ def notes(kernel: pd.DataFrame, missing: list[str]) -> list[str]:
         "An engine's own step is the one that it chooses by itself in this suite: FCTD and the swapped loops 0.8 of "
         "the bound of the stiffest mode, Bullet and MuJoCo half of FCTD's, PyElastica 0.3 of its own. The equal step "
         "is the shortest of these. FCTD's largest stable step is found on a ladder.",
-        "FCL and coal in our loop are asked from Python once a step for all points, each with the cheaper of its two "
-        "queries; without contact that is the same loop with a query that finds nothing. Rows with the wall taken away "
+        "Contact methods in our loop are asked from Python once a step for all points, FCL and coal with the cheaper "
+        f"of their two queries ({TOO_SLOW} is left out, milliseconds a point; its cost is in contact_swap); without "
+        "contact that is the same loop with a query that finds nothing. Rows with the wall taken away "
         "are the string in contact whose hole has vanished, timed in the same race as the contact. Bullet, MuJoCo and "
         "PyElastica are driven from Python too, step by step; Bullet and MuJoCo get their joint wrenches from FCTD's "
         "compiled code. Readings that only our checks want are off in the races.",

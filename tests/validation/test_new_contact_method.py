@@ -11,9 +11,10 @@ from typer.testing import CliRunner
 
 from references import base
 from references.__main__ import app
+from references.workloads import moving
 from reports import figures
-from validation import contact_accuracy, contact_swap
-from validation.study import Context
+from validation import contact_accuracy, contact_swap, speed, speed_kernel
+from validation.study import Context, silent
 
 FILE = """
     from fctd.errors import Table
@@ -86,10 +87,18 @@ def test_it_is_raced_and_turns_the_chain(toy, monkeypatch):
     tables = contact_swap.run(Context(quick=True)).tables
     cost = tables["cost"].query("loop == 'toy, from Python'")
     assert cost["segments"].to_list() == [60]
-    ratio = tables["ratios"].set_index("ratio")["value"]
-    assert ratio["ours: toy, from Python, 60 segments : cylinders, compiled, 60"] > 1.0
-    assert "ours: toy : cylinders, 60 segments, each less its own loop without contact" in ratio
     turned = tables["torques"].set_index("method")
     assert turned.loc["toy", "sum_difference_percent"] == pytest.approx(0.0, abs=0.02)
     assert pd.notna(turned.loc["toy", "surface_torque_kN_m"])
     assert {"toy, from Python", "toy"} <= written("contact_swap", tables)
+
+
+def test_it_is_among_the_engines_of_the_study_of_speed(toy):
+    assert "toy in our loop" in speed.available(quick=True)[0]
+    step = moving(speed_kernel.chain(60), 0.0)[0].step
+    times = speed.race_engines(["FCTD", "toy in our loop"], {60: step}, 2, 0.0005, silent)
+    assert set(times.query("engine == 'toy in our loop'")["state"]) == {speed.FREE, speed.TOUCHING, speed.TAKEN}
+    assert not times["check"].str.startswith("invalid").any()
+    assert speed.ratios(times)["ratio"].str.startswith("toy in our loop : FCTD, 60 segments, a step").any()
+    scaling = pd.DataFrame({"segments": [60.0, 170.0], "ns_least": [20.0, 20.0]})
+    assert "toy in our loop" in written("speed", {"times": times, "scaling": scaling})
