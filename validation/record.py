@@ -26,16 +26,21 @@ Standing = Literal["met", "missed (recorded)", "better than recorded", "worse th
 
 @dataclass(frozen=True)
 class Judged:
-    """A check beside what ``expected.toml`` records of it: why it is known to be missed, or None."""
+    """A check beside what ``expected.toml`` records of it: ``missed: why``, ``varies: why``, or None."""
 
     check: Check
     recorded: str | None
 
     @property
+    def varies(self) -> bool:
+        """Whether it is recorded that this check is met on one machine and missed on another."""
+        return self.recorded is not None and self.recorded.startswith("varies")
+
+    @property
     def standing(self) -> Standing:
         """The verdict against the record."""
         if self.check.verdict == "met":
-            return "met" if self.recorded is None else "better than recorded"
+            return "met" if self.recorded is None or self.varies else "better than recorded"
         return "worse than recorded" if self.recorded is None else "missed (recorded)"
 
 

@@ -71,7 +71,7 @@ def is_reproduced(name: str) -> bool:
 
 
 def read_expected(path: Path) -> Expected:
-    """study -> check -> why it is known to be missed."""
+    """study -> check -> ``missed: why``, or ``varies: why`` it is met on one machine and missed on another."""
     expected: dict[str, dict[str, str]] = {}
     try:
         tables = tomllib.loads(path.read_text())
@@ -82,9 +82,11 @@ def read_expected(path: Path) -> Expected:
             raise UsageError(f"{path.name}: {study!r} is no table named after a study")
         for check, text in checks.items():
             verdict, _, why = str(text).partition(":")
-            if verdict != "missed" or not why.strip():
-                raise UsageError(f"{path.name}, [{study}] {check!r}: expected 'missed: why', got {text!r}")
-            expected.setdefault(study, {})[check] = why.strip()
+            if verdict not in ("missed", "varies") or not why.strip():
+                raise UsageError(
+                    f"{path.name}, [{study}] {check!r}: expected 'missed: why' or 'varies: why', got {text!r}"
+                )
+            expected.setdefault(study, {})[check] = f"{verdict}: {why.strip()}"
     return expected
 
 

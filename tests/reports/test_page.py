@@ -81,7 +81,7 @@ def test_finished_study_has_question_checks_figure_notes_and_origin(render, tmp_
 def test_verdicts_are_told_in_words(render):
     checks = (
         judged(1.0, name="a"),
-        judged(1.0, "chords are chords", name="b"),
+        judged(1.0, "missed: chords are chords", name="b"),
         judged(0.0, "old reason", name="c"),
         judged(float("nan"), name="d"),
     )

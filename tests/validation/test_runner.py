@@ -52,19 +52,28 @@ def test_miss_not_recorded_is_an_error(register, run):
 
 def test_recorded_miss_is_a_row_and_no_error(register, run, tmp_path):
     register("toy", lambda context: outcome(2.0))
-    code, text = run("toy", expected={"toy": {"error": "chords are chords"}})
+    code, text = run("toy", expected={"toy": {"error": "missed: chords are chords"}})
     assert code == 0
     assert "missed (recorded)" in text
     check = stored(tmp_path, "toy")["checks"][0]
-    assert (check["verdict"], check["recorded"]) == ("missed", "chords are chords")
+    assert (check["verdict"], check["recorded"]) == ("missed", "missed: chords are chords")
 
 
 def test_recorded_miss_that_is_met_again_asks_for_an_update(register, run):
     register("toy")
-    code, text = run("toy", expected={"toy": {"error": "chords are chords"}})
+    code, text = run("toy", expected={"toy": {"error": "missed: chords are chords"}})
     assert code == 0
     assert "better than recorded" in text
     assert "take it out of expected.toml" in text
+
+
+@pytest.mark.parametrize("value", [0.5, 2.0])
+def test_what_varies_with_the_machine_is_as_recorded_either_way(register, run, value):
+    register("toy", lambda context: outcome(value))
+    code, text = run("toy", expected={"toy": {"error": "varies: a time"}})
+    assert code == 0
+    assert ("missed (recorded)" if value > 1 else "1 met") in text
+    assert "better than recorded" not in text
 
 
 def test_recorded_check_that_is_gone_is_named(register, run):
@@ -204,4 +213,4 @@ def test_expected_file_gives_the_reasons(register, tmp_path):
     register("toy")
     path = tmp_path / "expected.toml"
     path.write_text('[toy]\n"error" = "missed: chords: 2 mm"')
-    assert runner.read_expected(path) == {"toy": {"error": "chords: 2 mm"}}
+    assert runner.read_expected(path) == {"toy": {"error": "missed: chords: 2 mm"}}
