@@ -163,7 +163,8 @@ def one_to_thousand(names: tuple[str, ...], duration: float) -> pd.DataFrame:
         # A model a thousandth in size with its wall as it was is beyond the solver's numbers; its status says so.
         with np.errstate(over="ignore"):
             point = equilibrium(model, "rotate_off_bottom", model.operations[0].start_md)
-        add(reading, engine, by, point.status, point.hookload, point.surface_torque)
+        loads = (point.hookload, point.surface_torque) if point.answered else (np.nan, np.nan)
+        add(reading, engine, by, point.status, *loads)
 
     for reading in ("similar", "relabelled"):
         by, model = factors(reading), scaled(case, reading)
