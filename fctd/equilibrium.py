@@ -160,10 +160,11 @@ class Solver:
         joints, contacts = np.zeros((n + 1, 3)), np.zeros((n + 1, 6))
         read_loads(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, joints, contacts)
         top_axis = hole.at(np.array([string.top_md]))[1][0]
-        # The half of a long segment's weight that is not lumped below hangs on the top drive itself.
-        held = 0.5 * pipe.weight * string.length[0] if string.long_segment else 0.0
-        hookload, torque = float(w.R[0, :3] @ top_axis) + held, -float(w.R[0, 5])
-        joints[1, 0] += held
+        # The half of a long segment that is not lumped below hangs on the top drive itself, in mud that resists it.
+        half = 0.5 * string.length[0] if string.long_segment else 0.0
+        held, resisted = half * (pipe.weight - pipe.mud_axial * rates.speed), half * pipe.mud_spin * rates.spin
+        hookload, torque = float(w.R[0, :3] @ top_axis) + held, resisted - float(w.R[0, 5])
+        joints[1, :2] += held, resisted
         imbalance = float(np.linalg.norm(w.R[1 : n + 1, :3], axis=1).max())
         # A string that lies level pulls neither way, to rounding.
         pushed = -hookload - case.rig.block_weight > n * allowed

@@ -27,7 +27,8 @@ def wall_normal(S, j):
     """Penetration [m] (Eq. 11, settled sign) and the normal towards the wall in the frame of body j."""
     px, py, pz = radial(S, j)
     distance = np.sqrt(px * px + py * py + pz * pz)
-    # A point on the hole axis has no direction, and the square of an offset below 1e-162 m is 0.
+    # A point on the hole axis has no direction, and the square of an offset below 1e-162 m is 0.  Such offsets
+    # occur: the front of a wave enters a long straight chain laid on the axis with every power of ten below it.
     k = 1 / (distance + ON_AXIS)
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(*quaternion(S, j))
     return (

@@ -31,11 +31,12 @@ LOSSES = {
 def _work(energy: pd.DataFrame) -> float:
     """Energy turned over in a run [J]: the larger of all losses and of the top drive's work beyond lifting.
 
-    Lifting and lowering move hundreds of times more energy back and forth, which would hide any error.
+    Lifting and lowering move hundreds of times more energy back and forth, which would hide any error.  NaN where a
+    term is no number.
     """
-    losses = energy[list(LOSSES)].sum(axis=1).max()
-    beyond = (energy["top_drive_work_J"] - energy["gravity_J"]).abs().max()
-    return float(max(losses, beyond))
+    losses = energy[list(LOSSES)].sum(axis=1, skipna=False)
+    beyond = (energy["top_drive_work_J"] - energy["gravity_J"]).abs()
+    return float(pd.concat([losses, beyond]).max(skipna=False))
 
 
 class Recorder:
@@ -119,7 +120,7 @@ class Recorder:
             "real_time_factor": self.last_time / wall if wall > 0 else np.nan,
             "work_J": work,
             # The largest of the run: the residual of a swinging string passes through zero again and again.
-            "energy_error": float(energy["residual_J"].abs().max()) / work if self.ledger else np.nan,
+            "energy_error": float(energy["residual_J"].abs().max(skipna=False)) / work if work > 0 else np.nan,
             "settling_residual": residual,
         }
         profile = pd.concat(list(self.profiles.values()), ignore_index=True) if self.profiles else pd.DataFrame()
@@ -158,12 +159,13 @@ class Recorder:
         points, walls = self._walls()
         axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
         turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
-        tension = self.mean[state.SUM_TENSION].copy()
-        # The half of a long segment's weight that is not lumped below hangs at the top.
-        tension[0] += 0.5 * run.pipe.weight * run.top[topdrive.TOP_LENGTH]
+        tension, torque = self.mean[state.SUM_TENSION].copy(), self.mean[state.SUM_TORQUE].copy()
+        if run.string.long_segment:
+            # Half of a long segment's weight and mud is not lumped below but at the top.
+            tension[0], torque[0] = (self.history[-1][name] for name in ("hookload_N", "surface_torque_N_m"))
         loads = Loads(
             tension=tension,
-            torque=self.mean[state.SUM_TORQUE],
+            torque=torque,
             bending=self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0)),
             normal=self.mean[state.SUM_NORMAL],
         )

@@ -8,7 +8,9 @@ import numpy as np
 from numba import njit
 
 from fctd.dual import reciprocal, root
-from fctd.state import TINY
+
+# In place of 0 in the denominator of a tangent, small beside rounding; the eighth power of 1/WHOLE_TURN is a number.
+WHOLE_TURN = 1e-30
 
 
 @njit(forceinline=True)
@@ -60,10 +62,12 @@ def twist_angle(aw, ax, ay, az, bw, bx, by, bz):
     Symmetric swing-twist: the relative rotation is half the twist, a bend without twist, half the twist.
     Its quaternion has w = cos(bend/2) cos(twist/2) and z = cos(bend/2) sin(twist/2).  The arc tangent is
     taken at a quarter of the twist, where its approximant is good to 1e-10 at 2 rad and to 2e-7 at π.
+    At a whole turn it is large and without meaning, but finite: the bit turns like that against the inert
+    column below it, whose stiffness is 0.
     """
     w = aw * bw + ax * bx + ay * by + az * bz
     z = aw * bz - az * bw - ax * by + ay * bx
-    u = z * reciprocal(w + root(w * w + z * z) + TINY)
+    u = z * reciprocal(w + root(w * w + z * z) + WHOLE_TURN)
     return 4 * u * arctan_ratio(u * u)
 
 

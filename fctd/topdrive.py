@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from fctd.joints import joint_twist, strain_energy
+from fctd.joints import hinge_gap, joint_loads, joint_twist, strain_energy
 from fctd.rotations import turned
 from fctd.state import (
     ARM_TOP,
@@ -21,6 +21,7 @@ from fctd.state import (
     K_BEND,
     K_SHEAR,
     K_TWIST,
+    LOST_MUD,
     MASS,
     MUD_AXIAL,
     MUD_LATERAL,
@@ -29,6 +30,7 @@ from fctd.state import (
     QX,
     QY,
     QZ,
+    SUM_MUD_TORQUE,
     TURNS,
     UX,
     UY,
@@ -131,6 +133,16 @@ def long_segment_energy(S):
 
 
 @njit(error_model="numpy")
+def spring_tension(S):
+    """What the springs of joint 1 pull along the top drive's axis [N]: its tension less that of its damper."""
+    ax, ay, az = axis(S, 0)
+    bx, by, bz = axis(S, 1)
+    dx, dy, dz = hinge_gap(S, 1)
+    loads = joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, 0.0, S[K_AXIAL + 1], S[K_SHEAR + 1], 0.0, 0.0)
+    return -(loads[0] * ax + loads[1] * ay + loads[2] * az)
+
+
+@njit(error_model="numpy")
 def planned_speeds(top, motion, dt):
     """Feed [m/s] and rotation [rad/s] of the top drive during this step, taken at its middle."""
     now = top[TOP_TIME] + 0.5 * dt
@@ -147,23 +159,31 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
     """
     ax, ay, az = axis(S, 0)
     fx, fy, fz = joint_force(S, 1)
-    # The half of the long segment's weight that is not lumped below hangs on the top drive itself.
+    # The half of the long segment that is not lumped below hangs on the top drive itself and moves with it, its
+    # mud included: impulses of the mud's drag [N s] and torque [N m s].
     tension = -(fx * ax + fy * ay + fz * az)
-    hookload = tension + 0.5 * pipe.weight * top[TOP_LENGTH]
+    half = 0.5 * top[TOP_LENGTH]
+    hanging = tension + pipe.weight * half
+    drag, mud_torque = pipe.mud_axial * half * fed, pipe.mud_spin * half * turned_by
     torque = -(S[UX + 1] * ax + S[UY + 1] * ay + S[UZ + 1] * az)
-    top[SUM_HOOKLOAD] += dt * hookload
-    top[SUM_TOP_TORQUE] += dt * torque
-    top[TOP_WORK] += torque * turned_by
+    top[SUM_HOOKLOAD] += dt * hanging - drag
+    top[SUM_TOP_TORQUE] += dt * torque + mud_torque
+    S[SUM_MUD_TORQUE + 1] += mud_torque
+    lost = (drag * fed + mud_torque * turned_by) / dt
+    S[LOST_MUD + 1] += lost
+    top[TOP_WORK] += torque * turned_by + lost
     if fed != 0:
         # The pipe passes the clamp stretched, (1 + T/EA) times its unstretched length.
-        raised = hookload * fed * (1 + tension / pipe.EA)
+        raised = hanging * fed * (1 + tension / pipe.EA)
         top[TOP_WORK] -= raised
         # The energy that longer pipe holds, by a central difference about the length at which the loads were
-        # taken: a one-sided one would leave ½k dL² of every step in the ledger.
+        # taken: a one-sided one would leave ½k dL² of every step in the ledger.  The joint's damper pulls on the
+        # pipe that passes the clamp and stores nothing.
+        damped = (tension - spring_tension(S)) * fed
         set_long_segment(S, top[TOP_LENGTH] - 0.5 * fed, pipe)
         before = long_segment_energy(S)
         set_long_segment(S, top[TOP_LENGTH] + 0.5 * fed, pipe)
-        top[FED_ENERGY] += raised + long_segment_energy(S) - before
+        top[FED_ENERGY] += raised - damped + long_segment_energy(S) - before
         set_long_segment(S, top[TOP_LENGTH], pipe)
     # Quaternions hold twist within two turns: a whole turn is moved into TURNS long before, and the top
     # drive's quaternion changes sign, as it does by turning once.

@@ -46,8 +46,10 @@ def examine(
 
 
 def energy_error(energy: pd.DataFrame) -> float:
-    """Largest residual of a ledger over the energy turned over: losses, or work beyond lifting."""
+    """Largest residual of a ledger over the energy turned over: losses, or work beyond lifting; NaN of no number."""
     if energy.empty:
+        return np.nan
+    if not np.isfinite(energy.to_numpy(float)).all():
         return np.nan
     lost = energy[list(LOSSES)].sum(axis=1).abs().max()
     beyond = (energy["top_drive_work_J"] - energy["gravity_J"]).abs().max()

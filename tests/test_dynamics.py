@@ -247,3 +247,15 @@ def test_a_turning_body_on_the_axis_of_its_hole_touches_nothing(offset):
     assert np.linalg.norm(normal) <= 1 + 1e-12
     change = friction.coulomb_impulse(S, 1, 0.0, 0.0, 0.0, 0.0, 0.0, 6.28, *normal, 0.0)
     assert change == (0.0,) * 6
+
+
+@pytest.mark.parametrize("segment", [7.0, 5.0])
+def test_waves_enter_a_long_straight_chain_from_offsets_of_nothing(segment: float) -> None:
+    """Laid on the axis it has offsets of exactly 0, and the front of a wave comes with 1e-300 m, 1e-290 m, ..."""
+    stations = [[0, 0, 45], [1750, 0, 45], [2200, 90, 45], [2450, 90, 45]]
+    collars = pipe(200, None, outer=0.158, segment_length=2.5)
+    upper = pipe(None, None, outer=0.102, segment_length=segment)
+    run, _ = prepare(make_case(stations, [collars, upper], [rotation(2450, 10)], wellbore={"geometry": "arcs"}))
+    run.advance(STILL, 0.25)
+    run.refresh()
+    run.check()

@@ -149,3 +149,13 @@ def test_damping_acts_on_relative_motion_only(bend, gap, drift, turn, other) -> 
     S[[state.GX + 2, state.GY + 2, state.GZ + 2]] += np.array(other)
     joints.update_joint_loads(S, 2, 1e-3, 1.0)
     assert S[state.LOST_JOINT + 2] >= lost - 1e-12
+
+
+@pytest.mark.parametrize("short_of_a_turn", [0.0, 1e-9, -1e-9, 1e-12, 1e-7])
+def test_a_bit_that_turned_once_feels_nothing_of_the_inert_column_below(short_of_a_turn: float) -> None:
+    S = state.new_state(1)
+    half = math.pi - short_of_a_turn
+    S[state.QW + 1], S[state.QZ + 1] = math.cos(half), math.sin(half)
+    joints.update_joint_loads(S, state.LANES, 1e-4, 1e-3)
+    loads = at(S, 2, state.FX, state.FY, state.FZ, state.UX, state.UY, state.UZ, state.LX, state.LY, state.LZ)
+    np.testing.assert_array_equal(loads, 0.0)

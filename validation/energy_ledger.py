@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from fctd import simulate
@@ -44,11 +45,19 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
         {"wellbore__stations": SHARP, "operations": trip(2450.0, 2440.0, 0.2, ramp=10.0)},
     ),
 }
+# Steps, over the default, from which on the stiffest modes are resolved.
+FINE = 0.5
+
+
+def order(closure: pd.DataFrame) -> float:
+    """Slope of log residual over log step."""
+    steps, residuals = closure["step_s"].to_numpy(float), closure["residual_J"].to_numpy(float)
+    return float(np.polyfit(np.log(steps), np.log(residuals), 1)[0])
 
 
 def run(context: Context) -> Outcome:
     """The ledger at the default step and at fractions of it."""
-    fractions = (1.0, 0.25) if context.quick else (1.0, 0.5, 0.25, 0.125)
+    fractions = (1.0, 0.5, 0.125) if context.quick else (1.0, 0.5, 0.25, 0.125, 0.0625)
     ledger, closure = [], []
     for name, (file, changes) in context.progress(RUNS.items(), "runs"):
         default = prepare(load(file, **changes))[0].step
@@ -72,10 +81,8 @@ def run(context: Context) -> Outcome:
             )
     table = pd.DataFrame(closure)
     at_default = table[table["step_fraction"] == 1.0].set_index("case")["relative_residual"]
-    residual = table[table["case"].str.endswith("arcs")].pivot_table(
-        index="case", columns="step_fraction", values="residual_J"
-    )
-    shrinks = float((residual[0.25] / residual[1.0]).max())
+    fine = table[table["case"].str.endswith("arcs") & (table["step_fraction"] <= FINE)]
+    orders = {name: order(part) for name, part in fine.groupby("case")}
     return Outcome(
         tables={"ledger": pd.DataFrame(ledger), "closure": table},
         checks=[
@@ -83,8 +90,9 @@ def run(context: Context) -> Outcome:
                   1e-3, "at_most", "", "target: 0.1 %"),
             Check("residual over work in cylinders of a very sharp bend", float(at_default[SHARPEST]),
                   1e-3, "at_most", "", "target: 0.1 %"),
-            Check("residual at a quarter of the step over that at the default, arcs", shrinks, 0.6, "at_most", "",
-                  "the stepper is of first order"),
+            Check("order of the largest residual from half the default step down, arcs, least of the cases",
+                  min(orders.values()), 0.8, "at_least", "",
+                  "theory: first order; no two steps share all their sticks and slips"),
         ],
         notes=[
             "Work is what the top drive puts in beyond lifting or lowering the string, or the sum of the losses, "
@@ -92,6 +100,8 @@ def run(context: Context) -> Outcome:
             "In cylinders a part of the residual does not fall with the step: the blend of Eq. 24 changes the "
             "penetration along the hole without a force along the hole, so the model itself does not conserve "
             "energy at the joints of cylinders. Arcs have no joints.",
+            "The residual is the largest of a run: its sign changes with the swing of the string. At the default step "
+            "the stiffest modes turn by more than a radian in a step and are beyond any order; the fit begins below.",
         ],
         display={"closure": "What the ledger leaves over"},
     )  # fmt: skip

@@ -24,8 +24,7 @@ QUICK_COUNTS = (20, 40, 60, 80, 160, 320, 640)
 FINEST = (5120, 2560, 1280, 640)
 FITTED_FROM = 20  # orders are; below it a string is a handful of rods
 STEPPED_COUNTS = (15, 30, 60, 120, 240, 480, 960)
-# The stepper hardly settles longer strings of paper-well.
-MOST_STEPPED = {"paper-well": 240, "4.5°/30 m": 960}
+STEPPED = ("paper-well", "4.5°/30 m")
 CYLINDERS = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # [m]
 IN_CYLINDERS = 320  # segments of the string in which the cylinders are varied
 # Refining the string must not stiffen the wall [N/m/m].
@@ -309,7 +308,7 @@ def run(context: Context) -> Outcome:
         [count_segments(name, sizes, FINEST, 1 if context.quick else 5) for name in context.progress(names, "counts")],
         ignore_index=True,
     )
-    most = {"4.5°/30 m": 240} if context.quick else MOST_STEPPED
+    most = {"4.5°/30 m": 240} if context.quick else dict.fromkeys(STEPPED, STEPPED_COUNTS[-1])
     step_through("4.5°/30 m", STEPPED_COUNTS[:1])  # compile
     stepped = pd.concat(
         [

@@ -10,7 +10,7 @@ import pytest
 
 from fctd import Case, InputError, state, topdrive
 from fctd.energy import Energy, energy_of
-from fctd.run import Run
+from fctd.run import Run, prepare
 from references import engines
 from references.best_step import best_step, ladder
 from references.engine_checks import axial_period, drift, energy_error
@@ -181,6 +181,15 @@ def test_a_lying_engine_is_caught_by_the_check_that_is_for_it(lie: Callable[[Run
     assert run.status == "invalid"
     assert failed in run.message
     assert not run.checks.set_index("check").loc[failed, "passed"]
+
+
+def test_an_engine_that_blows_up_at_once_is_invalid_and_says_so() -> None:
+    """Past its stable step, before the first record."""
+    case = turning(wellbore={"geometry": "arcs"})
+    run = engines.build("fctd", step=3 * prepare(case)[0].step).run(case, Window(0.0, 1.0))
+    assert run.status == "invalid"
+    assert "a position or velocity is not finite" in run.message
+    assert not run.checks.set_index("check").loc[["finite state", "energy"], "passed"].any()
 
 
 def test_the_same_engine_telling_the_truth_is_valid() -> None:

@@ -6,6 +6,7 @@ import pytest
 
 from validation import (
     contact_operations,
+    energy_ledger,
     friction_laws,
     long_segment,
     mud_effects,
@@ -201,3 +202,9 @@ def test_in_straight_hole_coulomb_shares_one_force_and_the_paper_gives_two():
     assert found.loc["coulomb", "friction_over_mu_N"] == pytest.approx(1.0)
     arm = found["torque_kN_m"] / found["drag_kN"]
     assert arm["coulomb"] == pytest.approx(2 * arm["paper"], rel=1e-3)
+
+
+@pytest.mark.parametrize("power", [0.0, 1.0, 2.0])
+def test_the_ledger_s_order_is_the_power_of_the_step(power: float) -> None:
+    step = np.array([1e-3, 5e-4, 1.25e-4])
+    assert energy_ledger.order(pd.DataFrame({"step_s": step, "residual_J": 7 * step**power})) == pytest.approx(power)
