@@ -70,7 +70,7 @@ def fallen(case: Case, seconds: float) -> tuple[Run, Motion]:
 
 def copy_of(run: Run, **changes: Any) -> Run:
     """The same state in a buffer of its own."""
-    return replace(run, S=run.S.copy(), top=run.top.copy(), owner=run.owner.copy(), **changes)
+    return replace(run, S=state.copy_state(run.S), top=run.top.copy(), owner=run.owner.copy(), **changes)
 
 
 def without_wall(run: Run) -> Run:

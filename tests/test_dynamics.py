@@ -219,8 +219,10 @@ def test_the_largest_step_is_stable_and_hardly_more_is_not() -> None:
 
 def test_rows_begin_on_cache_lines() -> None:
     S = state.new_state(3)
-    for offset in (state.X, state.VX, state.LOST_JOINT):
-        assert state.row(S, offset, 3).ctypes.data % 64 == 0
+    for buffer in (S, state.copy_state(S)):
+        for offset in (state.X, state.VX, state.LOST_JOINT):
+            assert state.row(buffer, offset, 3).ctypes.data % 64 == 0
+    assert np.array_equal(S, state.copy_state(S))
 
 
 def test_steps_allocate_nothing() -> None:
