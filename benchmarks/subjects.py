@@ -14,11 +14,11 @@ from numba import njit
 
 from benchmarks import reference_kernel
 from fctd import load_case
-from fctd.contact import query_walls
 from fctd.equilibrium import Solver
 from fctd.errors import InputError
 from fctd.joints import update_joint_loads
 from fctd.operations import steady_rates
+from fctd.query import query_walls
 from fctd.run import Run, contact_points, forget_start, prepare, settle
 from fctd.state import OPEN, RADIUS, copy_state, row
 from fctd.topdrive import Motion

@@ -10,6 +10,8 @@ piece, stages 2 and 3 are then packed arithmetic and one comparison; only a poin
 piece, or in an overlap, goes back to the table.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 
@@ -54,10 +56,12 @@ HOLE_RADIUS, STIFFNESS, FACTOR, START_MD = 7, 8, 9, 10
 # inside the hole [m].
 OVERLAP, SHARED = 11, 12
 # Arcs: curvature [1/m], unit vector from A towards the centre of curvature, and what radius, stiffness and
-# friction gain from the start to the end of the piece (a shoe between two sizes of hole).
+# friction gain along the piece (a shoe between two sizes of hole) [1/m]; cosine of half the arc's angle, and its
+# sine over the curvature [m].
 CURVATURE, NORMAL = 11, 12
 RADIUS_GAIN, STIFFNESS_GAIN, FACTOR_GAIN = 15, 16, 17
-COLUMNS = 18
+HALF_COS, HALF_SINE = 18, 19
+COLUMNS = 20
 
 
 @njit(forceinline=True)
@@ -142,29 +146,66 @@ def arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz):
     return p * tx + q * nx + w * bx, p * ty + q * ny + w * by, p * tz + q * nz + w * bz, sine, cosine, rho
 
 
+class Arc(NamedTuple):
+    """A row of the table of arcs in scalars, which a packed loop needs; columns above."""
+
+    x: float
+    y: float
+    z: float
+    tx: float
+    ty: float
+    tz: float
+    length: float
+    hole: float
+    stiffness: float
+    friction: float
+    md: float
+    curvature: float
+    nx: float
+    ny: float
+    nz: float
+    hole_gain: float
+    stiffness_gain: float
+    friction_gain: float
+    half_cos: float
+    half_sine: float
+
+
 @njit(forceinline=True)
-def arc_wall(C, i, x, y, z):
+def read_arc(C, i):
+    """Row i of a table of arcs."""
+    return Arc(
+        C[i, 0], C[i, 1], C[i, 2], C[i, 3], C[i, 4], C[i, 5], C[i, 6], C[i, 7], C[i, 8], C[i, 9],
+        C[i, 10], C[i, 11], C[i, 12], C[i, 13], C[i, 14], C[i, 15], C[i, 16], C[i, 17], C[i, 18], C[i, 19],
+    )  # fmt: skip
+
+
+@njit(forceinline=True)
+def wall_of_arc(arc, x, y, z):
     """Stage 3 for arcs: PT [m], hole radius [m], wall stiffness, friction factor, depth [m] at T."""
-    dx, dy, dz = x - C[i, START], y - C[i, START + 1], z - C[i, START + 2]
-    tx, ty, tz = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
-    nx, ny, nz = C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
+    dx, dy, dz = x - arc.x, y - arc.y, z - arc.z
+    tx, ty, tz, nx, ny, nz, k = arc.tx, arc.ty, arc.tz, arc.nx, arc.ny, arc.nz, arc.curvature
     bx, by, bz = cross(tx, ty, tz, nx, ny, nz)
-    k = C[i, CURVATURE]
     u = dx * tx + dy * ty + dz * tz
     v = dx * nx + dy * ny + dz * nz
     w = dx * bx + dy * by + dz * bz
-    px, py, pz, _, cosine, rho = arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz)
-    # Arc length s = atan2(sine, cosine)/κ, by the tangent of a quarter of the angle so that κ may be 0.
-    along = u * reciprocal(cosine + rho)
-    along = along * reciprocal(1 + root(1 + k * along * k * along))
-    s = 4 * along * arctan_ratio(k * along * k * along)
-    share = s / C[i, LENGTH]
-    share = 0 * share if share.real < 0 else share
-    share = 1 + 0 * share if share.real > 1 else share
-    hole = C[i, HOLE_RADIUS] + share * C[i, RADIUS_GAIN]
-    stiffness = C[i, STIFFNESS] + share * C[i, STIFFNESS_GAIN]
-    friction = C[i, FACTOR] + share * C[i, FACTOR_GAIN]
-    return px, py, pz, hole, stiffness, friction, C[i, START_MD] + s
+    px, py, pz, sine, cosine, rho = arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz)
+    # Arc length from the middle of the piece, angle/κ by the tangent of half the angle, so that κ may be 0.
+    past_middle = arc.half_cos * u - arc.half_sine * cosine
+    along = past_middle * reciprocal(arc.half_cos * cosine + k * arc.half_sine * sine + rho)
+    s = 0.5 * arc.length + 2 * along * arctan_ratio(k * along * k * along)
+    within = 0 * s if s.real < 0 else s
+    within = arc.length + 0 * s if s.real > arc.length else within
+    hole = arc.hole + within * arc.hole_gain
+    stiffness = arc.stiffness + within * arc.stiffness_gain
+    friction = arc.friction + within * arc.friction_gain
+    return px, py, pz, hole, stiffness, friction, arc.md + s
+
+
+@njit(forceinline=True)
+def arc_wall(C, i, x, y, z):
+    """``wall_of_arc`` for row i of the table."""
+    return wall_of_arc(read_arc(C, i), x, y, z)
 
 
 @njit(forceinline=True)
@@ -307,19 +348,3 @@ def update_walls(S, owner, n, packed, C, geometry):
     elif geometry == ARCS:
         follow_arcs(S, packed)
         refresh_arcs(S, owner, n, C)
-
-
-@njit(error_model="numpy", cache=True)
-def query_walls(C, geometry, points, owner, out):
-    """Walls beside free points.  points : (n, 3) [m]; owner : (n,) first guess in, owner out.
-
-    out : (n, 7) PT [m], hole radius [m], stiffness, friction, measured depth [m].
-    """
-    for j in range(points.shape[0]):
-        x, y, z = points[j]
-        if geometry == ARCS:
-            owner[j] = arc_owner(C, owner[j], x, y, z)
-            out[j] = arc_wall(C, owner[j], x, y, z)
-        else:
-            owner[j] = cylinder_owner(C, owner[j], x, y, z)
-            out[j] = cylinder_wall(C, owner[j], x, y, z)

@@ -17,7 +17,7 @@ from fctd.state import (
     AX,
     AY,
     AZ,
-    COLUMNS,
+    COLUMN_BITS,
     FRICTION,
     GX,
     GY,
@@ -196,7 +196,7 @@ def push_in_hole(S, n, friction_impulse, laws, dt):
     Where no body of an operation touches the wall, its normal and friction impulses are exactly nothing.
     """
     for block in range(1, n + 1, LANES):
-        first = block & COLUMNS
+        first = block & COLUMN_BITS
         if may_touch(S, first):
             for lane in range(LANES):
                 j = first + lane

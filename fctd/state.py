@@ -22,9 +22,9 @@ MAX_SEGMENTS = 10_000
 LANES = 8
 # An odd number of cache lines: column 1 of every row can begin one, and rows spread over all cache sets.
 STRIDE = 1255 * LANES
-# All bits of a column's number.  ``block & COLUMNS`` is ``block``, but tells LLVM that no index in a loop over one
+# All bits of a column's number.  ``block & COLUMN_BITS`` is ``block``, but tells LLVM that no index in a loop over one
 # packed operation is negative: it packs no loop in which one could be, and have to count from the end.
-COLUMNS = 2**14 - 1
+COLUMN_BITS = 2**14 - 1
 
 # Centre of mass, global frame (x north, y east, z down) [m]; velocity, global [m/s].
 X, Y, Z = 0 * STRIDE, 1 * STRIDE, 2 * STRIDE
