@@ -52,9 +52,9 @@ from fctd.state import (
 # [m], hole radius [m], wall stiffness [N/m or N/m/m], friction factor, measured depth of A [m].
 START, DIRECTION, LENGTH = 0, 3, 6
 HOLE_RADIUS, STIFFNESS, FACTOR, START_MD = 7, 8, 9, 10
-# Cylinders: the length shared with the next one, and how far from A the one before may still own a point
-# inside the hole [m].
-OVERLAP, SHARED = 11, 12
+# Cylinders: the length shared with the next one [m], and between which distances from A no other one has a say
+# about a point of the hole [m], without end at the ends of the hole.
+OVERLAP, ALONE_FROM, ALONE_TO = 11, 12, 13
 # Arcs: curvature [1/m], unit vector from A towards the centre of curvature, and what radius, stiffness and
 # friction gain along the piece (a shoe between two sizes of hole) [1/m]; cosine of half the arc's angle, and its
 # sine over the curvature [m].
@@ -116,8 +116,8 @@ def cylinder_wall(C, i, x, y, z):
     px, py, pz, s = axis_offset(C, i, x, y, z)
     hole, stiffness, friction = C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR]
     md = C[i, START_MD] + s
-    into = s - C[i, LENGTH] + C[i, OVERLAP]
-    if into.real > 0 and i < C.shape[0] - 1:
+    into = s - C[i, ALONE_TO]
+    if into.real > 0:
         qx, qy, qz, along = axis_offset(C, i + 1, x, y, z)
         v = into / C[i, OVERLAP]
         u = 1 - v
@@ -212,8 +212,8 @@ def arc_wall(C, i, x, y, z):
 def cylinder_direction(C, i, x, y, z):
     """Unit vector along cylinder i; in an overlap between its own direction and the next one's."""
     tx, ty, tz = C[i, DIRECTION] + 0 * x, C[i, DIRECTION + 1] + 0 * x, C[i, DIRECTION + 2] + 0 * x
-    into = distance_along(C, i, x, y, z) - C[i, LENGTH] + C[i, OVERLAP]
-    if into.real > 0 and i < C.shape[0] - 1:
+    into = distance_along(C, i, x, y, z) - C[i, ALONE_TO]
+    if into.real > 0:
         v = into / C[i, OVERLAP]
         tx = (1 - v) * tx + v * C[i + 1, DIRECTION]
         ty = (1 - v) * ty + v * C[i + 1, DIRECTION + 1]
@@ -274,7 +274,6 @@ def follow_cylinders(S, n):
 @njit(error_model="numpy")
 def refresh_cylinders(S, owner, n, C):
     """Look up in the table every point that is near an end of its cylinder or in an overlap."""
-    last = C.shape[0] - 1
     for j in range(1, n + 1):
         if S[SLACK + j] > 0:
             continue
@@ -285,10 +284,9 @@ def refresh_cylinders(S, owner, n, C):
         store_wall(S, j, px, py, pz, hole, stiffness, friction)
         S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
         S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
-        free_end = C[i, LENGTH] - C[i, OVERLAP] if i < last else np.inf
-        S[MARGIN_TOP + j] = C[i, SHARED] if i > 0 else -np.inf
+        S[MARGIN_TOP + j] = C[i, ALONE_FROM]
         # A blended wall holds for this step only: an empty interval sends the point back here.
-        S[MARGIN_END + j] = free_end if distance_along(C, i, x, y, z) < free_end else -np.inf
+        S[MARGIN_END + j] = C[i, ALONE_TO] if distance_along(C, i, x, y, z) < C[i, ALONE_TO] else -np.inf
 
 
 @njit(error_model="numpy", fastmath={"contract"})

@@ -4,11 +4,10 @@ import numpy as np
 from numba import njit
 
 from fctd.contact import (
+    ALONE_FROM,
+    ALONE_TO,
     FACTOR,
     HOLE_RADIUS,
-    LENGTH,
-    OVERLAP,
-    SHARED,
     START_MD,
     STIFFNESS,
     arc_owner,
@@ -22,7 +21,7 @@ from fctd.contact import (
 from fctd.state import ARCS, LANES
 
 # Points of one arc that are worked on together; one or two are not worth a packed operation.
-TOGETHER, ALONE = 64, 2
+TOGETHER, FEW = 64, 2
 
 
 @njit(forceinline=True)
@@ -47,9 +46,9 @@ def query_cylinders(C, points, owner, out):
         i = owner[j]
         px, py, pz, s = axis_offset(C, i, x, y, z)
         hole = C[i, HOLE_RADIUS]
-        # A point of the hole away from the ends of its cylinder is nobody else's.
         in_hole = px * px + py * py + pz * pz <= hole * hole
-        if in_hole and C[i, SHARED] < s <= C[i, LENGTH] - C[i, OVERLAP]:
+        # One branch: taken apart they are guessed wrongly more often.
+        if in_hole & (C[i, ALONE_FROM] < s) & (s <= C[i, ALONE_TO]):
             write_wall(out, j, (px, py, pz, hole, C[i, STIFFNESS], C[i, FACTOR], C[i, START_MD] + s))
         else:
             look_up_cylinder(C, points, j, owner, out)
@@ -80,7 +79,7 @@ def query_arcs(C, points, owner, out):
             count += 1
             j += 1
             same = count < TOGETHER and j < n and arc_owner(C, owner[j], points[j, 0], points[j, 1], points[j, 2]) == i
-        if count > ALONE:
+        if count > FEW:
             walls_of_arc(read_arc(C, i), W, (count + LANES - 1) // LANES * LANES)
             for k in range(count):
                 for column in range(7):

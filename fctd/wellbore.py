@@ -243,11 +243,14 @@ def _cylinders(hole: WellboreSpec, md: Array, points: Array) -> Array:
     pieces[:, contact.OVERLAP] = overlap
     pieces[:, contact.LENGTH] = length + overlap
     bend = np.linalg.norm(np.diff(direction, axis=0), axis=1)
-    pieces[1:, contact.SHARED] = overlap[:-1] + 4 * pieces[1:, contact.HOLE_RADIUS] * bend
+    pieces[0, contact.ALONE_FROM] = -np.inf
+    pieces[1:, contact.ALONE_FROM] = overlap[:-1] + 4 * pieces[1:, contact.HOLE_RADIUS] * bend
     pieces[0, contact.START : contact.START + 3] -= RUN_OUT * direction[0]
     pieces[0, contact.START_MD] -= RUN_OUT
     pieces[0, contact.LENGTH] += RUN_OUT
     pieces[-1, contact.LENGTH] += RUN_OUT
+    pieces[:, contact.ALONE_TO] = pieces[:, contact.LENGTH] - overlap
+    pieces[-1, contact.ALONE_TO] = np.inf
     return pieces
 
 
