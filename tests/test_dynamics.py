@@ -163,6 +163,25 @@ def test_kernels_are_packed(kernel, arguments: tuple) -> None:
     assert packed >= 0.9 * scalar
 
 
+@njit(error_model="numpy")
+def may_touch(S, first):
+    return dynamics.may_touch(S, first)
+
+
+@pytest.mark.parametrize("lane", range(state.LANES))
+@pytest.mark.parametrize(("off", "hole", "touching"), [
+    (0.0499, 0.1, False), (0.0501, 0.1, True), (0.0, 0.0499, True), (0.0, 0.0501, False), (np.inf, 0.1, True),
+])  # fmt: skip
+def test_one_touching_body_is_enough_for_the_contact_arithmetic(lane, off, hole, touching):
+    S = state.new_state(16)
+    assert not may_touch(S, 9)  # inert columns
+    S[state.HOLE + 9 : state.HOLE + 17], S[state.RADIUS + 9 : state.RADIUS + 17] = 0.1, 0.05
+    assert not may_touch(S, 9)
+    S[state.PZ + 9 + lane], S[state.HOLE + 9 + lane] = -off, hole
+    assert may_touch(S, 9) == touching
+    assert not may_touch(S, 1)
+
+
 @pytest.mark.parametrize("law", [friction.coulomb_impulse, friction.paper_impulse])
 @pytest.mark.parametrize("limit", [1e-3, 1e9])
 def test_friction_opposes_sliding_and_at_most_stops_it(law, limit: float) -> None:
