@@ -10,8 +10,8 @@ from numba import njit
 from numba.core.runtime import _nrt_python, rtsys
 from scipy.spatial.transform import Rotation
 
-from fctd import dynamics, friction, joints, state, topdrive
-from fctd.contact import COLUMNS, follow_arcs, follow_cylinders
+from fctd import dynamics, friction, joints, query, state, topdrive
+from fctd.contact import COLUMNS, Arc, follow_arcs, follow_cylinders
 from fctd.faults import UnstableError
 from fctd.run import Run, prepare, settle
 from tests.cases import make_case, pipe, rotation
@@ -152,15 +152,25 @@ def test_kernels_are_packed(kernel, arguments: tuple) -> None:
     Its packed operations match the scalar ones of the remainder loop; a helper that stayed a call, or rows
     that may alias, would leave none.
     """
-    # Compiled anew: code that comes from the cache cannot be read.
-    kernel = njit(error_model="numpy", fastmath={"contract"})(kernel.py_func)
-    kernel(state.new_state(8), 8, *arguments)
-    assembly = "\n".join(kernel.inspect_asm().values())
-    arithmetic = r"\bv?(?:add|sub|mul|div|sqrt|fn?m(?:add|sub)\d{3})"
-    packed = len(re.findall(arithmetic + r"pd\b", assembly))
-    scalar = len(re.findall(arithmetic + r"sd\b", assembly))
+    packed, scalar = operations(kernel, state.new_state(8), 8, *arguments)
     assert packed > 10
     assert packed >= 0.9 * scalar
+
+
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86-64 instructions")
+def test_the_query_of_one_arc_is_packed() -> None:
+    packed, scalar = operations(query.walls_of_arc, Arc(*[0.0] * 20), np.zeros(10 * query.TOGETHER), 8)
+    assert packed > 10
+    assert packed >= 0.8 * scalar
+
+
+def operations(kernel, *arguments) -> tuple[int, int]:
+    """Packed and scalar operations of a kernel, compiled anew: code that comes from the cache cannot be read."""
+    kernel = njit(error_model="numpy", fastmath={"contract"})(kernel.py_func)
+    kernel(*arguments)
+    assembly = "\n".join(kernel.inspect_asm().values())
+    arithmetic = r"\bv?(?:add|sub|mul|div|sqrt|fn?m(?:add|sub)\d{3})"
+    return len(re.findall(arithmetic + r"pd\b", assembly)), len(re.findall(arithmetic + r"sd\b", assembly))
 
 
 @njit(error_model="numpy")
@@ -208,6 +218,17 @@ def test_friction_opposes_sliding_and_at_most_stops_it(law, limit: float) -> Non
         direction = sliding / np.linalg.norm(sliding)
         assert change[2] == pytest.approx(-limit * direction[1] / 400, rel=1e-9)
         assert change[5] == pytest.approx(-limit * 0.06 * direction[0] / 1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_turns_at_the_top_are_counted(sign: int) -> None:
+    """The twist below the top drive goes on past half a turn, where the quaternions alone would turn back."""
+    S, top = state.new_state(1), np.zeros(topdrive.TOP_SIZE)
+    for twist in np.arange(0.0, 20.0, 0.5):
+        S[state.QW + 1], S[state.QZ + 1] = math.cos(twist / 2), sign * math.sin(twist / 2)
+        topdrive.read_top_drive(S, top, NO_PIPE, 0.0, 0.0, 1e-3)
+        assert joints.joint_twist.py_func(S, 1) == pytest.approx(sign * twist, abs=1e-5)
+        assert abs(sign * twist - S[state.TURNS + 1]) <= math.pi
 
 
 def test_an_inert_column_stays_finite() -> None:
