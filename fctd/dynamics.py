@@ -185,7 +185,8 @@ def may_touch(S, first):
         px, py, pz = radial(S, j)
         # The square of what the string may be off the axis, negative where it is thicker than the hole.
         room = S[HOLE + j] - S[RADIUS + j]
-        found |= px * px + py * py + pz * pz > NEARLY * room * abs(room)
+        # Written so that what is not a number touches, and stops the run.
+        found |= not (px * px + py * py + pz * pz <= NEARLY * room * abs(room))
     return found
 
 

@@ -180,7 +180,8 @@ def may_touch(S, first):
 
 @pytest.mark.parametrize("lane", range(state.LANES))
 @pytest.mark.parametrize(("off", "hole", "touching"), [
-    (0.0499, 0.1, False), (0.0501, 0.1, True), (0.0, 0.0499, True), (0.0, 0.0501, False), (np.inf, 0.1, True),
+    (0.0499, 0.1, False), (0.0501, 0.1, True), (0.0, 0.0499, True), (0.0, 0.0501, False),
+    (np.inf, 0.1, True), (np.nan, 0.1, True),
 ])  # fmt: skip
 def test_one_touching_body_is_enough_for_the_contact_arithmetic(lane, off, hole, touching):
     S = state.new_state(16)
