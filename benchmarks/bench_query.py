@@ -14,7 +14,7 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from benchmarks.records import describe
 from benchmarks.strings import LEAD, chain
 from fctd import build_wellbore, find_contacts
-from fctd.contact import query_walls
+from fctd.query import query_walls
 from fctd.wellbore import hole_frame
 from references import base
 from references.workloads import find_walls, moving

@@ -14,13 +14,13 @@ from numba import njit
 
 from benchmarks import reference_kernel
 from fctd import load_case
-from fctd.contact import query_walls
 from fctd.equilibrium import Solver
 from fctd.errors import InputError
 from fctd.joints import update_joint_loads
 from fctd.operations import steady_rates
+from fctd.query import query_walls
 from fctd.run import Run, contact_points, forget_start, prepare, settle
-from fctd.state import OPEN, RADIUS, row
+from fctd.state import OPEN, RADIUS, copy_state, row
 from fctd.topdrive import Motion
 from references import base
 
@@ -68,7 +68,7 @@ def subjects() -> dict[str, Subject]:
     """Everything measured, the reference kernel first; FCL is left out where it is not installed."""
     bent, motion = turning(SEGMENTS)
     free = replace(
-        bent, S=bent.S.copy(), top=bent.top.copy(), owner=bent.owner.copy(), laws=bent.laws._replace(geometry=OPEN)
+        bent, S=copy_state(bent.S), top=bent.top.copy(), owner=bent.owner.copy(), laws=bent.laws._replace(geometry=OPEN)
     )
     arcs, _ = turning(SEGMENTS, {"wellbore.geometry": "arcs"})
     found = {
@@ -76,7 +76,7 @@ def subjects() -> dict[str, Subject]:
         FREE: _steps(free, motion, 1_000),
         CYLINDERS: _steps(bent, motion, 1_000),
         ARCS: _steps(arcs, motion, 1_000),
-        "joint loads": _joints(bent.S.copy(), 3_000),
+        "joint loads": _joints(copy_state(bent.S), 3_000),
         "query, cylinders": _query(bent, 60),
         "query, arcs": _query(arcs, 20),
         "steady depth": _steady(bent, 2),

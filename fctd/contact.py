@@ -10,6 +10,8 @@ piece, stages 2 and 3 are then packed arithmetic and one comparison; only a poin
 piece, or in an overlap, goes back to the table.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 
@@ -50,14 +52,16 @@ from fctd.state import (
 # [m], hole radius [m], wall stiffness [N/m or N/m/m], friction factor, measured depth of A [m].
 START, DIRECTION, LENGTH = 0, 3, 6
 HOLE_RADIUS, STIFFNESS, FACTOR, START_MD = 7, 8, 9, 10
-# Cylinders: the length shared with the next one, and how far from A the one before may still own a point
-# inside the hole [m].
-OVERLAP, SHARED = 11, 12
+# Cylinders: the length shared with the next one [m], and between which distances from A no other one has a say
+# about a point of the hole [m], without end at the ends of the hole.
+OVERLAP, ALONE_FROM, ALONE_TO = 11, 12, 13
 # Arcs: curvature [1/m], unit vector from A towards the centre of curvature, and what radius, stiffness and
-# friction gain from the start to the end of the piece (a shoe between two sizes of hole).
+# friction gain along the piece (a shoe between two sizes of hole) [1/m]; cosine of half the arc's angle, and its
+# sine over the curvature [m].
 CURVATURE, NORMAL = 11, 12
 RADIUS_GAIN, STIFFNESS_GAIN, FACTOR_GAIN = 15, 16, 17
-COLUMNS = 18
+HALF_COS, HALF_SINE = 18, 19
+COLUMNS = 20
 
 
 @njit(forceinline=True)
@@ -112,8 +116,8 @@ def cylinder_wall(C, i, x, y, z):
     px, py, pz, s = axis_offset(C, i, x, y, z)
     hole, stiffness, friction = C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR]
     md = C[i, START_MD] + s
-    into = s - C[i, LENGTH] + C[i, OVERLAP]
-    if into.real > 0 and i < C.shape[0] - 1:
+    into = s - C[i, ALONE_TO]
+    if into.real > 0:
         qx, qy, qz, along = axis_offset(C, i + 1, x, y, z)
         v = into / C[i, OVERLAP]
         u = 1 - v
@@ -142,37 +146,74 @@ def arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz):
     return p * tx + q * nx + w * bx, p * ty + q * ny + w * by, p * tz + q * nz + w * bz, sine, cosine, rho
 
 
+class Arc(NamedTuple):
+    """A row of the table of arcs in scalars, which a packed loop needs; columns above."""
+
+    x: float
+    y: float
+    z: float
+    tx: float
+    ty: float
+    tz: float
+    length: float
+    hole: float
+    stiffness: float
+    friction: float
+    md: float
+    curvature: float
+    nx: float
+    ny: float
+    nz: float
+    hole_gain: float
+    stiffness_gain: float
+    friction_gain: float
+    half_cos: float
+    half_sine: float
+
+
 @njit(forceinline=True)
-def arc_wall(C, i, x, y, z):
+def read_arc(C, i):
+    """Row i of a table of arcs."""
+    return Arc(
+        C[i, 0], C[i, 1], C[i, 2], C[i, 3], C[i, 4], C[i, 5], C[i, 6], C[i, 7], C[i, 8], C[i, 9],
+        C[i, 10], C[i, 11], C[i, 12], C[i, 13], C[i, 14], C[i, 15], C[i, 16], C[i, 17], C[i, 18], C[i, 19],
+    )  # fmt: skip
+
+
+@njit(forceinline=True)
+def wall_of_arc(arc, x, y, z):
     """Stage 3 for arcs: PT [m], hole radius [m], wall stiffness, friction factor, depth [m] at T."""
-    dx, dy, dz = x - C[i, START], y - C[i, START + 1], z - C[i, START + 2]
-    tx, ty, tz = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
-    nx, ny, nz = C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
+    dx, dy, dz = x - arc.x, y - arc.y, z - arc.z
+    tx, ty, tz, nx, ny, nz, k = arc.tx, arc.ty, arc.tz, arc.nx, arc.ny, arc.nz, arc.curvature
     bx, by, bz = cross(tx, ty, tz, nx, ny, nz)
-    k = C[i, CURVATURE]
     u = dx * tx + dy * ty + dz * tz
     v = dx * nx + dy * ny + dz * nz
     w = dx * bx + dy * by + dz * bz
-    px, py, pz, _, cosine, rho = arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz)
-    # Arc length s = atan2(sine, cosine)/κ, by the tangent of a quarter of the angle so that κ may be 0.
-    along = u * reciprocal(cosine + rho)
-    along = along * reciprocal(1 + root(1 + k * along * k * along))
-    s = 4 * along * arctan_ratio(k * along * k * along)
-    share = s / C[i, LENGTH]
-    share = 0 * share if share.real < 0 else share
-    share = 1 + 0 * share if share.real > 1 else share
-    hole = C[i, HOLE_RADIUS] + share * C[i, RADIUS_GAIN]
-    stiffness = C[i, STIFFNESS] + share * C[i, STIFFNESS_GAIN]
-    friction = C[i, FACTOR] + share * C[i, FACTOR_GAIN]
-    return px, py, pz, hole, stiffness, friction, C[i, START_MD] + s
+    px, py, pz, sine, cosine, rho = arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz)
+    # Arc length from the middle of the piece, angle/κ by the tangent of half the angle, so that κ may be 0.
+    past_middle = arc.half_cos * u - arc.half_sine * cosine
+    along = past_middle * reciprocal(arc.half_cos * cosine + k * arc.half_sine * sine + rho)
+    s = 0.5 * arc.length + 2 * along * arctan_ratio(k * along * k * along)
+    within = 0 * s if s.real < 0 else s
+    within = arc.length + 0 * s if s.real > arc.length else within
+    hole = arc.hole + within * arc.hole_gain
+    stiffness = arc.stiffness + within * arc.stiffness_gain
+    friction = arc.friction + within * arc.friction_gain
+    return px, py, pz, hole, stiffness, friction, arc.md + s
+
+
+@njit(forceinline=True)
+def arc_wall(C, i, x, y, z):
+    """``wall_of_arc`` for row i of the table."""
+    return wall_of_arc(read_arc(C, i), x, y, z)
 
 
 @njit(forceinline=True)
 def cylinder_direction(C, i, x, y, z):
     """Unit vector along cylinder i; in an overlap between its own direction and the next one's."""
     tx, ty, tz = C[i, DIRECTION] + 0 * x, C[i, DIRECTION + 1] + 0 * x, C[i, DIRECTION + 2] + 0 * x
-    into = distance_along(C, i, x, y, z) - C[i, LENGTH] + C[i, OVERLAP]
-    if into.real > 0 and i < C.shape[0] - 1:
+    into = distance_along(C, i, x, y, z) - C[i, ALONE_TO]
+    if into.real > 0:
         v = into / C[i, OVERLAP]
         tx = (1 - v) * tx + v * C[i + 1, DIRECTION]
         ty = (1 - v) * ty + v * C[i + 1, DIRECTION + 1]
@@ -233,7 +274,6 @@ def follow_cylinders(S, n):
 @njit(error_model="numpy")
 def refresh_cylinders(S, owner, n, C):
     """Look up in the table every point that is near an end of its cylinder or in an overlap."""
-    last = C.shape[0] - 1
     for j in range(1, n + 1):
         if S[SLACK + j] > 0:
             continue
@@ -244,10 +284,9 @@ def refresh_cylinders(S, owner, n, C):
         store_wall(S, j, px, py, pz, hole, stiffness, friction)
         S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
         S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
-        free_end = C[i, LENGTH] - C[i, OVERLAP] if i < last else np.inf
-        S[MARGIN_TOP + j] = C[i, SHARED] if i > 0 else -np.inf
+        S[MARGIN_TOP + j] = C[i, ALONE_FROM]
         # A blended wall holds for this step only: an empty interval sends the point back here.
-        S[MARGIN_END + j] = free_end if distance_along(C, i, x, y, z) < free_end else -np.inf
+        S[MARGIN_END + j] = C[i, ALONE_TO] if distance_along(C, i, x, y, z) < C[i, ALONE_TO] else -np.inf
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -307,19 +346,3 @@ def update_walls(S, owner, n, packed, C, geometry):
     elif geometry == ARCS:
         follow_arcs(S, packed)
         refresh_arcs(S, owner, n, C)
-
-
-@njit(error_model="numpy", cache=True)
-def query_walls(C, geometry, points, owner, out):
-    """Walls beside free points.  points : (n, 3) [m]; owner : (n,) first guess in, owner out.
-
-    out : (n, 7) PT [m], hole radius [m], stiffness, friction, measured depth [m].
-    """
-    for j in range(points.shape[0]):
-        x, y, z = points[j]
-        if geometry == ARCS:
-            owner[j] = arc_owner(C, owner[j], x, y, z)
-            out[j] = arc_wall(C, owner[j], x, y, z)
-        else:
-            owner[j] = cylinder_owner(C, owner[j], x, y, z)
-            out[j] = cylinder_wall(C, owner[j], x, y, z)

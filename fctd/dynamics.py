@@ -17,10 +17,12 @@ from fctd.state import (
     AX,
     AY,
     AZ,
+    COLUMN_BITS,
     FRICTION,
     GX,
     GY,
     GZ,
+    HOLE,
     INVERSE_JA,
     INVERSE_JT,
     INVERSE_MASS,
@@ -63,10 +65,14 @@ from fctd.state import (
     Z,
     joint_force,
     quaternion,
+    radial,
     spin,
     velocity,
 )
 from fctd.topdrive import move_top_drive, planned_speeds, read_top_drive
+
+# Share of the room beside the string that certainly does not touch, far more than rounding takes from 1.
+NEARLY = 1 - 1e-6
 
 
 @njit(forceinline=True)
@@ -170,22 +176,52 @@ def store_motion(S, j, u, v, w, a, b, c):
     S[WX + j], S[WY + j], S[WZ + j] = a, b, c
 
 
+@njit(forceinline=True)
+def may_touch(S, first):
+    """Whether any body of the packed operation that begins with column ``first`` may touch the wall."""
+    found = False
+    for lane in range(LANES):
+        j = first + lane
+        px, py, pz = radial(S, j)
+        # The square of what the string may be off the axis, negative where it is thicker than the hole.
+        room = S[HOLE + j] - S[RADIUS + j]
+        # Written so that what is not a number touches, and stops the run.
+        found |= not (px * px + py * py + pz * pz <= NEARLY * room * abs(room))
+    return found
+
+
+@njit(forceinline=True)
+def push_in_hole(S, n, friction_impulse, laws, dt):
+    """Update velocity and spin of every body in a hole; n is whole packed operations.
+
+    Where no body of an operation touches the wall, its normal and friction impulses are exactly nothing.
+    """
+    for block in range(1, n + 1, LANES):
+        first = block & COLUMN_BITS
+        if may_touch(S, first):
+            for lane in range(LANES):
+                j = first + lane
+                u, v, w, a, b, c = free_motion(S, j, dt)
+                u, v, w, a, b, c = touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt)
+                store_motion(S, j, u, v, w, a, b, c)
+        else:
+            for lane in range(LANES):
+                j = first + lane
+                u, v, w, a, b, c = free_motion(S, j, dt)
+                u, v, w, a, b, c = brake(S, j, u, v, w, a, b, c, laws.settling, dt)
+                store_motion(S, j, u, v, w, a, b, c)
+
+
 @njit(error_model="numpy", fastmath={"contract"})
 def push_with_coulomb(S, n, laws, dt):
     """Update velocity and spin of every body in a hole with law ``coulomb`` (stages 4 and 5)."""
-    for j in range(1, n + 1):
-        u, v, w, a, b, c = free_motion(S, j, dt)
-        u, v, w, a, b, c = touch_wall(S, j, u, v, w, a, b, c, coulomb_impulse, laws, dt)
-        store_motion(S, j, u, v, w, a, b, c)
+    push_in_hole(S, n, coulomb_impulse, laws, dt)
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def push_with_paper(S, n, laws, dt):
     """Update velocity and spin of every body in a hole with law ``paper`` (stages 4 and 5)."""
-    for j in range(1, n + 1):
-        u, v, w, a, b, c = free_motion(S, j, dt)
-        u, v, w, a, b, c = touch_wall(S, j, u, v, w, a, b, c, paper_impulse, laws, dt)
-        store_motion(S, j, u, v, w, a, b, c)
+    push_in_hole(S, n, paper_impulse, laws, dt)
 
 
 @njit(error_model="numpy", fastmath={"contract"})

@@ -56,17 +56,24 @@ def arctan_ratio(v):
 
 
 @njit(forceinline=True)
-def twist_angle(aw, ax, ay, az, bw, bx, by, bz):
-    """Twist of body b against body a about their common direction [rad], within half a turn.
+def half_twist(aw, ax, ay, az, bw, bx, by, bz):
+    """Cosine and sine of half the twist of body b against body a about their common direction.
 
     Symmetric swing-twist: the relative rotation is half the twist, a bend without twist, half the twist.
-    Its quaternion has w = cos(bend/2) cos(twist/2) and z = cos(bend/2) sin(twist/2).  The arc tangent is
-    taken at a quarter of the twist, where its approximant is good to 1e-10 at 2 rad and to 2e-7 at π.
-    At a whole turn it is large and without meaning, but finite: the bit turns like that against the inert
-    column below it, whose stiffness is 0.
+    These are w and z of its quaternion, both cos(bend/2) times too small; past half a turn w is negative.
     """
-    w = aw * bw + ax * bx + ay * by + az * bz
-    z = aw * bz - az * bw - ax * by + ay * bx
+    return aw * bw + ax * bx + ay * by + az * bz, aw * bz - az * bw - ax * by + ay * bx
+
+
+@njit(forceinline=True)
+def twist_angle(aw, ax, ay, az, bw, bx, by, bz):
+    """Twist of body b against body a about their common direction [rad], within a whole turn; see ``half_twist``.
+
+    The arc tangent is taken at a quarter of the twist, where its approximant is good to 1e-10 at 2 rad and to
+    2e-7 at π.  At a whole turn it is large and without meaning, but finite: the bit turns like that against the
+    inert column below it, whose stiffness is 0.
+    """
+    w, z = half_twist(aw, ax, ay, az, bw, bx, by, bz)
     u = z * reciprocal(w + root(w * w + z * z) + WHOLE_TURN)
     return 4 * u * arctan_ratio(u * u)
 

@@ -22,6 +22,9 @@ MAX_SEGMENTS = 10_000
 LANES = 8
 # An odd number of cache lines: column 1 of every row can begin one, and rows spread over all cache sets.
 STRIDE = 1255 * LANES
+# All bits of a column's number.  ``block & COLUMN_BITS`` is ``block``, but tells LLVM that no index in a loop over one
+# packed operation is negative: it packs no loop in which one could be, and have to count from the end.
+COLUMN_BITS = 2**14 - 1
 
 # Centre of mass, global frame (x north, y east, z down) [m]; velocity, global [m/s].
 X, Y, Z = 0 * STRIDE, 1 * STRIDE, 2 * STRIDE
@@ -114,13 +117,27 @@ def check_segments(segments: int) -> None:
 def new_state(segments: int) -> np.ndarray:
     """Return a fresh buffer for ``segments`` bodies: at rest at the origin, upright, without mass."""
     check_segments(segments)
-    numbers = np.zeros(ROWS * STRIDE + LANES)
-    # numpy aligns to less than a cache line, and a load that crosses two takes twice as long.
-    first = -(numbers.ctypes.data // numbers.itemsize + 1) % LANES
-    S = numbers[first : first + ROWS * STRIDE]
+    S = _aligned()
     S[QW : QW + STRIDE] = 1.0
     S[AZ : AZ + STRIDE] = 1.0
     return S
+
+
+def copy_state(S: np.ndarray) -> np.ndarray:
+    """Return a copy of a buffer that is as fast to step as the original."""
+    copied = _aligned()
+    copied[:] = S
+    return copied
+
+
+def _aligned() -> np.ndarray:
+    """A buffer of zeros whose rows begin on cache lines.
+
+    numpy aligns to less than a cache line, and a load that crosses two takes twice as long.
+    """
+    numbers = np.zeros(ROWS * STRIDE + LANES)
+    first = -(numbers.ctypes.data // numbers.itemsize + 1) % LANES
+    return numbers[first : first + ROWS * STRIDE]
 
 
 def row(S: np.ndarray, offset: int, segments: int) -> np.ndarray:

@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 from numba import njit
 
-from fctd.joints import hinge_gap, joint_loads, joint_twist, strain_energy
-from fctd.rotations import turned
+from fctd.joints import hinge_gap, joint_loads, strain_energy
+from fctd.rotations import half_twist, turned
 from fctd.state import (
     ARM_TOP,
     GX,
@@ -187,10 +187,10 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
         set_long_segment(S, top[TOP_LENGTH], pipe)
     # Quaternions hold twist within two turns: a whole turn is moved into TURNS long before, and the top
     # drive's quaternion changes sign, as it does by turning once.
-    held = joint_twist(S, 1) - S[TURNS + 1]
-    if held > math.pi or held < -math.pi:
-        S[TURNS + 1] += 2 * math.pi if held > 0 else -2 * math.pi
-        w, x, y, z = quaternion(S, 0)
+    w, x, y, z = quaternion(S, 0)
+    cosine, sine = half_twist(w, x, y, z, *quaternion(S, 1))
+    if cosine < 0:
+        S[TURNS + 1] += 2 * math.pi if sine > 0 else -2 * math.pi
         S[QW], S[QX], S[QY], S[QZ] = -w, -x, -y, -z
 
 

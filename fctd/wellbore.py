@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 from fctd import contact, survey
 from fctd.case import Case
 from fctd.errors import InputError
+from fctd.query import query_walls
 from fctd.specs import IntervalSpec, WellboreSpec
 from fctd.state import ARCS, CYLINDERS
 
@@ -102,7 +103,7 @@ class Wellbore:
         points = np.ascontiguousarray(np.atleast_2d(points), dtype=float)
         owner = self._nearest(points) if near is None else near.copy()
         out = np.empty((len(points), 7))
-        contact.query_walls(self.pieces, self.geometry, points, owner, out)
+        query_walls(self.pieces, self.geometry, points, owner, out)
         return out, owner
 
     def _nearest(self, points: Array) -> NDArray[np.int64]:
@@ -242,11 +243,14 @@ def _cylinders(hole: WellboreSpec, md: Array, points: Array) -> Array:
     pieces[:, contact.OVERLAP] = overlap
     pieces[:, contact.LENGTH] = length + overlap
     bend = np.linalg.norm(np.diff(direction, axis=0), axis=1)
-    pieces[1:, contact.SHARED] = overlap[:-1] + 4 * pieces[1:, contact.HOLE_RADIUS] * bend
+    pieces[0, contact.ALONE_FROM] = -np.inf
+    pieces[1:, contact.ALONE_FROM] = overlap[:-1] + 4 * pieces[1:, contact.HOLE_RADIUS] * bend
     pieces[0, contact.START : contact.START + 3] -= RUN_OUT * direction[0]
     pieces[0, contact.START_MD] -= RUN_OUT
     pieces[0, contact.LENGTH] += RUN_OUT
     pieces[-1, contact.LENGTH] += RUN_OUT
+    pieces[:, contact.ALONE_TO] = pieces[:, contact.LENGTH] - overlap
+    pieces[-1, contact.ALONE_TO] = np.inf
     return pieces
 
 
@@ -269,6 +273,9 @@ def _arcs(hole: WellboreSpec, courses: survey.Courses, md: Array) -> Array:
     pieces[0, contact.CURVATURE] = 0.0
     pieces[0, contact.LENGTH] = RUN_OUT
     pieces[0, contact.START_MD] = md[0] - RUN_OUT
+    half, length = 0.5 * pieces[:, contact.CURVATURE] * pieces[:, contact.LENGTH], pieces[:, contact.LENGTH]
+    pieces[:, contact.HALF_COS] = np.cos(half)
+    pieces[:, contact.HALF_SINE] = 0.5 * length * np.sinc(half / np.pi)
     middle = np.concatenate([md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]])
     _wall_columns(hole, pieces, middle)
     _lead_into_next(hole, pieces, md, middle)
@@ -288,4 +295,4 @@ def _lead_into_next(hole: WellboreSpec, pieces: Array, md: Array, middle: Array)
         for value, gain in zip(values, gains, strict=True):
             change = pieces[shoe, value] - pieces[shoe[0] - 1, value]
             pieces[shoe, value] -= (1 - share) * change
-            pieces[shoe, gain] = change * pieces[shoe, contact.LENGTH] / hole.overlap
+            pieces[shoe, gain] = change / hole.overlap

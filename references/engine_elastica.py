@@ -15,9 +15,9 @@ from scipy.spatial.transform import Rotation
 
 from fctd import state, topdrive
 from fctd.case import Case
-from fctd.contact import query_walls
 from fctd.energy import Energy
 from fctd.errors import InputError, Table
+from fctd.query import query_walls
 from fctd.run import Run
 from fctd.topdrive import Motion, planned_speeds
 from references.engine_run import run_window

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from fctd import state, topdrive
 from fctd.case import Case
-from fctd.contact import query_walls, update_walls
+from fctd.contact import update_walls
 from fctd.dynamics import whole_operations
 from fctd.energy import Energy, penetration
+from fctd.query import query_walls
 from fctd.record import LOSSES
 from fctd.run import STILL, Run, contact_points, forget_start, prepare
 from fctd.topdrive import Motion
@@ -70,7 +71,7 @@ def fallen(case: Case, seconds: float) -> tuple[Run, Motion]:
 
 def copy_of(run: Run, **changes: Any) -> Run:
     """The same state in a buffer of its own."""
-    return replace(run, S=run.S.copy(), top=run.top.copy(), owner=run.owner.copy(), **changes)
+    return replace(run, S=state.copy_state(run.S), top=run.top.copy(), owner=run.owner.copy(), **changes)
 
 
 def without_wall(run: Run) -> Run:

@@ -10,8 +10,8 @@ from numba import njit
 from numba.core.runtime import _nrt_python, rtsys
 from scipy.spatial.transform import Rotation
 
-from fctd import dynamics, friction, joints, state, topdrive
-from fctd.contact import COLUMNS, follow_arcs, follow_cylinders
+from fctd import dynamics, friction, joints, query, state, topdrive
+from fctd.contact import COLUMNS, Arc, follow_arcs, follow_cylinders
 from fctd.faults import UnstableError
 from fctd.run import Run, prepare, settle
 from tests.cases import make_case, pipe, rotation
@@ -152,15 +152,45 @@ def test_kernels_are_packed(kernel, arguments: tuple) -> None:
     Its packed operations match the scalar ones of the remainder loop; a helper that stayed a call, or rows
     that may alias, would leave none.
     """
-    # Compiled anew: code that comes from the cache cannot be read.
-    kernel = njit(error_model="numpy", fastmath={"contract"})(kernel.py_func)
-    kernel(state.new_state(8), 8, *arguments)
-    assembly = "\n".join(kernel.inspect_asm().values())
-    arithmetic = r"\bv?(?:add|sub|mul|div|sqrt|fn?m(?:add|sub)\d{3})"
-    packed = len(re.findall(arithmetic + r"pd\b", assembly))
-    scalar = len(re.findall(arithmetic + r"sd\b", assembly))
+    packed, scalar = operations(kernel, state.new_state(8), 8, *arguments)
     assert packed > 10
     assert packed >= 0.9 * scalar
+
+
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86-64 instructions")
+def test_the_query_of_one_arc_is_packed() -> None:
+    packed, scalar = operations(query.walls_of_arc, Arc(*[0.0] * 20), np.zeros(10 * query.TOGETHER), 8)
+    assert packed > 10
+    assert packed >= 0.8 * scalar
+
+
+def operations(kernel, *arguments) -> tuple[int, int]:
+    """Packed and scalar operations of a kernel, compiled anew: code that comes from the cache cannot be read."""
+    kernel = njit(error_model="numpy", fastmath={"contract"})(kernel.py_func)
+    kernel(*arguments)
+    assembly = "\n".join(kernel.inspect_asm().values())
+    arithmetic = r"\bv?(?:add|sub|mul|div|sqrt|fn?m(?:add|sub)\d{3})"
+    return len(re.findall(arithmetic + r"pd\b", assembly)), len(re.findall(arithmetic + r"sd\b", assembly))
+
+
+@njit(error_model="numpy")
+def may_touch(S, first):
+    return dynamics.may_touch(S, first)
+
+
+@pytest.mark.parametrize("lane", range(state.LANES))
+@pytest.mark.parametrize(("off", "hole", "touching"), [
+    (0.0499, 0.1, False), (0.0501, 0.1, True), (0.0, 0.0499, True), (0.0, 0.0501, False),
+    (np.inf, 0.1, True), (np.nan, 0.1, True),
+])  # fmt: skip
+def test_one_touching_body_is_enough_for_the_contact_arithmetic(lane, off, hole, touching):
+    S = state.new_state(16)
+    assert not may_touch(S, 9)  # inert columns
+    S[state.HOLE + 9 : state.HOLE + 17], S[state.RADIUS + 9 : state.RADIUS + 17] = 0.1, 0.05
+    assert not may_touch(S, 9)
+    S[state.PZ + 9 + lane], S[state.HOLE + 9 + lane] = -off, hole
+    assert may_touch(S, 9) == touching
+    assert not may_touch(S, 1)
 
 
 @pytest.mark.parametrize("law", [friction.coulomb_impulse, friction.paper_impulse])
@@ -191,6 +221,17 @@ def test_friction_opposes_sliding_and_at_most_stops_it(law, limit: float) -> Non
         assert change[5] == pytest.approx(-limit * 0.06 * direction[0] / 1.0, rel=1e-9)
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_turns_at_the_top_are_counted(sign: int) -> None:
+    """The twist below the top drive goes on past half a turn, where the quaternions alone would turn back."""
+    S, top = state.new_state(1), np.zeros(topdrive.TOP_SIZE)
+    for twist in np.arange(0.0, 20.0, 0.5):
+        S[state.QW + 1], S[state.QZ + 1] = math.cos(twist / 2), sign * math.sin(twist / 2)
+        topdrive.read_top_drive(S, top, NO_PIPE, 0.0, 0.0, 1e-3)
+        assert joints.joint_twist.py_func(S, 1) == pytest.approx(sign * twist, abs=1e-5)
+        assert abs(sign * twist - S[state.TURNS + 1]) <= math.pi
+
+
 def test_an_inert_column_stays_finite() -> None:
     """The columns that fill the last packed operation must never grow a NaN that a sum could pick up."""
     run, _ = prepare(make_case(components=[pipe(1000, 21)], operations=[rotation(1000, 1)]))
@@ -219,8 +260,10 @@ def test_the_largest_step_is_stable_and_hardly_more_is_not() -> None:
 
 def test_rows_begin_on_cache_lines() -> None:
     S = state.new_state(3)
-    for offset in (state.X, state.VX, state.LOST_JOINT):
-        assert state.row(S, offset, 3).ctypes.data % 64 == 0
+    for buffer in (S, state.copy_state(S)):
+        for offset in (state.X, state.VX, state.LOST_JOINT):
+            assert state.row(buffer, offset, 3).ctypes.data % 64 == 0
+    assert np.array_equal(S, state.copy_state(S))
 
 
 def test_steps_allocate_nothing() -> None:

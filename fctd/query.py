@@ -1,0 +1,102 @@
+"""Stages 2 and 3 of the contact algorithm for free points, which have no copy of their piece (see contact.py)."""
+
+import numpy as np
+from numba import njit
+
+from fctd.contact import (
+    ALONE_FROM,
+    ALONE_TO,
+    FACTOR,
+    HOLE_RADIUS,
+    START_MD,
+    STIFFNESS,
+    arc_owner,
+    arc_wall,
+    axis_offset,
+    cylinder_owner,
+    cylinder_wall,
+    read_arc,
+    wall_of_arc,
+)
+from fctd.state import ARCS, LANES
+
+# Points of one arc that are worked on together; one or two are not worth a packed operation.
+TOGETHER, FEW = 64, 2
+
+
+@njit(forceinline=True)
+def write_wall(out, j, wall):
+    """Write the wall beside free point j."""
+    out[j, 0], out[j, 1], out[j, 2], out[j, 3], out[j, 4], out[j, 5], out[j, 6] = wall
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def look_up_cylinder(C, points, j, owner, out):
+    """Wall beside point j by a walk along the table: not inlined, since its roots would slow the loop."""
+    x, y, z = points[j, 0], points[j, 1], points[j, 2]
+    owner[j] = cylinder_owner(C, owner[j], x, y, z)
+    write_wall(out, j, cylinder_wall(C, owner[j], x, y, z))
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def query_cylinders(C, points, owner, out):
+    """``query_walls`` in a hole of cylinders."""
+    for j in range(points.shape[0]):
+        x, y, z = points[j, 0], points[j, 1], points[j, 2]
+        i = owner[j]
+        px, py, pz, s = axis_offset(C, i, x, y, z)
+        hole = C[i, HOLE_RADIUS]
+        in_hole = px * px + py * py + pz * pz <= hole * hole
+        # One branch: taken apart they are guessed wrongly more often.
+        if in_hole & (C[i, ALONE_FROM] < s) & (s <= C[i, ALONE_TO]):
+            write_wall(out, j, (px, py, pz, hole, C[i, STIFFNESS], C[i, FACTOR], C[i, START_MD] + s))
+        else:
+            look_up_cylinder(C, points, j, owner, out)
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def walls_of_arc(arc, W, count):
+    """Walls beside ``count`` points of one arc; W : 3 rows of ``TOGETHER`` coordinates, then 7 of walls."""
+    for k in range(count):
+        px, py, pz, hole, stiffness, friction, md = wall_of_arc(arc, W[k], W[TOGETHER + k], W[2 * TOGETHER + k])
+        W[3 * TOGETHER + k], W[4 * TOGETHER + k], W[5 * TOGETHER + k] = px, py, pz
+        W[6 * TOGETHER + k], W[7 * TOGETHER + k], W[8 * TOGETHER + k] = hole, stiffness, friction
+        W[9 * TOGETHER + k] = md
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def query_arcs(C, points, owner, out):
+    """``query_walls`` in a hole of arcs: neighbours in the list that lie in one arc are packed."""
+    W = np.zeros(10 * TOGETHER)
+    first, n = 0, points.shape[0]
+    while first < n:
+        i = arc_owner(C, owner[first], points[first, 0], points[first, 1], points[first, 2])
+        count, same = 0, True
+        while same:
+            j = first + count
+            W[count], W[TOGETHER + count], W[2 * TOGETHER + count] = points[j, 0], points[j, 1], points[j, 2]
+            owner[j] = i
+            count += 1
+            j += 1
+            same = count < TOGETHER and j < n and arc_owner(C, owner[j], points[j, 0], points[j, 1], points[j, 2]) == i
+        if count > FEW:
+            walls_of_arc(read_arc(C, i), W, (count + LANES - 1) // LANES * LANES)
+            for k in range(count):
+                for column in range(7):
+                    out[first + k, column] = W[(3 + column) * TOGETHER + k]
+        else:
+            for j in range(first, first + count):
+                write_wall(out, j, arc_wall(C, i, points[j, 0], points[j, 1], points[j, 2]))
+        first += count
+
+
+@njit(error_model="numpy", cache=True)
+def query_walls(C, geometry, points, owner, out):
+    """Walls beside free points.  points : (n, 3) [m]; owner : (n,) first guess in, owner out.
+
+    out : (n, 7) PT [m], hole radius [m], stiffness, friction, measured depth [m].
+    """
+    if geometry == ARCS:
+        query_arcs(C, points, owner, out)
+    else:
+        query_cylinders(C, points, owner, out)
