@@ -88,8 +88,8 @@ def scaling(lengths: tuple[int, ...], rounds: int, aim: float) -> pd.DataFrame:
 def with_growth(table: pd.DataFrame) -> pd.DataFrame:
     """The same with the wall time of a simulated second, and its growth from the row before for twice the segments."""
     second = table["segments"] * table["ns_least"] / (1e3 * table["step_ms"])
-    doublings = np.log2(table["segments"]).diff()
-    return table.assign(ms_per_simulated_s=second, growth_when_doubled=2 ** (np.log2(second).diff() / doublings))
+    slope = np.diff(np.log(second)) / np.diff(np.log(table["segments"]))
+    return table.assign(ms_per_simulated_s=second, growth_when_doubled=[np.nan, *2**slope])
 
 
 def exponent(table: pd.DataFrame) -> float:

@@ -123,6 +123,12 @@ def test_what_has_not_been_run_has_no_verdict(judged, text, values, why):
     assert table["why"].iloc[0] == why
 
 
+def test_a_result_that_cannot_be_read_gives_no_number(judged, tmp_path, register, run):
+    judged(CLAIM, toy=0.5)
+    (tmp_path / "results" / "toy" / "verdict.json").write_text("{")
+    assert judged(CLAIM)[2]["why"].iloc[0] == "the result of toy cannot be read"
+
+
 def test_a_skipped_study_gives_no_number(judged, register, run):
     judged(CLAIM)
     register("toy", needs=("data",))
