@@ -37,7 +37,8 @@ def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any
         for key, size in sizes.items():
             if size is not None and size != getattr(given, key):
                 raw["wellbore"][key] = _metres(size)
-                raw["wellbore"].item(key).comment("")  # it spoke of the value before
+                said = raw["wellbore"].item(key).trivia
+                said.comment = said.comment_ws = ""  # of the value before
     if hole.survey is not None:
         raw["wellbore"]["survey"] = os.path.relpath(hole.survey, out.absolute().parent)
     out.parent.mkdir(parents=True, exist_ok=True)
