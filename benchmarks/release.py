@@ -26,8 +26,9 @@ def check_out(record: Record, file: Path, root: Path = ROOT) -> Path:
         raise NoSourcesError("this folder is no checkout of its own")
     shallow = _git(root, "rev-parse", "--is-shallow-repository").strip() == b"true"
     commits = [record.commit]
-    if not shallow:  # a commit rewritten since: the one that brought the record has the same sources
-        added = _git(root, "log", "--diff-filter=A", "--format=%H", "-1", "--", str(file.relative_to(root)))
+    within = file.resolve().is_relative_to(root.resolve())
+    if within and not shallow:  # a commit rewritten since: the one that brought the record has the same sources
+        added = _git(root, "log", "--diff-filter=A", "--format=%H", "-1", "--", str(file.resolve()))
         commits.append(added.decode().strip())
     for commit in filter(None, commits):
         try:

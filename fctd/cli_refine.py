@@ -23,6 +23,7 @@ from fctd.cli_options import (
     screen,
 )
 from fctd.cli_steady import KIND_HELP, Rpm, Speed, Units, read_drive
+from fctd.errors import InputError
 from fctd.refine import Refinement, refine
 from fctd.refined_file import write_refined
 from fctd.unit_systems import System, shown
@@ -58,6 +59,8 @@ def refine_command(
 ) -> None:
     """Cut the string of a case finer until hook load and torque no longer change, and say what error is left."""
     check_target(out, "--out", (".toml",))
+    if out is not None and out.exists() and case_file.exists() and out.samefile(case_file):
+        raise InputError("another file than the case itself", key="--out", value=str(out))
     share = read_share(tolerance, "--tolerance")
     case = read_case(case_file, overrides, friction)
     depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth")
@@ -103,7 +106,8 @@ def _print(refined: Refinement, units: System) -> None:
             )
             nothing = ("–", "–", row["status"], "–")
             loads = nothing if np.isnan(row["hookload_N"]) else answer
-            table.add_row(name, row["operation"], *loads, f"{1e3 * row['time_s']:.0f}")
+            kind = row["operation"] + (" (locked up)" if row["status"] == "locked_up" else "")
+            table.add_row(name, kind, *loads, f"{1e3 * row['time_s']:.0f}")
             name = ""
     screen.print(table)
     if refined.status == "within_tolerance":

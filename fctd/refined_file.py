@@ -8,7 +8,7 @@ from typing import Any
 
 import tomlkit
 
-from fctd.case import apply_override
+from fctd.case import apply_override, load_case
 from fctd.errors import look_up, split_key
 from fctd.refine import Refinement
 from fctd.specs import ComponentSpec
@@ -33,7 +33,12 @@ def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any
     hole = refined.case.wellbore
     if hole.geometry == "cylinders":
         sizes = {key: getattr(hole, key) for key in ("chord_tolerance", "cylinder_length", "overlap")}
-        raw["wellbore"].update({key: _metres(size) for key, size in sizes.items() if size is not None})
+        given = load_case(source, overrides).wellbore
+        for key, size in sizes.items():
+            if size is not None and size != getattr(given, key):
+                raw["wellbore"][key] = _metres(size)
+                said = raw["wellbore"].item(key).trivia
+                said.comment = said.comment_ws = ""  # of the value before
     if hole.survey is not None:
         raw["wellbore"]["survey"] = os.path.relpath(hole.survey, out.absolute().parent)
     out.parent.mkdir(parents=True, exist_ok=True)

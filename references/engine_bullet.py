@@ -24,8 +24,8 @@ from fctd.errors import Table
 from fctd.run import Run
 from references.engine_run import run_window
 from references.engines import EngineRun, StepOptions, Window, check_coulomb, check_no_mud, need
-from references.free_bodies import FreeBodies, poses_of, wall_stiffness
-from references.tube_mesh import Tube, TubeOptions, build_tube
+from references.free_bodies import FreeBodies, poses_of, tube_of, wall_stiffness
+from references.tube_mesh import Tube, TubeOptions
 
 Array = NDArray[np.float64]
 
@@ -203,11 +203,7 @@ class Bullet:
         """See ``StringEngine.begin``."""
         check_coulomb(run.case, self.name)
         check_no_mud(run.case, self.name)
-        tube = None
-        if run.case.contact.enabled:
-            spacing = self.options.ring_spacing or run.hole.total_depth
-            mesh = TubeOptions(facets=self.options.facets, ring_spacing=spacing)
-            tube = build_tube(run.case, mesh)
+        tube = tube_of(run, self.options.facets, self.options.ring_spacing)
         return FreeBodies(run, _Bodies(self._bullet, run, tube, self.options), self.options.step or SHARE * run.step)
 
     def run(self, case: Case, window: Window) -> EngineRun:

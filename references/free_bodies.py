@@ -16,6 +16,7 @@ from fctd.energy import Energy, energy_of
 from fctd.rotations import rotation_columns
 from fctd.run import Run
 from fctd.topdrive import Motion, move_top_drive
+from references.tube_mesh import Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
@@ -36,6 +37,13 @@ class Bodies(Protocol):
 
     def close(self) -> None:
         """Give back what the engine holds."""
+
+
+def tube_of(run: Run, facets: int, ring_spacing: float | None) -> Tube | None:
+    """The hole of a run as triangles, None where contact is off; rings ``ring_spacing`` [m] apart at most."""
+    if not run.case.contact.enabled:
+        return None
+    return build_tube(run.case, TubeOptions(facets=facets, ring_spacing=ring_spacing or run.hole.total_depth))
 
 
 @njit(error_model="numpy", cache=True)

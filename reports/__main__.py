@@ -13,7 +13,7 @@ app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
 @app.command()
 def main() -> None:
-    """Write reports/out/index.html and print where it is; exit code 1 when a figure could not be drawn."""
+    """Write reports/out/index.html and print where it is; exit code 1 when a result could not be read or drawn."""
     problems = page.render(study.RESULTS, STUDIES, OUT, runner.changes(STUDIES, study.RESULTS))
     for problem in problems:
         typer.echo(problem, err=True)

@@ -71,13 +71,16 @@ class Claims:
 
 
 def read_claims(folder: Path) -> Claims:
-    """The ledger stored in a result folder; empty where there is none, or it failed."""
+    """The ledger stored in a result folder; empty where there is none that can be read, or it failed."""
     if not (folder / "verdict.json").exists():
         return Claims()
-    run = record.read(folder)
+    try:
+        run = record.read(folder)
+        tables = record.read_tables(folder, run)
+    except (OSError, ValueError, TypeError, LookupError):  # the study has to be run again
+        return Claims()
     if run.status != "finished":
         return Claims(run)
-    tables = record.read_tables(folder, run)
     rows = [_row(cells) for cells in tables["ledger"].to_dict("records")]
     return Claims(run, rows, tables["misprints"].to_dict("records"))
 

@@ -96,11 +96,15 @@ def _section(folder: Path, out: Path) -> Section:
     section = Section(folder.name)
     if not (folder / "verdict.json").exists():
         return section
-    section.record = record.read(folder)
-    if section.record.status != "finished":
+    try:
+        section.record = found = record.read(folder)
+        tables = record.read_tables(folder, found)
+    except (OSError, ValueError, TypeError, LookupError) as error:
+        section.problems.append(f"the result cannot be read: {type(error).__name__}: {error}")
         return section
-    tables = record.read_tables(folder, section.record)
-    section.tables = [_print(tables[name], caption) for name, caption in section.record.display.items()]
+    if found.status != "finished":
+        return section
+    section.tables = [_print(tables[name], caption) for name, caption in found.display.items()]
     for figure in figures.of_study(section.study):
         try:
             section.pictures.append(_draw(section.study, figure, tables, out))

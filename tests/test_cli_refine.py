@@ -1,5 +1,6 @@
 """``fctd refine`` as a user meets it: the table, the refined case file, exit codes."""
 
+import re
 import tomllib
 from pathlib import Path
 
@@ -14,7 +15,8 @@ CASE = """
 name = "tiny"  # mine
 [wellbore]
 survey = "hole.csv"
-chord_tolerance = "50 mm"
+chord_tolerance = "50 mm"  # coarse
+overlap = "0.1 m"  # ours
 [[wellbore.intervals]]
 to_md = "900 m"
 diameter = "8.5 in"
@@ -69,6 +71,9 @@ def test_the_case_is_written_as_the_user_has_it(
     written = fctd.load_case(out)
     assert "# mine" in text
     assert "# as on the rack" in text
+    assert found.case.wellbore.chord_tolerance != case.wellbore.chord_tolerance
+    assert re.search(r'chord_tolerance = "[\d.]+ m"\n', text)  # the comment was of another value
+    assert 'overlap = "0.1 m"  # ours' in text
     raw = tomllib.loads(text)
     assert raw["string"]["components"][-1]["outer_diameter"] == "5 in"
     assert raw["wellbore"]["survey"] == "../hole.csv"
@@ -104,6 +109,14 @@ def test_several_operations_and_field_units(
     assert screen.count("trip_in") == screen.count("rotate_off_bottom") > 3
 
 
+def test_a_string_that_would_have_to_be_pushed_is_told(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    more = ("--operation", "trip_in", "--friction", "1", "--tolerance", "20%")
+    assert run(monkeypatch, "refine", case_file, *more, "--quiet") == 0
+    assert "trip_in (locked up)" in capsys.readouterr().out
+
+
 def test_a_tolerance_out_of_reach_is_exit_code_1(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -135,6 +148,7 @@ def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
         (("--out", "fine.txt"), ["--out", "fine.txt", ".toml"]),
         (("--operation", "trip"), ["tiny.toml", "operation", "trip"]),
         (("--bit-depth", "950 m"), ["tiny.toml", "bit_depth", "950 m", "900 m"]),
+        (("--out", "tiny.toml"), ["--out", "tiny.toml", "another file than the case itself"]),
         (("--most", "3"), ["tiny.toml", "most", "16 to 10000"]),
     ],
 )
@@ -142,7 +156,9 @@ def test_bad_input_is_one_message_and_exit_code_2(
     options: tuple[str, str], expected: list[str], case_file: Path, monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
+    monkeypatch.chdir(case_file.parent)
     assert run(monkeypatch, "refine", case_file, *options) == 2
+    assert case_file.read_text() == CASE
     message = capsys.readouterr().err
     assert "Traceback" not in message
     for part in expected:

@@ -1,6 +1,7 @@
 """Refinement: what is estimated, what is found, and what is said where nothing is."""
 
 import math
+import sys
 from dataclasses import replace
 from typing import Any
 
@@ -94,6 +95,22 @@ def test_cylinders_that_are_too_long_are_cut_as_well(size: dict[str, Any], first
     point = fctd.equilibrium(found.case, "rotate_off_bottom", 1300.0)
     true = fctd.equilibrium(found.case.model_copy(update={"wellbore": exact}), "rotate_off_bottom", 1300.0)
     assert max(relative_difference(point, true)) < 0.01
+
+
+def test_the_string_is_allowed_what_the_cylinders_leave(monkeypatch: pytest.MonkeyPatch) -> None:
+    module, asked = sys.modules["fctd.refine"], []
+    refine_string = module._refine_string
+
+    def with_ease(case: Case, task: Any, allowed: float) -> Any:
+        asked.append(allowed)
+        return refine_string(case, task, 0.5)
+
+    monkeypatch.setattr(module, "_refine_string", with_ease)
+    found = fctd.refine(build_case(wellbore={"chord_tolerance": 0.2}), 0.01, "rotate_off_bottom", 1300.0)
+    hole = found.steps[found.steps["stage"] == "hole"]
+    left = hole[["hookload_error", "torque_error"]].iloc[-1].max()
+    assert 0 < left < 0.0025
+    assert asked == [pytest.approx(0.01 - left)]
 
 
 def test_cylinders_never_get_shorter_than_their_overlap() -> None:

@@ -35,6 +35,7 @@ def main(
     try:
         chosen = _choose(names or [], every, reproduce)
         expected = runner.read_expected(runner.EXPECTED)
+        runner.check_results(study.RESULTS)
     except runner.UsageError as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from error

@@ -25,6 +25,7 @@ from validation.study import ROOT
 # "package.module" or "package.module:Class", as in the registries of modules that are imported by name.
 MODULE_NAME = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)+(:\w+)?")
 ABSENT = "absent"
+LENGTH = "quick or full"
 # Sources are followed by their imports; compiled code follows from sources.
 NO_INPUTS = {".py", ".pyc", ".nbi", ".nbc"}
 NO_FOLDERS = {".venv", ".git", "__pycache__"}
@@ -69,7 +70,7 @@ def surroundings(quick: bool) -> dict[str, str]:
 
     The processor counts for every study: compiled code is made for it, and most studies tell what they cost.
     """
-    found = {"quick or full": "quick" if quick else "full", "processor": cpu_name(), "cores": str(os.cpu_count())}
+    found = {LENGTH: "quick" if quick else "full", "processor": cpu_name(), "cores": str(os.cpu_count())}
     found["python"] = platform.python_version()
     for name in re.findall(r"^([\w.-]+)==", (ROOT / "requirements.lock").read_text(), re.MULTILINE):
         try:

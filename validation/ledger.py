@@ -221,6 +221,9 @@ def judge(claim: Claim, results: "Results") -> Finding:
         assert number is not None
         if isinstance(number, Missing):
             return "not yet run", number.why
+        if isinstance(second, Found) and second.met != number.met:
+            keeps, misses = ("first", "second") if number.met else ("second", "first")
+            return "routes disagree", f"the {keeps} route keeps the bound and the {misses} does not"
         if number.met:
             return "holds", ""
         if isinstance(limited, Missing):
@@ -229,8 +232,6 @@ def judge(claim: Claim, results: "Results") -> Finding:
             return "holds with limits", ""
         if isinstance(second, Missing):
             return "not yet run", f"second route: {second.why}"
-        if second is not None and second.met:
-            return "routes disagree", "the second route keeps the bound and the first does not"
         return "does not hold", ""
 
     found, why = verdict()
@@ -267,6 +268,8 @@ class Results:
             run = record.read(self._folder / study)
         except FileNotFoundError:
             return Missing(study, f"{study} has not been run" if study in STUDIES else f"study {study} is to come")
+        except (ValueError, TypeError, LookupError):
+            return Missing(study, f"the result of {study} cannot be read")
         if run.status != "finished":
             return Missing(study, f"{study}: {run.status}, {run.message}")
         return run

@@ -2,6 +2,7 @@
 
 import difflib
 import importlib
+import os
 import sys
 import time
 import tomllib
@@ -68,6 +69,17 @@ def is_reproduced(name: str) -> bool:
     except Exception:
         # A study that cannot be loaded is run all the same, so that its failure is recorded and seen.
         return True
+
+
+def check_results(folder: Path) -> None:
+    """Refuse a folder that results cannot be kept in: before the computing, not after."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        writable = os.access(folder, os.W_OK)
+    except OSError:
+        writable = False
+    if not writable:
+        raise UsageError(f"{folder}: expected a folder that can be written")
 
 
 def read_expected(path: Path) -> Expected:
@@ -215,17 +227,21 @@ def run_one(
 def outdated(name: str, now: Inputs, results: Path) -> str:
     """Why a study has to be run: ``kept`` when it has not, nothing when there is no result yet."""
     try:
-        status = record.read(results / name).status
+        kept = record.read(results / name)
     except FileNotFoundError:
         return ""
     except (ValueError, TypeError, LookupError):
         return "the result cannot be read"
     before = inputs.read(results / name)
-    if status != "finished":
-        return f"was {status}"
+    if kept.status != "finished":
+        return f"was {kept.status}"
+    if lost := [table for table in kept.tables if not (results / name / f"{table}.parquet").is_file()]:
+        return f"table {lost[0]} is not there"
     if before is None or not now.code:
         return "what it rests on is not known"
     changed = now.changed_since(before)
+    if changed == inputs.LENGTH:
+        return f"replaces a {before.around[inputs.LENGTH]} result"
     return f"changed: {changed}" if changed else KEPT
 
 
@@ -235,7 +251,7 @@ def changes(names: Iterable[str], results: Path) -> dict[str, str]:
     for name in names:
         if (before := inputs.read(results / name)) is None:
             continue
-        around = inputs.surroundings(before.around.get("quick or full") == "quick")
+        around = inputs.surroundings(before.around.get(inputs.LENGTH) == "quick")
         # Where the data lie is for the runner to know; here the files that were read tell.
         around |= {key: value for key, value in before.around.items() if key == DATA}
         if changed := Inputs(sources.used_by(STUDIES[name]), around).changed_since(before):

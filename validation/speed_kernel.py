@@ -82,7 +82,14 @@ def scaling(lengths: tuple[int, ...], rounds: int, aim: float) -> pd.DataFrame:
         run.refresh()
         run.check()
     table[["segments", "step_ms", "touching_percent"]] = [facts[name] for name in table["name"]]
-    return table[["segments", "step_ms", "touching_percent", "ns", "ns_least"]]
+    return with_growth(table[["segments", "step_ms", "touching_percent", "ns", "ns_least"]])
+
+
+def with_growth(table: pd.DataFrame) -> pd.DataFrame:
+    """The same with the wall time of a simulated second, and its growth from the row before for twice the segments."""
+    second = table["segments"] * table["ns_least"] / (1e3 * table["step_ms"])
+    slope = np.diff(np.log(second)) / np.diff(np.log(table["segments"]))
+    return table.assign(ms_per_simulated_s=second, growth_when_doubled=[np.nan, *2**slope])
 
 
 def exponent(table: pd.DataFrame) -> float:

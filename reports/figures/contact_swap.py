@@ -39,7 +39,7 @@ def figure_13(tables: Tables) -> Canvas:
     above.plot(
         windows["bit_depth_m"], windows["fcl_kN_m"], **style.dots(1, filled=False), markersize=5, label="FCL, windows"
     )
-    above.set_ylabel("Σ r μ F_n, kN·m")
+    above.set_ylabel("Σ rμFₙ, kN·m")
     below.plot(windows["bit_depth_m"], windows["difference_percent"], **style.dots(1, filled=False))
     below.axhline(0, color=style.QUIET, linewidth=1)
     below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %")
@@ -58,7 +58,13 @@ def facets(tables: Tables) -> Canvas:
     canvas = style.figure(3.4)
     ax = canvas.subplots()
     ax.plot(
-        meshes["facets"], meshes["wedge_percent"], color=style.QUIET, linewidth=3.5, alpha=0.6, label="1/cos(π/n) − 1"
+        meshes["facets"],
+        meshes["wedge_percent"],
+        color=style.QUIET,
+        linewidth=3.5,
+        marker="o",
+        alpha=0.6,
+        label="1/cos(π/n) − 1",
     )
     ax.plot(
         meshes["facets"],
@@ -67,7 +73,7 @@ def facets(tables: Tables) -> Canvas:
         marker="s",
         label="|mesh − cylinders|",
     )
-    ax.set(xscale="log", yscale="log", xlabel="facets around the hole, number", ylabel="difference of Σ r μ F_n, %")
+    ax.set(xscale="log", yscale="log", xlabel="facets around the hole, number", ylabel="difference of Σ rμFₙ, %")
     style.plain_log_ticks(ax.xaxis)
     style.plain_log_ticks(ax.yaxis)
     ax.set_xticks(meshes["facets"].to_list())
@@ -82,7 +88,7 @@ def torques(tables: Tables) -> Canvas:
     ax = canvas.subplots()
     ax.plot(methods["sum_difference_percent"], methods["method"], **style.dots(1), markersize=6)
     ax.axvline(0, color=style.QUIET, linewidth=1)
-    ax.set(xlabel="Σ r μ F_n against FCTD, %")
+    ax.set(xlabel="Σ rμFₙ against FCTD, %")
     ax.set_xlim(*_around_zero(methods["sum_difference_percent"].abs().max()))
     ax.invert_yaxis()
     return canvas

@@ -19,8 +19,8 @@ def figure_13b(tables: Tables) -> Canvas:
     above.plot(
         depth, windows["fcl_sum_r_mu_fn_kN_m"], **style.dots(1, filled=False), markersize=5, label="FCL, windows"
     )
-    above.set_ylabel("Σ r μ F_n, kN·m")
-    differences = (("sum_r_mu_fn_difference_percent", 1, "Σ r μ F_n"), ("difference_percent", 2, "surface torque"))
+    above.set_ylabel("Σ rμFₙ, kN·m")
+    differences = (("sum_r_mu_fn_difference_percent", 1, "Σ rμFₙ"), ("difference_percent", 2, "surface torque"))
     for column, index, label in differences:
         below.plot(depth, windows[column], **style.dots(index, filled=False), label=label)
     below.axhline(0, color=style.QUIET, linewidth=1)

@@ -25,6 +25,7 @@ def ladder(tables: Tables) -> Canvas:
             ax.plot(of_kind, heights, **style.dots(index), markersize=7, label=operation)
         ax.axvline(ALLOWED, color=style.QUIET, linewidth=1, linestyle=(0, (4, 2)), label="bound of the last rung")
         ax.set(xscale="log", xlabel=label)
+        style.plain_log_ticks(ax.xaxis)
     axes[0].set_yticks(range(len(rungs)), rungs)
     axes[0].set_ylim(len(rungs) - 0.5, -0.5)
     canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=4)

@@ -18,7 +18,7 @@ def contact_force(tables: Tables) -> Canvas:
     """Difference of contact force: a map for each operation and string, numbers in the cells."""
     table, light = tables["map"], tables["light"]
     strings = {string: table[table["string"] == string] for string in table["string"].unique()}
-    strings |= {f"{string}, little weight": light for string in light["string"].unique()}
+    strings |= {f"{string}, little weight": light[light["string"] == string] for string in light["string"].unique()}
     operations = list(table["operation"].unique())
     canvas = style.figure(0.6 + 2.2 * len(strings))
     grid = canvas.subplots(len(strings), len(operations), sharex=True, sharey=True, squeeze=False)
@@ -50,7 +50,7 @@ FIGURES = [
     Figure(
         "contact_force",
         "Total contact force of the stiff string over the soft string's, in percent, for a 60° build of every severity "
-        "and clearance; below, of a string with little weight under the bend. The darker, the further off is the soft "
+        "and clearance; below, of strings with little weight under the bend. The darker, the further off is the soft "
         "string; right of the dashed line the paper advises against it.",
         contact_force,
     )

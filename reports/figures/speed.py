@@ -55,8 +55,8 @@ FIGURES = [
         "Wall time of a simulated second of the curved chain, turning in contact (circles) or hanging in the open "
         "(squares), at each engine's own step (filled) and at the shortest of those for all (open). Same string, same "
         "state at the start, the fastest of rounds in turn; nothing is extrapolated. The dashed "
-        "line is real time. FCL and coal answer for the wall in FCTD's loop, asked from Python; without contact that "
-        "loop asks for nothing.",
+        "line is real time. In our loop another contact method answers for the wall, asked from Python; without "
+        "contact that loop asks for nothing.",
         seconds,
     ),
     Figure(

@@ -54,6 +54,20 @@ def test_by_the_commit_that_brought_the_record(checkout: tuple[Path, Record, Pat
     assert released(check_out(record.model_copy(update={"commit": "0123abc"}), file, root)) == "released"
 
 
+def test_a_record_may_lie_elsewhere(
+    checkout: tuple[Path, Record, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root, record, file = checkout
+    other = tmp_path / "other.json"
+    other.write_bytes(file.read_bytes())
+    assert released(check_out(record, other, root)) == "released"
+    monkeypatch.chdir(root)
+    gone = record.model_copy(update={"commit": "0123abc"})
+    assert released(check_out(gone, file.relative_to(root), root)) == "released"
+    with pytest.raises(NoSourcesError, match="does not hold"):
+        check_out(gone, other, root)
+
+
 def test_a_commit_with_other_sources_is_refused(checkout: tuple[Path, Record, Path]) -> None:
     root, record, file = checkout
     with pytest.raises(NoSourcesError, match="does not hold"):

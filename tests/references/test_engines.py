@@ -88,6 +88,17 @@ def test_bullet_friction_leans_as_two_fixed_directions_do(azimuth: float) -> Non
     assert sliding("bullet", azimuth, 1.0, axes="global").lean == pytest.approx(lean, abs=np.radians(2))
 
 
+def test_the_lean_of_two_directions_is_that_of_a_uniform_pipe() -> None:
+    outer, inner, length, azimuth = 0.051, 0.03, 25.0, np.radians(30)
+    spin = (outer**2 + inner**2) / 2  # of a mass of 1
+    tilt = length**2 / 12 + spin / 2
+    yields = np.diag([1 + outer**2 / tilt, 1 + (length / 2) ** 2 / tilt + outer**2 / spin])
+    turn = np.array([[np.cos(azimuth), -np.sin(azimuth)], [np.sin(azimuth), np.cos(azimuth)]])
+    push = turn[:, 1] / np.diag(turn @ yields @ turn.T)
+    lean = np.arctan2(push @ turn[:, 0], push @ turn[:, 1])
+    assert lean_of_two_directions(30.0) == pytest.approx(lean, abs=1e-6)
+
+
 @pytest.mark.parametrize("name", ["bullet", "mujoco", "mujoco_chain", "elastica"])
 def test_a_string_without_a_wall_hangs_and_winds_up_alike(name: str) -> None:
     case = turning([[0, 0, 0], [600, 0, 0]], contact={"enabled": False})

@@ -560,7 +560,7 @@ def soft_stiff_map() -> dict[str, pd.DataFrame]:
         }
         for string, severity, clearance, operation in cells
     )
-    return {"map": table, "light": table[table["string"] == "5 in pipe"]}
+    return {"map": table, "light": table}
 
 
 def friction_laws() -> dict[str, pd.DataFrame]:

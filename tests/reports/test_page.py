@@ -121,6 +121,21 @@ def test_registry_order_then_what_else_was_found(render):
     assert re.findall(r'<section id="(\w+)">', html) == ["c", "b", "a"]
 
 
+def test_result_that_cannot_be_read_leaves_the_page(render, judged_claims, tmp_path):
+    run, tables = finished("overlap", checks=(judged(5e-7),))
+    render(judged_claims, (run, tables))
+    results = tmp_path / "results"
+    (results / "overlap" / "drag.parquet").write_text("no table")
+    (results / "jumps" / "verdict.json").write_text("{")
+    (results / "claims" / "verdict.json").write_text("{")
+    html, problems = render(studies=["overlap", "jumps", "claims"])
+    assert [problem.partition(" cannot be read: ")[0] for problem in problems] == [
+        "overlap: the result", "jumps: the result",
+    ]  # fmt: skip
+    assert "largest jump" in html  # its verdict is there
+    assert words_of(html).count("cannot be read") == 2
+
+
 def test_figure_that_cannot_be_drawn_leaves_the_page(render, capsys):
     html, problems = render((replace(BLANK, checks=(judged(0.0),)), {}), studies=["overlap"])
     assert problems == ["overlap: figure 'drag' could not be drawn: KeyError: 'drag'"]

@@ -97,6 +97,12 @@ def test_a_number_that_contradicts_the_paper_has_a_second_route_that_does_too(ju
     answer = judged(text + SECOND, toy=2.0, second=0.5)
     assert (answer[0], verdict(answer)) == (1, "routes disagree")
     assert answer[2]["second_route_value"].iloc[0] == 0.5
+    answer = judged(CLAIM + SECOND, toy=0.5, second=3.0)
+    assert (answer[0], verdict(answer)) == (1, "routes disagree")
+    assert answer[2]["why"].iloc[0] == "the first route keeps the bound and the second does not"
+    limited = CLAIM.replace('"holds"', '"holds with limits"') + LIMITED.format(2.0)
+    assert verdict(judged(limited + SECOND, toy=1.5, second=0.5)) == "routes disagree"
+    assert judged(limited + SECOND, toy=1.5, second=1.6)[0] == 0
     told = "claim a-claim.second_route is missing: expected a second route"
     assert told in judged(text, toy=2.0)[1]
 
@@ -115,6 +121,12 @@ def test_what_has_not_been_run_has_no_verdict(judged, text, values, why):
     assert code == 0
     assert table["verdict"].iloc[0] == "not yet run"
     assert table["why"].iloc[0] == why
+
+
+def test_a_result_that_cannot_be_read_gives_no_number(judged, tmp_path, register, run):
+    judged(CLAIM, toy=0.5)
+    (tmp_path / "results" / "toy" / "verdict.json").write_text("{")
+    assert judged(CLAIM)[2]["why"].iloc[0] == "the result of toy cannot be read"
 
 
 def test_a_skipped_study_gives_no_number(judged, register, run):

@@ -65,6 +65,13 @@ def test_bad_expected_file(invoke):
     assert "expected.toml" in answer.output
 
 
+def test_results_that_cannot_be_kept(invoke):
+    study.RESULTS.write_text("a file")
+    answer = invoke("--all")
+    assert answer.exit_code == 2
+    assert "results: expected a folder that can be written" in answer.output
+
+
 def test_worse_than_recorded(invoke, register):
     check = Check("error", 2.0, 1.0, "at_most", "", "test")
     register("missing", lambda context: Outcome({}, [check]))

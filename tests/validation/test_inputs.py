@@ -164,8 +164,9 @@ def test_a_lazily_loaded_module_that_no_source_names_is_an_error(lab, capsys):
 
 def test_quick_and_full_are_different_results(lab):
     run(lab, quick=True)
-    assert "changed: quick or full" in run(lab)[1]
-    assert runs(lab) == 2
+    assert "replaces a quick result" in run(lab)[1]
+    assert "replaces a full result" in run(lab, quick=True)[1]
+    assert runs(lab) == 3
 
 
 def test_packages_and_processor_count(lab, monkeypatch):

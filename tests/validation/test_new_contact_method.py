@@ -99,6 +99,8 @@ def test_it_is_among_the_engines_of_the_study_of_speed(toy):
     times = speed.race_engines(["FCTD", "toy in our loop"], {60: step}, 2, 0.0005, silent)
     assert set(times.query("engine == 'toy in our loop'")["state"]) == {speed.FREE, speed.TOUCHING, speed.TAKEN}
     assert not times["check"].str.startswith("invalid").any()
-    assert speed.ratios(times)["ratio"].str.startswith("toy in our loop : FCTD, 60 segments, a step").any()
-    scaling = pd.DataFrame({"segments": [60.0, 170.0], "ns_least": [20.0, 20.0]})
+    scaling = pd.DataFrame({"segments": [60.0, 170.0], "step_ms": [4.0, 1.4], "ns_least": [20.0, 20.0]})
+    scaling = speed_kernel.with_growth(scaling)
+    ratios = speed.ratios(times, scaling)["ratio"]
+    assert ratios.str.startswith("toy in our loop : FCTD, 60 segments, a step").any()
     assert "toy in our loop" in written("speed", {"times": times, "scaling": scaling})

@@ -127,6 +127,14 @@ def test_table_that_cannot_be_stored_is_a_failure(register, run, tmp_path, capsy
     assert stored(tmp_path, "toy")["status"] == "failed"
 
 
+def test_a_result_without_its_table_is_repeated(register, run, tmp_path):
+    register("toy")
+    run("toy")
+    (tmp_path / "results" / "toy" / "forces.parquet").unlink()
+    assert "table forces is not there" in run("toy")[1]
+    assert (tmp_path / "results" / "toy" / "forces.parquet").exists()
+
+
 def test_study_without_its_data_is_skipped_by_name(register, run, tmp_path):
     register("real", needs=("data",))
     code, text = run("real")

@@ -27,11 +27,27 @@ def times() -> pd.DataFrame:
     return pd.DataFrame(rows, columns=columns)
 
 
+def scaling() -> pd.DataFrame:
+    """Twice the segments at half the step and the same cost of a segment-step: four times the cost of a second."""
+    segments = np.array([60.0, 120.0, 170.0, 340.0])
+    return speed_kernel.with_growth(
+        pd.DataFrame({"segments": segments, "step_ms": 240.0 / segments, "ns_least": [20.0, 20.0, 20.0, 30.0]})
+    )
+
+
+def test_growth_of_a_simulated_second():
+    table = scaling()
+    assert table["ms_per_simulated_s"].iloc[0] == pytest.approx(60 * 20e-6 / 4e-3)
+    assert np.isnan(table["growth_when_doubled"].iloc[0])
+    assert table["growth_when_doubled"].iloc[1:].to_list() == pytest.approx([4.0, 4.0, 6.0])
+
+
 def test_ratios_say_what_they_contain():
-    table = speed.ratios(times()).set_index("ratio")
+    table = speed.ratios(times(), scaling()).set_index("ratio")
     value = table["value"]
     assert value["the same for each segment, 34/4 × 60/170"] == pytest.approx(3.0)
     assert value["what is left for contact, (34/4 × 60/170) / (12/4)"] == pytest.approx(1.0)
+    assert value[speed.LEFT_AS_OURS] == pytest.approx(34 / 12 * (60 / 170) ** 2)
     assert value[f"{FCL} : FCTD, 60 segments, a step"] == 100
     # (1000 − 50) / (10 − 6)
     assert value[f"{FCL} : FCTD, 60 segments, each less its own loop without contact"] == pytest.approx(237.5)
@@ -41,7 +57,7 @@ def test_ratios_say_what_they_contain():
 
 
 def test_one_count_has_no_ratio_across_counts():
-    table = speed.ratios(times()[lambda t: t["segments"] == 60])
+    table = speed.ratios(times()[lambda t: t["segments"] == 60], scaling())
     assert not table["ratio"].str.contains("with 170 segments : FCTD with 60, contact, own").any()
 
 
