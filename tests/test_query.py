@@ -33,7 +33,7 @@ def from_table(C, geometry, points, owner, out):
 def points_by_depth(hole: Wellbore, furthest: float, count: int) -> np.ndarray:
     """Points up to so far off the axis [m], also before the start and past the end of the hole."""
     rng = np.random.default_rng(5)
-    axis, tangent = hole.at(np.sort(rng.uniform(-5.0, 1005.0, count)))
+    axis, tangent = hole.at(np.sort(rng.uniform(-30.0, 1030.0, count)))
     high, right = hole_frame(tangent)
     angle, off = rng.uniform(0, 2 * np.pi, (count, 1)), rng.uniform(0, furthest, (count, 1))
     return np.ascontiguousarray(axis + off * (np.cos(angle) * high + np.sin(angle) * right))
