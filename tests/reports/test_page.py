@@ -242,7 +242,8 @@ def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, judged_
     assert problems == []
     assert text.index("The paper's claims") < text.index("Contents")
     assert "✓ holds: 1 ◐ holds with limits: 1 ✗ does not hold: 2 – cannot be tested: 1 ○ not yet run: 1" in text
-    assert "5.2 No &lt;gap&gt; is left. ✓ holds 0.5 kN·m (at most 1 kN·m) largest jump: jumps Bound: target." in text
+    holds = "5.2 No &lt;gap&gt; is left. ✓ holds 0.5 kN·m (at most 1 kN·m) largest jump: jumps Bound: target."
+    assert f"{holds} python -m validation jumps" in text
     assert "never told" not in text
     assert "abs., 4.2 Owners are found. ◐ holds with limits 0.5 kN·m (at most 0 kN·m: not so)" in text
     assert "Limit. In gentle wells. 0.5 kN·m (at most 2 kN·m) largest jump" in text
