@@ -38,7 +38,7 @@ def test_figure_draws(study, figure, tmp_path):
 
 
 def test_torque_is_drawn_in_kilonewton_metres():
-    tables = synthetic.paper_well()
+    tables = synthetic.STUDIES["paper_well"]()
     (figure,) = [figure for figure in figures.of_study("paper_well") if figure.name == "torque"]
     drawn = figure.draw(tables).axes[0].get_lines()
     assert len(drawn) == 4
