@@ -94,6 +94,21 @@ class Tube:
         return np.asarray(self.mesh.face_normals)
 
 
+class OnTube:
+    """What contact methods that ask a mesh share."""
+
+    tube: Tube
+
+    @property
+    def pieces(self) -> int:
+        """Number of triangles."""
+        return self.tube.triangles
+
+    def error_bound(self, curvature: float) -> tuple[float, float]:
+        """The mesh's own."""
+        return self.tube.error_bound(curvature)
+
+
 def build_tube(case: Case, options: TubeOptions) -> Tube:
     """The mesh of a case's hole, from 10 m above the first station to 10 m beyond the last.
 
