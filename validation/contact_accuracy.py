@@ -7,12 +7,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import Case, InputError, build_wellbore, find_contacts
-from fctd.wellbore import hole_frame
 from references import base, traps
 from references.footprint import footprint
-from references.timing import machine, race
+from references.timing import machine_table, race
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study
+from validation.study import Check, Context, Outcome, Study, left_out
 
 Array = NDArray[np.float64]
 
@@ -71,11 +70,9 @@ def points_in(case: Case, count: int) -> pd.DataFrame:
             md = 200.0 + 2.0 * rng.integers(3, 265, count) + rng.uniform(0.0, 0.2, count)
         else:
             md = rng.uniform(*REGIONS[region], count)
-        axis, tangent = exact.at(md)
-        high, right = hole_frame(tangent)
-        angle = rng.uniform(0, 2 * np.pi, count)[:, None]
+        angle = rng.uniform(0, 2 * np.pi, count)
         offset = HOLE - RADIUS + rng.uniform(-BAND, BAND, count)
-        places = axis + offset[:, None] * (np.cos(angle) * high + np.sin(angle) * right)
+        places = exact.off_axis(md, angle, offset)
         parts.append(pd.DataFrame(places, columns=["x", "y", "z"]).assign(region=region, offset=offset))
     return pd.concat(parts, ignore_index=True)
 
@@ -172,7 +169,7 @@ def run(context: Context) -> Outcome:
             "builds": pd.DataFrame(builds),
             "traps": pd.DataFrame(tried),
             "refused": pd.DataFrame(refused, columns=["setting", "why"]),
-            "machine": pd.DataFrame(machine().items(), columns=["what", "value"]),
+            "machine": machine_table(),
         },
         checks=checks(errors, pd.DataFrame(tried)),
         notes=notes(skipped),
@@ -210,9 +207,8 @@ def checks(errors: pd.DataFrame, tried: pd.DataFrame) -> list[Check]:
 
 def notes(skipped: list[str]) -> list[str]:
     """What a reader of the numbers must know."""
-    missing = [f"Not installed, and left out: {', '.join(skipped)}."] if skipped else []
     return [
-        *missing,
+        *left_out(skipped),
         "Truth is the exact arc. A mesh on the wall lies inside the hole by the sagitta of its facets and, between "
         "rings, towards the inside of the bend: contacts are found early on the outside of a bend and late on its "
         "inside.",

@@ -12,11 +12,11 @@ from fctd.run import Run
 from fctd.topdrive import Motion
 from references import base
 from references.for_loop import advance_with_for_loop
-from references.timing import machine, race, units_for
+from references.timing import machine_table, race, units_for
 from references.workloads import NoWall, asking, copy_of, moving, without_wall
 from validation.cases import load, rotation, trip
 from validation.steady import last_seconds
-from validation.study import Check, Context, Outcome, Study
+from validation.study import Check, Context, Outcome, Study, left_out
 
 SEGMENTS = (60, 170)
 BIT = 2450.0
@@ -187,7 +187,7 @@ def run(context: Context) -> Outcome:
     tables = {
         "cost": cost,
         "torques": torques(context.progress([name for name in raced if name != TOO_SLOW], "methods"), 8.0),
-        "machine": pd.DataFrame(machine().items(), columns=["what", "value"]),
+        "machine": machine_table(),
     }
     display = {
         "cost": "One segment and one step of the same loop, raced in turns; ratios are to no contact",
@@ -239,9 +239,8 @@ def _ratio(cost: pd.DataFrame, loop: str) -> float:
 
 def notes(missing: list[str]) -> list[str]:
     """What a reader of the numbers must know."""
-    absent = [f"Not installed, and left out: {', '.join(missing)}."] if missing else []
     return [
-        *absent,
+        *left_out(missing),
         "All loops take the same step from the same state of the curved chain, about half of whose points touch. The "
         "rows from Python contain two compiled calls and one query a step; the row that asks and finds nothing is "
         "what those calls cost by themselves.",

@@ -12,7 +12,7 @@ from references.engines import EngineRun, Window
 from references.scaling import SCALE, Factors, factors, scaled
 from validation import engine_settings
 from validation.cases import load, rotation, trip
-from validation.study import Check, Context, Outcome, Study
+from validation.study import Check, Context, Outcome, Study, left_out
 
 BIT = 2450.0
 SPEED = 0.2  # [m/s] of the trips
@@ -297,9 +297,8 @@ def scaling_checks(table: pd.DataFrame) -> list[Check]:
 
 def notes(missing: list[str]) -> list[str]:
     """What a reader of the numbers must know."""
-    absent = [f"Not installed, and left out: {', '.join(missing)}."] if missing else []
     return [
-        *absent,
+        *left_out(missing),
         f"Every engine starts from the same state: FCTD's stepper after {LEAD:g} s ({WELL_LEAD:g} s in paper-well), in "
         "motion; the rows over the step start from FCTD's frictionless shape at rest and leave the rest to the engine. "
         "All are read as means under a Hann window. A run that fails a check is marked invalid and its numbers are "

@@ -11,6 +11,7 @@ from fctd import Case, equilibrium, simulate, state
 from fctd.drillstring import section_of
 from fctd.run import prepare
 from validation.cases import load, rotation, trip
+from validation.steady import completed
 from validation.study import Check, Context, Outcome, Study
 
 Array = NDArray[np.float64]
@@ -124,9 +125,7 @@ def start_ups(context: Context) -> pd.DataFrame:
         }
         for kind, operations in starts.items():
             for name, length in (("long", None), ("cut", PIPE), ("cut twice as fine", 0.5 * PIPE)):
-                result = simulate(the_case(length, operations=operations, record__interval=0.05))
-                if result.status != "completed":
-                    raise RuntimeError(f"{kind}, {name}: {result.status}, {result.message}")
+                result = completed(simulate(the_case(length, operations=operations, record__interval=0.05)))
                 columns = result.history[["time_s", "hookload_N", "surface_torque_N_m"]]
                 frames.append(columns.assign(operation=kind, ramp_s=ramp, vertical=name))
     return pd.concat(frames, ignore_index=True)

@@ -11,7 +11,7 @@ from fctd.drillstring import lay_out, section_of
 from fctd.topdrive import GRAVITY
 from validation.cases import load, rotation
 from validation.long_segment import PIPE, chain_frequencies, the_case
-from validation.steady import last_seconds
+from validation.steady import completed, last_seconds
 from validation.study import Check, Context, Outcome, Study
 
 Array = NDArray[np.float64]
@@ -22,6 +22,7 @@ STEEL = 7850.0  # [kg/m³]
 DENSITIES = (0.0, 1200.0, 2000.0)  # [kg/m³] of the mud
 VISCOSITIES = (0.0, 0.03, 0.1)  # [Pa s]: none, a common mud, a thick one
 RPM, SPEED = 60.0, 0.5  # of rotating; [m/s] of tripping
+WINDOW = 5 / 0.233  # [s]: five periods of the first torsional mode
 HARDLY, ALLOWED = 1.0, 10.0  # percent: this project's reading of "influences"; the accuracy that §7 claims
 
 
@@ -145,10 +146,7 @@ def decay(quick: bool) -> tuple[pd.DataFrame, pd.DataFrame]:
     for viscosity in VISCOSITIES:
         keys, (_, turning) = damping_of(viscosity)
         case = load("paper_well", operations=rotation(BIT, length, ramp=2.0), record__interval=0.1, **keys)
-        result = simulate(case)
-        if result.status != "completed":
-            raise RuntimeError(f"mud of {viscosity} Pa s: {result.status}, {result.message}")
-        history = result.history[["time_s", "surface_torque_N_m"]].assign(viscosity_Pa_s=viscosity)
+        history = completed(simulate(case)).history[["time_s", "surface_torque_N_m"]].assign(viscosity_Pa_s=viscosity)
         frames.append(history)
         rows.append(
             {"viscosity_Pa_s": viscosity, "rate_per_s": _rate(history), "mode_per_s": _mode_rate(case, turning)}
@@ -166,9 +164,6 @@ def _rate(history: pd.DataFrame) -> float:
     whole = late.groupby(window)["time_s"].agg(np.ptp) > 0.95 * WINDOW
     swing = swing[whole]
     return -float(np.polyfit(WINDOW * np.arange(len(swing)), np.log(swing.to_numpy()), 1)[0])
-
-
-WINDOW = 5 / 0.233  # [s]: five periods of the first torsional mode
 
 
 def _mode_rate(case: Case, turning: float) -> float:

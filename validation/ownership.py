@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 
 from fctd import build_wellbore
-from fctd.wellbore import hole_frame
 from references.for_loop import for_loop_owners
 from validation.cases import load
 from validation.study import Check, Context, Outcome, Study
@@ -32,10 +31,8 @@ def run(context: Context) -> Outcome:
         )
         rng = np.random.default_rng(4)
         md = rng.uniform(1.0, hole.total_depth - 1.0, count)
-        axis, tangent = hole.at(md)
-        high, right = hole_frame(tangent)
         angle, offset = rng.uniform(0, 2 * np.pi, count), 0.15 * np.sqrt(rng.uniform(0, 1, count))
-        points = axis + offset[:, None] * (np.cos(angle)[:, None] * high + np.sin(angle)[:, None] * right)
+        points = hole.off_axis(md, angle, offset)
         wrong = for_loop_owners(hole.pieces, points) != hole.owners(points)
         spread = np.degrees(np.arccos(np.clip(hole.directions @ hole.directions.T, -1, 1))).max()
         rows.append(

@@ -6,6 +6,7 @@ import pandas as pd
 
 from fctd import SimulationResult, simulate
 from validation.cases import load, trip
+from validation.steady import completed
 from validation.study import Check, Context, Outcome, Study
 
 # §6.3: 0 to 2250 m of survey depth took FCTD 4 h and Adams 34 h; 150 m of vertical hole without contact 4 s and 12 s.
@@ -42,8 +43,6 @@ def implied() -> pd.DataFrame:
 
 def row(name: str, result: SimulationResult, length: float) -> dict[str, Any]:
     """Our run beside the paper's."""
-    if result.status != "completed":
-        raise RuntimeError(f"{name}: {result.status}, {result.message}")
     return {
         "our_run": name,
         "tripped_m": length,
@@ -70,7 +69,7 @@ def measured() -> pd.DataFrame:
     )
     # Twice: the first run of a process also loads or compiles code, and the table is about the second.
     for _ in range(2):
-        with_wall, without = simulate(tripped), simulate(free)
+        with_wall, without = completed(simulate(tripped)), completed(simulate(free))
     rows = [
         row("1750 to 2250 m, with contact", with_wall, DEPTH - KICK_OFF),
         row("150 m of vertical hole without contact", without, FREE_LENGTH),

@@ -15,6 +15,7 @@ from references.beam_dynamics import Lowered, generalised_alpha, lower
 from references.beam_fe import Beam
 from references.planar_hole import PlanarHole
 from validation.cases import load, trip
+from validation.steady import completed
 from validation.study import Check, Context, Outcome, Study
 from validation.turn_and_build import turn_and_build
 
@@ -80,9 +81,8 @@ def rigid_segments(case: Case) -> tuple[Comparable, dict[str, Any]]:
     # A depth for every record: closer ones share a row.
     apart = 0.5 * case.operations[0].speed * case.record.interval
     wanted = tuple(float(depth) for depth in np.arange(start + apart, end, apart))
-    result = simulate(case.model_copy(update={"record": case.record.model_copy(update={"profile_at": wanted})}))
-    if result.status != "completed":
-        raise RuntimeError(f"{case.name}: {result.status}, {result.message}")
+    record = case.record.model_copy(update={"profile_at": wanted})
+    result = completed(simulate(case.model_copy(update={"record": record})))
     profile = result.profile
     signed = profile["contact_force_N"] * np.sign(profile["offset_high_m"])
     depths = profile["bit_depth_m"].unique()

@@ -13,7 +13,7 @@ from fctd.equilibrium import Solver
 from fctd.operations import steady_rates
 from validation.cases import load, rotation
 from validation.steady import last_seconds
-from validation.study import Check, Context, Outcome, Study
+from validation.study import Check, Context, Outcome, Study, log_slope
 from validation.wells import BUILD, PIPE, SHARP, Stations, catenary, well
 
 Array = NDArray[np.float64]
@@ -197,8 +197,7 @@ def order(sizes: "pd.Series[float]", found: "pd.Series[float]", doubt: float) ->
     clear = (found > 3 * doubt).to_numpy()
     if clear.sum() < 4:
         return float("nan")
-    x, y = np.log(sizes[clear].to_numpy(float)), np.log(found[clear].to_numpy(float))
-    return float(np.polyfit(x, y, 1)[0])
+    return log_slope(sizes[clear], found[clear])
 
 
 def observed_orders(table: pd.DataFrame) -> pd.DataFrame:
@@ -292,10 +291,9 @@ def cost_laws(counts: pd.DataFrame, stepped: pd.DataFrame) -> pd.DataFrame:
 
 def _growth(counts: "pd.Series[float]", costs: "pd.Series[float]") -> dict[str, float]:
     """Exponent p of cost ~ N^p, and the factor by which cost grows when the count doubles to the largest."""
-    exponent = np.polyfit(np.log(counts.to_numpy(float)), np.log(costs.to_numpy(float)), 1)[0]
     by_count = pd.Series(costs.to_numpy(float), index=counts.to_numpy(int))
     largest = int(by_count.index.max())
-    return {"exponent": float(exponent), "last_doubling": float(by_count[largest] / by_count[largest // 2])}
+    return {"exponent": log_slope(counts, costs), "last_doubling": float(by_count[largest] / by_count[largest // 2])}
 
 
 def run(context: Context) -> Outcome:

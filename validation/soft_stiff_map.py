@@ -12,8 +12,9 @@ from fctd.operations import steady_rates
 from references.soft_string import soft_string
 from validation.cases import trip
 from validation.study import Check, Context, Outcome, Study
+from validation.wells import FOOT
 
-HUNDRED_FEET = 30.48  # [m]
+HUNDRED_FEET = 100 * FOOT
 MU = 0.25
 ANGLE = 60.0  # [deg] of the build
 # Straight hole above and below the build [m]: strings that hang from the bend with much weight, and with little.
@@ -89,9 +90,7 @@ def compare(
     solver, bit = Solver(case), case.wellbore.read_stations()[-1, 0]
     rows = []
     for kind in OPERATIONS:
-        rates = {"speed": 0.0, "rpm": 60.0} if kind == "rotate_off_bottom" else {"speed": 0.3, "rpm": 0.0}
-        stiff = solver.solve(kind, steady_rates(case, kind, **rates), bit)
-        soft = soft_string(case, kind, bit, **rates)
+        stiff, soft = solver.solve(kind, steady_rates(case, kind), bit), soft_string(case, kind, bit)
         turns = kind == "rotate_off_bottom"
         rows.append(
             {
@@ -127,7 +126,7 @@ def by_finite_elements(severity: float, clearance: float) -> pd.DataFrame:
     found = {
         "finite elements": float(np.abs(pressure * beam.wall.dx).sum()),
         "rigid segments": Solver(case).solve("trip_in", rates, bit).total_contact_force,
-        "soft string": soft_string(case, "trip_in", bit, speed=1.0, rpm=0.0).total_contact_force,
+        "soft string": soft_string(case, "trip_in", bit).total_contact_force,
     }
     table = pd.DataFrame(found.items(), columns=["model", "contact_force_N"])
     return table.assign(off_percent=100 * (table["contact_force_N"] / found["finite elements"] - 1))

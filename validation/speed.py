@@ -9,16 +9,15 @@ import pandas as pd
 import fctd.state
 from fctd.faults import UnstableError
 from fctd.run import Run
-from fctd.topdrive import Motion
 from references import base, engines
 from references.engines import Stepper
 from references.free_bodies import FreeBodies
-from references.timing import machine, race, units_for
+from references.timing import machine_table, race, units_for
 from references.workloads import NoWall, asking, copy_of, moving
 from validation import speed_kernel
 from validation.contact_swap import FULL_ONLY, TOO_SLOW
-from validation.speed_kernel import BEST, CONTACT, LEAD, chain
-from validation.study import Check, Context, Kind, Outcome, Progress, Study
+from validation.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
+from validation.study import Check, Context, Kind, Outcome, Progress, Study, left_out
 
 SEGMENTS = (60, 170)  # of the paper's FCTD model and of its Adams model
 # By then a wave of torque has run down 1500 m of steel [s].
@@ -79,11 +78,6 @@ def begin(name: str, start: Run, state: str, step: float | None) -> tuple[Run, S
     return run, stepper
 
 
-def steps_of(stepper: Stepper, motion: Motion, count: int) -> None:
-    """So many steps of a stepper."""
-    stepper.advance(motion, count * stepper.step)
-
-
 def verdict(run: Run, stepper: Stepper) -> str:
     """Whether what was timed still is a string in its hole."""
     try:
@@ -134,7 +128,7 @@ def race_engines(names: list[str], best: dict[int, float], rounds: int, aim: flo
             if name == CHAIN:  # it begins at rest, and ahead of the first wave there is little to compute
                 stepper.advance(motion, PASSED)
             own.setdefault(entry, stepper.step)
-            steps, key = partial(steps_of, stepper, motion), str(entry)
+            steps, key = partial(step_on, stepper, motion), str(entry)
             count = units_for(steps, aim)
             actions[key], counts[key] = partial(steps, count), count * stepper.step
             baseline[key] = str(entry._replace(state=TOUCHING if state == TAKEN else state, engine=FCTD))
@@ -287,7 +281,7 @@ def run(context: Context) -> Outcome:
         "targets": table_of(held, found["kernel"]),
         "steps": steps,
         **found,
-        "machine": pd.DataFrame(machine().items(), columns=["what", "value"]),
+        "machine": machine_table(),
     }
     return Outcome(
         tables=tables,
@@ -309,9 +303,8 @@ def run(context: Context) -> Outcome:
 
 def notes(kernel: pd.DataFrame, missing: list[str]) -> list[str]:
     """What a reader of the numbers must know."""
-    absent = [f"Not installed, and left out: {', '.join(missing)}."] if missing else []
     return [
-        *absent,
+        *left_out(missing),
         "All engines take the same string from the same state, FCTD's after some seconds, in motion (MuJoCo's ball "
         "chain, which hangs free, from rest); nothing is extrapolated, and nothing of building or compiling counts. A "
         "row's time is that of its fastest round of some milliseconds, which others on the machine disturb least, its "

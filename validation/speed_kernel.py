@@ -14,10 +14,12 @@ from fctd.faults import UnstableError
 from fctd.operations import steady_rates
 from fctd.run import Run
 from fctd.topdrive import Motion
+from references.engines import Stepper
 from references.timing import race, units_for
 from references.workloads import copy_of, fallen, find_walls, free_query, moving, touching, without_wall
 from validation.cases import load, rotation
 from validation.steady_state import well_of
+from validation.study import log_slope
 
 BIT = 2450.0
 # FCTD's stepper runs this long before anything is timed: the first wave has passed the string [s].
@@ -93,9 +95,8 @@ def with_growth(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exponent(table: pd.DataFrame) -> float:
-    """Least-squares slope of the cost of a step against the number of segments, both logarithmic."""
-    cost = table["segments"] * table["ns_least"]
-    return float(np.polyfit(np.log(table["segments"]), np.log(cost), 1)[0])
+    """Growth of the cost of a step with the number of segments."""
+    return log_slope(table["segments"], table["segments"] * table["ns_least"])
 
 
 def kernel(best: float, rounds: int, aim: float) -> pd.DataFrame:
@@ -119,9 +120,9 @@ def kernel(best: float, rounds: int, aim: float) -> pd.DataFrame:
     return table.assign(step_ms=[1e3 * steppers[name].step if name in steppers else np.nan for name in table["name"]])
 
 
-def step_on(run: Run, motion: Motion, count: int) -> None:
-    """So many steps of a run."""
-    run.advance(motion, count * run.step)
+def step_on(stepper: Run | Stepper, motion: Motion, count: int) -> None:
+    """So many steps of a run or of an engine."""
+    stepper.advance(motion, count * stepper.step)
 
 
 def steady(rounds: int) -> pd.DataFrame:

@@ -2,12 +2,14 @@
 
 import math
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, Protocol, TypeVar
 
+import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "validation" / "results"
@@ -90,6 +92,16 @@ class Outcome:
             raise ValueError(f"display names tables that are not there: {sorted(unknown)}")
         if len({check.name for check in self.checks}) < len(self.checks):
             raise ValueError("two checks share a name, so expected.toml could not tell them apart")
+
+
+def left_out(missing: Sequence[str]) -> list[str]:
+    """The note on what is not installed; none where all of it is."""
+    return [f"Not installed, and left out: {', '.join(missing)}."] if missing else []
+
+
+def log_slope(x: ArrayLike, y: ArrayLike) -> float:
+    """Exponent p of y ~ x^p by least squares, both positive: an order of convergence, a growth of cost."""
+    return float(np.polyfit(np.log(np.asarray(x, float)), np.log(np.asarray(y, float)), 1)[0])
 
 
 class Progress(Protocol):
