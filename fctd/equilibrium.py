@@ -25,9 +25,8 @@ from fctd.wellbore import Wellbore, build_wellbore, hole_frame
 
 Array = NDArray[np.float64]
 
-# Statuses whose numbers are those of a balance, and all there are.
+# Statuses whose numbers are those of a balance.
 ANSWERED = ("converged", "locked_up", "unstable")
-STATUSES = (*ANSWERED, "max_iterations", "diverged", "not_finite")
 # What is left out of balance at a body, over the weight of the string.
 TOLERANCE = 1e-7
 # Imperfection of a first guess, so that a straight string may buckle [m].
@@ -49,10 +48,10 @@ LARGEST_TURN = 0.1  # [rad] a step
 class Equilibrium:
     """A steady string with the bit at one depth.
 
-    status : one of STATUSES; ``locked_up`` (the top would have to be pushed with more than the block weight)
-    and ``unstable`` (a balance that the string would not keep) are answers, the others but ``converged`` are
-    none.  bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque,
-    drive_torque [N m]; sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
+    status : ``converged``; ``locked_up`` (the top would have to be pushed with more than the block weight) and
+    ``unstable`` (a balance that the string would not keep) are answers too; ``max_iterations``, ``diverged`` and
+    ``not_finite`` are none.  bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N];
+    surface_torque, drive_torque [N m]; sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
 
     case: Case

@@ -194,10 +194,6 @@ class Beam:
         """Integral along the string of a density at the wall's Gauss points."""
         return float(_integral.assemble(self.wall, density=density))
 
-    def bending_moment(self, q: Array) -> Array:
-        """EIθ' at the strain points (elements, 2) [N m]."""
-        return np.asarray(self.section.EI * self._strains(q)[2])
-
     def wall_load(self, q: Array, velocity: Array) -> WallLoad:
         """Loads of wall and mud in state q that moves with ``velocity``."""
         state, rate = self.wall.interpolate(q), self.wall.interpolate(velocity)

@@ -32,7 +32,6 @@ class _Stepper:
         self.step = step or float(SHARE * 2 / fastest)
         self._model = mujoco.MjModel.from_xml_string(_model(run))
         self._data = mujoco.MjData(self._model)
-        self._spin = self._data.qvel.reshape(n, 3)
         self._turned = 0.0
         mujoco.mj_forward(self._model, self._data)
 
