@@ -6,7 +6,6 @@ import pytest
 
 from validation import (
     contact_operations,
-    energy_ledger,
     friction_laws,
     long_segment,
     mud_effects,
@@ -16,6 +15,7 @@ from validation import (
 )
 from validation import well_profile as profile
 from validation.cases import load, rotation
+from validation.study import log_slope
 
 
 def test_a_uniform_string_has_the_frequencies_of_a_quarter_wave():
@@ -205,6 +205,6 @@ def test_in_straight_hole_coulomb_shares_one_force_and_the_paper_gives_two():
 
 
 @pytest.mark.parametrize("power", [0.0, 1.0, 2.0])
-def test_the_ledger_s_order_is_the_power_of_the_step(power: float) -> None:
+def test_a_slope_is_the_power(power: float) -> None:
     step = np.array([1e-3, 5e-4, 1.25e-4])
-    assert energy_ledger.order(pd.DataFrame({"step_s": step, "residual_J": 7 * step**power})) == pytest.approx(power)
+    assert log_slope(step, 7 * step**power) == pytest.approx(power)
