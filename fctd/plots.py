@@ -137,7 +137,8 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> 
         ]
         figure.legend(handles=handles + _flag_handles(chart["status"]), loc="outside lower right", ncols=2)
         one = len(factors) == 1 and np.isfinite(factors[0])
-        _title(figure, f"{title}, friction factor {factors[0]:g}" if one else title)
+        words = [title] if title else []
+        _title(figure, ", ".join([*words, f"friction factor {factors[0]:g}"] if one else words))
         return figure
 
 

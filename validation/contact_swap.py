@@ -203,12 +203,7 @@ def run(context: Context) -> Outcome:
     if "coal" in there:
         tables["facets"] = facets(context.quick)
         display["facets"] = "Rotating torque of the curved chain against meshes (coal) and cylinders"
-        meshes = tables["facets"].dropna(subset="facets")
-        excess = float((meshes["sum_difference_percent"].abs() / meshes["wedge_percent"]).max())
-        checks.append(
-            Check("Σ rμF_n rotating, meshes against cylinders, over 1/cos(π/n) − 1", excess, 1.5, "at_most", "",
-                  "two facets hold a string in their corner with that much more force")
-        )  # fmt: skip
+        checks.append(facet_check(tables["facets"]))
         if not context.quick:
             tables["segments"] = counted()
             display["segments"] = "The same with 60 and 170 segments: does a mesh (coal) ask for more of them?"
@@ -216,20 +211,30 @@ def run(context: Context) -> Outcome:
         tables |= figure_13(context, "fcl")
         display["figure_13"] = "Fig. 13: Σ rμF_n while tripping in, FCL and FCTD over the same windows"
         display["times"] = "The trip of Fig. 13: FCTD measured, FCL in windows and extrapolated"
-        cheapest = min(_ratio(cost, loop) for loop in cost["loop"].unique() if loop.startswith("fcl"))
-        slower = cheapest / _ratio(cost, "cylinders, compiled")
-        fair = cheapest / _ratio(cost, "cylinders, from Python")
-        below = tables["figure_13"]["bit_depth_m"] > 1900
-        difference = tables["figure_13"].loc[below, "difference_percent"].abs()
-        checks += [
-            Check("FCL contact over cylinders, a step of 60 segments", slower, 10.0, "at_least", "",
-                  "claim of the paper: FCTD contact is cheaper than geometry-based contact"),
-            Check("FCL contact over cylinders, both asked from Python", fair,
-                  10.0, "at_least", "", "the same claim where both pay for a call from Python"),
-            Check("Σ rμF_n tripping in, FCL against FCTD below 1900 m, largest difference", float(difference.max()),
-                  2.0, "at_most", "%", f"facets: {wedge(FACETS):.1f} %; windows of a few seconds add their swing"),
-        ]  # fmt: skip
+        checks += fcl_checks(cost, tables["figure_13"])
     return Outcome(tables=tables, checks=checks, notes=notes(missing), display=display)
+
+
+def facet_check(table: pd.DataFrame) -> Check:
+    """Whether a mesh presses as two facets do on a string in the corner between them."""
+    meshes = table.dropna(subset="facets")
+    excess = float((meshes["sum_difference_percent"].abs() / meshes["wedge_percent"]).max())
+    return Check("Σ rμF_n rotating, meshes against cylinders, over 1/cos(π/n) − 1", excess, 1.5, "at_most", "",
+                 "two facets hold a string in their corner with that much more force")  # fmt: skip
+
+
+def fcl_checks(cost: pd.DataFrame, windows: pd.DataFrame) -> list[Check]:
+    """FCL, which descends from the contact code of the paper's comparison, against cylinders: cost and Fig. 13."""
+    cheapest = min(_ratio(cost, loop) for loop in cost["loop"].unique() if loop.startswith("fcl"))
+    difference = windows.loc[windows["bit_depth_m"] > 1900, "difference_percent"].abs()
+    return [
+        Check("FCL contact over cylinders, a step of 60 segments", cheapest / _ratio(cost, "cylinders, compiled"), 10.0,
+              "at_least", "", "claim of the paper: FCTD contact is cheaper than geometry-based contact"),
+        Check("FCL contact over cylinders, both asked from Python", cheapest / _ratio(cost, "cylinders, from Python"),
+              10.0, "at_least", "", "the same claim where both pay for a call from Python"),
+        Check("Σ rμF_n tripping in, FCL against FCTD below 1900 m, largest difference", float(difference.max()),
+              2.0, "at_most", "%", f"facets: {wedge(FACETS):.1f} %; windows of a few seconds add their swing"),
+    ]  # fmt: skip
 
 
 def _ratio(cost: pd.DataFrame, loop: str) -> float:
