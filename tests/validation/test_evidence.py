@@ -4,8 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from references.engines import Window
 from validation import (
     contact_operations,
+    engines_agree,
     friction_laws,
     long_segment,
     mud_effects,
@@ -208,3 +210,10 @@ def test_in_straight_hole_coulomb_shares_one_force_and_the_paper_gives_two():
 def test_a_slope_is_the_power(power: float) -> None:
     step = np.array([1e-3, 5e-4, 1.25e-4])
     assert log_slope(step, 7 * step**power) == pytest.approx(power)
+
+
+@pytest.mark.parametrize("segments", [60, 170])
+def test_the_well_of_the_engines_has_the_segments_that_it_is_named_after(segments: int) -> None:
+    """Collars and pipe together; the long segment above is one more."""
+    collars, pipe, _ = engines_agree.well(segments, Window(44.0, 2.0)).string.components
+    assert collars.segments + pipe.segments == segments
