@@ -149,5 +149,4 @@ STUDY = Study(
     "beam_in_hole",
     "Does a short stiff string bend as beam theory says: on supports, in a pendulum, with a bent housing?",
     run,
-    reproduce=True,
 )

@@ -243,4 +243,4 @@ def notes(skipped: list[str]) -> list[str]:
     ]
 
 
-STUDY = Study("contact_accuracy", "What does each contact method get right, and what does a point cost?", run, True)
+STUDY = Study("contact_accuracy", "What does each contact method get right, and what does a point cost?", run)

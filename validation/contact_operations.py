@@ -196,4 +196,4 @@ def run(context: Context) -> Outcome:
     )
 
 
-STUDY = Study("contact_operations", "How many operations does a contact test take?", run, reproduce=True)
+STUDY = Study("contact_operations", "How many operations does a contact test take?", run)

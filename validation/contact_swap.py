@@ -262,6 +262,4 @@ def notes(missing: list[str]) -> list[str]:
     ]
 
 
-STUDY = Study(
-    "contact_swap", "What does the contact method cost in the loop, and does the torque depend on it?", run, True
-)
+STUDY = Study("contact_swap", "What does the contact method cost in the loop, and does the torque depend on it?", run)

@@ -118,8 +118,5 @@ def _known(numbers: pd.DataFrame) -> pd.Series:
 
 
 STUDY = Study(
-    "curved_chain",
-    "Does a chain in one bend give the soft string's loads, rotating, picked up and slacked off?",
-    run,
-    reproduce=True,
+    "curved_chain", "Does a chain in one bend give the soft string's loads, rotating, picked up and slacked off?", run
 )

@@ -59,4 +59,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("cylinder_error", "How short must a cylinder be?", run, reproduce=True)
+STUDY = Study("cylinder_error", "How short must a cylinder be?", run)

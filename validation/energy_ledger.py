@@ -100,4 +100,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("energy_ledger", "Is all the energy accounted for?", run, reproduce=True)
+STUDY = Study("energy_ledger", "Is all the energy accounted for?", run)

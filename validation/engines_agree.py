@@ -340,4 +340,4 @@ def notes(missing: list[str]) -> list[str]:
     ]
 
 
-STUDY = Study("engines_agree", "Does the same string give the same loads in engines that are not ours?", run, True)
+STUDY = Study("engines_agree", "Does the same string give the same loads in engines that are not ours?", run)

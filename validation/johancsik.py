@@ -55,9 +55,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study(
-    "johancsik",
-    "Do soft and stiff string give the numbers Johancsik published?",
-    run,
-    reproduce=True,
-)
+STUDY = Study("johancsik", "Do soft and stiff string give the numbers Johancsik published?", run)

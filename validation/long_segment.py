@@ -197,4 +197,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("long_segment", "What does one long segment for the vertical part change?", run, reproduce=True)
+STUDY = Study("long_segment", "What does one long segment for the vertical part change?", run)

@@ -10,7 +10,7 @@ from fctd import Case, equilibrium, simulate
 from fctd.drillstring import lay_out, section_of
 from fctd.topdrive import GRAVITY
 from validation.cases import load, rotation
-from validation.long_segment import PIPE, chain_frequencies, the_case
+from validation.long_segment import PIPE, chain_frequencies, continuous_frequencies, the_case
 from validation.steady import completed, last_seconds
 from validation.study import Check, Context, Outcome, Study
 
@@ -171,7 +171,7 @@ def _mode_rate(case: Case, turning: float) -> float:
     collar, pipe = (section_of(component, 0.0) for component in case.string.components[:2])
     assert case.string.components[0].length is not None
     below = case.string.components[0].length
-    w = 2 * np.pi * 0.23393
+    w = 2 * np.pi * continuous_frequencies(case)[1][0]
     md = np.linspace(0.0, BIT, 4901)
     speed = [np.sqrt(part.GJ / part.axial_inertia) for part in (pipe, collar)]
     joint = BIT - below
@@ -247,4 +247,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("mud_effects", "What do buoyancy and damping of the mud do?", run, reproduce=True)
+STUDY = Study("mud_effects", "What do buoyancy and damping of the mud do?", run)

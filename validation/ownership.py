@@ -63,4 +63,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("ownership", "Does the paper's FOR-loop find the right cylinder?", run, reproduce=True)
+STUDY = Study("ownership", "Does the paper's FOR-loop find the right cylinder?", run)

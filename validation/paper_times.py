@@ -109,4 +109,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("paper_times", "What do the paper's four hours imply?", run, reproduce=True)
+STUDY = Study("paper_times", "What do the paper's four hours imply?", run)

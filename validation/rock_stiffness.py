@@ -145,4 +145,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("rock_stiffness", "How much does the stiffness of the rock matter?", run, reproduce=True)
+STUDY = Study("rock_stiffness", "How much does the stiffness of the rock matter?", run)

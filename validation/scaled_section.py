@@ -346,8 +346,5 @@ def _slow_limit(context: Context, case: Case, element: float, step: float, clear
 
 
 STUDY = Study(
-    "scaled_section",
-    "Do 30 rigid segments touch a bend where a beam of finite elements does, and as hard?",
-    run,
-    reproduce=True,
+    "scaled_section", "Do 30 rigid segments touch a bend where a beam of finite elements does, and as hard?", run
 )

@@ -392,8 +392,5 @@ def _missing(table: pd.DataFrame) -> str:
 
 
 STUDY = Study(
-    "segment_count",
-    "How many segments, and how short cylinders, does an answer need, and what do they cost?",
-    run,
-    reproduce=True,
+    "segment_count", "How many segments, and how short cylinders, does an answer need, and what do they cost?", run
 )

@@ -161,8 +161,5 @@ def run(context: Context) -> Outcome:
 
 
 STUDY = Study(
-    "soft_limit",
-    "Does the stiff string become the soft string when clearance and bending stiffness go?",
-    run,
-    reproduce=True,
+    "soft_limit", "Does the stiff string become the soft string when clearance and bending stiffness go?", run
 )

@@ -229,4 +229,4 @@ NOTES = [
 ]
 
 
-STUDY = Study("soft_stiff_map", "Where does the soft string fail?", run, reproduce=True)
+STUDY = Study("soft_stiff_map", "Where does the soft string fail?", run)

@@ -116,8 +116,5 @@ def run(context: Context) -> Outcome:
 
 
 STUDY = Study(
-    "steady_state",
-    "Does the steady solver find what the stepper settles to, everywhere, and in milliseconds?",
-    run,
-    reproduce=True,
+    "steady_state", "Does the steady solver find what the stepper settles to, everywhere, and in milliseconds?", run
 )

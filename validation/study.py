@@ -133,12 +133,12 @@ class Context:
 class Study:
     """One question, and the function that answers it.
 
-    ``reproduce`` marks the studies that ``make reproduce`` runs. ``needs`` names what must be there, or the
-    study is skipped by name.
+    ``reproduce`` : whether ``make reproduce`` runs it. ``needs`` names what must be there, or the study is skipped by
+    name.
     """
 
     name: str
     question: str
     run: Callable[[Context], Outcome]
-    reproduce: bool
+    reproduce: bool = True
     needs: tuple[Need, ...] = ()

@@ -139,4 +139,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("well_profile", "Where does the paper's well run, and how well do Eqs 21–23 know it?", run, True)
+STUDY = Study("well_profile", "Where does the paper's well run, and how well do Eqs 21–23 know it?", run)
