@@ -17,6 +17,7 @@ from validation import (
 )
 from validation import well_profile as profile
 from validation.cases import load, rotation
+from validation.steady import TRIP_SPEED, TRIP_WINDOW, steady_trip
 from validation.study import log_slope
 
 
@@ -217,3 +218,14 @@ def test_the_well_of_the_engines_has_the_segments_that_it_is_named_after(segment
     """Collars and pipe together; the long segment above is one more."""
     collars, pipe, _ = engines_agree.well(segments, Window(44.0, 2.0)).string.components
     assert collars.segments + pipe.segments == segments
+
+
+@pytest.mark.parametrize("kind", ["trip_in", "trip_out"])
+def test_a_steady_trip_passes_its_depth_in_the_middle_of_what_is_read(kind: str) -> None:
+    case = load("paper_well", operations=steady_trip(kind, 2000.0))
+    (trip,) = case.operations
+    assert trip.kind == kind
+    half = 0.5 * TRIP_WINDOW * TRIP_SPEED
+    assert trip.end_md == 2000.0 + (half if kind == "trip_in" else -half)
+    # What is left before the window is more than the ramp takes.
+    assert abs(trip.start_md - 2000.0) - half > 0.5 * trip.ramp_time * TRIP_SPEED
