@@ -3,6 +3,7 @@
 import itertools
 
 import numpy as np
+import pandas as pd
 import pytest
 
 pytest.importorskip("matplotlib")
@@ -59,3 +60,10 @@ def test_series_differ_in_lightness_from_their_neighbours():
 
     light = [lightness(colour) for colour in style.COLOURS]
     assert min(abs(a - b) for a, b in itertools.pairwise(light)) > 0.03
+
+
+def test_the_first_row_is_on_top_and_zero_in_the_middle():
+    ax = style.figure(2.0).subplots()
+    style.rows_downwards(ax, ["first", "second"])
+    assert ax.get_ylim() == (1.5, -0.5)
+    assert style.around_zero(pd.Series([-2.0, np.nan, 1.0])) == (-3.0, 3.0)

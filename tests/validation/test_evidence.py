@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from references.engine_run import hann_means
 from references.engines import Window
 from validation import (
     contact_operations,
@@ -229,3 +230,10 @@ def test_a_steady_trip_passes_its_depth_in_the_middle_of_what_is_read(kind: str)
     assert trip.end_md == 2000.0 + (half if kind == "trip_in" else -half)
     # What is left before the window is more than the ramp takes.
     assert abs(trip.start_md - 2000.0) - half > 0.5 * trip.ramp_time * TRIP_SPEED
+
+
+def test_a_swing_leaves_next_to_nothing_in_a_mean() -> None:
+    time = np.linspace(0, 1, 400)
+    rows = pd.DataFrame({"time_s": time, "load": 5 + np.cos(6.5 * np.pi * time), "operation": "trip_in"})
+    assert abs(rows["load"].mean() - 5) > 0.03
+    assert hann_means(rows)["load"] == pytest.approx(5, abs=0.01)
