@@ -85,11 +85,12 @@ class _Points:
         fields = [field for (field,) in basis.basis]
         table = [np.concatenate([field.grad[slopes, 0], np.asarray(field)[values]]) for field in fields]
         # (elements, points, r, functions)
-        self.table = np.ascontiguousarray(np.array(table).transpose(2, 3, 1, 0))
-        self.dofs, self.dx, self.size = basis.element_dofs.T, basis.dx, basis.N
+        self.table: Array = np.ascontiguousarray(np.array(table).transpose(2, 3, 1, 0))
+        self.dofs: NDArray[np.int64] = basis.element_dofs.T
+        self.size: int = basis.N
         self._flat = self.table.reshape(len(self.dofs), -1, self.dofs.shape[1])
         weighted = self.table * basis.dx[:, :, None, None]
-        self._weighted = np.ascontiguousarray(weighted.reshape(self._flat.shape).transpose(0, 2, 1))
+        self._weighted: Array = np.ascontiguousarray(weighted.reshape(self._flat.shape).transpose(0, 2, 1))
 
     def of(self, q: Array) -> Array:
         """The components in state q, shape (r, elements, points)."""
@@ -99,12 +100,12 @@ class _Points:
     def forces(self, density: Array) -> Array:
         """Nodal forces of a density (r, elements, points) against the components."""
         elements = self._weighted @ density.transpose(1, 2, 0).reshape(len(self.dofs), -1, 1)
-        return np.bincount(self.dofs.ravel(), elements.ravel(), self.size)
+        return np.asarray(np.bincount(self.dofs.ravel(), elements.ravel(), self.size), np.float64)
 
     def tangents(self, density: Array) -> Array:
         """Tangents (elements, functions, functions) of forces whose density has the derivative (r, r, ...)."""
         product = density.transpose(2, 3, 0, 1) @ self.table
-        return np.asarray(self._weighted @ product.reshape(self._flat.shape))
+        return self._weighted @ product.reshape(self._flat.shape)
 
     def matrix(self, tangents: Array) -> csc_matrix:
         """The tangents of all elements as one matrix."""
