@@ -54,16 +54,16 @@ def swings(default: pd.DataFrame) -> pd.DataFrame:
 def run(context: Context) -> Outcome:
     """Reading (a): law ``paper``, tripping in, Σ rμF_n.  Reading (b): law ``coulomb``, rotating at each depth."""
     depths = np.arange(1750.0, 2450.1, 100.0 if context.quick else 25.0)
-    trips, turns, profiles, runs = [], [], [], []
+    trips: dict[str, pd.DataFrame] = {}
+    turns, profiles, runs = [], [], []
     balance = [0.0]
     for variant, file in VARIANTS.items():
         # The first run of a process also loads or compiles code, and the table is about later ones.
         simulate(load(file, contact__friction_law="paper", operations__0__to_md=FIRST_METRES))
         result = simulate(load(file, contact__friction_law="paper", record__profile_at=PROFILE_DEPTHS))
         runs.append(numbers(f"{variant}: trip in, law paper", result))
-        trips.append(result.history[HISTORY].assign(variant=variant))
+        trips[variant] = result.history
         profiles.append(result.profile[PROFILE].assign(variant=variant))
-        tripped = result
         for depth in context.progress(depths, f"{variant}: rotating"):
             turning = rotation(float(depth), duration=60.0, ramp=20.0)
             result = simulate(load(file, operations=turning, record__interval=0.25))
@@ -75,11 +75,11 @@ def run(context: Context) -> Outcome:
     table, rotating = pd.DataFrame(runs), pd.DataFrame(turns)
     return Outcome(
         tables={
-            "trip_in": pd.concat(trips),
+            "trip_in": pd.concat(history[HISTORY].assign(variant=variant) for variant, history in trips.items()),
             "rotating": rotating,
             "profiles": pd.concat(profiles),
             "runs": table,
-            "swing": swings(tripped.history),
+            "swing": swings(trips["paper-well-b"]),
         },
         checks=[
             Check("runs that did not complete", float((table["status"] != "completed").sum()), 0, "at_most", "",
