@@ -91,7 +91,7 @@ def torques(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "costs",
-        "What one segment costs in one step of the same loop with each contact method, for 60 and 170 segments. "
+        "What one segment costs in one step of the same loop with each contact method, by number of segments. "
         "Compiled loops need no call from Python; the row that asks and finds nothing is what such calls cost.",
         costs,
     ),
