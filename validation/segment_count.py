@@ -23,7 +23,7 @@ COUNTS = (5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320, 480, 640)
 QUICK_COUNTS = (20, 40, 60, 80, 160, 320, 640)
 FINEST = (5120, 2560, 1280, 640)
 FITTED_FROM = 20  # orders are; below it a string is a handful of rods
-STEPPED_COUNTS = (15, 30, 60, 120, 240, 480, 960)
+STEPPED_COUNTS = (10, 15, 30, 60, 120, 240, 480, 960)
 STEPPED = ("paper-well", "4.5°/30 m")
 CYLINDERS = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # [m]
 IN_CYLINDERS = 320  # segments of the string in which the cylinders are varied
@@ -130,7 +130,7 @@ def answer(of: Well, case: Case, repeats: int = 1) -> Answer | None:
 def _read(of: Well, point: Equilibrium, hookload: float, cost_ms: float) -> Answer:
     profile = point.profile
     md, force = profile["md_m"].to_numpy(), profile["contact_force_N"].to_numpy()
-    grid = np.linspace(point.case.string.top_md, of.bit, 4001)
+    grid = _grid(of, point.case)
     # Half of a point's own force counts at the point: a row of points is then as good as the load they stand for.
     contact = np.interp(grid, md, np.cumsum(force) - 0.5 * force)
     moment = np.interp(grid, md, profile["bending_moment_N_m"])
@@ -151,6 +151,15 @@ def _read(of: Well, point: Equilibrium, hookload: float, cost_ms: float) -> Answ
     )
 
 
+def _grid(of: Well, case: Case) -> Array:
+    """Depths [m] at which strings are compared."""
+    return np.linspace(case.string.top_md, of.bit, 4001)
+
+
+def _root_mean_square(values: Array) -> float:
+    return float(np.sqrt((values**2).mean()))
+
+
 def errors(found: Answer, exact: Answer) -> dict[str, float]:
     """Errors in percent: of loads, of side force (mean over depth) and moment (RMS) along the string."""
     frictionless = exact.friction < 1e-6 * exact.hookload
@@ -158,7 +167,7 @@ def errors(found: Answer, exact: Answer) -> dict[str, float]:
         "torque_percent": float("nan") if frictionless else 100 * abs(found.torque / exact.torque - 1),
         "hookload_percent": 100 * abs(found.hookload / exact.hookload - 1),
         "contact_percent": 100 * float(np.abs(found.contact - exact.contact).mean() / exact.contact[-1]),
-        "moment_percent": 100 * float(np.sqrt(((found.moment - exact.moment) ** 2).mean() / (exact.moment**2).mean())),
+        "moment_percent": 100 * _root_mean_square(found.moment - exact.moment) / _root_mean_square(exact.moment),
         "bend_moment_percent": 100 * abs(found.bend_moment / exact.bend_moment - 1),
     }
 
@@ -253,8 +262,12 @@ def vary_cylinders(name: str, lengths: Sequence[float]) -> pd.DataFrame:
 
 
 def step_through(name: str, counts: Sequence[int]) -> pd.DataFrame:
-    """The stepper at each count: its torque beside the steady solver's, and its cost; a minute turning off bottom."""
+    """The stepper at each count: torque beside the steady solver's, and its cost; a minute turning off bottom.
+
+    Torque and moment also against the stepper's own at the largest count, which knows nothing of the solver.
+    """
     of, rows = WELLS[name], []
+    moments: dict[int, Array] = {}
     for count in counts:
         case = of.case(count, {"geometry": "arcs"})
         operations = load("curved_chain", operations=rotation(of.bit, 60.0, 15.0)).operations
@@ -265,6 +278,8 @@ def step_through(name: str, counts: Sequence[int]) -> pd.DataFrame:
         if result.status == "completed":
             steady = Solver(case).solve("rotate_off_bottom", steady_rates(case, "rotate_off_bottom"), of.bit)
             torque = last_seconds(result, 30.0)["surface_torque_N_m"]
+            profile = result.profile
+            moments[count] = np.interp(_grid(of, case), profile["md_m"], profile["bending_moment_N_m"])
             row |= {
                 "torque_kN_m": torque / 1e3,
                 "off_steady_percent": 100 * (torque / steady.surface_torque - 1),
@@ -273,7 +288,15 @@ def step_through(name: str, counts: Sequence[int]) -> pd.DataFrame:
                 "us_per_step": 1e6 * spent / result.run["steps"],
             }
         rows.append(row)
-    return pd.DataFrame(rows)
+    table, largest = pd.DataFrame(rows), max(moments)
+    torques = table.set_index("segments")["torque_kN_m"]
+    table["torque_off_largest_percent"] = 100 * (table["torque_kN_m"] / torques[largest] - 1).abs()
+    off = {
+        n: 100 * _root_mean_square(m - moments[largest]) / _root_mean_square(moments[largest])
+        for n, m in moments.items()
+    }
+    table["moment_off_largest_percent"] = table["segments"].map(off)
+    return table
 
 
 def cost_laws(counts: pd.DataFrame, stepped: pd.DataFrame) -> pd.DataFrame:
