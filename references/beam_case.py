@@ -63,8 +63,8 @@ def steady(case: Case, bit_depth: float, segments: int = 1) -> Steady:
     string = lay_out(case, bit_depth)
     ends = np.append(0.0, np.cumsum(string.length))
     nodes = np.append(ends[:-1:segments], ends[-1])
-    brakes = {"lateral_damping": BRAKE * section.mass, "axial_damping": BRAKE * section.mass}
-    falling = Beam(nodes, section, around._replace(friction=0.0, **brakes))
+    brake = BRAKE * section.mass
+    falling = Beam(nodes, section, around._replace(friction=0.0, lateral_damping=brake, axial_damping=brake))
     along, numbers = falling.points()
     (z, x), tilt = around.hole.at(string.top_md + along)
     start, held = np.empty(falling.strains.N), falling.dofs(0.0)

@@ -35,7 +35,7 @@ def twisted(case: Case, bit_depth: float, angle: Callable[[Array], Array], durat
     # Angles of the top drive and of the discs; the most that friction takes of a disc's rate in a step.
     angles, rate, most = np.zeros(len(ends) + 1), np.zeros(len(ends)), step * held / inertia
     torque = np.empty(round(duration / step))
-    for k, drive in enumerate(angle(step * np.arange(1, len(torque) + 1))):
+    for k, drive in enumerate(angle(np.arange(1, len(torque) + 1) * np.float64(step))):
         angles[0] = drive
         pull = spring * (angles[:-1] - angles[1:])
         torque[k] = pull[0]

@@ -352,7 +352,9 @@ def notes(missing: list[str]) -> list[str]:
         "Rows of the 1000:1 model with Bullet are read in millimetres, as a user of Adams would: limits and tolerances "
         "that Bullet has in its own units spoil both, and the checks say so. The naive model is beyond the steady "
         "solver at a thousandth (its row says so) and is computed at full size with steel a thousand times as stiff, "
-        "which similarity makes the same; at a tenth both ways are computed and agree.",
+        "which similarity makes the same; at a tenth both ways are computed and agree. A second route, which needs "
+        "neither solver nor similarity, is the stepper: it runs the naive model at a thousandth as it is, but for wall "
+        "and dampers, which are those of a small string.",
     ]
 
 

@@ -209,8 +209,8 @@ def run(context: Context) -> Outcome:
             "37.5 m says how much of a difference the cutting itself makes. The ripple of a trip's "
             "hook load, stirred up where sliding joints meet those of the hole, is settled by neither.",
             "Long twisting alone is a second route to the difference of a rotating start's torque: discs on torsion "
-            "springs with dry friction, whose limits are the soft string's, lumped otherwise than the engine's bodies; no "
-            "contact, no bending, no axial motion.",
+            "springs with dry friction, whose limits are the soft string's, lumped otherwise than the engine's bodies; "
+            "no contact, no bending, no axial motion.",
             "The long segment touches the wall at its lower end alone. What presses vertical pipe to the wall in "
             "earnest, buckling and whirl, it cannot show; in compression it would be stiffer than the pipe is.",
         ],

@@ -240,8 +240,8 @@ def run(context: Context) -> Outcome:
         notes=[
             "The engine buoys weight and leaves inertia the steel's own. §5.4 multiplies the density of the pipe by "
             "the buoyancy factor; where that density is the inertia's as well, every wave is faster by 1/√BF.",
-            "Torque change soft is a second route to the change of torque: the closed form c Ω L over the torque of the "
-            "soft string, which knows nothing of damping.",
+            "Torque change soft is a second route to the change of torque: the closed form c Ω L over the torque of "
+            "the soft string, which knows nothing of damping.",
             "Damping is that of laminar Newtonian mud in a concentric annulus without flow: 30 mPa s is a common mud, "
             "100 mPa s a thick one. The paper prints no coefficients. Flow, eccentricity and tool joints would add to "
             "them.",

@@ -104,8 +104,8 @@ def run(context: Context) -> Outcome:
         ],
         notes=[
             "The paper prints neither tripping speed nor step. Four hours for 2250 m are real time up to 0.16 m/s, "
-            "or 560 m an hour: a trip with connections of two minutes is as fast, the pipe between them is not that slow. "
-            "If the four hours are for the 500 m from the kick-off on, the speed is 0.035 m/s.",
+            "or 560 m an hour: a trip with connections of two minutes is as fast, the pipe between them is not that "
+            "slow. If the four hours are for the 500 m from the kick-off on, the speed is 0.035 m/s.",
             "Its run without contact took 27 ms a metre, its trip 6.4 s a metre, 240 times as much. Steps, segments "
             "and speeds of the two may have differed; if they did not, nearly all of the four hours went into contact.",
             "Ours have 61 segments on one core, compile time and settling excluded; the free one hangs in a vertical "

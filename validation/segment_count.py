@@ -1,7 +1,7 @@
 """Accuracy and cost against the number of segments and the length of the cylinders (§5.6)."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,9 +12,9 @@ from fctd import Case, Equilibrium, simulate, survey
 from fctd.equilibrium import Solver
 from fctd.operations import steady_rates
 from validation.cases import load, rotation
+from validation.segmented_wells import WELLS, Well
 from validation.steady import last_seconds
 from validation.study import Check, Context, Outcome, Study
-from validation.wells import BUILD, PIPE, SHARP, Stations, catenary, well
 
 Array = NDArray[np.float64]
 
@@ -27,65 +27,10 @@ STEPPED_COUNTS = (10, 15, 30, 60, 120, 240, 480, 960)
 STEPPED = ("paper-well", "4.5°/30 m")
 CYLINDERS = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # [m]
 IN_CYLINDERS = 320  # segments of the string in which the cylinders are varied
-# Refining the string must not stiffen the wall [N/m/m].
-WALL = {"stiffness": None, "stiffness_per_length": 1e6}
-BITE = {f"wellbore__{key}": value for key, value in WALL.items()}
-
-PAPER: Stations = [[0, 0, 45], [1750, 0, 45], [2250, 58, 45], [2450, 90, 45], [4300, 90, 45]]
-PAPER_B: Stations = [[0, 0, 45], [1750, 0, 45], [2112.5, 58, 45], [2250, 58, 45], [2450, 90, 45], [4300, 90, 45]]
 ERRORS = ("torque", "hookload", "contact", "moment", "bend_moment")
 LIMITS = (1.0, 0.1)  # percent
 STEADY, ITERATION = "a steady string", "an iteration of it"
 STEP, SECOND = "a step of the stepper", "a simulated second"
-
-
-class Well(NamedTuple):
-    """A case for each number of segments and hole, its bit depth [m], and where the string lies in a bend [m]."""
-
-    case: Callable[[int, dict[str, Any]], Case]
-    bit: float
-    bend: float
-
-
-def _paper(name: str, stations: Stations) -> Callable[[int, dict[str, Any]], Case]:
-    """Collars and pipe share the count as in §6.2, one to two; the long segment above stays one."""
-
-    def build(count: int, hole: dict[str, Any]) -> Case:
-        collars = max(round(count / 3), 1)
-        return load(
-            name, wellbore__survey=None, wellbore__stations=stations, string__components__0__segments=collars,
-            string__components__1__segments=count - collars, **BITE, **_keys(hole),
-        )  # fmt: skip
-
-    return build
-
-
-def _scaled(count: int, hole: dict[str, Any]) -> Case:
-    return load("scaled_section", string__components__0__segments=count, **_keys({"overlap": "20 mm"} | hole))
-
-
-def _synthetic(name: str, stations: Stations) -> Callable[[int, dict[str, Any]], Case]:
-    def build(count: int, hole: dict[str, Any]) -> Case:
-        depth = stations[-1][0]
-        return well(name, stations, [{**PIPE, "length": depth, "segments": count}], {**WALL, **hole})
-
-    return build
-
-
-def _keys(hole: dict[str, Any]) -> dict[str, Any]:
-    sizes: dict[str, Any] = {"chord_tolerance": None, "cylinder_length": None}
-    return {f"wellbore__{key}": value for key, value in (sizes | hole).items()}
-
-
-_CATENARY = catenary()
-WELLS: dict[str, Well] = {
-    "paper-well": Well(_paper("paper_well", PAPER), 2450.0, 2000.0),
-    "paper-well-b": Well(_paper("paper_well_b", PAPER_B), 2450.0, 1930.0),
-    "scaled-section": Well(_scaled, 44.0, 38.0),
-    "4.5°/30 m": Well(_synthetic("build", BUILD), 1500.0, 600.0),
-    "30°/100 ft": Well(_synthetic("sharp", SHARP), SHARP[-1][0], 0.5 * (SHARP[1][0] + SHARP[2][0])),
-    "catenary": Well(_synthetic("catenary", _CATENARY), _CATENARY[-1][0], 0.5 * _CATENARY[-1][0]),
-}
 
 
 class Answer(NamedTuple):
