@@ -76,8 +76,9 @@ def steady(case: Case, bit_depth: float, segments: int = 1) -> Steady:
     for share in RUBBING:
         sliding = Beam(nodes, section, around._replace(friction=share * around.friction))
         rest = statics(sliding, rest, held, velocity=downhole)
-    reaction = sliding.resistance(rest, downhole)[0][held]
-    return Steady(float(np.abs(pressure * falling.wall.dx).sum()), -float(reaction[0]))
+    pulled = -sliding.resistance(rest, downhole)[0][numbers[0, :2]]
+    along_hole = float(pulled @ [np.cos(tilt[0]), np.sin(tilt[0])])
+    return Steady(float(np.abs(pressure * falling.wall.dx).sum()), along_hole)
 
 
 def pipe_and_hole(case: Case) -> tuple[Section, Surroundings]:

@@ -4,18 +4,25 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fctd.contact import DIRECTION, START
+from fctd.run import prepare
+from references.for_loop import one_cylinder
 from validation import (
     contact_operations,
     energy_ledger,
+    engines_agree,
     friction_laws,
     long_segment,
     mud_effects,
+    ownership,
     paper_times,
     rock_stiffness,
+    segment_count,
     soft_stiff_map,
 )
 from validation import well_profile as profile
 from validation.cases import load, rotation
+from validation.study import Context
 
 
 def test_a_uniform_string_has_the_frequencies_of_a_quarter_wave():
@@ -180,6 +187,99 @@ def test_the_exact_well_is_smooth_and_as_long_as_its_measured_depth():
     cosine = np.sum(step[1:] * step[:-1], axis=1) / 0.05**2
     assert np.degrees(np.arccos(np.clip(cosine, -1, 1))).max() < 0.01
     assert profile.exact(np.array([2000.0]))[0, :2] == pytest.approx([43.790401] * 2, abs=1e-5)
+
+
+def test_the_well_summed_up_is_the_closed_form():
+    md = np.array([1750.0, 2000.0, 2250.0, 2450.0, 4300.0])
+    assert profile.integrated(md) == pytest.approx(profile.exact(md), abs=1e-6)
+
+
+def test_the_average_angle_s_second_route_finds_as_much():
+    rows = profile.run(Context(quick=True)).tables["methods"]
+    average = rows[rows["method"] == "average angle"]
+    assert average["off_integrated_m"].to_numpy() == pytest.approx(average["off_m"].to_numpy(), rel=1e-6)
+    # One build of 58°: its chord is longer than the arc's by half of the angle over its sine.
+    assert average["off_m"].iloc[1] > 500 * (1 - np.sinc(29 / 180))
+
+
+def test_a_connection_of_two_minutes_makes_the_papers_trip_real_time():
+    """2250 m in 4 h, stands of 28 m run at half a metre a second."""
+    assert 2250 / 28 * (56 + paper_times.connection(14400 / 2250)) == pytest.approx(14400)
+
+
+def test_points_of_a_straight_well_lie_where_they_were_made(monkeypatch):
+    monkeypatch.setattr(ownership, "WELLS", {name: ownership.WELLS[name] for name in ("build to 60°", "build to 120°")})
+    gentle, turned_back = ownership.run(Context(quick=True)).tables["owners"].to_dict("records")
+    assert gentle["elsewhere_percent"] == gentle["wrong_owner_percent"] == 0
+    assert turned_back["elsewhere_percent"] == pytest.approx(turned_back["wrong_owner_percent"], abs=0.2)
+    assert turned_back["elsewhere_percent"] > 10
+
+
+def test_a_library_is_raced_without_the_price_of_asking_it(monkeypatch):
+    """Times of ours, in place of measured ones: what a mesh costs is told over the paper's search and test."""
+    pytest.importorskip("trimesh")
+    ns = {contact_operations.ONE: 2.0, contact_operations.SEARCH: 98.0, contact_operations.ASKING: 150.0}
+    ns |= {contact_operations.TREE: 300.0, contact_operations.LIBRARY: 650.0}
+
+    def told(actions, counts, rounds, baseline):
+        for action in actions.values():
+            action()
+        assert baseline == contact_operations.SEARCH
+        return pd.DataFrame([{"name": name, "ns": ns[name], "ratio": ns[name] / 98.0} for name in actions])
+
+    monkeypatch.setattr(contact_operations, "race", told)
+    run, _ = prepare(load("scaled_section"))
+    found = contact_operations.times(run, True, 1).set_index("what")
+    assert found["over_one_cylinder"].to_dict() == pytest.approx(
+        {contact_operations.ONE: 1.0, contact_operations.SEARCH: 49.0, contact_operations.TREE: 150.0}
+        | ({contact_operations.LIBRARY: 250.0} if contact_operations.LIBRARY in found.index else {})
+    )
+    assert found.loc[contact_operations.TREE, "over_search_and_test"] == pytest.approx(3.0)
+
+
+def test_the_test_of_one_cylinder_is_the_papers_and_finds_the_distance_from_its_axis():
+    run, _ = prepare(load("paper_well", operations=rotation(2000.0, 1.0, 0.5)))
+    points = contact_operations.spheres(run)[0] + np.array([0.03, -0.02, 0.0])
+    owners, pieces = run.hole.owners(points), run.hole.pieces
+    away = points - pieces[owners, START : START + 3]
+    axes = pieces[owners, DIRECTION : DIRECTION + 3]
+    across = away - np.sum(away * axes, axis=1)[:, None] * axes
+    assert one_cylinder(pieces, points, owners) == pytest.approx(np.sum(across**2, axis=1), abs=1e-7)
+    assert np.isinf(one_cylinder(pieces, points, np.zeros_like(owners))[-1])
+
+
+def test_a_long_segment_twists_otherwise_than_what_it_stands_for(monkeypatch):
+    assert 10 < long_segment.twisting((2.0,))[2.0] < 13
+    monkeypatch.setattr(long_segment, "WATCHED", 1.0)
+    monkeypatch.setattr(long_segment, "the_case", lambda vertical, the_case=long_segment.the_case: the_case(37.5))
+    assert long_segment.twisting((2.0,)) == {2.0: 0.0}
+
+
+def test_finite_elements_are_told_over_the_soft_string_and_beside_the_segments():
+    pytest.importorskip("skfem")
+    bend = soft_stiff_map.PIPE, 60.0, 0.02, soft_stiff_map.LIGHT
+    row = soft_stiff_map.by_finite_elements(*bend, 4)
+    assert row["segments_off_percent"] < 1.0
+    stiff = pd.DataFrame(soft_stiff_map.compare(*bend)).set_index("operation").loc["trip_in"]
+    assert row["hookload_percent"] == pytest.approx(stiff["hookload_percent"], abs=1.0)
+    assert row["largest_percent"] == max(abs(row["hookload_percent"]), abs(row["torque_percent"]))
+
+
+def test_the_naive_model_at_its_own_size_is_a_thousandth_of_the_chain():
+    model, chain = engines_agree.small(), load("curved_chain")
+    assert model.string.components[0].outer_diameter == pytest.approx(chain.string.components[0].outer_diameter / 1e3)
+    assert model.string.components[0].youngs_modulus == chain.string.components[0].youngs_modulus
+    assert model.operations[0].start_md == pytest.approx(engines_agree.BIT / 1e3)
+    # By similarity: what a stiff wall of the whole chain would be.
+    assert model.wellbore.stiffness == pytest.approx(1e4)
+
+
+def test_the_stepper_s_moments_are_held_against_its_own_largest_count():
+    found = segment_count.step_through("4.5°/30 m", (5, 10)).set_index("segments")
+    assert found.loc[10, ["torque_off_largest_percent", "moment_off_largest_percent"]].to_list() == [0, 0]
+    few, many = found["torque_kN_m"]
+    assert found.loc[5, "torque_off_largest_percent"] == pytest.approx(100 * abs(few / many - 1))
+    assert 5 < found.loc[5, "moment_off_largest_percent"] < 200
 
 
 def test_the_papers_equations_give_the_wall_and_cost_what_it_says():
