@@ -1,7 +1,7 @@
 """Where the soft string fails (§2.1): soft against stiff over dog-leg severity, clearance, stiffness and tension."""
 
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -28,15 +28,17 @@ SEVERITIES = (5.0, 10.0, 20.0, 30.0, 45.0, 60.0)  # [deg/100 ft]
 CLEARANCES = (0.005, 0.01, 0.02, 0.05, 0.1)  # [m]
 QUICK = (10.0, 20.0, 30.0, 60.0), (0.005, 0.05)
 LIMIT, NARROW, ORDINARY = 30.0, 0.005, 0.05  # the paper's limit; clearances [m]
-# Bends that finite elements answer as well: those that the paper's claims turn on, and one more.
-CORNERS = (
-    (PIPE, LIMIT, ORDINARY, HEAVY),  # a sharp bend that the soft string gets right
-    (COLLAR, 20.0, NARROW, LIGHT),  # a gentle one that it does not
-    (COLLAR, 20.0, NARROW, HEAVY),  # and one of collars that it does
-    (PIPE, LIMIT, ORDINARY, LIGHT),
-)
 FAILS = 10.0  # percent: what the paper itself allows between model and measurement (§7)
 LOADS = ("hookload_percent", "torque_percent")
+
+
+class Bend(NamedTuple):
+    """String, severity [deg/100 ft], clearance [m], and straight hole above and below [m]."""
+
+    string: str
+    severity: float
+    clearance: float
+    straight: tuple[float, float]
 
 
 def segment(severity: float, clearance: float) -> float:
@@ -154,13 +156,36 @@ def by_finite_elements(
     }
 
 
-def largest(rows: pd.DataFrame, condition: str = "severity > 0") -> "pd.Series[float]":
-    """Largest difference of hook load or torque over the operations, a row for each bend that meets a condition."""
+def bends(rows: pd.DataFrame) -> pd.DataFrame:
+    """Largest difference of hook load or torque over the operations, a row for each bend: ``off``."""
     short = rows.rename(columns={"severity_deg_per_100ft": "severity", "clearance_mm": "clearance", "hold_m": "hold"})
     short["off"] = short[list(LOADS)].abs().max(axis=1)
-    bends = short.groupby(["string", "hold", "severity", "clearance"], sort=False)["off"].max().reset_index()
-    off: pd.Series[float] = bends.query(condition)["off"]
+    return short.groupby(["string", "hold", "severity", "clearance"], sort=False)["off"].max().reset_index()
+
+
+def largest(rows: pd.DataFrame, condition: str = "severity > 0") -> "pd.Series[float]":
+    """The differences of ``bends`` that meet a condition."""
+    off: pd.Series[float] = bends(rows).query(condition)["off"]
     return off
+
+
+def deciding(rows: pd.DataFrame) -> dict[str, Bend]:
+    """The bends whose numbers decide on §2.1, and one that the soft string fails in because little hangs below it."""
+    off, gentle = bends(rows), f"severity < {LIMIT}"
+    asked = {
+        "least beyond 30°/100 ft": (f"severity >= {LIMIT}", True),
+        "largest below 30°/100 ft": (gentle, False),
+        "largest of collars below 30°/100 ft, much weight below": (
+            f"{gentle} and string == '{COLLAR}' and hold == {HEAVY[1]}",
+            False,
+        ),
+    }
+    chosen = {}
+    for name, (condition, least) in asked.items():
+        bend = off.query(condition).sort_values("off", ascending=least).iloc[0]
+        straight = HEAVY if bend["hold"] == HEAVY[1] else LIGHT
+        chosen[name] = Bend(bend["string"], bend["severity"], 1e-3 * bend["clearance"], straight)
+    return chosen | {"30°/100 ft, clearance 50 mm, little weight below": Bend(PIPE, LIMIT, ORDINARY, LIGHT)}
 
 
 def run(context: Context) -> Outcome:
@@ -176,8 +201,11 @@ def run(context: Context) -> Outcome:
     display = {"light": "Stiff string over soft string, percent: little weight below the bend"}
     checks = checks_of(rows, half)
     # Elements of two segments or of four: their quadratic shapes bend within.
-    bends, size = (CORNERS[:3], 4) if context.quick else (CORNERS, 2)
-    routes = [by_finite_elements(*bend, size) for bend in context.progress(bends, "finite elements")]
+    chosen, size = list(deciding(rows).items()), 4 if context.quick else 2
+    routes = [
+        {"bend": name, **by_finite_elements(*bend, size)}
+        for name, bend in context.progress(chosen[: -1 if context.quick else None], "finite elements")
+    ]
     tables["second_route"] = other = pd.DataFrame(routes)
     display["second_route"] = "Finite elements over soft string; and how far rigid segments are from them"
     checks.append(

@@ -258,6 +258,7 @@ def test_a_quick_run_may_leave_a_number_out(judged):
         ("[[claim]]", "[claim", "a TOML file"),
         ('because = "target"', 'because = "target"\nuntestable = "why"', "number or untestable, not both"),
         ('because = "target"', 'because = "target"\none_route = "why"', "one_route = .* nothing, but for a claim that"),
+        ('verdict = "holds"', 'one_route = "why"', "one_route = .* nothing, but for a claim that"),
     ],
 )
 def test_a_ledger_that_cannot_be_meant_is_refused(register, tmp_path, old, new, message):

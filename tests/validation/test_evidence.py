@@ -167,6 +167,26 @@ def test_a_bend_is_as_far_off_as_the_worst_of_its_operations():
     assert soft_stiff_map.largest(rows, "severity >= 30 and string == 'pipe'").to_list() == [4.0]
 
 
+def test_the_bends_that_decide_are_those_of_the_least_and_the_largest_number():
+    columns = ["string", "hold_m", "severity_deg_per_100ft", "clearance_mm", "hookload_percent", "torque_percent"]
+    pipe, collar = soft_stiff_map.STRINGS
+    rows = [
+        (pipe, 600.0, 30.0, 5.0, -4.0, 9.0),
+        (pipe, 25.0, 30.0, 50.0, -1.0, 0.5),
+        (collar, 600.0, 60.0, 5.0, 2.0, -20.0),
+        (collar, 25.0, 20.0, 5.0, 3.0, 77.0),
+        (collar, 600.0, 20.0, 5.0, 1.0, 6.0),
+        (collar, 600.0, 10.0, 50.0, -8.0, 5.0),
+        (pipe, 600.0, 20.0, 50.0, 1.0, 10.0),
+    ]
+    found = list(soft_stiff_map.deciding(pd.DataFrame(rows, columns=columns)).values())
+    assert found[:3] == [
+        (pipe, 30.0, 0.05, soft_stiff_map.LIGHT),
+        (collar, 20.0, 0.005, soft_stiff_map.LIGHT),
+        (collar, 10.0, 0.05, soft_stiff_map.HEAVY),
+    ]
+
+
 def test_ratio_of_nothing_is_no_number():
     assert friction_laws._ratio(4.5, 1.5) == 3.0
     assert np.isnan(friction_laws._ratio(0.0, 1e-13))
