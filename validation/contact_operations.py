@@ -27,7 +27,7 @@ BIT = 2450.0
 SPEED = 0.5  # [m/s] of the trip that ends there
 PASSES = 4.0  # [s] in which every point of a bend passes one of its cylinders of 2 m
 PARTS = ("add", "subtract", "multiply", "divide", "root", "compare")
-FACETS = 24  # of the coarsest mesh, whose facets miss the hole by as much as the cylinders do
+FACETS = 24  # of the coarser mesh: rings miss a bend as cylinders do, facets the hole by a millimetre more
 ONE, SEARCH = "paper: one cylinder, |PT|²", "paper's FOR-loop over cylinders from the top"
 ASKING = "asking a library for nothing"  # from Python: no cost of its contact
 TREE, LIBRARY = f"mesh of {FACETS} facets: tree of boxes", f"mesh of {FACETS} facets: coal"
@@ -245,6 +245,9 @@ def run(context: Context) -> Outcome:
             "The mesh has rings every 2 m at most. python-fcl and coal report no counts; this tree's boxes are "
             "aligned with the global axes and cheaper to test than their oriented ones. Its answers equal coal's to "
             "rounding.",
+            "Counts are not times: the operations of a FOR-loop stand in a row, those of a tree wait for boxes and for "
+            "branches. The table of times is of the same points and of the very code that was counted, compiled; what "
+            "asking coal from Python costs is taken from its.",
         ],
         display={"operations": "Operations a point", "times": "The same in time, all compiled; medians of turns"},
     )
