@@ -101,8 +101,9 @@ def _grid(of: Well, case: Case) -> Array:
     return np.linspace(case.string.top_md, of.bit, 4001)
 
 
-def _root_mean_square(values: Array) -> float:
-    return float(np.sqrt((values**2).mean()))
+def moment_error(found: Array, exact: Array) -> float:
+    """RMS along the string, in percent."""
+    return 100 * float(np.sqrt(((found - exact) ** 2).mean() / (exact**2).mean()))
 
 
 def errors(found: Answer, exact: Answer) -> dict[str, float]:
@@ -112,7 +113,7 @@ def errors(found: Answer, exact: Answer) -> dict[str, float]:
         "torque_percent": float("nan") if frictionless else 100 * abs(found.torque / exact.torque - 1),
         "hookload_percent": 100 * abs(found.hookload / exact.hookload - 1),
         "contact_percent": 100 * float(np.abs(found.contact - exact.contact).mean() / exact.contact[-1]),
-        "moment_percent": 100 * _root_mean_square(found.moment - exact.moment) / _root_mean_square(exact.moment),
+        "moment_percent": moment_error(found.moment, exact.moment),
         "bend_moment_percent": 100 * abs(found.bend_moment / exact.bend_moment - 1),
     }
 
@@ -236,10 +237,7 @@ def step_through(name: str, counts: Sequence[int]) -> pd.DataFrame:
     table, largest = pd.DataFrame(rows), max(moments)
     torques = table.set_index("segments")["torque_kN_m"]
     table["torque_off_largest_percent"] = 100 * (table["torque_kN_m"] / torques[largest] - 1).abs()
-    off = {
-        n: 100 * _root_mean_square(m - moments[largest]) / _root_mean_square(moments[largest])
-        for n, m in moments.items()
-    }
+    off = {n: moment_error(moment, moments[largest]) for n, moment in moments.items()}
     table["moment_off_largest_percent"] = table["segments"].map(off)
     return table
 

@@ -7,7 +7,7 @@ pytest.importorskip("skfem")
 
 from fctd.errors import InputError
 from fctd.topdrive import ramp
-from references import beam_fe
+from references import beam_case, beam_fe
 from references.beam_case import beam_of, steady, top_of
 from validation.cases import load
 
@@ -87,12 +87,20 @@ def slanted(**changes):
 
 
 @pytest.mark.parametrize("segments", [1, 3])
-def test_a_pipe_laid_down_presses_with_its_weight_and_slides_with_its_friction(segments):
+def test_a_pipe_laid_down_presses_with_its_weight_and_slides_with_its_friction(segments, monkeypatch):
     """W sin I less what the clamp carries, ⅔ wL with L⁴ = 72 EI c/w of weight across; W cos I less μ of it."""
     section = beam_of(load("scaled_section"), 0.3, 20.0).section
     across = section.weight * np.sin(np.pi / 3)
     clamp = 2 / 3 * across * (72 * section.EI * 0.025 / across) ** 0.25
+    elements = []
+
+    def beam(nodes, *others):
+        elements.append(np.diff(nodes))
+        return beam_fe.Beam(nodes, *others)
+
+    monkeypatch.setattr(beam_case, "Beam", beam)
     found = steady(slanted(), 40.0, segments)
+    assert all(np.median(sizes) == pytest.approx(0.6 * segments, rel=0.05) for sizes in elements)
     assert found.contact_force == pytest.approx(40 * across - clamp, rel=0.02)
     assert found.hookload == pytest.approx(20 * section.weight - 0.25 * found.contact_force, rel=2e-3)
 

@@ -41,6 +41,14 @@ def test_a_string_turned_slowly_needs_the_soft_string_s_torque():
     assert 0 < held[-1] < 0.5 * steady
 
 
+def test_what_lies_beside_the_clamp_is_held_by_it():
+    """Of a straight hole two segments leave a quarter to the top: friction acts between their middles and the bit."""
+    case = make_case([[0, 60, 0], [600, 60, 0]], [pipe(600, 2)], [rotation(600, 1, ramp=1)])
+    whole = soft_string(case, "rotate_off_bottom", 600.0).surface_torque
+    torque = twisted(case, 600.0, lambda time: 0.2 * time, 60.0, 0.002)
+    assert torque[len(torque) // 2 :].mean() == pytest.approx(0.75 * whole, rel=0.01)
+
+
 def test_a_long_segment_is_a_spring_with_half_its_inertia():
     case = make_case([[0, 0, 0], [1000, 0, 0]], [pipe(1000, 1)], [rotation(1000, 1, ramp=1)])
     part = section_of(case.string.components[0], 0.0)
