@@ -30,6 +30,8 @@ WALL_POINTS = 9  # five Gauss points an element
 MOST_ITERATIONS = 25
 # Newton has converged when no force is out of balance by more than this share of the load, rounding permitting.
 CONVERGED = 1e-7
+# Steps of a fall [s].
+FIRST_STEP, SHORTEST_STEP, LAST_STEP, GROWTH = 0.01, 1e-6, 1e6, 4.0
 
 
 class ConvergenceError(Exception):
@@ -309,17 +311,45 @@ def newton(
     raise ConvergenceError(f"forces are out of balance by {size:.2g} N after {MOST_ITERATIONS} iterations")
 
 
-def statics(beam: Beam, q: Array, held: NDArray[np.int64], load: Array | None = None) -> Array:
+def statics(
+    beam: Beam, q: Array, held: NDArray[np.int64], load: Array | None = None, velocity: Array | None = None
+) -> Array:
     """Equilibrium nearest to q, its held dofs as they are, under gravity, wall and a nodal load.
 
-    Raises ConvergenceError.
+    velocity : with which the beam slides steadily, so that friction takes part.  Raises ConvergenceError.
     """
     free = np.setdiff1d(np.arange(len(q)), held)
-    still, extra = np.zeros_like(q), np.zeros_like(q) if load is None else load
+    zero = np.zeros_like(q)
+    extra, sliding = zero if load is None else load, zero if velocity is None else velocity
 
     def residual(trial: Array) -> tuple[Array, csc_matrix]:
-        force, tangent, _ = beam.resistance(trial, still)
+        force, tangent, _ = beam.resistance(trial, sliding)
         return force - extra, tangent
 
     carried = beam.around.weight * beam.length + float(np.abs(extra).sum())
     return newton(residual, q, free, beam.tolerance(carried))[0]
+
+
+def fallen(beam: Beam, q: Array, held: NDArray[np.int64]) -> Array:
+    """Equilibrium to which a beam falls from q, its held dofs as they are: q may be far from it.
+
+    Against the mud, by implicit Euler in steps that grow until the mud does not matter (pseudo-transient
+    continuation): the beam has to be damped along and across.  Raises ConvergenceError.
+    """
+    free = np.setdiff1d(np.arange(len(q)), held)
+    tolerance = beam.tolerance(beam.around.weight * beam.length)
+    step = FIRST_STEP
+    while step < LAST_STEP:
+        start, pace = q, 1 / step
+
+        def residual(trial: Array, start: Array = start, pace: float = pace) -> tuple[Array, csc_matrix]:
+            return beam.resistance(trial, pace * (trial - start), pace)[:2]
+
+        try:
+            q, _ = newton(residual, q, free, tolerance)
+            step *= GROWTH
+        except ConvergenceError:
+            step /= GROWTH**2
+            if step < SHORTEST_STEP:
+                raise
+    return statics(beam, q, held)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fctd import Case, equilibrium, simulate
 from fctd.drillstring import lay_out, section_of
 from fctd.topdrive import GRAVITY
+from references.soft_string import soft_string
 from validation.cases import load, rotation
 from validation.long_segment import PIPE, chain_frequencies, continuous_frequencies, the_case
 from validation.steady import completed, last_seconds
@@ -115,6 +116,7 @@ def damped(vertical: float | None) -> pd.DataFrame:
         case = the_case(vertical, **keys)
         turned = equilibrium(case, "rotate_off_bottom", BIT, rpm=RPM)
         up, down = (equilibrium(case, kind, BIT, speed=SPEED) for kind in ("trip_out", "trip_in"))
+        without_mud = soft_string(case, "rotate_off_bottom", BIT, rpm=RPM).surface_torque
         rows.append(
             {
                 "vertical_part": "one long segment" if vertical is None else f"segments of {vertical} m",
@@ -123,6 +125,7 @@ def damped(vertical: float | None) -> pd.DataFrame:
                 "pick_up_kN": up.hookload / 1e3,
                 "slack_off_kN": down.hookload / 1e3,
                 "torque_of_mud_N_m": turning * RPM * np.pi / 30,
+                "torque_change_soft_percent": 100 * turning * RPM * np.pi / 30 / without_mud,
                 "force_of_mud_N": axial * SPEED,
             }
         )
@@ -232,6 +235,8 @@ def run(context: Context) -> Outcome:
         notes=[
             "The engine buoys weight and leaves inertia the steel's own. §5.4 multiplies the density of the pipe by "
             "the buoyancy factor; where that density is the inertia's as well, every wave is faster by 1/√BF.",
+            "Torque change soft is a second route to the change of torque: the closed form c Ω L over the torque of "
+            "the soft string, which knows nothing of damping.",
             "Damping is that of laminar Newtonian mud in a concentric annulus without flow: 30 mPa s is a common mud, "
             "100 mPa s a thick one. The paper prints no coefficients. Flow, eccentricity and tool joints would add to "
             "them.",
