@@ -233,7 +233,7 @@ def parse_override(text: str) -> tuple[str, Any]:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise InputError(f"a case file that can be read ({error.strerror})") from error
     except (ValueError, RecursionError) as error:  # no text, no TOML, or nested without end
