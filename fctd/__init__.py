@@ -13,7 +13,10 @@ import hashlib
 import os
 from pathlib import Path
 
-import numba
+from fctd.interrupts import ends_program
+
+with ends_program():
+    import numba
 
 
 def _cache_folder() -> Path:
@@ -33,14 +36,15 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
 # numba reads the environment when it is imported, which may have been before this package.
 setattr(numba.config, "CACHE_DIR", os.environ["NUMBA_CACHE_DIR"])  # noqa: B010 (made at run time)
 
-from fctd.case import Case, load_case  # noqa: E402
-from fctd.equilibrium import Equilibrium, equilibrium  # noqa: E402
-from fctd.errors import InputError  # noqa: E402
-from fctd.refine import Refinement, refine  # noqa: E402
-from fctd.results import SimulationResult  # noqa: E402
-from fctd.simulate import simulate  # noqa: E402
-from fctd.torque_drag import torque_drag  # noqa: E402
-from fctd.wellbore import Contacts, Wellbore, build_wellbore, find_contacts  # noqa: E402
+with ends_program():
+    from fctd.case import Case, load_case
+    from fctd.equilibrium import Equilibrium, equilibrium
+    from fctd.errors import InputError
+    from fctd.refine import Refinement, refine
+    from fctd.results import SimulationResult
+    from fctd.simulate import simulate
+    from fctd.torque_drag import torque_drag
+    from fctd.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
 
 __all__ = [
     "Case",

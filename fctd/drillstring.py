@@ -221,6 +221,7 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
     whole = take if part.length is None else part.length
     nominal = whole / part.segments if part.segments is not None else part.segment_length
     assert nominal is not None  # the case makes sure that one of the two is given
+    state.check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
     if abs(take - whole) < 1e-9:
         count = max(round(whole / nominal), 1)
         return [whole / count] * count

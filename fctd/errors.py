@@ -229,5 +229,7 @@ def _from_detail(detail: ErrorDetails) -> InputError:
         value = look_up(written, *split_key(error.key)) if error.value is MISSING else error.value
         return InputError(error.expected, key=error.key, value=value)
     expected = _EXPECTED.get(detail["type"], detail["msg"].removeprefix("Input should be "))
+    if detail["type"] == "tuple_type" and isinstance(written, Mapping):
+        expected = "a list of tables, the name of each in double brackets: [[name]]"
     value = MISSING if detail["type"] == "missing" else written
     return InputError(expected.format(**context), value=value)
