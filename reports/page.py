@@ -88,7 +88,8 @@ def render(results: Path, studies: Iterable[str], out: Path, changes: Mapping[st
         sections=sections, claims=claims, changes=changes or {}, number=words.number, quantity=words.quantity
     )
     (out / "index.html").write_text(page, encoding="utf-8")
-    return [f"{section.study}: {problem}" for section in sections for problem in section.problems]
+    problems = [f"{section.study}: {problem}" for section in sections for problem in section.problems]
+    return ([f"{LEDGER}: {claims.problem}"] if claims.problem else []) + problems
 
 
 def _section(folder: Path, out: Path) -> Section:

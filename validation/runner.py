@@ -230,13 +230,13 @@ def outdated(name: str, now: Inputs, results: Path) -> str:
         kept = record.read(results / name)
     except FileNotFoundError:
         return ""
-    except (ValueError, TypeError, LookupError):
+    except (OSError, ValueError, TypeError, LookupError):
         return "the result cannot be read"
     before = inputs.read(results / name)
     if kept.status != "finished":
         return f"was {kept.status}"
-    if lost := [table for table in kept.tables if not (results / name / f"{table}.parquet").is_file()]:
-        return f"table {lost[0]} is not there"
+    if lost := record.unreadable(results / name, kept):
+        return f"table {lost} cannot be read"
     if before is None or not now.code:
         return "what it rests on is not known"
     changed = now.changed_since(before)
