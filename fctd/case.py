@@ -218,7 +218,10 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
 
 
 def parse_override(text: str) -> tuple[str, Any]:
-    """Key and value of "key=value": a TOML value, or else a plain string, or None for nothing at all."""
+    """Key and value of "key=value": a TOML value, or else a plain string, or None for nothing at all.
+
+    Raises InputError for what is not of this form.
+    """
     key, sign, written = (part.strip() for part in text.partition("="))
     if not (key and sign):
         raise InputError("key=value", value=text)

@@ -96,7 +96,10 @@ def join_key(*parts: str | int) -> str:
 
 
 def split_key(key: str) -> list[str | int]:
-    """ "operations[0].speed" or "operations.0.speed" as ["operations", 0, "speed"]; "" as []."""
+    """ "operations[0].speed" or "operations.0.speed" as ["operations", 0, "speed"]; "" as [].
+
+    Raises InputError for what is no dotted key.
+    """
     if not re.fullmatch(r"(?:(?:^|\.)[\w-]+|\[[0-9]+\])*", key):
         raise InputError("a dotted key such as wellbore.overlap or operations[0].speed", value=key)
     parts = re.findall(r"[\w-]+", key)
@@ -116,6 +119,7 @@ def set_key(table: dict[str, Any], key: str, value: object) -> None:
     """Set a dotted key of nested dicts and lists; tables on the way are made, list items are not.
 
     None in a table counts as absent (`known_keys`); for an item of a list it removes the item.
+    Raises InputError for a key that leads nowhere.
     """
     *parents, last = split_key(key) or [key]
     place: Any = table

@@ -32,10 +32,11 @@ _SAME: Final = 1e-9  # m and deg: rows closer than this are one station written 
 
 
 def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] | None = None) -> NDArray[np.float64]:
-    """The checked stations of a CSV file.
+    """The checked stations (n, 3) of a CSV file: measured depth [m], inclination and azimuth [deg].
 
     Headers name their units: md_m or md_ft, inc_deg or inc_rad, azi_deg or azi_rad, in any case.
     `columns` maps md, inc, azi to other headers, which end in their unit: "Depth ( ft )", "depth_ft".
+    Raises InputError, which names file, row and column, for whatever is wrong.
     """
     try:
         return _stations(_rows(Path(path)), columns or {})
@@ -44,7 +45,7 @@ def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] |
 
 
 def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.float64]:
-    """The stations (n, 3) without the exact repeats that real surveys hold, or an InputError."""
+    """The stations (n, 3) [m, deg, deg] without the exact repeats that real surveys hold, or an InputError."""
 
     def refuse(row: int, column: int, expected: str) -> InputError:
         key, value = where(row, column)

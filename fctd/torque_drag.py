@@ -52,7 +52,7 @@ def torque_drag(
 
 
 def with_friction(case: Case, factor: float) -> Case:
-    """The case with one kinetic friction factor in every interval."""
+    """The case with one kinetic friction factor, at least 0, in every interval."""
     intervals = tuple(i.model_copy(update={"friction": factor}) for i in case.wellbore.intervals)
     return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})
 

@@ -47,7 +47,7 @@ def measure_of(column: str) -> Measure | None:
 
 
 def shown(column: str, system: System) -> Shown:
-    """How to show a column of an SI table."""
+    """How to show a column of an SI table; ValueError for one without a unit."""
     if column.endswith("_deg"):
         return Shown(1.0, "°")
     measure = measure_of(column)
