@@ -171,5 +171,5 @@ def uncommitted() -> str:
             capture_output=True, text=True, check=True,
         )  # fmt: skip
     except (OSError, subprocess.SubprocessError):
-        raise InputError("a checkout with its history: a record names its commit", key="git", value=None) from None
+        raise InputError("a checkout with its history: a record names its commit", key="git") from None
     return done.stdout.strip()

@@ -2,7 +2,6 @@
 
 import typer
 
-from reports import page
 from validation import runner, study
 from validation.registry import STUDIES
 
@@ -14,6 +13,11 @@ app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 @app.command()
 def main() -> None:
     """Write reports/out/index.html and print where it is; exit code 1 when a result could not be read or drawn."""
+    try:
+        from reports import page
+    except ModuleNotFoundError as error:
+        typer.echo(f"error: expected the package {error.name} (pip install -e '.[suite]')", err=True)
+        raise typer.Exit(2) from error
     problems = page.render(study.RESULTS, STUDIES, OUT, runner.changes(STUDIES, study.RESULTS))
     for problem in problems:
         typer.echo(problem, err=True)

@@ -106,7 +106,8 @@ def _section(folder: Path, out: Path) -> Section:
     if found.status != "finished":
         return section
     section.tables = [_print(tables[name], caption) for name, caption in found.display.items()]
-    for figure in figures.of_study(section.study):
+    # A study whose package is missing finishes with nothing but a note that says so.
+    for figure in figures.of_study(section.study) if tables or found.checks else []:
         try:
             section.pictures.append(_draw(section.study, figure, tables, out))
         except Exception as error:

@@ -295,6 +295,8 @@ def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
     _say(console, f"{run.study}: {run.summary}  ({when}{why})", style)
     if run.message:
         _say(console, f"  {run.message}")
+    for note in run.notes if not run.checks else ():  # why there are none
+        _say(console, f"  {note}")
     for judged in run.checks:
         check = judged.check
         found = f"{check.value:.6g} {check.unit}".rstrip()

@@ -2,6 +2,7 @@
 
 import json
 import re
+import sys
 from dataclasses import replace
 from html.parser import HTMLParser
 
@@ -159,6 +160,13 @@ def test_a_ledger_without_a_column_cannot_be_read(render, judged_claims, tmp_pat
     html, problems = render()
     assert problems == ["claims: the result cannot be read: KeyError: 'verdict'"]
     assert problems[0].removeprefix("claims: ") in html.replace("&#39;", "'")
+
+
+def test_a_study_without_tables_has_no_figures(render):
+    html, problems = render((replace(BLANK, notes=("Not installed, and so not run: a package.",)), {}))
+    assert problems == []
+    assert "Not installed, and so not run" in html
+    assert "<figure" not in html
 
 
 def test_figure_that_cannot_be_drawn_leaves_the_page(render, capsys):
@@ -333,5 +341,14 @@ def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
 def test_command_tells_when_a_figure_is_missing(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
     monkeypatch.setattr(command_line, "OUT", tmp_path / "out")
-    record.write(BLANK, {}, tmp_path / "results")
+    record.write(replace(BLANK, checks=(judged(5e-7),)), {}, tmp_path / "results")
     assert CliRunner().invoke(command_line.app).exit_code == 1
+
+
+def test_command_names_a_package_that_is_missing(monkeypatch, capsys):
+    monkeypatch.delattr("reports.page")
+    monkeypatch.delitem(sys.modules, "reports.page")
+    monkeypatch.setitem(sys.modules, "jinja2", None)
+    answer = CliRunner().invoke(command_line.app)
+    assert answer.exit_code == 2
+    assert "expected the package jinja2" in answer.output

@@ -164,6 +164,13 @@ def test_two_runs_may_end_at_the_same_time(register, run, tmp_path, monkeypatch)
     assert [path.name for path in (tmp_path / "results").iterdir()] == ["toy"]
 
 
+def test_without_checks_the_notes_say_why(register, run):
+    register("toy", lambda context: Outcome({}, [], ["Not installed, and so not run: a package."]))
+    assert "Not installed, and so not run: a package." in run("toy")[1]
+    register("other")
+    assert "a toy" not in run("other")[1]
+
+
 def test_study_without_its_data_is_skipped_by_name(register, run, tmp_path):
     register("real", needs=("data",))
     code, text = run("real")
