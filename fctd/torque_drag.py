@@ -9,6 +9,7 @@ from fctd.case import Case
 from fctd.equilibrium import Equilibrium, Solver
 from fctd.errors import InputError
 from fctd.operations import SteadyRates, rates_of_all
+from fctd.units import FRICTION
 
 # Called after every row with the number of rows done and of all.
 Progress = Callable[[int, int], None]
@@ -99,8 +100,10 @@ def _factors(friction: float | Sequence[float] | None) -> list[float | None]:
         return [None]
     factors = [float(factor) for factor in np.atleast_1d(friction)]
     for factor in factors:
-        if not 0 <= factor < np.inf:
-            raise InputError("a friction factor at least 0", key="friction", value=factor)
+        try:
+            FRICTION.parse(factor)
+        except InputError as error:
+            raise error.at("friction") from None
     if not factors:
         raise InputError("at least one friction factor", key="friction", value=[])
     return list(factors)

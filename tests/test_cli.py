@@ -148,6 +148,20 @@ def test_an_unknown_option_is_exit_code_2(
     assert "--frction" in capsys.readouterr().err
 
 
+def test_a_disk_that_is_full_costs_the_file_and_not_the_answer(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("fctd.results.pq.write_table", full)
+    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path, "--quiet") == 2
+    captured = capsys.readouterr()
+    assert "history.parquet" in captured.err
+    assert "No space left on device" in captured.err
+    assert "32 segments" in captured.out
+
+
 def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def stopped(case: object, **more: object) -> object:
         raise KeyboardInterrupt
