@@ -352,3 +352,12 @@ def test_command_names_a_package_that_is_missing(monkeypatch, capsys):
     answer = CliRunner().invoke(command_line.app)
     assert answer.exit_code == 2
     assert "expected the package jinja2" in answer.output
+
+
+def test_command_names_a_folder_that_cannot_be_written(tmp_path, monkeypatch):
+    monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(command_line, "OUT", tmp_path / "file" / "out")
+    (tmp_path / "file").write_text("")
+    answer = CliRunner().invoke(command_line.app)
+    assert answer.exit_code == 2
+    assert "expected a folder that can be written" in answer.output
