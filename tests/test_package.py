@@ -50,6 +50,14 @@ def test_without_a_cache_folder_code_is_kept_for_one_run(name: str, tmp_path: Pa
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
+def test_a_cache_folder_that_is_there_has_to_be_writable(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert fctd._cache_folder() == str(tmp_path)
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    with pytest.warns(RuntimeWarning, match="no cache folder can be written"):
+        assert fctd._cache_folder() != str(tmp_path)
+
+
 def test_the_engine_needs_none_of_the_suite() -> None:
     """Importing the engine loads nothing of the other packages or of what only they need."""
     others = {

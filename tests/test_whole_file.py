@@ -1,5 +1,6 @@
 """A file is the old one or the new one, never half of either."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,10 @@ def test_the_new_file_takes_the_place_of_the_old(tmp_path: Path) -> None:
             scratch.write_text(text)
         assert path.read_text() == text
     assert list(path.parent.iterdir()) == [path]
+    os.link(path, tmp_path / "reader")  # whoever reads the old file meanwhile
+    with whole_file(path) as scratch:
+        scratch.write_text("third")
+    assert (tmp_path / "reader").read_text() == "second"
 
 
 @pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), KeyboardInterrupt()])
