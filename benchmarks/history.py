@@ -5,20 +5,22 @@ import subprocess
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import llvmlite.binding
-from pydantic import BaseModel, ConfigDict, ValidationError, computed_field
+from pydantic import AwareDatetime, BaseModel, ConfigDict, Field, ValidationError, computed_field
 
 from benchmarks.measure import ROOT, Costs, ratios
 from benchmarks.subjects import REFERENCE
 from benchmarks.worker import digest, reference_digest
-from fctd.errors import InputError
+from fctd.errors import MISSING, InputError
 from references.timing import cpu_name, machine
 
 # What turns the sources into machine code.
 COMPILER = ("python", "numba", "llvmlite")
 HISTORY = Path(__file__).parent / "history"
+
+Cost = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
 
 class Kernel(BaseModel):
@@ -33,7 +35,7 @@ class Kernel(BaseModel):
     unit: str
     size: str
     ns: float
-    samples: tuple[float, ...]
+    samples: Annotated[tuple[Cost, ...], Field(min_length=1)]
     instructions: float | None = None
 
     @computed_field  # type: ignore[prop-decorator]
@@ -58,14 +60,14 @@ class Record(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     release: str
-    date: datetime
-    commit: str
+    date: AwareDatetime
+    commit: Annotated[str, Field(pattern="^[0-9a-f]*$")]
     sources: str
     reference: str
     processor: str
     versions: dict[str, str]
     reference_ns: float
-    kernels: dict[str, Kernel]
+    kernels: Annotated[dict[str, Kernel], Field(min_length=1)]
 
     @property
     def ratios(self) -> Costs:
@@ -146,11 +148,12 @@ def read(folder: Path = HISTORY) -> list[tuple[Path, Record]]:
     found = []
     for path in folder.glob("*.json"):
         try:
-            found.append((path, Record.model_validate_json(path.read_text(encoding="utf-8"))))
+            found.append((path, Record.model_validate_json(path.read_bytes())))
         except ValidationError as failure:
             first = failure.errors()[0]
             key = ".".join(str(part) for part in first["loc"])
-            raise InputError(f"a record ({first['msg']})", key=key, value=first["input"], file=path) from None
+            value = MISSING if first["type"] == "missing" else first["input"]
+            raise InputError(f"a record ({first['msg']})", key=key, value=value, file=path) from None
     return sorted(found, key=lambda one: one[1].date)
 
 
@@ -168,5 +171,5 @@ def uncommitted() -> str:
             capture_output=True, text=True, check=True,
         )  # fmt: skip
     except (OSError, subprocess.SubprocessError):
-        raise InputError("a checkout with its history: a record names its commit", key="git", value=None) from None
+        raise InputError("a checkout with its history: a record names its commit", key="git") from None
     return done.stdout.strip()

@@ -35,9 +35,12 @@ def check_out(record: Record, file: Path, root: Path = ROOT) -> Path:
             archive = _git(root, "archive", commit, "--", *FOLDERS)
         except NoSourcesError:
             continue
-        folder = _cache() / f"release-{record.sources}-{record.reference}"
-        with tarfile.open(fileobj=io.BytesIO(archive)) as tar:
-            tar.extractall(folder, filter="data")
+        try:
+            folder = _cache() / f"release-{record.sources}-{record.reference}"
+            with tarfile.open(fileobj=io.BytesIO(archive)) as tar:
+                tar.extractall(folder, filter="data")
+        except (OSError, RuntimeError) as error:  # RuntimeError: there is no home
+            raise NoSourcesError(f"there is no cache folder to keep them in: {error}") from None
         if sources_of(folder) == record.sources:
             return folder
     raise NoSourcesError(

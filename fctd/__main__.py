@@ -1,5 +1,9 @@
-"""``python -m fctd``."""
+"""``python -m fctd``, also the command ``fctd``."""
 
-from fctd.cli import main
+from fctd.interrupts import ends_program
 
-main()
+with ends_program():
+    from fctd.cli import main
+
+if __name__ == "__main__":
+    main()

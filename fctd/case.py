@@ -228,7 +228,10 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
 
 
 def parse_override(text: str) -> tuple[str, Any]:
-    """Key and value of "key=value": a TOML value, or else a plain string, or None for nothing at all."""
+    """Key and value of "key=value": a TOML value, or else a plain string, or None for nothing at all.
+
+    Raises InputError for what is not of this form.
+    """
     key, sign, written = (part.strip() for part in text.partition("="))
     if not (key and sign):
         raise InputError("key=value", value=text)
@@ -243,7 +246,7 @@ def parse_override(text: str) -> tuple[str, Any]:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise InputError(f"a case file that can be read ({error.strerror})") from error
     except (ValueError, RecursionError) as error:  # no text, no TOML, or nested without end

@@ -83,8 +83,10 @@ def simulate_file(
             bar.update(task, description=case.name, total=total, completed=now, factor=f"{factor:.0f}")
 
         result = simulate(case, progress=show, contact=method)
-    written = result.save(folder, csv=csv)
-    _summarise(result)
+    try:  # files first, since whoever reads the screen may close it; the screen also where a file fails
+        written = result.save(folder, csv=csv)
+    finally:
+        _summarise(result)
     screen.print(f"Written: {', '.join(str(p) for p in written)}", soft_wrap=True, highlight=False)
     if result.status == "interrupted":
         raise typer.Exit(INTERRUPTED)

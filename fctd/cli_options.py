@@ -73,8 +73,16 @@ def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
     try:
         folder = next(parent for parent in path.absolute().parents if parent.exists())
         taken = path.is_dir() or not folder.is_dir()
-        writable = not taken and os.access(path if path.exists() else folder, os.W_OK)
+        places = [folder, path] if path.exists() else [folder]
+        writable = not taken and all(os.access(place, os.W_OK) for place in places)
     except OSError:  # a name too long for the file system
         writable = False
     if not writable:
         raise InputError("a file that can be written", key=key, value=str(path))
+
+
+def spare_sources(case: Case, path: Path | None, key: str) -> None:
+    """Refuse to write over the case file or its survey."""
+    for source in (case.file, case.wellbore.survey):
+        if path is not None and source is not None and path.exists() and path.samefile(source):
+            raise InputError("another file than the case and its survey", key=key, value=str(path))

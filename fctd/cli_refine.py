@@ -21,9 +21,9 @@ from fctd.cli_options import (
     read_quantity,
     read_share,
     screen,
+    spare_sources,
 )
 from fctd.cli_steady import KIND_HELP, Rpm, Speed, Units, read_drive
-from fctd.errors import InputError
 from fctd.refine import Refinement, refine
 from fctd.refined_file import write_refined
 from fctd.unit_systems import System, shown
@@ -59,10 +59,9 @@ def refine_command(
 ) -> None:
     """Cut the string of a case finer until hook load and torque no longer change, and say what error is left."""
     check_target(out, "--out", (".toml",))
-    if out is not None and out.exists() and case_file.exists() and out.samefile(case_file):
-        raise InputError("another file than the case itself", key="--out", value=str(out))
     share = read_share(tolerance, "--tolerance")
     case = read_case(case_file, overrides, friction)
+    spare_sources(case, out, "--out")
     depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth")
     with messages.status("compiling") as status:
         if quiet:
@@ -70,13 +69,17 @@ def refine_command(
         refined = refine(
             case, share, operations or None, depth, graded, most, **read_drive(speed, rpm), progress=status.update
         )
-    _print(refined, units)
-    if out is not None and refined.status != "no_answer":
-        changes = dict(parse_override(text) for text in overrides)
-        if friction is not None:
-            changes["friction"] = friction
-        write_refined(refined, case_file, changes, out)
-        screen.print(f"Written: {out}", soft_wrap=True, highlight=False)
+    target = out if refined.status != "no_answer" else None
+    try:  # the file first, since whoever reads the screen may close it; the screen also where the file fails
+        if target is not None:
+            changes = dict(parse_override(text) for text in overrides)
+            if friction is not None:
+                changes["friction"] = friction
+            write_refined(refined, case_file, changes, target)
+    finally:
+        _print(refined, units)
+    if target is not None:
+        screen.print(f"Written: {target}", soft_wrap=True, highlight=False)
     elif out is not None:
         messages.print("Nothing is written: no string has an answer.")
     if refined.status != "within_tolerance":

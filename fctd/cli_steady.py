@@ -25,6 +25,7 @@ from fctd.cli_options import (
     read_case,
     read_quantity,
     screen,
+    spare_sources,
 )
 from fctd.equilibrium import Equilibrium, Solver, equilibrium
 from fctd.errors import InputError
@@ -110,20 +111,22 @@ def equilibrium_command(
         raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
     (operation,) = operations
     case = read_case(case_file, overrides, friction)
+    spare_sources(case, out, "--out")
     depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
     _check_in_hole(case, [depth], "--bit-depth", bit_depth)
     drive = read_drive(speed, rpm)
     point = equilibrium(case, operation, depth, **drive)
-    _print_point(point, units)
     written = []
-    if point.answered:
-        if out is not None:
+    try:  # files first, since whoever reads the screen may close it; the screen also where a file fails
+        if point.answered and out is not None:
             metadata = _metadata(case, units, [operation], drive)
             metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
             written += write_table(_in(units, point.profile), out, metadata)
-        if plots is not None:
+        if point.answered and plots is not None:
             written += plots.save(plots.profile_figure([point], units), plot)
-    elif out is not None or plot is not None:
+    finally:
+        _print_point(point, units)
+    if not point.answered and (out is not None or plot is not None):
         messages.print("Nothing is written: without a balance there is no profile.")
     _print_written(written)
     if point.status not in SOUND:
@@ -157,6 +160,7 @@ def chart_command(
     check_target(out, "--out", TABLES)
     plots = _plots({"--plot": plot, "--plot-profile": plot_profile})
     case = read_case(case_file, overrides)
+    spare_sources(case, out, "--out")
     bit_depths = read_depths(depths)
     _check_in_hole(case, bit_depths, "--depths", depths)
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
@@ -172,17 +176,19 @@ def chart_command(
 
         chart = torque_drag(case, kinds, bit_depths, factors or None, **drive, progress=show)
 
-    _print_chart(chart, case.name, units)
     written = []
-    if out is not None:
-        written += write_table(_in(units, chart), out, _metadata(case, units, kinds, drive))
-    if plots is not None and plot is not None:
-        written += plots.save(plots.chart_figure(chart, units, case.name), plot)
-    if plots is not None and plot_profile is not None:
-        one = with_friction(case, factors[0]) if factors else case
-        solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
-        points = [solver.solve(kind, rates[kind], bit_depths[-1]) for kind in kinds]
-        written += plots.save(plots.profile_figure(points, units), plot_profile)
+    try:  # as above
+        if out is not None:
+            written += write_table(_in(units, chart), out, _metadata(case, units, kinds, drive))
+        if plots is not None and plot is not None:
+            written += plots.save(plots.chart_figure(chart, units, case.name), plot)
+        if plots is not None and plot_profile is not None:
+            one = with_friction(case, factors[0]) if factors else case
+            solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
+            points = [solver.solve(kind, rates[kind], bit_depths[-1]) for kind in kinds]
+            written += plots.save(plots.profile_figure(points, units), plot_profile)
+    finally:
+        _print_chart(chart, case.name, units)
     _print_written(written)
     if not chart["status"].isin(SOUND).all():
         raise typer.Exit(FAILED)
@@ -195,7 +201,7 @@ def read_depths(text: str) -> list[float]:
         raise InputError("FROM:TO:STEP, such as 1750:2450:10 or '5000 ft:8000 ft:30 ft'", key="--depths", value=text)
     first, last, step = (read_quantity(part, LENGTH, "--depths") for part in parts)
     if not (first <= last and step > 0):
-        raise InputError("depths that rise: TO not above FROM, and a STEP above 0", key="--depths", value=text)
+        raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key="--depths", value=text)
     steps = (last - first) / step
     if steps >= MOST_DEPTHS:
         raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)

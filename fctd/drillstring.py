@@ -104,11 +104,11 @@ class String:
         return self.top_md + float(self.length.sum())
 
     def of(self, name: str) -> Array:
-        """A section property of every segment, shape (n,)."""
+        """A section property of every segment, shape (n,), in the unit that `Section` gives."""
         return np.array([getattr(s, name) for s in self.sections])[self.component]
 
     def lengthened(self, by: float) -> "String":
-        """The same string with ``by`` metres more in its top segment."""
+        """The same string with ``by`` [m] more in its top segment."""
         return replace(self, length=np.concatenate([self.length[:1] + by, self.length[1:]]))
 
     def _short(self) -> NDArray[np.bool_]:
@@ -119,19 +119,21 @@ class String:
         return np.asarray(longer_above & longer_below & alone)
 
     def mid_contact(self) -> NDArray[np.bool_]:
-        """Segments that touch at their middle: short components, but for the bit, which touches at its end."""
+        """Which segments (n,) touch at their middle: short components, but for the bit, which touches at its end."""
         short = self._short()
         short[-1] = False
         return short
 
     def contact_radius(self) -> Array:
-        """Radius at each contact point [m]: at unlike neighbours the larger, but a short component's is its own."""
+        """Radii (n,) at contact points [m]: at unlike neighbours the larger, but a short component's is its own."""
         own = self.of("contact_radius")
         below = np.append(np.where(self._short(), 0.0, own)[1:], 0.0)
         return np.asarray(np.where(self.mid_contact(), own, np.maximum(own, below)))
 
     def joints(self, name: str) -> Array:
-        """Stiffness of the n joints for a section stiffness (Eqs 17–19): half segments in series.
+        """Stiffness (n,) of the joints for a section stiffness per length (Eqs 17–19): half segments in series.
+
+        EA and shear [N] give [N/m]; EI and GJ [N m^2] give [N m/rad].
 
         The first joint is the clamp at the top drive, half a segment away; a long segment puts its whole
         length there and leaves the next joint the half below it alone.
@@ -221,6 +223,7 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
     whole = take if part.length is None else part.length
     nominal = whole / part.segments if part.segments is not None else part.segment_length
     assert nominal is not None  # the case makes sure that one of the two is given
+    state.check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
     if abs(take - whole) < 1e-9:
         count = max(round(whole / nominal), 1)
         return [whole / count] * count

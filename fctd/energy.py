@@ -50,12 +50,12 @@ def _energies(S, n):
 
 
 def penetration(S: np.ndarray, n: int) -> np.ndarray:
-    """Penetration of every contact point [m], negative is clearance; −inf where there is no wall."""
+    """Penetration (n,) of every contact point [m], negative is clearance; −inf where there is no wall."""
     distance = np.sqrt(state.row(S, state.PX, n) ** 2 + state.row(S, state.PY, n) ** 2 + state.row(S, state.PZ, n) ** 2)
     hole = state.row(S, state.HOLE, n)
     return np.where(hole > 0, distance - hole + state.row(S, state.RADIUS, n), -np.inf)
 
 
 def energy_of(S: np.ndarray, n: int) -> Energy:
-    """Energy of the state, given axes and walls that belong to its positions."""
+    """Energy [J] of the n segments of a state, given axes and walls that belong to its positions."""
     return Energy(*_energies(S, n))

@@ -132,7 +132,7 @@ class Solver:
     # Of a string that has flown apart only the status is read; its numbers may be anything.
     @np.errstate(over="ignore", invalid="ignore")
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
-        """The steady string; raises InputError when string and hole do not fit at this depth."""
+        """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
         case, hole = self.case, self.hole
         check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
         string = lay_out(case, bit_depth)

@@ -96,7 +96,10 @@ def join_key(*parts: str | int) -> str:
 
 
 def split_key(key: str) -> list[str | int]:
-    """ "operations[0].speed" or "operations.0.speed" as ["operations", 0, "speed"]; "" as []."""
+    """ "operations[0].speed" or "operations.0.speed" as ["operations", 0, "speed"]; "" as [].
+
+    Raises InputError for what is no dotted key.
+    """
     if not re.fullmatch(r"(?:(?:^|\.)[\w-]+|\[[0-9]+\])*", key):
         raise InputError("a dotted key such as wellbore.overlap or operations[0].speed", value=key)
     parts = re.findall(r"[\w-]+", key)
@@ -116,6 +119,7 @@ def set_key(table: dict[str, Any], key: str, value: object) -> None:
     """Set a dotted key of nested dicts and lists; tables on the way are made, list items are not.
 
     None in a table counts as absent (`known_keys`); for an item of a list it removes the item.
+    Raises InputError for a key that leads nowhere.
     """
     *parents, last = split_key(key) or [key]
     place: Any = table
@@ -229,5 +233,7 @@ def _from_detail(detail: ErrorDetails) -> InputError:
         value = look_up(written, *split_key(error.key)) if error.value is MISSING else error.value
         return InputError(error.expected, key=error.key, value=value)
     expected = _EXPECTED.get(detail["type"], detail["msg"].removeprefix("Input should be "))
+    if detail["type"] == "tuple_type" and isinstance(written, Mapping):
+        expected = "a list of tables, the name of each in double brackets: [[name]]"
     value = MISSING if detail["type"] == "missing" else written
     return InputError(expected.format(**context), value=value)

@@ -89,7 +89,7 @@ def _wave(case: Case, md: Array, above_bit: Array) -> Array:
 
 
 def segments_in_hole(case: Case, bit_depth: float) -> int:
-    """How many segments a string has in the hole, about; cheap, however many there are."""
+    """How many segments a string has with the bit at a depth [m], about; cheap, however many there are."""
     remaining, count = bit_depth - case.string.top_md, 0.0
     for part in case.string.components:
         take = remaining if part.length is None else min(part.length, remaining)

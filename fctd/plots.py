@@ -22,6 +22,7 @@ from fctd.equilibrium import Equilibrium
 from fctd.operations import OPERATION_NAMES
 from fctd.torque_drag import own_friction
 from fctd.unit_systems import System, shown
+from fctd.whole_file import whole_file
 
 RC: dict[RcKeyType, Any] = {
     "font.family": "sans-serif",
@@ -106,10 +107,9 @@ MARKS = 8  # about as many markers on a line
 
 
 def save(figure: Figure, path: Path) -> list[Path]:
-    """Write a figure as its suffix says; returns the file written."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with mpl.rc_context(RC):
-        figure.savefig(path, metadata={"Date": None} if path.suffix.lower() == ".svg" else None)
+    """Write a figure as its suffix says; returns the file written.  Raises InputError where it cannot be."""
+    with mpl.rc_context(RC), whole_file(path) as scratch:
+        figure.savefig(scratch, metadata={"Date": None} if path.suffix.lower() == ".svg" else None)
     return [path]
 
 

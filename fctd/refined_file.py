@@ -12,6 +12,7 @@ from fctd.case import apply_override, load_case
 from fctd.errors import look_up, split_key
 from fctd.refine import Refinement
 from fctd.specs import ComponentSpec
+from fctd.whole_file import whole_file
 
 # What a cut decides of a component, and what it moves; all else stays as the user wrote it.
 CUT = ("length", "segments", "segment_length")
@@ -20,7 +21,7 @@ BEND = ("bend", "toolface")
 
 def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any], out: Path) -> None:
     """Write the case file ``source``, changed by ``overrides``, with the string and the hole of a refinement."""
-    raw: Any = tomlkit.parse(source.read_text(encoding="utf-8"))
+    raw: Any = tomlkit.parse(source.read_text(encoding="utf-8-sig"))
     for key, value in overrides.items():
         if value is None:
             *parents, last = split_key(key)
@@ -41,8 +42,8 @@ def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any
                 said.comment = said.comment_ws = ""  # of the value before
     if hole.survey is not None:
         raw["wellbore"]["survey"] = os.path.relpath(hole.survey, out.absolute().parent)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(_heading(refined) + tomlkit.dumps(raw), encoding="utf-8")
+    with whole_file(out) as scratch:
+        scratch.write_text(_heading(refined) + tomlkit.dumps(raw), encoding="utf-8")
 
 
 def _components(written: Sequence[Mapping[str, Any]], pieces: Sequence[ComponentSpec]) -> Any:

@@ -16,6 +16,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fctd.case import Case
+from fctd.whole_file import whole_file
 
 TABLES = ("history", "profile", "energy")
 
@@ -39,8 +40,10 @@ class SimulationResult:
     run: dict[str, Any]
 
     def save(self, folder: Path, csv: bool = False) -> list[Path]:
-        """Write history, profile and energy tables into ``folder``; returns the files written."""
-        folder.mkdir(parents=True, exist_ok=True)
+        """Write history, profile and energy tables into ``folder``; returns the files written.
+
+        Raises InputError where a file cannot be written.
+        """
         metadata = {
             "case": self.case.model_dump_json(),
             "status": self.status,
@@ -56,7 +59,7 @@ class SimulationResult:
             written.append(path)
             if csv:
                 path = folder / f"{name}.csv"
-                frame.to_csv(path, index=False)
+                write_csv(frame, path)
                 written.append(path)
         return written
 
@@ -65,16 +68,22 @@ def write_table(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) ->
     """Write a table as CSV or Parquet, whichever the suffix says; returns the files written.
 
     Parquet carries the metadata itself; beside a CSV, which any reader must find a plain table, it goes into
-    a JSON file of its own: ``chart.csv.json``.
+    a JSON file of its own: ``chart.csv.json``.  Raises InputError where a file cannot be written.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
     if path.suffix.lower() == ".csv":
         beside = path.with_name(path.name + ".json")
-        frame.to_csv(path, index=False)
-        beside.write_text(json.dumps(metadata, indent=1), encoding="utf-8")
+        write_csv(frame, path)
+        with whole_file(beside) as scratch:
+            scratch.write_text(json.dumps(metadata, indent=1), encoding="utf-8")
         return [path, beside]
     write_parquet(frame, path, metadata)
     return [path]
+
+
+def write_csv(frame: pd.DataFrame, path: Path) -> None:
+    """Write a table as CSV, one row of headers."""
+    with whole_file(path) as scratch:
+        frame.to_csv(scratch, index=False)
 
 
 def write_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
@@ -83,7 +92,8 @@ def write_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) 
     kept = dict(table.schema.metadata or {})
     for key, value in metadata.items():
         kept[key.encode()] = (value if isinstance(value, str) else json.dumps(value)).encode()
-    pq.write_table(table.replace_schema_metadata(kept), path)
+    with whole_file(path) as scratch:
+        pq.write_table(table.replace_schema_metadata(kept), scratch)
 
 
 def versions() -> dict[str, str]:

@@ -106,11 +106,11 @@ CYLINDERS, ARCS, OPEN = 0, 1, 2
 COULOMB, PAPER = 0, 1
 
 
-def check_segments(segments: int) -> None:
+def check_segments(segments: float) -> None:
     """Raise InputError when the string has more segments than the buffer holds."""
     if segments > MAX_SEGMENTS:
         raise InputError(
-            f"at most {MAX_SEGMENTS} segments in all", key="string.components", value=f"{segments} segments"
+            f"at most {MAX_SEGMENTS} segments in all", key="string.components", value=f"{segments:.7g} segments"
         )
 
 

@@ -28,7 +28,7 @@ class Courses(NamedTuple):
 
 
 def to_radians(stations: Array) -> Array:
-    """Stations in degrees, as read, to radians with the azimuth unwrapped through north."""
+    """Stations (n, 3) in m and degrees, as read, to m and radians with the azimuth unwrapped through north."""
     out = np.array(stations, dtype=float)
     out[:, 1] = np.radians(out[:, 1])
     out[:, 2] = np.unwrap(np.radians(out[:, 2]))
@@ -36,14 +36,14 @@ def to_radians(stations: Array) -> Array:
 
 
 def tangents(stations: Array) -> Array:
-    """Unit vectors along the hole at the stations, shape (n, 3)."""
+    """Unit vectors (n, 3) along the hole at the stations (n, 3) [m, rad, rad]."""
     inclination, azimuth = stations[:, 1], stations[:, 2]
     across = np.sin(inclination)
     return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), np.cos(inclination)], axis=1)
 
 
 def interpolate_angles(stations: Array, md: Array) -> Array:
-    """Stations at other depths, inclination and unwrapped azimuth linear in measured depth."""
+    """Stations (k, 3) at other depths md (k,) [m], inclination and unwrapped azimuth linear in measured depth."""
     return np.stack(
         [md, np.interp(md, stations[:, 0], stations[:, 1]), np.interp(md, stations[:, 0], stations[:, 2])],
         axis=1,
@@ -51,7 +51,7 @@ def interpolate_angles(stations: Array, md: Array) -> Array:
 
 
 def average_angle(stations: Array) -> Array:
-    """Positions by Eqs 21–23, with DM the change of measured depth (the paper prints vertical depth)."""
+    """Positions (n, 3) [m] by Eqs 21–23, with DM the change of measured depth (the paper prints vertical depth)."""
     middle = 0.5 * (stations[1:] + stations[:-1])
     steps = np.diff(stations[:, 0])[:, None] * tangents(middle)
     return np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])
@@ -66,7 +66,7 @@ def dogleg(stations: Array) -> Array:
 
 
 def minimum_curvature(stations: Array) -> Courses:
-    """Circular arcs through the stations (Sawaryn & Thorogood 2005).
+    """Circular arcs through the stations (n, 3), n − 1 of them (Sawaryn & Thorogood 2005).
 
     Raises ValueError when neighbouring stations point in opposite directions: no single arc joins them.
     """
@@ -86,7 +86,7 @@ def minimum_curvature(stations: Array) -> Courses:
 
 
 def along_courses(courses: Courses, md: Array) -> tuple[Array, Array]:
-    """Positions and tangents at measured depths on the arcs; straight on beyond both ends."""
+    """Positions (k, 3) [m] and tangents (k, 3) at measured depths md (k,) [m]; straight on beyond both ends."""
     i = np.clip(np.searchsorted(courses.md, md, side="right") - 1, 0, len(courses.md) - 1)
     t, n, k = courses.tangent[i], courses.normal[i], courses.curvature[i]
     s = md - courses.md[i]

@@ -32,10 +32,11 @@ _SAME: Final = 1e-9  # m and deg: rows closer than this are one station written 
 
 
 def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] | None = None) -> NDArray[np.float64]:
-    """The checked stations of a CSV file.
+    """The checked stations (n, 3) of a CSV file: measured depth [m], inclination and azimuth [deg].
 
     Headers name their units: md_m or md_ft, inc_deg or inc_rad, azi_deg or azi_rad, in any case.
     `columns` maps md, inc, azi to other headers, which end in their unit: "Depth ( ft )", "depth_ft".
+    Raises InputError, which names file, row and column, for whatever is wrong.
     """
     try:
         return _stations(_rows(Path(path)), columns or {})
@@ -44,7 +45,7 @@ def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] |
 
 
 def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.float64]:
-    """The stations (n, 3) without the exact repeats that real surveys hold, or an InputError."""
+    """The stations (n, 3) [m, deg, deg] without the exact repeats that real surveys hold, or an InputError."""
 
     def refuse(row: int, column: int, expected: str) -> InputError:
         key, value = where(row, column)
@@ -54,6 +55,9 @@ def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.fl
         raise refuse(row, column, "a finite number")
     for row in np.flatnonzero((stations[:, 1] < 0.0) | (stations[:, 1] > 180.0)).tolist():
         raise refuse(row, 1, "an inclination from 0 to 180 deg")
+    # Unwrapped azimuths pass, -999.25 and the other nulls of well logs do not.
+    for row in np.flatnonzero(np.abs(stations[:, 2]) > 720.0).tolist():
+        raise refuse(row, 2, "an azimuth from -720 to 720 deg")
 
     new = np.ones(len(stations), dtype=bool)
     new[1:] = np.any(np.abs(np.diff(stations, axis=0)) > _SAME, axis=1)
@@ -83,7 +87,11 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
 def _stations(rows: Sequence[tuple[int, list[str]]], columns: Mapping[StationKey, str]) -> NDArray[np.float64]:
     if not rows:
         raise InputError("a row of headers and a row for each station, the file is empty")
-    (_, headers), *body = rows
+    (first, headers), *body = rows
+    if len(headers) == 1 and re.search(r"[;\t]", headers[0]):
+        raise InputError(
+            "columns separated by commas, numbers with a decimal point", key=f"row {first}", value=headers[0]
+        )
     found = [_find_column(key, headers, columns.get(key)) for key in _UNITS]
     factors = [factor for _, factor in found]
 

@@ -9,6 +9,7 @@ from fctd.case import Case, naming_file
 from fctd.equilibrium import Equilibrium, Solver
 from fctd.errors import InputError
 from fctd.operations import SteadyRates, rates_of_all
+from fctd.units import FRICTION
 
 # Called after every row with the number of rows done and of all.
 Progress = Callable[[int, int], None]
@@ -50,7 +51,7 @@ def torque_drag(
 
 
 def with_friction(case: Case, factor: float) -> Case:
-    """The case with one kinetic friction factor in every interval."""
+    """The case with one kinetic friction factor, at least 0, in every interval."""
     intervals = tuple(i.model_copy(update={"friction": factor}) for i in case.wellbore.intervals)
     return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})
 
@@ -97,8 +98,10 @@ def _factors(friction: float | Sequence[float] | None) -> list[float | None]:
         return [None]
     factors = [float(factor) for factor in np.atleast_1d(friction)]
     for factor in factors:
-        if not 0 <= factor < np.inf:
-            raise InputError("a friction factor at least 0", key="friction", value=factor)
+        try:
+            FRICTION.parse(factor)
+        except InputError as error:
+            raise error.at("friction") from None
     if not factors:
         raise InputError("at least one friction factor", key="friction", value=[])
     return list(factors)

@@ -47,7 +47,7 @@ def measure_of(column: str) -> Measure | None:
 
 
 def shown(column: str, system: System) -> Shown:
-    """How to show a column of an SI table."""
+    """How to show a column of an SI table; ValueError for one without a unit."""
     if column.endswith("_deg"):
         return Shown(1.0, "°")
     measure = measure_of(column)
@@ -66,7 +66,9 @@ def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
             columns[name] = table[name]
         else:
             renamed = name.removesuffix(_ending(measure.table)) + _ending(measure.field)
-            columns[renamed] = table[name] * conversion(measure.table, measure.field)
+            values = table[name] * conversion(measure.table, measure.field)
+            # 15 digits: a depth of 609.6 m is 2000 ft, not 1999.999999999998 ft.
+            columns[renamed] = values.map("{:.15g}".format).astype(float)
     return pd.DataFrame(columns)
 
 

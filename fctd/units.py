@@ -174,8 +174,9 @@ class Quantity(Number):
 
 
 Bare = Annotated[float, Number(noun="a bare number")]
-Count = Annotated[int, Whole(at_least=1)]
-Friction = Annotated[float, Number(noun="a friction factor", at_least=0.0)]
+Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SEGMENTS, which says more
+FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0)  # 20 means per cent
+Friction = Annotated[float, FRICTION]
 PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
 Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
 Rpm = Annotated[float, Number(noun="a bare number of rev/min", at_least=0.0)]

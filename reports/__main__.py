@@ -2,7 +2,6 @@
 
 import typer
 
-from reports import page
 from validation import runner, study
 from validation.registry import STUDIES
 
@@ -13,8 +12,20 @@ app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
 @app.command()
 def main() -> None:
-    """Write reports/out/index.html and print where it is; exit code 1 when a result could not be read or drawn."""
-    problems = page.render(study.RESULTS, STUDIES, OUT, runner.changes(STUDIES, study.RESULTS))
+    """Write reports/out/index.html and print where it is; exit code 1 when a result could not be read or drawn.
+
+    2: a package is missing, or the folder cannot be written.
+    """
+    try:
+        from reports import page
+    except ModuleNotFoundError as error:
+        typer.echo(f"error: expected the package {error.name} (pip install -e '.[suite]')", err=True)
+        raise typer.Exit(2) from error
+    try:
+        problems = page.render(study.RESULTS, STUDIES, OUT, runner.changes(STUDIES, study.RESULTS))
+    except OSError as error:
+        typer.echo(f"error: {OUT}: expected a folder that can be written ({error})", err=True)
+        raise typer.Exit(2) from error
     for problem in problems:
         typer.echo(problem, err=True)
     typer.echo(f"report: {OUT / 'index.html'}")

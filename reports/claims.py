@@ -58,11 +58,12 @@ class Row:
 
 @dataclass(frozen=True)
 class Claims:
-    """The ledger; without a record it has not been run."""
+    """The ledger; without a record it has not been run, or there is a problem with what it stored."""
 
     record: Record | None = None
     rows: list[Row] = field(default_factory=list)
     misprints: list[dict[Any, Any]] = field(default_factory=list)
+    problem: str = ""
 
     @property
     def counts(self) -> list[tuple[str, str, str, int]]:
@@ -72,18 +73,18 @@ class Claims:
 
 
 def read_claims(folder: Path) -> Claims:
-    """The ledger stored in a result folder; empty where there is none that can be read, or it failed."""
+    """The ledger stored in a result folder; empty where there is none, or none that can be read, or it failed."""
     if not (folder / "verdict.json").exists():
         return Claims()
     try:
         run = record.read(folder)
+        if run.status != "finished":
+            return Claims(run)
         tables = record.read_tables(folder, run)
-    except (OSError, ValueError, TypeError, LookupError):  # the study has to be run again
-        return Claims()
-    if run.status != "finished":
-        return Claims(run)
-    rows = [_row(cells) for cells in tables["ledger"].to_dict("records")]
-    return Claims(run, rows, tables["misprints"].to_dict("records"))
+        rows = [_row(cells) for cells in tables["ledger"].to_dict("records")]
+        return Claims(run, rows, tables["misprints"].to_dict("records"))
+    except (OSError, ValueError, TypeError, LookupError) as error:
+        return Claims(problem=f"the result cannot be read: {type(error).__name__}: {error}")
 
 
 def _row(cells: dict[Any, Any]) -> Row:

@@ -88,7 +88,8 @@ def render(results: Path, studies: Iterable[str], out: Path, changes: Mapping[st
         sections=sections, claims=claims, changes=changes or {}, number=words.number, quantity=words.quantity
     )
     (out / "index.html").write_text(page, encoding="utf-8")
-    return [f"{section.study}: {problem}" for section in sections for problem in section.problems]
+    problems = [f"{section.study}: {problem}" for section in sections for problem in section.problems]
+    return ([f"{LEDGER}: {claims.problem}"] if claims.problem else []) + problems
 
 
 def _section(folder: Path, out: Path) -> Section:
@@ -105,7 +106,8 @@ def _section(folder: Path, out: Path) -> Section:
     if found.status != "finished":
         return section
     section.tables = [_print(tables[name], caption) for name, caption in found.display.items()]
-    for figure in figures.of_study(section.study):
+    # A study whose package is missing finishes with nothing but a note that says so.
+    for figure in figures.of_study(section.study) if tables or found.checks else []:
         try:
             section.pictures.append(_draw(section.study, figure, tables, out))
         except Exception as error:

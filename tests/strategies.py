@@ -82,6 +82,7 @@ RULES: list[tuple[str, Any, str]] = [
     ("wellbore.intervals[1].to_md", 1000, "below the interval above"),
     ("wellbore.intervals[0].diameter", "-2 mm", "a length above 0"),
     ("wellbore.intervals[0].friction", -0.1, "factor at least 0"),
+    ("wellbore.intervals[0].friction", 20, "factor at least 0 and at most 5"),
     ("wellbore.intervals[1].stiffness_per_length", 1e6, "stiffness, the kind of the whole wellbore"),
     ("string.top_md", "-1 m", "a length at least 0"),
     ("string.components", [], "at least one"),

@@ -83,6 +83,11 @@ def test_alternatives_replace_their_default(case_file: Path) -> None:
     assert (hole.stiffness, hole.stiffness_per_length) == (None, 1e6)
 
 
+def test_a_byte_order_mark_is_nothing(case_file: Path) -> None:
+    case_file.write_text(case_file.read_text(encoding="utf-8"), encoding="utf-8-sig")
+    assert load_case(case_file).name
+
+
 def test_a_case_is_frozen(case_file: Path) -> None:
     with pytest.raises(ValueError, match="frozen"):
         load_case(case_file).mud.density = 1.0

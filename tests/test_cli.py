@@ -1,6 +1,9 @@
 """The command line as a user meets it: files written, messages, exit codes."""
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pandas as pd
@@ -8,6 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fctd import cli
+from fctd.interrupts import ends_program
 
 CASE = """
 name = "small"
@@ -82,6 +86,12 @@ def test_simulate_writes_tables_with_metadata(
         ("string.components[0].inner_diameter=6 in", ["string.components[0].inner_diameter", "6 in"]),
         ("string.components[0].outer_diameter=-1 in", ["string.components[0].outer_diameter", "-1 in"]),
         ("string.components[0].segments=20000", ["string.components", "20000", "10000"]),
+        ("string.components[0].segments=99999999999999999999", ["string.components[0].segments", "a whole number"]),
+        (
+            "string.components=[{name='p', length=800, outer_diameter=0.1, inner_diameter=0, segment_length=1e-9}]",
+            ["string.components", "8e+11 segments", "10000"],
+        ),
+        ("string.components={name='p', segments=3}", ["string.components", "a list of tables", "[[name]]"]),
         ("string.components[0].length=200 m", ["string.components", "200", "800"]),
         ("solver.step=1 s", ["solver.step", "1", "stable"]),
         ("operations[0].at_md=1000 m", ["operations[0].at_md", "1000", "900"]),
@@ -138,9 +148,37 @@ def test_an_unknown_option_is_exit_code_2(
     assert "--frction" in capsys.readouterr().err
 
 
+def test_a_disk_that_is_full_costs_the_file_and_not_the_answer(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("fctd.results.pq.write_table", full)
+    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path, "--quiet") == 2
+    captured = capsys.readouterr()
+    assert "history.parquet" in captured.err
+    assert "No space left on device" in captured.err
+    assert "32 segments" in captured.out
+
+
 def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def stopped(case: object, **more: object) -> object:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(cli, "simulate", stopped)
     assert run(monkeypatch, "simulate", case_file, "--out", tmp_path, "--quiet") == 130
+
+
+@pytest.mark.parametrize("package", ["numba", "typer"])
+def test_interrupted_while_it_is_imported(package: str, tmp_path: Path) -> None:
+    (tmp_path / f"{package}.py").write_text("raise KeyboardInterrupt\n")
+    environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{Path(__file__).parents[1]}"}
+    done = subprocess.run([sys.executable, "-m", "fctd"], env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
+def test_an_interactive_session_is_not_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "ps1", ">>> ", raising=False)
+    with pytest.raises(KeyboardInterrupt), ends_program():
+        raise KeyboardInterrupt

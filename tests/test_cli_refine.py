@@ -86,6 +86,19 @@ def test_the_case_is_written_as_the_user_has_it(
     assert point.hookload == pytest.approx(same.hookload, rel=1e-6)
 
 
+def test_the_file_is_written_also_when_nobody_reads_the_screen(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def closed(*_: object, **__: object) -> None:
+        raise SystemExit(1)
+
+    case_file.write_text(CASE, encoding="utf-8-sig")  # as some editors write
+    monkeypatch.setattr("fctd.cli_options.screen.print", closed)
+    out = tmp_path / "fine.toml"
+    assert run(monkeypatch, "refine", case_file, "--tolerance", "20%", "--out", out, "--quiet") == 1
+    assert fctd.load_case(out).name == "tiny"
+
+
 def test_a_bent_housing_is_bent_at_its_upper_end_in_the_file(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -148,7 +161,7 @@ def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
         (("--out", "fine.txt"), ["--out", "fine.txt", ".toml"]),
         (("--operation", "trip"), ["tiny.toml", "operation", "trip"]),
         (("--bit-depth", "950 m"), ["tiny.toml", "bit_depth", "950 m", "900 m"]),
-        (("--out", "tiny.toml"), ["--out", "tiny.toml", "another file than the case itself"]),
+        (("--out", "tiny.toml"), ["--out", "tiny.toml", "another file than the case and its survey"]),
         (("--most", "3"), ["tiny.toml", "most", "16 to 10000"]),
     ],
 )

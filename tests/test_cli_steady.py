@@ -93,7 +93,7 @@ def test_field_units_in_columns_and_names(
     assert "2600.0" in screen
     table = pd.read_parquet(out)
     si = fctd.torque_drag(fctd.load_case(case_file), list(table["operation"].unique()), [609.6, 701.04, 792.48])
-    assert table["bit_depth_ft"].tolist() == pytest.approx([2000, 2300, 2600] * 6, rel=1e-12)
+    assert table["bit_depth_ft"].tolist() == [2000, 2300, 2600] * 6
     for field, column, factor in (
         ("hookload_klbf", "hookload_N", 1000 * LBF),
         ("total_contact_force_klbf", "total_contact_force_N", 1000 * LBF),
@@ -301,17 +301,49 @@ def test_buckled_stretches_are_told_apart() -> None:
 def test_a_file_that_fails_to_be_written_is_one_message(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The disk fills up after the target was looked at."""
+    """The disk fills up after the target was looked at: the loads are on the screen, the file is the one before."""
 
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device", "profile.csv")
+    def full(frame: pd.DataFrame, path: Path, **_: object) -> None:
+        path.write_text("half")
+        raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("fctd.cli_steady.write_table", full)
-    options = POINT | {"--out": str(tmp_path / "profile.csv")}
+    monkeypatch.setattr(pd.DataFrame, "to_csv", full)
+    out = tmp_path / "profile.csv"
+    out.write_text("old")
+    options = POINT | {"--out": str(out)}
     assert run(monkeypatch, "equilibrium", case_file, *(part for pair in options.items() for part in pair)) == 2
-    message = capsys.readouterr().err
-    assert "No space left on device" in message
-    assert "Traceback" not in message
+    captured = capsys.readouterr()
+    assert f'"{out}": expected a file that can be written (No space left on device)' in captured.err
+    assert "hook load" in captured.out
+    assert out.read_text() == "old"
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+def test_files_are_written_also_when_nobody_reads_the_screen(
+    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """``fctd chart … | head -1``: rich ends the program when its pipe is closed."""
+
+    def closed(*_: object, **__: object) -> None:
+        raise SystemExit(1)
+
+    monkeypatch.setattr("fctd.cli_options.screen.print", closed)
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "out.csv")}
+    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 1
+    assert len(pd.read_csv(tmp_path / "out.csv")) > 0
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+def test_the_survey_is_not_written_over(
+    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    survey = tmp_path / "hole.csv"
+    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,0,0\n")
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "." / "hole.csv")}
+    given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
+    assert run(monkeypatch, command, case_file, *given, *settings(f"wellbore.survey={survey}")) == 2
+    assert "another file than the case and its survey" in capsys.readouterr().err
+    assert survey.read_text().startswith("md_m")
 
 
 def test_without_matplotlib_a_picture_is_refused_before_computing(

@@ -75,7 +75,7 @@ def test_exact_repeats_are_dropped(write: Write) -> None:
 )
 def test_repeats_never_change_what_remains(steps: list[float], repeats: list[int]) -> None:
     md = np.concatenate([[0.0], np.cumsum(steps)])
-    stations = np.column_stack([md, np.minimum(md, 180), -md])
+    stations = np.column_stack([md, np.minimum(md, 180), -md % 360])
     repeated = np.repeat(stations, repeats[: len(md)], axis=0)
     checked = check_stations(repeated, lambda row, column: (f"[{row}][{column}]", MISSING))
     assert np.array_equal(checked, stations)
@@ -96,6 +96,8 @@ HEADERS = "md_m,inc_deg,azi_deg"
         (["0,0,0", "10,0,-inf"], "row 3, azi_deg", "-inf", "a finite number"),
         (["0,0,0", "10,180.5,0"], "row 3, inc_deg", "180.5", "an inclination from 0 to 180 deg"),
         (["0,-0.1,0", "10,0,0"], "row 2, inc_deg", "-0.1", "an inclination from 0 to 180 deg"),
+        (["0,0,0", "10,0,-999.25"], "row 3, azi_deg", "-999.25", "an azimuth from -720 to 720 deg"),
+        (["0,0,0", "10,0,720.5"], "row 3, azi_deg", "720.5", "an azimuth from -720 to 720 deg"),
         (["5,0,0", "10,0,0"], "row 2, md_m", "5", "measured depth 0, add a tie-in station at surface"),
         (["-5,0,0", "10,0,0"], "row 2, md_m", "-5", "measured depth 0, add a tie-in station at surface"),
         (
@@ -125,6 +127,14 @@ def test_the_whole_message(write: Write) -> None:
 def test_a_missing_column_lists_the_headers(write: Write) -> None:
     message = str(refusal(write("md,inc_deg,azi_deg", "0,0,0")))
     assert 'column md_m or md_ft is missing: expected it among the headers "md", "inc_deg"' in message
+
+
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_other_separators_are_named(write: Write, separator: str) -> None:
+    header = HEADERS.replace(",", separator)
+    error = refusal(write(header, separator.join(["0,0", "0,0", "0,0"])))
+    assert (error.key, error.value) == ("row 1", header)
+    assert "columns separated by commas" in str(error)
 
 
 def test_a_named_column_that_is_missing(write: Write) -> None:

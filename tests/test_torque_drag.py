@@ -64,6 +64,7 @@ def test_a_row_per_operation_friction_and_depth() -> None:
         ({"operation": []}, "expected at least one kind of operation"),
         ({"operation": ["trip_in", "wiggle"]}, 'operation = "wiggle": expected one of the kinds'),
         ({"friction": -0.1}, "friction = -0.1: expected a friction factor at least 0"),
+        ({"friction": [0.2, 20]}, "friction = 20.0: expected a friction factor at least 0 and at most 5"),
         ({"friction": []}, "friction = []: expected at least one friction factor"),
         ({"speed": -1.0}, "speed = -1.0: expected a speed above 0"),
     ],

@@ -39,15 +39,19 @@ def main(
     except runner.UsageError as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from error
-    code = runner.run_all(
-        chosen,
-        quick=quick,
-        force=force,
-        data=study.data_folder(),
-        expected=expected,
-        results=study.RESULTS,
-        console=Console(),
-    )
+    try:
+        code = runner.run_all(
+            chosen,
+            quick=quick,
+            force=force,
+            data=study.data_folder(),
+            expected=expected,
+            results=study.RESULTS,
+            console=Console(),
+        )
+    except OSError as error:  # of the results folder: what a study fails at is its own result
+        typer.echo(f"error: {study.RESULTS}: expected a folder that can be written ({error})", err=True)
+        raise typer.Exit(2) from error
     raise typer.Exit(code)
 
 

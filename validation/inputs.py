@@ -19,6 +19,8 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from pydantic import TypeAdapter
+
 from references.timing import cpu_name
 from validation.study import ROOT
 
@@ -57,11 +59,14 @@ class Inputs:
         (folder / "inputs.json").write_text(json.dumps(asdict(self), indent=1, ensure_ascii=False) + "\n")
 
 
+_STORED: TypeAdapter[Inputs] = TypeAdapter(Inputs)
+
+
 def read(folder: Path) -> Inputs | None:
     """The inputs stored beside a result; None where there are none that can be read."""
     try:
-        return Inputs(**json.loads((folder / "inputs.json").read_text()))
-    except (OSError, ValueError, TypeError):
+        return _STORED.validate_json((folder / "inputs.json").read_bytes())
+    except (OSError, ValueError):
         return None
 
 

@@ -1,5 +1,6 @@
 """What is kept of a run: ``verdict.json`` and one Parquet file per table, written whole or not at all."""
 
+import errno
 import json
 import math
 import os
@@ -9,12 +10,16 @@ import subprocess
 import tempfile
 from collections import Counter
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from importlib import metadata
+from itertools import count
 from pathlib import Path
 from typing import Any, Literal
 
 import pandas as pd
+from pyarrow import parquet
+from pydantic import TypeAdapter
 
 from references.timing import cpu_name
 from validation.inputs import Inputs
@@ -101,17 +106,28 @@ def write(record: Record, tables: dict[str, pd.DataFrame], results: Path, inputs
     results.mkdir(parents=True, exist_ok=True)
     folder = results / record.study
     with tempfile.TemporaryDirectory(prefix=f".{record.study}-", dir=results) as scratch:
-        new, old = Path(scratch) / "new", Path(scratch) / "old"
+        new = Path(scratch) / "new"
         new.mkdir()
         for name, table in tables.items():
             table.to_parquet(new / f"{name}.parquet", index=False)
         _write_verdict(record, new / "verdict.json")
         if inputs is not None:
             inputs.write(new)
-        if folder.exists():
-            folder.rename(old)
-        new.rename(folder)
+        _put(new, folder)
     return folder
+
+
+def _put(new: Path, folder: Path) -> None:
+    """Give a new folder the place of the one there, if any; another run may do the same at the same time."""
+    for k in count():
+        with suppress(FileNotFoundError):
+            folder.rename(new.with_name(f"old-{k}"))
+        try:
+            new.rename(folder)
+            return
+        except OSError as error:  # the other run's was put there between the two
+            if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
+                raise
 
 
 def judge_again(record: Record, recorded: Mapping[str, str], results: Path) -> Record:
@@ -126,18 +142,28 @@ def judge_again(record: Record, recorded: Mapping[str, str], results: Path) -> R
     return judged_again
 
 
+_STORED: TypeAdapter[Record] = TypeAdapter(Record)
+
+
 def read(folder: Path) -> Record:
-    """The record stored in a result folder."""
+    """The record stored in a result folder; OSError, ValueError, TypeError or LookupError where there is none."""
     stored = json.loads((folder / "verdict.json").read_text())
-    return Record(
-        **stored
-        | {
-            "checks": tuple(_judged(entry) for entry in stored["checks"]),
-            "notes": tuple(stored["notes"]),
-            "tables": tuple(stored["tables"]),
-            "provenance": Provenance(**stored["provenance"]),
-        }
-    )
+    # The stored verdicts are left aside, since they follow from value and bound.
+    checks = [{"check": entry, "recorded": entry["recorded"]} for entry in stored["checks"]]
+    found = _STORED.validate_python(stored | {"checks": checks})
+    if lost := found.display.keys() - set(found.tables):
+        raise ValueError(f"display names tables that are not there: {sorted(lost)}")
+    return found
+
+
+def unreadable(folder: Path, record: Record) -> str:
+    """The first table of a record that is not there or whose file is cut short; empty where all can be read."""
+    for name in record.tables:
+        try:
+            parquet.read_metadata(folder / f"{name}.parquet")
+        except (OSError, ValueError):
+            return name
+    return ""
 
 
 def read_tables(folder: Path, record: Record) -> dict[str, pd.DataFrame]:
@@ -164,20 +190,6 @@ def _to_json(record: Record) -> dict[str, Any]:
         for judged in record.checks
     ]
     return asdict(record) | {"checks": checks}
-
-
-def _judged(stored: dict[str, Any]) -> Judged:
-    """The inverse for one check; the stored verdict is left aside, since it follows from value and bound."""
-    bound = stored["bound"]
-    check = Check(
-        name=stored["name"],
-        value=float(stored["value"]),
-        bound=(float(bound[0]), float(bound[1])) if isinstance(bound, list) else float(bound),
-        kind=stored["kind"],
-        unit=stored["unit"],
-        source=stored["source"],
-    )
-    return Judged(check, stored["recorded"])
 
 
 def _number(value: float) -> float | str:

@@ -231,13 +231,13 @@ def outdated(name: str, now: Inputs, results: Path) -> str:
         kept = record.read(results / name)
     except FileNotFoundError:
         return ""
-    except (ValueError, TypeError, LookupError):
+    except (OSError, ValueError, TypeError, LookupError):
         return "the result cannot be read"
     before = inputs.read(results / name)
     if kept.status != "finished":
         return f"was {kept.status}"
-    if lost := [table for table in kept.tables if not (results / name / f"{table}.parquet").is_file()]:
-        return f"table {lost[0]} is not there"
+    if lost := record.unreadable(results / name, kept):
+        return f"table {lost} cannot be read"
     if before is None or not now.code:
         return "what it rests on is not known"
     changed = now.changed_since(before)
@@ -296,6 +296,8 @@ def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
     _say(console, f"{run.study}: {run.summary}  ({when}{why})", style)
     if run.message:
         _say(console, f"  {run.message}")
+    for note in run.notes if not run.checks else ():  # why there are none
+        _say(console, f"  {note}")
     for judged in run.checks:
         check = judged.check
         found = f"{check.value:.6g} {check.unit}".rstrip()

@@ -1,5 +1,6 @@
 """Records: readable files, the newest of them, and when one says something about this machine."""
 
+import json
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -42,7 +43,27 @@ def test_the_last_release_is_the_newest_by_its_own_date(tmp_path: Path) -> None:
 
 def test_a_file_that_is_no_record_is_named(tmp_path: Path) -> None:
     (tmp_path / "x.json").write_text('{"release": "1.0"}')
-    with pytest.raises(InputError, match=r"x\.json: date"):
+    with pytest.raises(InputError, match=r"x\.json: date is missing: expected a record"):
+        history.read(tmp_path)
+    (tmp_path / "x.json").write_bytes(b"\xff\xfe")
+    with pytest.raises(InputError, match=r"x\.json: .*expected a record"):
+        history.read(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("date", "2026-01-02T00:00:00"),  # of no time zone: not to be sorted
+        ("commit", "--output=here"),  # git would take it for an option
+        ("kernels", {}),
+        ("kernels", {"joint loads": {"unit": "joint", "size": "64", "ns": 8.0, "samples": []}}),
+        ("kernels", {"joint loads": {"unit": "joint", "size": "64", "ns": 8.0, "samples": [float("nan")]}}),
+    ],
+)
+def test_a_record_that_nothing_compares_with_is_refused(key: str, value: object, tmp_path: Path) -> None:
+    path = history.write(a_record(), tmp_path)
+    path.write_text(json.dumps(json.loads(path.read_text()) | {key: value}))
+    with pytest.raises(InputError, match=rf"\.json: {key}.*expected a record"):
         history.read(tmp_path)
 
 

@@ -1,6 +1,10 @@
 """The yardstick: that nobody edits it unknowingly, and that it measures arithmetic and nothing else."""
 
+import os
 import re
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 from numba import njit
@@ -10,10 +14,21 @@ from benchmarks.worker import reference_digest
 
 # Every record in benchmarks/history/ is in units of this source.  A new yardstick needs new records.
 SOURCE = "306194ad3d1aa4e0"
+ROOT = Path(__file__).parents[2]
 
 
 def test_nobody_has_edited_it() -> None:
     assert reference_digest() == SOURCE
+
+
+def test_its_compiled_code_lies_where_the_engine_keeps_its_own() -> None:
+    """And not beside its source, which another user may not write."""
+    program = "from benchmarks import reference_kernel as k; print(k.reference_kernel.stats.cache_path)"
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True,
+        env={key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"},
+    )  # fmt: skip
+    assert not Path(done.stdout).is_relative_to(ROOT)
 
 
 def test_values_stay_normal_and_of_order_one() -> None:

@@ -1,9 +1,12 @@
 """The page shows every study: finished, missed, failed, skipped and not run."""
 
+import json
 import re
+import sys
 from dataclasses import replace
 from html.parser import HTMLParser
 
+import pandas as pd
 import pytest
 
 pytest.importorskip("jinja2")
@@ -130,10 +133,40 @@ def test_result_that_cannot_be_read_leaves_the_page(render, judged_claims, tmp_p
     (results / "claims" / "verdict.json").write_text("{")
     html, problems = render(studies=["overlap", "jumps", "claims"])
     assert [problem.partition(" cannot be read: ")[0] for problem in problems] == [
-        "overlap: the result", "jumps: the result",
+        "claims: the result", "overlap: the result", "jumps: the result",
     ]  # fmt: skip
     assert "largest jump" in html  # its verdict is there
-    assert words_of(html).count("cannot be read") == 2
+    assert words_of(html).count("cannot be read") == 3
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("status", 3), ("display", None), ("display", {"gone": "A table"}), ("date", 3), ("wall_s", "long"),
+     ("checks", [{"name": "error", "kind": 3, "recorded": None}])],
+)  # fmt: skip
+def test_a_verdict_of_another_shape_cannot_be_read(key, value, render, tmp_path):
+    render(finished("overlap"))
+    path = tmp_path / "results" / "overlap" / "verdict.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {key: value}))
+    html, problems = render(studies=["overlap"])
+    assert [problem.partition(" cannot be read: ")[0] for problem in problems] == ["overlap: the result"]
+    assert "cannot be read" in words_of(html)
+
+
+def test_a_ledger_without_a_column_cannot_be_read(render, judged_claims, tmp_path):
+    render(judged_claims)
+    path = tmp_path / "results" / "claims" / "ledger.parquet"
+    pd.read_parquet(path).drop(columns="verdict").to_parquet(path)
+    html, problems = render()
+    assert problems == ["claims: the result cannot be read: KeyError: 'verdict'"]
+    assert problems[0].removeprefix("claims: ") in html.replace("&#39;", "'")
+
+
+def test_a_study_without_tables_has_no_figures(render):
+    html, problems = render((replace(BLANK, notes=("Not installed, and so not run: a package.",)), {}))
+    assert problems == []
+    assert "Not installed, and so not run" in html
+    assert "<figure" not in html
 
 
 def test_figure_that_cannot_be_drawn_leaves_the_page(render, capsys):
@@ -334,5 +367,23 @@ def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
 def test_command_tells_when_a_figure_is_missing(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
     monkeypatch.setattr(command_line, "OUT", tmp_path / "out")
-    record.write(BLANK, {}, tmp_path / "results")
+    record.write(replace(BLANK, checks=(judged(5e-7),)), {}, tmp_path / "results")
     assert CliRunner().invoke(command_line.app).exit_code == 1
+
+
+def test_command_names_a_package_that_is_missing(monkeypatch, capsys):
+    monkeypatch.delattr("reports.page")
+    monkeypatch.delitem(sys.modules, "reports.page")
+    monkeypatch.setitem(sys.modules, "jinja2", None)
+    answer = CliRunner().invoke(command_line.app)
+    assert answer.exit_code == 2
+    assert "expected the package jinja2" in answer.output
+
+
+def test_command_names_a_folder_that_cannot_be_written(tmp_path, monkeypatch):
+    monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(command_line, "OUT", tmp_path / "file" / "out")
+    (tmp_path / "file").write_text("")
+    answer = CliRunner().invoke(command_line.app)
+    assert answer.exit_code == 2
+    assert "expected a folder that can be written" in answer.output

@@ -72,6 +72,16 @@ def test_results_that_cannot_be_kept(invoke):
     assert "results: expected a folder that can be written" in answer.output
 
 
+def test_a_disk_that_is_full(invoke, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(record, "write", full)
+    answer = invoke("--all")
+    assert answer.exit_code == 2
+    assert "results: expected a folder that can be written ([Errno 28] No space left on device)" in answer.output
+
+
 def test_worse_than_recorded(invoke, register):
     check = Check("error", 2.0, 1.0, "at_most", "", "test")
     register("missing", lambda context: Outcome({}, [check]))

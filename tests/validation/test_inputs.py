@@ -218,12 +218,23 @@ def test_force_repeats(lab):
     assert runs(lab) == 2
 
 
+@pytest.mark.parametrize("text", ["{", "[]", '{"code": [], "around": []}'])
 @pytest.mark.parametrize("damage", ["verdict.json", "inputs.json"])
-def test_a_result_that_cannot_be_read_is_repeated(lab, damage):
+def test_a_result_that_cannot_be_read_is_repeated(lab, damage, text):
     run(lab)
-    (lab / "results" / "question" / damage).write_text("{")
+    (lab / "results" / "question" / damage).write_text(text)
+    runner.changes(["question"], lab / "results")  # the page asks, too
     assert run(lab)[0] == 0
     assert runs(lab) == 2
+
+
+def test_a_result_that_is_a_folder_is_repeated(lab):
+    run(lab)
+    verdict = lab / "results" / "question" / "verdict.json"
+    verdict.unlink()
+    verdict.mkdir()
+    assert "the result cannot be read" in run(lab)[1]
+    assert verdict.is_file()
 
 
 def test_a_failed_study_is_repeated(lab, capsys):

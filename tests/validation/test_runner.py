@@ -3,7 +3,9 @@
 import json
 import math
 import os
+import shutil
 import signal
+from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -127,12 +129,46 @@ def test_table_that_cannot_be_stored_is_a_failure(register, run, tmp_path, capsy
     assert stored(tmp_path, "toy")["status"] == "failed"
 
 
-def test_a_result_without_its_table_is_repeated(register, run, tmp_path):
+@pytest.mark.parametrize("left", [None, 0, 100])
+def test_a_result_whose_table_is_gone_or_cut_short_is_repeated(left, register, run, tmp_path):
     register("toy")
     run("toy")
-    (tmp_path / "results" / "toy" / "forces.parquet").unlink()
-    assert "table forces is not there" in run("toy")[1]
-    assert (tmp_path / "results" / "toy" / "forces.parquet").exists()
+    table = tmp_path / "results" / "toy" / "forces.parquet"
+    whole = table.read_bytes()
+    if left is None:
+        table.unlink()
+    else:
+        table.write_bytes(whole[:left])
+    assert "table forces cannot be read" in run("toy")[1]
+    assert table.read_bytes() == whole
+    assert "kept" in run("toy")[1]
+
+
+def test_two_runs_may_end_at_the_same_time(register, run, tmp_path, monkeypatch):
+    """The other run stores its result between this one's two renamings; the last to come stays."""
+    register("toy")
+    run("toy")
+    rename = Path.rename
+
+    def late(self, target):
+        moved = rename(self, target)
+        if target.name == "old-0":
+            shutil.copytree(target, self)
+        return moved
+
+    (tmp_path / "results" / "toy" / "inputs.json").unlink()
+    monkeypatch.setattr(Path, "rename", late)
+    code, text = run("toy")
+    assert code == 0, text
+    assert (tmp_path / "results" / "toy" / "inputs.json").exists()
+    assert [path.name for path in (tmp_path / "results").iterdir()] == ["toy"]
+
+
+def test_without_checks_the_notes_say_why(register, run):
+    register("toy", lambda context: Outcome({}, [], ["Not installed, and so not run: a package."]))
+    assert "Not installed, and so not run: a package." in run("toy")[1]
+    register("other")
+    assert "a toy" not in run("other")[1]
 
 
 def test_study_without_its_data_is_skipped_by_name(register, run, tmp_path):

@@ -1,0 +1,47 @@
+"""A file is the old one or the new one, never half of either."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from fctd.errors import InputError
+from fctd.whole_file import whole_file
+
+
+def test_the_new_file_takes_the_place_of_the_old(tmp_path: Path) -> None:
+    path = tmp_path / "new" / "chart.csv"
+    for text in ("first", "second"):
+        with whole_file(path) as scratch:
+            assert scratch.suffix == ".csv"
+            scratch.write_text(text)
+        assert path.read_text() == text
+    assert list(path.parent.iterdir()) == [path]
+    os.link(path, tmp_path / "reader")  # whoever reads the old file meanwhile
+    with whole_file(path) as scratch:
+        scratch.write_text("third")
+    assert (tmp_path / "reader").read_text() == "second"
+
+
+@pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_a_failure_leaves_the_old_file(failure: BaseException, tmp_path: Path) -> None:
+    path = tmp_path / "chart.csv"
+    path.write_text("old")
+
+    def fail() -> None:
+        with whole_file(path) as scratch:
+            scratch.write_text("half")
+            raise failure
+
+    with pytest.raises((InputError, KeyboardInterrupt)) as caught:
+        fail()
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+    if isinstance(failure, OSError):
+        assert str(caught.value) == f'"{path}": expected a file that can be written (No space left on device)'
+
+
+def test_no_folder_can_be_made(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="a file that can be written"), whole_file(tmp_path / "file" / "a.csv"):
+        pass
