@@ -64,7 +64,8 @@ def test_the_case_is_written_as_the_user_has_it(
     found = fctd.refine(case, 0.02, graded=graded)
     screen = capsys.readouterr().out
     assert "bit at 850.0 m" in screen
-    assert f"{found.segments} segments, from" in screen
+    cut = f"{found.segments} {found.layout} segments" if graded else f"{found.segments} segments"
+    assert f"{cut}, from {found.shortest:.3g} m up" in screen
     assert f"{found.steps['hookload_N'].iloc[-1] / 1e3:.2f}" in screen
 
     text = out.read_text()
@@ -95,6 +96,19 @@ def test_a_bent_housing_is_bent_at_its_upper_end_in_the_file(
     collars = [part for part in fctd.load_case(out).string.components if part.name == "collar"]
     assert [part.bend > 0 for part in collars] == [False] * (len(collars) - 1) + [True]
     assert sum(part.length or 0.0 for part in collars) == pytest.approx(300 * 0.3048)
+
+
+def test_grading_that_saves_nothing_is_told(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A hole that bends alike all the way."""
+    (case_file.parent / "hole.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,90,0\n")
+    options = ("--set", "string.components[0].bend=", "--tolerance", "3%", "--graded", "--quiet")
+    assert run(monkeypatch, "refine", case_file, *options) == 0
+    screen = capsys.readouterr().out
+    assert "uniform segments, from" in screen
+    assert "Grading would not save a tenth of them." in screen
+    assert " graded " in screen
 
 
 def test_several_operations_and_field_units(

@@ -6,14 +6,16 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import fctd
 from fctd import Case, Equilibrium, InputError
+from fctd.drillstring import lay_out
 from fctd.equilibrium import Solver
 from fctd.layouts import uniform, with_components
 from fctd.operations import SteadyRates
-from fctd.refine import SAFETY, _errors, _Level, relative_difference
+from fctd.refine import SAFETY, WORTH, Refinement, Status, _better, _errors, _Level, relative_difference
 from tests.cases import make_case, pipe, rotation, trip
 from validation.refine import finer
 
@@ -27,7 +29,7 @@ def build_case(**more: Any) -> Case:
 def levels(values: list[float]) -> list[_Level]:
     """A sequence of answers of one load, NaN for none."""
     return [
-        _Level("string", build_case(), 2**k, 1.0, np.array([[value, 0.0]]), np.ones((1, 2)), [], [])
+        _Level("string", "uniform", build_case(), 2**k, 1.0, np.array([[value, 0.0]]), np.ones((1, 2)), [], [])
         for k, value in enumerate(values)
     ]
 
@@ -66,7 +68,7 @@ def test_what_is_found_is_within_the_tolerance_of_a_finer_run(graded: bool) -> N
         assert len(point.profile) - 1 == found.segments
         off = relative_difference(point, fctd.equilibrium(finer(found.case), kind, 1300.0))
         assert max(off) <= 0.01
-    steps = found.steps[found.steps["stage"] == "string"]
+    steps = found.steps[(found.steps["stage"] == "string") & (found.steps["layout"] == found.layout)]
     assert steps["segments"].iloc[-1] == found.segments
     assert steps["torque_error"].isna().tolist() == [True, True] + [False] * (len(steps) - 2)
     assert (found.steps["time_s"] > 0).all()
@@ -76,6 +78,48 @@ def test_grading_takes_fewer_segments() -> None:
     """A build between two straights."""
     even, cut = (fctd.refine(build_case(), 0.003, "rotate_off_bottom", 1300.0, graded) for graded in (False, True))
     assert cut.segments < 0.8 * even.segments
+    assert (even.layout, cut.layout) == ("uniform", "graded")
+    assert cut.steps["layout"].unique().tolist() == ["uniform", "graded"]
+    assert lay_out(cut.case, 1300.0).segments == cut.segments
+    assert lay_out(cut.case, 1300.0).length.min() == pytest.approx(cut.shortest)
+    tried = cut.steps[(cut.steps["stage"] == "string") & (cut.steps["layout"] == "uniform")]
+    assert tried["segments"].iloc[-1] == even.segments
+
+
+def test_a_hole_that_bends_alike_everywhere_is_cut_alike() -> None:
+    """There grading would only bind the string to its depth."""
+    case = make_case([[0, 0, 0], [1300, 80, 0]], [pipe(None, None, segment_length=10.0)])
+    even, cut = (fctd.refine(case, 0.01, "rotate_off_bottom", 1300.0, graded) for graded in (False, True))
+    assert cut.layout == "uniform"
+    assert cut.case == even.case
+    assert (cut.segments, cut.error) == (even.segments, even.error)
+    tried = cut.steps[cut.steps["layout"] == "graded"]["segments"]
+    assert 0 < tried.max() <= WORTH * even.segments
+
+
+@pytest.mark.parametrize(
+    ("uniform", "graded", "better"),
+    [
+        (("within_tolerance", 0.009, 100), ("within_tolerance", 0.0099, 80), "graded"),
+        (("within_tolerance", 0.009, 100), ("within_tolerance", 0.001, 100), "uniform"),
+        (("within_tolerance", 0.009, 100), ("not_reached", 0.02, 80), "uniform"),
+        (("not_reached", 0.011, 900), ("within_tolerance", 0.009, 990), "graded"),
+        (("not_reached", 0.03, 500), ("not_reached", 0.02, 600), "graded"),
+        (("not_reached", 0.02, 600), ("not_reached", 0.03, 500), "uniform"),
+        (("no_answer", math.inf, 0), ("not_reached", 0.5, 80), "graded"),
+        (("no_answer", math.inf, 0), ("no_answer", math.inf, 0), "uniform"),
+    ],
+)
+def test_the_better_string_is_the_one_that_is_enough_with_fewer(
+    uniform: tuple[Status, float, int], graded: tuple[Status, float, int], better: str
+) -> None:
+    def found(layout: str, status: Status, error: float, segments: int) -> Refinement:
+        steps = pd.DataFrame({"stage": ["hole", "string"], "layout": ["uniform", layout]})
+        return Refinement(status, "", build_case(), ("trip_in",), 1300.0, 0.01, error, layout, segments, 1.0, steps)
+
+    chosen = _better(found("uniform", *uniform), found("graded", *graded))
+    assert chosen.layout == better
+    assert chosen.steps["layout"].tolist() == ["uniform", "uniform", "graded"]
 
 
 @pytest.mark.parametrize(("size", "first"), [({"chord_tolerance": 0.2}, 0.2), ({"cylinder_length": 12.0}, None)])
@@ -101,9 +145,9 @@ def test_the_string_is_allowed_what_the_cylinders_leave(monkeypatch: pytest.Monk
     module, asked = sys.modules["fctd.refine"], []
     refine_string = module._refine_string
 
-    def with_ease(case: Case, task: Any, allowed: float) -> Any:
+    def with_ease(case: Case, task: Any, layout: str, allowed: float) -> Any:
         asked.append(allowed)
-        return refine_string(case, task, 0.5)
+        return refine_string(case, task, layout, 0.5)
 
     monkeypatch.setattr(module, "_refine_string", with_ease)
     found = fctd.refine(build_case(wellbore={"chord_tolerance": 0.2}), 0.01, "rotate_off_bottom", 1300.0)
