@@ -92,7 +92,8 @@ def refine(
     graded : short segments in bends and near the bit, long ones elsewhere, if that takes a tenth fewer of them at
     least than one length for all; a graded string belongs to this one bit depth.  most : segments at most.  speed
     [m/s], rpm : as of ``torque_drag``.  The tolerance is a share of the load, or of a tenth of what the load is made
-    of (the string's weight, Σ r μ F_n) where that is more.  Raises InputError for input that cannot be used.
+    of (the string's weight, Σ r μ F_n) where that is more; torque of a string that does not turn counts against all
+    of Σ r μ F_n.  Raises InputError for input that cannot be used.
     """
     try:
         kinds = _kinds(case, operation)
@@ -193,17 +194,20 @@ def _solve(stage: str, layout: str, case: Case, task: _Task) -> _Level:
         seconds.append(time.perf_counter() - began)
         began = time.perf_counter()
     loads = [_loads(p) if p.status in SOUND else (np.nan, np.nan) for p in points]
-    scales = [_scales(p, weight) for p in points]
+    scales = [_scales(p, weight, rates.spin) for p, rates in zip(points, task.rates.values(), strict=True)]
     return _Level(
         stage, layout, case, string.segments, float(string.length.min()), np.array(loads), np.array(scales), points,
         seconds,
     )  # fmt: skip
 
 
-def relative_difference(point: Equilibrium, other: Equilibrium) -> tuple[float, float]:
-    """Differences in hook load and torque, relative as those of a refinement are, to the loads of ``other``."""
+def relative_difference(point: Equilibrium, other: Equilibrium, spin: float) -> tuple[float, float]:
+    """Differences in hook load and torque, relative as those of a refinement are, to the loads of ``other``.
+
+    spin : at which both turn [rad/s].
+    """
     string = lay_out(other.case, other.bit_depth)
-    scales = _scales(other, float(string.of("weight") @ string.length))
+    scales = _scales(other, float(string.of("weight") @ string.length), spin)
     hookload, torque = np.abs(np.subtract(_loads(point), _loads(other))) / scales
     return float(hookload), float(torque)
 
@@ -212,11 +216,12 @@ def _loads(point: Equilibrium) -> tuple[float, float]:
     return point.hookload, point.surface_torque
 
 
-def _scales(point: Equilibrium, weight: float) -> tuple[float, float]:
+def _scales(point: Equilibrium, weight: float, spin: float) -> tuple[float, float]:
     """What errors in hook load and torque are measured against, given the buoyed weight of the string [N]."""
-    # Without friction there is no torque to be wrong about but rounding.
-    friction = max(point.sum_r_mu_fn, 1e-5 * weight)
-    return max(abs(point.hookload), SHARE_OF_WHOLE * weight), max(abs(point.surface_torque), SHARE_OF_WHOLE * friction)
+    # Without friction there is no torque to be wrong about but rounding.  In a string that only slides, its chords
+    # make a little, of first order: that is no load to cut it finely for, but small beside what turning would take.
+    friction = max(point.sum_r_mu_fn, 1e-5 * weight) * (SHARE_OF_WHOLE if spin else 1.0)
+    return max(abs(point.hookload), SHARE_OF_WHOLE * weight), max(abs(point.surface_torque), friction)
 
 
 def _errors(levels: Sequence[_Level]) -> tuple[Array, Array]:
