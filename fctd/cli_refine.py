@@ -105,7 +105,7 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
                 _percent(np.maximum(row["hookload_change"], row["torque_change"])),
                 _percent(np.maximum(row["hookload_error"], row["torque_error"])),
             )
-            nothing = ("–", "–", row["status"], "–")
+            nothing = ("–", "–", "no answer", "–")
             loads = nothing if np.isnan(row["hookload_N"]) else answer
             kind = row["operation"] + (" (locked up)" if row["status"] == "locked_up" else "")
             table.add_row(name, kind, *loads, f"{1e3 * row['time_s']:.0f}")

@@ -23,8 +23,6 @@ Layout = Callable[[Case, float, float], Components]
 
 # Segments elsewhere are up to so many times as long as the shortest; lengths differ by factors of two.
 LONGEST = 8.0
-# A segment may take the place of this many of those that ``coarseness`` asks for: one, and rounding.
-ONE = 1.0005
 # A hole that bends less all along counts as straight [1/m].
 STRAIGHT = np.radians(0.5) / 30
 SAMPLES = 4000
@@ -43,7 +41,6 @@ def uniform(case: Case, bit_depth: float, length: float) -> Components:
 def graded(case: Case, bit_depth: float, length: float) -> Components:
     """Segments of about ``length`` [m] at the bit and in the sharpest bend, longer where ``coarseness`` is more."""
     above_bit, factor = coarseness(case, bit_depth)
-    asked = np.concatenate([[0.0], np.cumsum(2 * np.diff(above_bit) / (factor[1:] + factor[:-1]))]) / length
     pieces: list[ComponentSpec] = []
     start, total = 0.0, bit_depth - case.string.top_md
     for part in case.string.components:
@@ -51,7 +48,7 @@ def graded(case: Case, bit_depth: float, length: float) -> Components:
         if start >= total or is_long(part):
             pieces.append(part)
         else:
-            pieces += _grade(part, _walk(start, end, length, above_bit, asked))
+            pieces += _grade(part, _walk(start, end, length, above_bit, factor))
         start = end
     return tuple(pieces)
 
@@ -138,18 +135,14 @@ def _grade(part: ComponentSpec, runs: list[tuple[float, int]]) -> Components:
     return (*pieces[:-1], pieces[-1].model_copy(update=top))
 
 
-def _walk(start: float, end: float, length: float, above_bit: Array, asked: Array) -> list[tuple[float, int]]:
-    """Runs of equal segments from ``start`` to ``end`` above the bit [m]: length of a run, segments in it.
-
-    asked (n,) : how many segments ``coarseness`` asks for from the bit up to there.  A segment is twice as long while
-    no more than one is asked for along it: were the sharpest course in it to decide, a survey that bends a little
-    differently in every course would be cut nearly as finely everywhere.
-    """
+def _walk(start: float, end: float, length: float, above_bit: Array, factor: Array) -> list[tuple[float, int]]:
+    """Runs of equal segments from ``start`` to ``end`` above the bit [m]: length of a run, segments in it."""
     lengths: list[float] = []
     at = start
     while at < end - 1e-9:
         step = length
-        while step < LONGEST * length and np.diff(np.interp([at, at + 2 * step], above_bit, asked))[0] < ONE:
+        # Twice as long while the string allows it all along the segment.
+        while step < LONGEST * length and _least(at, at + 2 * step, above_bit, factor) > 1.999 * step / length:
             step *= 2
         lengths.append(min(step, end - at))
         at += step
@@ -164,3 +157,9 @@ def _walk(start: float, end: float, length: float, above_bit: Array, asked: Arra
         runs.append(lengths[-1:])
     # In millimetres, for those who read the case file.
     return [(round(float(sum(run)), 3), len(run)) for run in runs]
+
+
+def _least(start: float, end: float, above_bit: Array, factor: Array) -> float:
+    """The least factor between two distances above the bit."""
+    first, last = np.searchsorted(above_bit, [start, end])
+    return float(factor[min(first, len(factor) - 1) : last + 1].min())

@@ -149,7 +149,8 @@ def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
     assert run(monkeypatch, "refine", case_file, *options) == 1
     captured = capsys.readouterr()
     assert "no_answer: no string of" in captured.err
-    assert "max_iterations" in captured.out
+    assert "max_iterations" in captured.err
+    assert "no answer" in captured.out
     assert not out.exists()
 
 

