@@ -66,10 +66,13 @@ def test_the_case_is_written_as_the_user_has_it(
     assert "bit at 850.0 m" in screen
     cut = f"{found.segments} {found.layout} segments" if graded else f"{found.segments} segments"
     assert f"{cut}, from {found.shortest:.3g} m up" in screen
+    assert found.layout == ("graded" if graded else "uniform")
+    assert "Grading would not" not in screen
     assert f"{found.steps['hookload_N'].iloc[-1] / 1e3:.2f}" in screen
 
     text = out.read_text()
     written = fctd.load_case(out)
+    assert f"{found.segments} {found.layout} segments,\n# an estimated error" in text
     assert "# mine" in text
     assert "# as on the rack" in text
     assert found.case.wellbore.chord_tolerance != case.wellbore.chord_tolerance
