@@ -43,7 +43,7 @@ def refine_command(
         str | None, typer.Option("--bit-depth", metavar="D", help="Depth of the bit; else that operation's end.")
     ] = None,
     graded: Annotated[
-        bool, typer.Option("--graded", help="Short segments in bends and near the bit, long ones elsewhere.")
+        bool, typer.Option("--graded", help="Short segments in bends and near the bit, if that saves a tenth.")
     ] = False,
     most: Annotated[int, typer.Option("--most", metavar="N", help="Segments at most.")] = 5000,
     speed: Speed = None,
@@ -77,7 +77,7 @@ def refine_command(
                 changes["friction"] = friction
             write_refined(refined, case_file, changes, target)
     finally:
-        _print(refined, units)
+        _print(refined, graded, units)
     if target is not None:
         screen.print(f"Written: {target}", soft_wrap=True, highlight=False)
     elif out is not None:
@@ -86,8 +86,8 @@ def refine_command(
         raise typer.Exit(FAILED)
 
 
-def _print(refined: Refinement, units: System) -> None:
-    """Print every level, and what follows."""
+def _print(refined: Refinement, graded: bool, units: System) -> None:
+    """Print every level, and what follows; which layout a string has only where both were tried."""
     metre, load, torque = (shown(name, units) for name in ("bit_depth_m", "hookload_N", "surface_torque_N_m"))
     title = f"{refined.case.name}: bit at {refined.bit_depth * metre.factor:.1f} {metre.label}"
     screen.print(title, style="bold", highlight=False, markup=False)
@@ -97,9 +97,10 @@ def _print(refined: Refinement, units: System) -> None:
     for heading in (f"hook load\n{load.label}", f"torque\n{torque.label}", "change\n%", "left\n%", "time\nms"):
         table.add_column(heading, justify="right", overflow="fold")
     across = shown("clearance_m", units)
-    for (stage, _), rows in refined.steps.groupby(["stage", "level"], sort=False):
+    for (stage, layout, _), rows in refined.steps.groupby(["stage", "layout", "level"], sort=False):
         chord, segments = rows["chord_m"].iloc[0] * across.factor, rows["segments"].iloc[0]
-        name = f"chords {chord:.3g} {across.label}" if stage == "hole" else f"{segments} segments"
+        string = f"{segments} {layout}" if graded else f"{segments} segments"
+        name = f"chords {chord:.3g} {across.label}" if stage == "hole" else string
         for row in rows.to_dict("records"):
             answer = (
                 f"{row['hookload_N'] * load.factor:z.2f}",
@@ -107,19 +108,21 @@ def _print(refined: Refinement, units: System) -> None:
                 _percent(np.maximum(row["hookload_change"], row["torque_change"])),
                 _percent(np.maximum(row["hookload_error"], row["torque_error"])),
             )
-            nothing = ("–", "–", row["status"], "–")
+            nothing = ("–", "–", "no answer", "–")
             loads = nothing if np.isnan(row["hookload_N"]) else answer
             kind = row["operation"] + (" (locked up)" if row["status"] == "locked_up" else "")
             table.add_row(name, kind, *loads, f"{1e3 * row['time_s']:.0f}")
             name = ""
     screen.print(table)
     if refined.status == "within_tolerance":
-        lengths = refined.steps.iloc[-1]["shortest_m"] * metre.factor
+        cut = f"{refined.layout} segments" if graded else "segments"
         screen.print(
-            f"{refined.segments} segments, from {lengths:.3g} {metre.label} up: an error of "
+            f"{refined.segments} {cut}, from {refined.shortest * metre.factor:.3g} {metre.label} up: an error of "
             f"{_percent(refined.error)} % is left, {_percent(refined.tolerance)} % is allowed.",
             highlight=False, soft_wrap=True,
         )  # fmt: skip
+        if graded and refined.layout == "uniform":
+            screen.print("Grading would not save a tenth of them.", highlight=False, soft_wrap=True)
     else:
         messages.print(f"[bold]{refined.status}[/bold]: {refined.message}", highlight=False, soft_wrap=True)
 

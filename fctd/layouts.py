@@ -53,6 +53,9 @@ def graded(case: Case, bit_depth: float, length: float) -> Components:
     return tuple(pieces)
 
 
+LAYOUTS: dict[str, Layout] = {"uniform": uniform, "graded": graded}
+
+
 def coarseness(case: Case, bit_depth: float) -> tuple[Array, Array]:
     """Distances above the bit (n,) [m] and how many times as long as the shortest a segment may be there (n,).
 

@@ -3,11 +3,14 @@
 First the hole's cylinders are halved until they hardly matter, then the segments.  What is left is estimated from the
 changes seen so far, as Richardson does, at the order that is safe: the ends of contact move by whole segments,
 so torque converges irregularly, at first order or a little better, and one small change may be luck.
+
+Where a graded string is asked for, a uniform one is found first: the graded one has to do with a tenth fewer segments,
+or it is not worth being bound to one bit depth.
 """
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, Final, Literal, NamedTuple
 
@@ -39,6 +42,8 @@ SHARE_OF_HOLE = 0.25
 SAFETY = 1.25
 # Answers before an estimate is believed, and finer levels without one before it is given up.
 ANSWERS, UNANSWERED = 3, 2
+# Segments of a graded string over those of a uniform one, at most.
+WORTH = 0.9
 # A load near zero is measured against this share of what it is made of.
 SHARE_OF_WHOLE = 0.1
 Status = Literal["within_tolerance", "not_reached", "no_answer"]
@@ -51,10 +56,10 @@ class Refinement:
     status : ``within_tolerance``, ``not_reached`` (the estimate stayed above the tolerance up to the most segments)
     or ``no_answer`` (no string found its balance).  case : the last string that has an answer, else the one given.
     tolerance, error : allowed and estimated relative error of hook load and torque, the largest over the
-    operations.  segments : of the string in the hole.  steps : a row per stage, level and operation; columns stage,
-    level, operation, segments, shortest_m, chord_m (the most a cylinder misses the hole by), hookload_N,
-    surface_torque_N_m, hookload_change, torque_change, hookload_error, torque_error (all relative; NaN where there
-    is none yet), status, time_s.
+    operations.  layout : ``uniform`` or ``graded``.  segments : of the string in the hole.  shortest : of them [m].
+    steps : a row per stage, layout, level and operation; columns stage, layout, level, operation, segments,
+    shortest_m, chord_m (the most a cylinder misses the hole by), hookload_N, surface_torque_N_m, hookload_change,
+    torque_change, hookload_error, torque_error (all relative; NaN where there is none yet), status, time_s.
     """
 
     status: Status
@@ -64,7 +69,9 @@ class Refinement:
     bit_depth: float
     tolerance: float
     error: float
+    layout: str
     segments: int
+    shortest: float
     steps: pd.DataFrame
 
 
@@ -82,24 +89,28 @@ def refine(
     """Cut the string of a case finer until hook load and torque are within ``tolerance`` (0.01 is 1 %).
 
     operation : kind or kinds, else that of the case's first operation; bit_depth [m], else that operation's end.
-    graded : short segments in bends and near the bit, long ones elsewhere, else all of one length; a graded string
-    belongs to this one bit depth.  most : segments at most.  speed [m/s], rpm : as of ``torque_drag``.  The
-    tolerance is a share of the load, or of a tenth of what the load is made of (the string's weight, Σ r μ F_n)
-    where that is more.  Raises InputError for input that cannot be used.
+    graded : short segments in bends and near the bit, long ones elsewhere, if that takes a tenth fewer of them at
+    least than one length for all; a graded string belongs to this one bit depth.  most : segments at most.  speed
+    [m/s], rpm : as of ``torque_drag``.  The tolerance is a share of the load, or of a tenth of what the load is made
+    of (the string's weight, Σ r μ F_n) where that is more; torque of a string that does not turn counts against all
+    of Σ r μ F_n.  Raises InputError for input that cannot be used.
     """
     try:
         kinds = _kinds(case, operation)
         depth = _depth(case, kinds[0], bit_depth)
         _check(case, tolerance, most, depth)
-        task = _Task(
-            rates_of_all(case, kinds, speed, rpm), depth, layouts.graded if graded else layouts.uniform, most, progress
-        )
-        _solve("string", _cut(case, task, _divided(case, depth) / FIRST), task)  # compile, so that times tell
+        task = _Task(rates_of_all(case, kinds, speed, rpm), depth, most, progress)
+        _solve("string", "uniform", _cut(case, task, "uniform", _divided(case, depth) / FIRST), task)  # compile
         holes = _refine_hole(case, task, SHARE_OF_HOLE * tolerance)
         error_of_hole = _error(holes) if holes else 0.0
         held = case.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else case
-        strings = _refine_string(held, task, tolerance - error_of_hole)
-        return _result(case, task, tolerance, error_of_hole, holes, strings)
+        strings = _refine_string(held, task, "uniform", tolerance - error_of_hole)
+        found = _result(case, task, tolerance, error_of_hole, holes, strings)
+        if not graded:
+            return found
+        fewer = task._replace(most=int(WORTH * found.segments)) if found.status == "within_tolerance" else task
+        strings = _refine_string(held, fewer, "graded", tolerance - error_of_hole)
+        return _better(found, _result(case, task, tolerance, error_of_hole, holes, strings))
     except InputError as error:
         raise (error if case.file is None else error.in_file(case.file)) from None
 
@@ -109,19 +120,19 @@ class _Task(NamedTuple):
 
     rates: Mapping[str, SteadyRates]
     bit_depth: float
-    layout: layouts.Layout
     most: int
     progress: Progress | None
 
 
 class _Level(NamedTuple):
-    """The strings of one fineness, each level twice as fine as the one before.
+    """The strings of one layout and fineness, each level twice as fine as the one before.
 
     loads (operations, 2) : hook load [N] and torque [N m], NaN where a string has no answer; scales (operations, 2) :
     what an error is measured against; seconds (operations,).
     """
 
     stage: str
+    layout: str
     case: Case
     segments: int
     shortest: float
@@ -142,25 +153,25 @@ def _refine_hole(case: Case, task: _Task, allowed: float) -> list[_Level]:
     if case.wellbore.geometry == "arcs" or not case.contact.enabled:
         return levels
     for segments in IN_HOLE:
-        cut = _cut(case, task, _divided(case, task.bit_depth) / segments)
-        levels = [_solve("hole", cut, task)]
+        cut = _cut(case, task, "uniform", _divided(case, task.bit_depth) / segments)
+        levels = [_solve("hole", "uniform", cut, task)]
         if levels[0].answered:
             break
     while len(levels) <= HALVINGS and not (_error(levels) <= allowed):
         cut = _shorter_cylinders(cut)
-        levels.append(_solve("hole", cut, task))
+        levels.append(_solve("hole", "uniform", cut, task))
     return levels
 
 
-def _refine_string(case: Case, task: _Task, allowed: float) -> list[_Level]:
+def _refine_string(case: Case, task: _Task, layout: str, allowed: float) -> list[_Level]:
     """Levels of ever shorter segments, until what they leave is allowed or there would be too many."""
     levels: list[_Level] = []
     length = _divided(case, task.bit_depth) / FIRST
     while True:
-        cut = _cut(case, task, length)
+        cut = _cut(case, task, layout, length)
         if levels and layouts.segments_in_hole(cut, task.bit_depth) > task.most:
             return levels
-        levels.append(_solve("string", cut, task))
+        levels.append(_solve("string", layout, cut, task))
         answered = [k for k, level in enumerate(levels) if level.answered]
         if len(answered) >= ANSWERS and _error(levels) <= allowed:
             return levels
@@ -169,7 +180,7 @@ def _refine_string(case: Case, task: _Task, allowed: float) -> list[_Level]:
         length /= 2
 
 
-def _solve(stage: str, case: Case, task: _Task) -> _Level:
+def _solve(stage: str, layout: str, case: Case, task: _Task) -> _Level:
     """The strings of all operations."""
     string = lay_out(case, task.bit_depth)
     weight = float(string.of("weight") @ string.length)
@@ -183,16 +194,20 @@ def _solve(stage: str, case: Case, task: _Task) -> _Level:
         seconds.append(time.perf_counter() - began)
         began = time.perf_counter()
     loads = [_loads(p) if p.status in SOUND else (np.nan, np.nan) for p in points]
-    scales = [_scales(p, weight) for p in points]
+    scales = [_scales(p, weight, rates.spin) for p, rates in zip(points, task.rates.values(), strict=True)]
     return _Level(
-        stage, case, string.segments, float(string.length.min()), np.array(loads), np.array(scales), points, seconds
-    )
+        stage, layout, case, string.segments, float(string.length.min()), np.array(loads), np.array(scales), points,
+        seconds,
+    )  # fmt: skip
 
 
-def relative_difference(point: Equilibrium, other: Equilibrium) -> tuple[float, float]:
-    """Differences in hook load and torque, relative as those of a refinement are, to the loads of ``other``."""
+def relative_difference(point: Equilibrium, other: Equilibrium, spin: float) -> tuple[float, float]:
+    """Differences in hook load and torque, relative as those of a refinement are, to the loads of ``other``.
+
+    spin : at which both turn [rad/s].
+    """
     string = lay_out(other.case, other.bit_depth)
-    scales = _scales(other, float(string.of("weight") @ string.length))
+    scales = _scales(other, float(string.of("weight") @ string.length), spin)
     hookload, torque = np.abs(np.subtract(_loads(point), _loads(other))) / scales
     return float(hookload), float(torque)
 
@@ -201,11 +216,12 @@ def _loads(point: Equilibrium) -> tuple[float, float]:
     return point.hookload, point.surface_torque
 
 
-def _scales(point: Equilibrium, weight: float) -> tuple[float, float]:
+def _scales(point: Equilibrium, weight: float, spin: float) -> tuple[float, float]:
     """What errors in hook load and torque are measured against, given the buoyed weight of the string [N]."""
-    # Without friction there is no torque to be wrong about but rounding.
-    friction = max(point.sum_r_mu_fn, 1e-5 * weight)
-    return max(abs(point.hookload), SHARE_OF_WHOLE * weight), max(abs(point.surface_torque), SHARE_OF_WHOLE * friction)
+    # Without friction there is no torque to be wrong about but rounding.  In a string that only slides, its chords
+    # make a little, of first order: that is no load to cut it finely for, but small beside what turning would take.
+    friction = max(point.sum_r_mu_fn, 1e-5 * weight) * (SHARE_OF_WHOLE if spin else 1.0)
+    return max(abs(point.hookload), SHARE_OF_WHOLE * weight), max(abs(point.surface_torque), friction)
 
 
 def _errors(levels: Sequence[_Level]) -> tuple[Array, Array]:
@@ -243,18 +259,21 @@ def _result(
     answered = [k for k, level in enumerate(strings) if level.answered]
     steps = pd.DataFrame(_rows(task, holes) + _rows(task, strings))
 
-    def finish(status: Status, message: str, of: Case, error: float, segments: int) -> Refinement:
-        kinds = tuple(task.rates)
-        return Refinement(status, message, of, kinds, task.bit_depth, tolerance, error, segments, steps)
+    def finish(status: Status, message: str, of: Case, error: float, segments: int, shortest: float) -> Refinement:
+        return Refinement(
+            status, message, of, tuple(task.rates), task.bit_depth, tolerance, error, strings[0].layout, segments,
+            shortest, steps,
+        )  # fmt: skip
 
     if not answered:
         point = next(point for point in strings[-1].points if point.status not in SOUND)
         message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has an answer in "
-        return finish("no_answer", f"{message}{point.operation} ({point.status}: {point.message})", case, np.inf, 0)
+        message += f"{point.operation} ({point.status}: {point.message})"
+        return finish("no_answer", message, case, np.inf, 0, np.nan)
     found = strings[answered[-1]]
     error = error_of_hole + _error(strings[: answered[-1] + 1])
     if answered[-1] == len(strings) - 1 and error <= tolerance and len(answered) >= ANSWERS:
-        return finish("within_tolerance", "", found.case, error, found.segments)
+        return finish("within_tolerance", "", found.case, error, found.segments, found.shortest)
     left = f"an error of {100 * error:.3g} %" if np.isfinite(error) else "an unknown error"
     message = f"{left} is left at {found.segments} segments, the most that were tried"
     if answered[-1] != len(strings) - 1:
@@ -263,7 +282,18 @@ def _result(
         message = f"strings of more than {found.segments} segments have no answer ({why}); {left} is left there"
     if tolerance < error_of_hole < np.inf:
         message += f"; {100 * error_of_hole:.3g} % of it is the cylinders'"
-    return finish("not_reached", message, found.case, error, found.segments)
+    return finish("not_reached", message, found.case, error, found.segments, found.shortest)
+
+
+def _better(uniform: Refinement, graded: Refinement) -> Refinement:
+    """The one within the tolerance with the fewest segments, else the one with the least error; steps of both."""
+
+    def merit(found: Refinement) -> tuple[bool, float]:
+        within = found.status == "within_tolerance"
+        return not within, found.segments if within else found.error
+
+    steps = pd.concat([uniform.steps, graded.steps[graded.steps["stage"] == "string"]], ignore_index=True)
+    return replace(min(uniform, graded, key=merit), steps=steps)
 
 
 def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
@@ -275,6 +305,7 @@ def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
             rows.append(
                 {
                     "stage": level.stage,
+                    "layout": level.layout,
                     "level": k,
                     "operation": kind,
                     "segments": level.segments,
@@ -293,8 +324,8 @@ def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
     return rows
 
 
-def _cut(case: Case, task: _Task, length: float) -> Case:
-    return layouts.with_components(case, task.layout(case, task.bit_depth, length))
+def _cut(case: Case, task: _Task, layout: str, length: float) -> Case:
+    return layouts.with_components(case, layouts.LAYOUTS[layout](case, task.bit_depth, length))
 
 
 def _divided(case: Case, bit_depth: float) -> float:

@@ -78,6 +78,7 @@ def _heading(refined: Refinement) -> str:
     """What the file is, for whoever opens it next."""
     return (
         f"# Cut by fctd refine for {', '.join(refined.operations)} with the bit at {refined.bit_depth:g} m: "
-        f"{refined.segments} segments,\n# an estimated error of {100 * refined.error:.2g} % in hook load and torque "
+        f"{refined.segments} {refined.layout} segments,\n"
+        f"# an estimated error of {100 * refined.error:.2g} % in hook load and torque "
         f"(tolerance {100 * refined.tolerance:g} %).  Lengths count from the bit upwards.\n"
     )

@@ -64,11 +64,15 @@ def test_the_case_is_written_as_the_user_has_it(
     found = fctd.refine(case, 0.02, graded=graded)
     screen = capsys.readouterr().out
     assert "bit at 850.0 m" in screen
-    assert f"{found.segments} segments, from" in screen
+    cut = f"{found.segments} {found.layout} segments" if graded else f"{found.segments} segments"
+    assert f"{cut}, from {found.shortest:.3g} m up" in screen
+    assert found.layout == ("graded" if graded else "uniform")
+    assert "Grading would not" not in screen
     assert f"{found.steps['hookload_N'].iloc[-1] / 1e3:.2f}" in screen
 
     text = out.read_text()
     written = fctd.load_case(out)
+    assert f"{found.segments} {found.layout} segments,\n# an estimated error" in text
     assert "# mine" in text
     assert "# as on the rack" in text
     assert found.case.wellbore.chord_tolerance != case.wellbore.chord_tolerance
@@ -110,6 +114,19 @@ def test_a_bent_housing_is_bent_at_its_upper_end_in_the_file(
     assert sum(part.length or 0.0 for part in collars) == pytest.approx(300 * 0.3048)
 
 
+def test_grading_that_saves_nothing_is_told(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A hole that bends alike all the way."""
+    (case_file.parent / "hole.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,90,0\n")
+    options = ("--set", "string.components[0].bend=", "--tolerance", "3%", "--graded", "--quiet")
+    assert run(monkeypatch, "refine", case_file, *options) == 0
+    screen = capsys.readouterr().out
+    assert "uniform segments, from" in screen
+    assert "Grading would not save a tenth of them." in screen
+    assert " graded " in screen
+
+
 def test_several_operations_and_field_units(
     case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -148,7 +165,8 @@ def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
     assert run(monkeypatch, "refine", case_file, *options) == 1
     captured = capsys.readouterr()
     assert "no_answer: no string of" in captured.err
-    assert "max_iterations" in captured.out
+    assert "max_iterations" in captured.err
+    assert "no answer" in captured.out
     assert not out.exists()
 
 

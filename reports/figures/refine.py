@@ -39,12 +39,13 @@ def landed(tables: Tables) -> Canvas:
     canvas = style.figure(3.6)
     ax = canvas.subplots()
     labels = []
-    groups = table.groupby(["well", "tolerance_percent", "layout"], sort=False)
-    for at, ((well, tolerance, layout), rows) in enumerate(groups):
+    groups = table.groupby(["well", "tolerance_percent", "asked", "layout"], sort=False)
+    for at, ((well, tolerance, asked, layout), rows) in enumerate(groups):
         off = rows[["hookload_off_percent", "torque_off_percent"]].max(axis=1).max()
         for index, (value, label) in enumerate(((rows["estimate_percent"].iloc[0], "estimated"), (off, "found"))):
             ax.plot(value / tolerance, at, **style.dots(index), markersize=7, label=label if at == 0 else None)
-        labels.append(f"{well}, {tolerance:g} %, {layout}: {rows['segments'].iloc[0]} segments")
+        instead = "" if asked == layout else f", {asked} asked"
+        labels.append(f"{well}, {tolerance:g} %{instead}: {rows['segments'].iloc[0]} {layout}")
     ax.axvline(1.0, **style.BOUND, label="tolerance")
     style.rows_downwards(ax, labels)
     ax.set(xlabel="error, tolerances", xlim=(0, 1.1))

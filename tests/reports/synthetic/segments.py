@@ -67,6 +67,7 @@ def refine() -> dict[str, pd.DataFrame]:
             {
                 "well": "johancsik3",
                 "tolerance_percent": 1.0,
+                "asked": "graded",
                 "layout": layout,
                 "operation": operation,
                 "segments": 128,
