@@ -126,11 +126,11 @@ def _modes(run: Run, string: String, probe: Array) -> Modes:
     if string.long_segment:
         topdrive.set_long_segment(probe, string.length[0], run.pipe)
     k, mass, mud = (state.row(probe, offset, n) for offset in (state.K_AXIAL, state.MASS, state.MUD_AXIAL))
-    square, shape = eigh_tridiagonal(
+    square, vectors = eigh_tridiagonal(
         (k + np.append(k[1:], 0.0)) / mass, -k[1:] / np.sqrt(mass[1:] * mass[:-1]),
         select="i", select_range=(0, MODES - 1),
     )  # fmt: skip
-    shape = np.asarray(shape / np.sqrt(mass)[:, None], dtype=float)
+    shape: Array = vectors / np.sqrt(mass)[:, None]
     frequency = np.sqrt(square)
     damping = 0.5 * (mud @ shape**2 + run.laws.joint_damping * square)
     return Modes(shape, frequency, damping, k[0] * np.abs(shape[0]) / frequency)

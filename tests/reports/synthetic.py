@@ -68,6 +68,20 @@ def paper_well() -> dict[str, pd.DataFrame]:
     }
 
 
+def cylinder_ringing() -> dict[str, pd.DataFrame]:
+    depths = np.arange(1895.0, 2450.0, 0.125)
+    rise = np.exp(-(((depths - 2230) / 50) ** 2))
+    names = {"the case's own": 15.0, "arcs": 0.2, "19 collars of 10.5 m": 2.0}
+    swing = pd.concat(
+        pd.DataFrame({"changed": name, "bit_depth_m": depths, "swing_kN": size * rise * np.sin(2 * np.pi * depths)})
+        for name, size in names.items()
+    )
+    coarse = depths[::80]
+    expected = {"bit_depth_m": coarse, "first_frequency_Hz": 1100 / coarse, "swing_kN": 12 * rise[::80]}
+    runs = {"changed": list(names), "swing_kN": list(names.values()), "at_m": 2230.0, "frequency_Hz": [0.495, 0.6, 0.5]}
+    return {"swing": swing, "expected": pd.DataFrame(expected), "runs": pd.DataFrame(runs)}
+
+
 def curved_chain() -> dict[str, pd.DataFrame]:
     soft = {"rotate_off_bottom": (426.5, 2.39), "trip_out": (472.0, np.nan), "trip_in": (374.0, np.nan)}
     rows, profiles = [], []
@@ -637,6 +651,7 @@ STUDIES = {
         mesh_torque,
         broomstick,
         curved_chain,
+        cylinder_ringing,
         scaled_section,
         energy_ledger,
         overlap,
