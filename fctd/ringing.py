@@ -7,7 +7,8 @@ joints, nor have arcs.
 
 How much builds up is found without a time step: the contact forces are those of a soft string without friction, the
 modes those of the chain of masses and springs, and a mode whose frequency ω changes slowly reaches the integral of its
-force times exp(−i∫ω dt).
+force times exp(−i∫ω dt).  That is an estimate, within a factor of two or three: stiffness, clearance and friction are
+left out, as is that points which leave the hole's own axis lengthen the path.
 """
 
 from typing import NamedTuple
