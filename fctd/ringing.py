@@ -26,7 +26,7 @@ from fctd.wellbore import Wellbore
 Array = NDArray[np.float64]
 
 MODES = 2
-STRIDE = 10.0  # [m] over which modes and contact forces are taken as constant
+STRIDE, SPAN = 10.0, 20.0  # [m] and [s] over which modes and contact forces are taken as constant, at most
 SAMPLES = 8  # of the forces in a period of the fastest mode, each the mean of its span
 
 
@@ -87,7 +87,8 @@ def expected_ringing(run: Run, stretches: list[Stretch]) -> Ringing:
         tilt, probe, depth = cylinder_tilt(run.hole), run.S.copy(), run.string.bit_depth
         for motion, _ in stretches:
             fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration
-            strides = int(np.ceil(abs(fed) / STRIDE)) if motion.feed_from == motion.feed_to else 0
+            steady = motion.feed_from == motion.feed_to != 0
+            strides = int(np.ceil(max(abs(fed) / STRIDE, motion.duration / SPAN))) if steady else 0
             reached = np.zeros(MODES, complex)
             for k in range(strides):
                 middle = depth + (k + 0.5) / strides * fed

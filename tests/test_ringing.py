@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from fctd import Case, simulate
-from fctd.ringing import Ringing, cylinder_tilt, expected_ringing
+from fctd.ringing import SPAN, STRIDE, Ringing, cylinder_tilt, expected_ringing
 from fctd.run import prepare
 from fctd.wellbore import build_wellbore
-from validation.cases import load, trip
+from references import base
+from validation.cases import load, rotation, trip
 
 
 def well_b(start: float = 1750.0, end: float = 2450.0, speed: float = 0.5, **changes: Any) -> Case:
@@ -52,6 +53,18 @@ def test_ringing_is_expected_where_a_harmonic_meets_the_string() -> None:
     # Pulled out, the string meets the same joints.
     out = ringing(well_b(2450.0, 1750.0)).largest()
     assert 0.5 * swing < out[0] < 2 * swing
+
+
+def test_ringing_is_expected_of_cylinders_in_motion_alone() -> None:
+    run, stretches = prepare(well_b(2000.0, 2100.0))
+    _, cruise = stretches
+    assert len(expected_ringing(run, stretches).bit_depth) == round(cruise.motion.duration * 0.5 / STRIDE)
+    # Rows are no further apart than a slow string slides in the span over which forces are constant.
+    slow = expected_ringing(*prepare(well_b(2000.0, 2010.0, speed=0.01))).bit_depth
+    assert np.diff(slow).max() <= 0.01 * SPAN + 1e-9
+    assert not len(ringing(load("paper_well_b", operations=rotation(2000.0, 60.0, 1.0))).bit_depth)
+    case = well_b(2000.0, 2100.0)
+    assert not len(expected_ringing(*prepare(case, base.build("for_loop", case))).bit_depth)
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
