@@ -1,5 +1,5 @@
 # make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them
-# make test        the fast tests
+# make test        the fast tests, in two processes
 # make bench       what everything costs on this machine, kept in .benchmarks for --benchmark-compare, and the kernels
 #                  beside the last release
 # make lint        style, types, and who may import whom
@@ -21,7 +21,7 @@ reproduce: $(STAMP)
 	if [ $$status -le 1 ]; then $(BIN)/python -m reports || status=1; fi; exit $$status
 
 test: $(STAMP)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses=2 --dist=worksteal
 
 bench: $(STAMP)
 	$(BIN)/python -m pytest benchmarks --benchmark-enable --benchmark-autosave --benchmark-sort=name

@@ -15,7 +15,6 @@ from benchmarks.records import describe
 from benchmarks.strings import LEAD, chain
 from fctd import build_wellbore, find_contacts
 from fctd.query import query_walls
-from fctd.wellbore import hole_frame
 from references import base
 from references.workloads import find_walls, moving
 
@@ -29,11 +28,8 @@ COMPILED_CALLS = 40  # a round
 def points_beside(count: int) -> NDArray[np.float64]:
     """Seeded points beside the wall of the curved chain's hole, vertical, build and horizontal alike."""
     exact, rng = build_wellbore(chain(wellbore__geometry="arcs")), np.random.default_rng(7)
-    axis, tangent = exact.at(rng.uniform(1000.0, 2440.0, count))
-    high, right = hole_frame(tangent)
-    angle = rng.uniform(0, 2 * np.pi, count)[:, None]
-    offset = 0.1556 - RADIUS + rng.uniform(-BAND, BAND, count)[:, None]
-    return np.ascontiguousarray(axis + offset * (np.cos(angle) * high + np.sin(angle) * right))
+    md, angle = rng.uniform(1000.0, 2440.0, count), rng.uniform(0, 2 * np.pi, count)
+    return exact.off_axis(md, angle, 0.1556 - RADIUS + rng.uniform(-BAND, BAND, count))
 
 
 def errors(penetration: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:

@@ -3,6 +3,7 @@
 import statistics
 from collections.abc import Sequence
 
+from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
 from benchmarks.gate import Outcome, name_of
@@ -48,29 +49,34 @@ def comparison(now: Record, last: Record | None, why_not: str) -> Table:
     """A run beside the last release: time, ratio to the reference kernel with its range, instructions.
 
     why_not : why ratios do not compare, empty where they do; the change is printed only then.
+
+    A row has two lines, so that it fits a screen of 80 columns.
     """
     title = "this run" if last is None else f"this run against release {name_of(last)}"
-    table = Table(title=title + (f"; ratios do not compare: {why_not}" if why_not else ""), title_justify="left")
-    for column in ("kernel", "size"):
-        table.add_column(column)
-    for column in ("ns a unit", "ratio", "range", "released", "change", "instructions", "released"):
+    table = Table(
+        title=title + (f"; ratios do not compare: {why_not}" if why_not else ""), title_justify="left",
+        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
+    table.add_column("kernel\nsize")
+    for column in ("ns a unit\ninstructions", "ratio\nrange", "released\ninstructions", "change\n80 % interval"):
         table.add_column(column, justify="right")
     for name, kernel in now.kernels.items():
         old = None if last is None else last.kernels.get(name)
+        released = "–" if old is None else f"{_number(old.ratio)}\n{_number(old.instructions)}"
         change = "–"
         if old is not None and not why_not:
             middle, low, high = change_of(old.samples, kernel.samples)
-            change = f"{middle - 1:+.1%} ({low - 1:+.0%} to {high - 1:+.0%})"
+            change = f"{middle - 1:+.1%}\n{low - 1:+.0%} to {high - 1:+.0%}"
         table.add_row(
-            name, f"{kernel.size}, a {kernel.unit}", f"{kernel.ns:.4g}", f"{kernel.ratio:.4g}",
-            f"{kernel.spread[0]:.4g} to {kernel.spread[1]:.4g}", _number(None if old is None else old.ratio), change,
-            _number(kernel.instructions), _number(None if old is None else old.instructions),
+            f"{name}, a {kernel.unit}\n{kernel.size}", f"{_number(kernel.ns)}\n{_number(kernel.instructions)}",
+            f"{_number(kernel.ratio)}\n{_range(kernel.spread)}", released, change,
         )  # fmt: skip
+    table.add_section()
     for name, taken in shown(now.ratios).items():
+        over, under = name.split(" : ")
         table.add_row(
-            name, "", "", _middle(taken), f"{min(taken):.4g} to {max(taken):.4g}",
-            _middle(_shown_of(last).get(name)),
-        )  # fmt: skip
+            f"{over} :\n{under}", "", f"{_middle(taken)}\n{_range(taken)}", _middle(_shown_of(last).get(name))
+        )
     return table
 
 
@@ -82,5 +88,11 @@ def _middle(samples: Sequence[float] | None) -> str:
     return _number(statistics.median(samples) if samples else None)
 
 
+def _range(samples: Sequence[float]) -> str:
+    return f"{_number(min(samples))}–{_number(max(samples))}"
+
+
 def _number(value: float | None) -> str:
-    return "–" if value is None else f"{value:.4g}"
+    if value is None:
+        return "–"
+    return f"{value:.4g}" if abs(value) < 1e4 else f"{value:,.0f}"

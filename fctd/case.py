@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Final, Literal, Self
@@ -186,6 +187,15 @@ class Case(Table):
                 check_bit_depth(
                     md, top, bottom, f"operations[{i}].{key}", f"{md:g} m" if written is MISSING else written
                 )
+
+
+@contextmanager
+def naming_file(case: Case) -> Iterator[None]:
+    """Adds the file that a case was read from to an InputError raised within."""
+    try:
+        yield
+    except InputError as error:
+        raise (error if case.file is None else error.in_file(case.file)) from None
 
 
 def check_bit_depth(md: float, top: float, bottom: float, key: str, value: object) -> None:

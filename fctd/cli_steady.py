@@ -13,7 +13,7 @@ from rich.box import SIMPLE_HEAD
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from fctd.case import KINDS, Case, check_bit_depth
+from fctd.case import KINDS, Case, check_bit_depth, naming_file
 from fctd.cli_options import (
     FAILED,
     CaseFile,
@@ -211,10 +211,8 @@ def read_drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
 def _check_in_hole(case: Case, depths: Sequence[float], key: str, text: str) -> None:
     """Refuse bit depths outside the hole, before the first is solved."""
     for depth in (depths[0], depths[-1]):
-        try:
+        with naming_file(case):
             check_bit_depth(depth, *case.depths, key, text)
-        except InputError as error:
-            raise (error if case.file is None else error.in_file(case.file)) from None
 
 
 def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:

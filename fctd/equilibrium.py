@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 
 from fctd import state, tangent
 from fctd.block_thomas import SIZE, negative_pivots, solve_with_pivoting
-from fctd.case import DRILLING, Case, check_bit_depth
+from fctd.case import DRILLING, Case, check_bit_depth, naming_file
 from fctd.contact import START_MD
 from fctd.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, converge, hold_back, take_step
 from fctd.drillstring import String, check_fit, fill, lay_out
-from fctd.errors import InputError
 from fctd.first_guess import MD, NODE, guess
 from fctd.operations import SteadyRates, sensors, steady_rates
 from fctd.profile import Loads, profile_table
@@ -26,7 +25,8 @@ from fctd.wellbore import Wellbore, build_wellbore, hole_frame
 
 Array = NDArray[np.float64]
 
-STATUSES = ("converged", "max_iterations", "diverged", "not_finite", "locked_up", "unstable")
+# Statuses whose numbers are those of a balance.
+ANSWERED = ("converged", "locked_up", "unstable")
 # What is left out of balance at a body, over the weight of the string.
 TOLERANCE = 1e-7
 # Imperfection of a first guess, so that a straight string may buckle [m].
@@ -48,10 +48,10 @@ LARGEST_TURN = 0.1  # [rad] a step
 class Equilibrium:
     """A steady string with the bit at one depth.
 
-    status : one of STATUSES; ``locked_up`` (the top would have to be pushed with more than the block weight)
-    and ``unstable`` (a balance that the string would not keep) are answers, the others but ``converged`` are
-    none.  bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque,
-    drive_torque [N m]; sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
+    status : ``converged``; ``locked_up`` (the top would have to be pushed with more than the block weight) and
+    ``unstable`` (a balance that the string would not keep) are answers too; ``max_iterations``, ``diverged`` and
+    ``not_finite`` are none.  bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N];
+    surface_torque, drive_torque [N m]; sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
 
     case: Case
@@ -73,7 +73,7 @@ class Equilibrium:
     @property
     def answered(self) -> bool:
         """Whether the numbers are those of a balance."""
-        return self.status in ("converged", "locked_up", "unstable")
+        return self.status in ANSWERED
 
     @cached_property
     def profile(self) -> pd.DataFrame:
@@ -274,7 +274,5 @@ def equilibrium(
     ``operations.DEFAULT_RATES``.  Weight on bit and bit torque are the case's.  Raises InputError for input
     that cannot be used; a string that finds no balance is told by ``status``.
     """
-    try:
+    with naming_file(case):
         return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm), bit_depth)
-    except InputError as error:
-        raise (error if case.file is None else error.in_file(case.file)) from None

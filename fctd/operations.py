@@ -17,6 +17,17 @@ class Stretch(NamedTuple):
     operation: int
 
 
+# Kinds of operation in the driller's words.
+OPERATION_NAMES = {
+    "trip_out": "picking up",
+    "rotate_off_bottom": "rotating off bottom",
+    "trip_in": "slacking off",
+    "back_ream": "back-reaming",
+    "drill_rotating": "drilling, rotating",
+    "drill_sliding": "drilling, sliding",
+}
+
+
 def rad_per_s(rpm: float) -> float:
     """Rotation speed [rad/s] from revolutions per minute."""
     return rpm * np.pi / 30

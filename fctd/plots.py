@@ -19,6 +19,7 @@ from matplotlib.typing import RcKeyType
 from numpy.typing import NDArray
 
 from fctd.equilibrium import Equilibrium
+from fctd.operations import OPERATION_NAMES
 from fctd.torque_drag import own_friction
 from fctd.unit_systems import System, shown
 
@@ -53,6 +54,7 @@ PALETTE = {
     "green": "#009E73",
     "purple": "#CC79A7",
 }
+QUIET, SHADE = "#777777", "#e4e4e4"
 # An operation has a colour and, for print in grey, a marker.
 LOOKS = {
     "trip_out": (PALETTE["vermilion"], "^"),
@@ -62,22 +64,14 @@ LOOKS = {
     "drill_rotating": (PALETTE["green"], "s"),
     "drill_sliding": (PALETTE["sky"], "P"),
 }
-NAMES = {
-    "trip_out": "picking up",
-    "rotate_off_bottom": "rotating off bottom",
-    "trip_in": "slacking off",
-    "back_ream": "back-reaming",
-    "drill_rotating": "drilling, rotating",
-    "drill_sliding": "drilling, sliding",
-}
 # A friction factor has a dash; more factors than dashes go round again.
-DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5, 1, 1.5, 1, 1.5))]
+DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (9, 3))]
 # Answers with a reservation carry an open marker; a cross marks a row that has none.
 FLAGS: dict[str, dict[str, Any]] = {
     "locked_up": {"marker": "s", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
     "unstable": {"marker": "o", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
 }
-LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": "#777777"}
+LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": QUIET}
 # The panels of a profile, and what they and those of a chart are called.
 TRACKS = (
     "inclination_deg",
@@ -107,7 +101,6 @@ BUCKLED: dict[str, dict[str, Any]] = {
     "sinusoidal": {"marker": "o", "linestyle": "none", "color": "#E69F00", "markersize": 4},
     "helical": {"marker": "X", "linestyle": "none", "color": "#A00000", "markersize": 5},
 }
-QUIET, SHADE = "#777777", "#e4e4e4"
 NOISE = 1e-6  # an axis that spans less shows zeros
 MARKS = 8  # about as many markers on a line
 
@@ -144,7 +137,8 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> 
         ]
         figure.legend(handles=handles + _flag_handles(chart["status"]), loc="outside lower right", ncols=2)
         one = len(factors) == 1 and np.isfinite(factors[0])
-        _title(figure, f"{title}, friction factor {factors[0]:g}" if one else title)
+        words = [title] if title else []
+        _title(figure, ", ".join([*words, f"friction factor {factors[0]:g}"] if one else words))
         return figure
 
 
@@ -268,8 +262,8 @@ def _handle(kind: str, status: str = "converged") -> Line2D:
     """The legend's line for an operation, with a status that is worth a word."""
     colour, marker = LOOKS[kind]
     if status != "converged" and status not in FLAGS:
-        return Line2D([], [], **LOST, label=f"{NAMES[kind]}: no answer ({status})")
-    label = NAMES[kind] if status == "converged" else f"{NAMES[kind]} ({status})"
+        return Line2D([], [], **LOST, label=f"{OPERATION_NAMES[kind]}: no answer ({status})")
+    label = OPERATION_NAMES[kind] if status == "converged" else f"{OPERATION_NAMES[kind]} ({status})"
     return Line2D([], [], color=colour, marker=marker, markersize=4.5, label=label)
 
 

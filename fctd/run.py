@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd import dynamics, state, topdrive
-from fctd.case import DRILLING, Case
+from fctd.case import DRILLING, Case, naming_file
 from fctd.contact import update_walls
 from fctd.drillstring import String, check_fit, fill, lay_out
 from fctd.errors import InputError
@@ -88,15 +88,13 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Str
     contact : answers for the wall in place of the hole's own pieces.  Raises InputError for a case that cannot
     be simulated.
     """
-    try:
+    with naming_file(case):
         run, stretches = _prepare(case)
         if contact is not None:
             if not case.contact.enabled:
                 raise InputError("true, since another contact method is to be run", key="contact.enabled", value=False)
             run.queried = QueriedWall(contact, run.hole, run.segments)
         return run, stretches
-    except InputError as error:
-        raise (error if case.file is None else error.in_file(case.file)) from None
 
 
 def _prepare(case: Case) -> tuple[Run, list[Stretch]]:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pandas as pd
 
-from fctd.case import Case
+from fctd.case import Case, naming_file
 from fctd.equilibrium import Equilibrium, Solver
 from fctd.errors import InputError
 from fctd.operations import SteadyRates, rates_of_all
@@ -31,7 +31,7 @@ def torque_drag(
     surface_torque_N_m, weight_indicator_N, drive_torque_N_m, total_contact_force_N, status, iterations.  A row
     without an answer (status) has NaN for its loads.  Raises InputError for what cannot be used.
     """
-    try:
+    with naming_file(case):
         depths = _check_depths(bit_depths)
         kinds = [operation] if isinstance(operation, str) else list(operation)
         if not kinds:
@@ -47,8 +47,6 @@ def torque_drag(
                     if progress is not None:
                         progress(len(rows), len(kinds) * len(solvers) * len(depths))
         return pd.DataFrame(rows)
-    except InputError as error:
-        raise (error if case.file is None else error.in_file(case.file)) from None
 
 
 def with_friction(case: Case, factor: float) -> Case:

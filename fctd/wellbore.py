@@ -73,6 +73,15 @@ class Wellbore:
         direction = self.directions[i]
         return self.points[i] + (md - self.md[i])[:, None] * direction, direction
 
+    def off_axis(self, md: Array, angle: Array, distance: Array) -> Array:
+        """Points (n, 3) [m] beside the axis at measured depths (n,) [m].
+
+        angle (n,) [rad] : from the high side clockwise looking downhole; distance (n,) [m] : from the axis.
+        """
+        axis, tangent = self.at(md)
+        high, right = hole_frame(tangent)
+        return axis + distance[:, None] * (np.cos(angle)[:, None] * high + np.sin(angle)[:, None] * right)
+
     def wall_along(self) -> Array:
         """The wall over measured depth, linear between rows: (k, 4) md, hole radius [m], stiffness, friction.
 

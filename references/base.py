@@ -5,6 +5,7 @@ loop and the studies can swap them; what can be set is in the method's own ``Opt
 """
 
 import importlib
+from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, ClassVar, Protocol
 
@@ -61,11 +62,16 @@ class ContactMethod(Protocol):
 
 def method_class(name: str) -> type[ContactMethod]:
     """The class registered under a name; InputError with the nearest name for another."""
-    if name not in METHODS:
-        raise InputError(nearest(name, METHODS, "contact method"), key="contact", value=name)
-    module, _, attribute = METHODS[name].partition(":")
-    found: type[ContactMethod] = getattr(importlib.import_module(module), attribute)
+    found: type[ContactMethod] = registered(METHODS, name, "contact method", "contact")
     return found
+
+
+def registered(registry: Mapping[str, str], name: str, noun: str, key: str) -> Any:
+    """What a registry calls "module:attribute"; InputError with the nearest name for one that it does not have."""
+    if name not in registry:
+        raise InputError(nearest(name, registry, noun), key=key, value=name)
+    module, _, attribute = registry[name].partition(":")
+    return getattr(importlib.import_module(module), attribute)
 
 
 def build(name: str, case: Case, **options: Any) -> ContactMethod:
@@ -75,11 +81,15 @@ def build(name: str, case: Case, **options: Any) -> ContactMethod:
     name, a bad option or a package that is not installed.
     """
     method = method_class(name)
+    return method(case, options_of(method.Options, name, options))
+
+
+def options_of(table: type[Table], name: str, options: Mapping[str, Any]) -> Table:
+    """Validated options of what is registered under a name; InputError for a bad one."""
     try:
-        chosen = method.Options.model_validate(options)
+        return table.model_validate(options)
     except ValidationError as failure:
         raise explain(failure, options, ()).at(name) from None
-    return method(case, chosen)
 
 
 def need(module: str, method: type[ContactMethod]) -> Any:
@@ -103,7 +113,12 @@ def import_or_tell(module: str, distribution: str, wanted_for: str, key: str = "
 
 def installed_version(name: str) -> str | None:
     """Version of the package that brings a method, None where it is not installed."""
+    return version_of(method_class(name).distribution)
+
+
+def version_of(distribution: str) -> str | None:
+    """Version of a package, None where it is not installed."""
     try:
-        return version(method_class(name).distribution)
+        return version(distribution)
     except PackageNotFoundError:
         return None

@@ -10,24 +10,28 @@ friction acts at the wall's side of the pipe.  All tangents are exact derivative
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
-from skfem import Basis, BilinearForm, ElementLineP2, ElementVector, Functional, LinearForm, MeshLine
+from skfem import Basis, ElementLineP2, ElementVector, MeshLine
 
 from fctd.drillstring import Section
 from references.planar_hole import PlanarHole
 
 Array = NDArray[np.float64]
 
+# Components of a state.
+Z, X, TURN = 0, 1, 2
 STRAIN_POINTS = 3  # degree that two Gauss points integrate exactly
 WALL_POINTS = 9  # five Gauss points an element
 MOST_ITERATIONS = 25
 # Newton has converged when no force is out of balance by more than this share of the load, rounding permitting.
 CONVERGED = 1e-7
+# Steps of a fall [s].
+FIRST_STEP, SHORTEST_STEP, LAST_STEP, GROWTH = 0.01, 1e-6, 1e6, 4.0
 
 
 class ConvergenceError(Exception):
@@ -71,39 +75,46 @@ class WallLoad(NamedTuple):
     mud_loss: Array
 
 
-def _motion(u: Any) -> Array:
-    """(z', x', θ', θ) of a field, shape (4, elements, points)."""
-    return np.concatenate([u.grad[:, 0], u[2:]])
+class _Points:
+    """Quadrature points of a basis: what a state is there, and the nodal forces of densities there.
 
+    The forms of scikit-fem are called once for every pair of the nine functions of an element; on meshes of so few
+    elements that is all they cost.  Here its functions are tabulated, and all of them are multiplied at once.
+    """
 
-@LinearForm  # type: ignore[untyped-decorator]
-def _internal(v: Any, w: Any) -> Any:
-    return (_motion(v) * w.gradient).sum(axis=0)
+    def __init__(self, basis: Basis, slopes: list[int], values: list[int]) -> None:
+        """slopes, values : components of a state, 0 to 2, whose derivative, or which themselves, count: r in all."""
+        fields = [field for (field,) in basis.basis]
+        table = [np.concatenate([field.grad[slopes, 0], np.asarray(field)[values]]) for field in fields]
+        # (elements, points, r, functions)
+        self.table: Array = np.ascontiguousarray(np.array(table).transpose(2, 3, 1, 0))
+        self.dofs: NDArray[np.int64] = basis.element_dofs.T
+        self.size: int = basis.N
+        self._flat = self.table.reshape(len(self.dofs), -1, self.dofs.shape[1])
+        weighted = self.table * basis.dx[:, :, None, None]
+        self._weighted: Array = np.ascontiguousarray(weighted.reshape(self._flat.shape).transpose(0, 2, 1))
 
+    def of(self, q: Array) -> Array:
+        """The components in state q, shape (r, elements, points)."""
+        found = self._flat @ q[self.dofs][:, :, None]
+        return found.reshape(self.table.shape[:3]).transpose(2, 0, 1)
 
-@BilinearForm  # type: ignore[untyped-decorator]
-def _internal_tangent(u: Any, v: Any, w: Any) -> Any:
-    return np.einsum("iep,ijep,jep->ep", _motion(v), w.hessian, _motion(u))
+    def forces(self, density: Array) -> Array:
+        """Nodal forces of a density (r, elements, points) against the components."""
+        elements = self._weighted @ density.transpose(1, 2, 0).reshape(len(self.dofs), -1, 1)
+        return np.asarray(np.bincount(self.dofs.ravel(), elements.ravel(), self.size), np.float64)
 
+    def tangents(self, density: Array) -> Array:
+        """Tangents (elements, functions, functions) of forces whose density has the derivative (r, r, ...)."""
+        product = density.transpose(2, 3, 0, 1) @ self.table
+        return self._weighted @ product.reshape(self._flat.shape)
 
-@LinearForm  # type: ignore[untyped-decorator]
-def _distributed(v: Any, w: Any) -> Any:
-    return (np.asarray(v) * w.load).sum(axis=0)
-
-
-@BilinearForm  # type: ignore[untyped-decorator]
-def _distributed_tangent(u: Any, v: Any, w: Any) -> Any:
-    return np.einsum("iep,ijep,jep->ep", np.asarray(v), w.tangent, np.asarray(u))
-
-
-@BilinearForm  # type: ignore[untyped-decorator]
-def _inertia(u: Any, v: Any, w: Any) -> Any:
-    return w.mass * (u[0] * v[0] + u[1] * v[1]) + w.tilt * u[2] * v[2]
-
-
-@Functional  # type: ignore[untyped-decorator]
-def _integral(w: Any) -> Any:
-    return w.density
+    def matrix(self, tangents: Array) -> csc_matrix:
+        """The tangents of all elements as one matrix."""
+        rows = np.broadcast_to(self.dofs[:, :, None], tangents.shape)
+        columns = np.broadcast_to(self.dofs[:, None, :], tangents.shape)
+        entries = tangents.ravel(), (rows.ravel(), columns.ravel())
+        return csc_matrix(entries, shape=(self.size, self.size))
 
 
 class Beam:
@@ -123,10 +134,13 @@ class Beam:
         whole = Basis(mesh, element, intorder=WALL_POINTS)
         ends = np.array([[0.0, 1.0]]), np.array([0.5, 0.5])
         self.wall = Basis(mesh, element, quadrature=ends) if at_ends else whole
+        self._strained = _Points(self.strains, [Z, X, TURN], [TURN])
+        self._touching = _Points(self.wall, [], [Z, X, TURN])
+        carrying = _Points(whole, [], [Z, X, TURN])
         ones = np.ones(whole.dx.shape)
-        weight = np.stack([around.weight * ones, 0 * ones, 0 * ones])
-        self.gravity = _distributed.assemble(whole, load=weight)
-        self.mass = _inertia.assemble(whole, mass=section.mass * ones, tilt=section.tilt_inertia * ones).tocsc()
+        self.gravity = carrying.forces(np.multiply.outer([around.weight, 0.0, 0.0], ones))
+        inertia = np.diag([section.mass, section.mass, section.tilt_inertia])
+        self.mass = carrying.matrix(carrying.tangents(np.multiply.outer(inertia, ones)))
 
     @property
     def length(self) -> float:
@@ -161,13 +175,12 @@ class Beam:
 
     def _strains(self, q: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Γ₁, Γ₂, κ, cos θ and sin θ at the strain points."""
-        state = self.strains.interpolate(q)
-        dz, dx, bend = state.grad[:, 0]
-        cosine, sine = np.cos(state[2]), np.sin(state[2])
+        dz, dx, bend, turn = self._strained.of(q)
+        cosine, sine = np.cos(turn), np.sin(turn)
         return dz * cosine + dx * sine - 1, -dz * sine + dx * cosine, bend, cosine, sine
 
-    def internal(self, q: Array) -> tuple[Array, csc_matrix]:
-        """Internal forces of state q and their exact tangent."""
+    def internal(self, q: Array) -> tuple[Array, Array]:
+        """Internal forces of state q and their exact tangents, element by element."""
         stretch, shear, bend, c, s = self._strains(q)
         section = self.section
         n, v = section.EA * stretch, section.shear * shear
@@ -180,28 +193,22 @@ class Beam:
             hessian[row, 3] += value
             hessian[3, row] += value
         hessian[3, 3] -= n * (1 + stretch) + v * shear
-        force = _internal.assemble(self.strains, gradient=gradient)
-        return force, _internal_tangent.assemble(self.strains, hessian=hessian).tocsc()
+        return self._strained.forces(gradient), self._strained.tangents(hessian)
 
     def strain_energy(self, q: Array) -> float:
         """Energy of stretching, shear and bending [J]."""
         stretch, shear, bend, _, _ = self._strains(q)
         section = self.section
         density = 0.5 * (section.EA * stretch**2 + section.shear * shear**2 + section.EI * bend**2)
-        return float(_integral.assemble(self.strains, density=density))
+        return float((density * self.strains.dx).sum())
 
     def integrate(self, density: Array) -> float:
         """Integral along the string of a density at the wall's Gauss points."""
-        return float(_integral.assemble(self.wall, density=density))
-
-    def bending_moment(self, q: Array) -> Array:
-        """EIθ' at the strain points (elements, 2) [N m]."""
-        return np.asarray(self.section.EI * self._strains(q)[2])
+        return float((density * self.wall.dx).sum())
 
     def wall_load(self, q: Array, velocity: Array) -> WallLoad:
         """Loads of wall and mud in state q that moves with ``velocity``."""
-        state, rate = self.wall.interpolate(q), self.wall.interpolate(velocity)
-        at, v = np.asarray(state), np.asarray(rate)
+        at, v = self._touching.of(q), self._touching.of(velocity)
         around = self.around
         blank = np.zeros(at.shape[1:])
         resistance, loss = np.zeros(at.shape), blank.copy()
@@ -230,13 +237,11 @@ class Beam:
 
         rate [1/s] : change of velocity with q, from the time integration.
         """
-        force, tangent = self.internal(q)
+        force, tangents = self.internal(q)
         load = self.wall_load(q, velocity)
-        force = force - self.gravity + _distributed.assemble(self.wall, load=load.resistance)
-        by_state = load.by_position + rate * load.by_velocity
-        if by_state.any():
-            tangent = tangent + _distributed_tangent.assemble(self.wall, tangent=by_state).tocsc()
-        return force, tangent, load
+        force = force - self.gravity + self._touching.forces(load.resistance)
+        tangents += self._touching.tangents(load.by_position + rate * load.by_velocity)
+        return force, self._strained.matrix(tangents), load
 
 
 def _add_mud(
@@ -306,17 +311,45 @@ def newton(
     raise ConvergenceError(f"forces are out of balance by {size:.2g} N after {MOST_ITERATIONS} iterations")
 
 
-def statics(beam: Beam, q: Array, held: NDArray[np.int64], load: Array | None = None) -> Array:
+def statics(
+    beam: Beam, q: Array, held: NDArray[np.int64], load: Array | None = None, velocity: Array | None = None
+) -> Array:
     """Equilibrium nearest to q, its held dofs as they are, under gravity, wall and a nodal load.
 
-    Raises ConvergenceError.
+    velocity : with which the beam slides steadily, so that friction takes part.  Raises ConvergenceError.
     """
     free = np.setdiff1d(np.arange(len(q)), held)
-    still, extra = np.zeros_like(q), np.zeros_like(q) if load is None else load
+    zero = np.zeros_like(q)
+    extra, sliding = zero if load is None else load, zero if velocity is None else velocity
 
     def residual(trial: Array) -> tuple[Array, csc_matrix]:
-        force, tangent, _ = beam.resistance(trial, still)
+        force, tangent, _ = beam.resistance(trial, sliding)
         return force - extra, tangent
 
     carried = beam.around.weight * beam.length + float(np.abs(extra).sum())
     return newton(residual, q, free, beam.tolerance(carried))[0]
+
+
+def fallen(beam: Beam, q: Array, held: NDArray[np.int64]) -> Array:
+    """Equilibrium to which a beam falls from q, its held dofs as they are: q may be far from it.
+
+    Against the mud, by implicit Euler in steps that grow until the mud does not matter (pseudo-transient
+    continuation): the beam has to be damped along and across.  Raises ConvergenceError.
+    """
+    free = np.setdiff1d(np.arange(len(q)), held)
+    tolerance = beam.tolerance(beam.around.weight * beam.length)
+    step = FIRST_STEP
+    while step < LAST_STEP:
+        start, pace = q, 1 / step
+
+        def residual(trial: Array, start: Array = start, pace: float = pace) -> tuple[Array, csc_matrix]:
+            return beam.resistance(trial, pace * (trial - start), pace)[:2]
+
+        try:
+            q, _ = newton(residual, q, free, tolerance)
+            step *= GROWTH
+        except ConvergenceError:
+            step /= GROWTH**2
+            if step < SHORTEST_STEP:
+                raise
+    return statics(beam, q, held)

@@ -1,13 +1,12 @@
-"""A sphere against the tube mesh through a tree of boxes, in plain Python so that its operations can be counted.
+"""A sphere against the tube mesh through a tree of boxes: compiled to be timed, and the same code to be counted.
 
 python-fcl and coal do not report their counts.  This tree halves the triangles in their order along and around the
 hole; its boxes are aligned with the global axes, whose test is the cheapest there is (an oriented box adds three
 dot products to it), so a count is a lower bound for a node of theirs.
 """
 
-from typing import Any
-
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -20,7 +19,7 @@ class BoxTree:
     """
 
     def __init__(self, triangles: Array) -> None:
-        self.corners = triangles.reshape(-1, 9)
+        self.corners = np.ascontiguousarray(triangles, dtype=float).reshape(-1, 9)
         leaves = 1 << int(np.ceil(np.log2(len(triangles))))
         low, high = np.full((leaves, 3), np.inf), np.full((leaves, 3), -np.inf)
         low[: len(triangles)], high[: len(triangles)] = triangles.min(axis=1), triangles.max(axis=1)
@@ -31,32 +30,33 @@ class BoxTree:
         self.low, self.high = np.concatenate(lows), np.concatenate(highs)
         self.first_leaf = leaves - 1
 
-
-def penetration(tree: BoxTree, low: Any, high: Any, corners: Any, x: Any, y: Any, z: Any, radius: Any) -> Any:
-    """How deep a sphere reaches beyond the nearest triangle [m], −inf where it meets none; nodes and triangles tested.
-
-    low, high, corners : the tree's arrays, or the same as `Counted`.
-    """
-    reach, nearest, nodes, triangles = radius * radius, None, 0, 0
-    waiting = [0]
-    while waiting:
-        k = waiting.pop()
-        nodes += 1
-        if not _near(low, high, k, x, y, z, reach):
-            continue
-        if k < tree.first_leaf:
-            waiting += [2 * k + 1, 2 * k + 2]
-            continue
-        triangles += 1
-        away = _from_triangle(corners, k - tree.first_leaf, x, y, z)
-        if away <= reach:
-            nearest = reach = away  # only what is nearer still matters
-    return (-np.inf if nearest is None else radius - np.sqrt(nearest)), nodes, triangles
+    def penetrations(self, points: Array, radii: Array) -> Array:
+        """``penetration`` of each of the spheres (n, 3), (n,) [m]."""
+        found = np.empty(len(points))
+        _all(self.low, self.high, self.corners, self.first_leaf, np.ascontiguousarray(points), radii, found)
+        return found
 
 
-def _near(low: Any, high: Any, k: int, x: Any, y: Any, z: Any, reach: Any) -> bool:
-    """Whether a sphere meets a box (Arvo 1990)."""
-    square = None
+@njit(error_model="numpy")
+def _minus(a, b):  # type: ignore[no-untyped-def]
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@njit(error_model="numpy")
+def _dot(a, b):  # type: ignore[no-untyped-def]
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@njit(error_model="numpy")
+def _beyond(a, edge, share):  # type: ignore[no-untyped-def]
+    """Squared length of ``a`` less a share of an edge."""
+    rest = a[0] - edge[0] * share, a[1] - edge[1] * share, a[2] - edge[2] * share
+    return _dot(rest, rest)
+
+
+@njit(error_model="numpy")
+def _near(low, high, k, x, y, z, reach):  # type: ignore[no-untyped-def]
+    """Whether a sphere of radius √reach meets a box (Arvo 1990)."""
     for i, at in enumerate((x, y, z)):
         if at < low[k, i]:
             out = low[k, i] - at
@@ -64,14 +64,19 @@ def _near(low: Any, high: Any, k: int, x: Any, y: Any, z: Any, reach: Any) -> bo
             out = at - high[k, i]
         else:
             continue
-        square = out * out if square is None else square + out * out
-    return square is None or bool(square <= reach)
+        reach = reach - out * out
+        if reach < 0:
+            return False
+    return True
 
 
-def _from_triangle(corners: Any, k: int, x: Any, y: Any, z: Any) -> Any:
+@njit(error_model="numpy")
+def _from_triangle(corners, k, x, y, z):  # type: ignore[no-untyped-def]
     """Squared distance of a point from a triangle [m²], region by region (Ericson 2005, §5.1.5)."""
-    a, b, c = (tuple(corners[k, 3 * i + j] for j in range(3)) for i in range(3))
-    p = (x, y, z)
+    a = corners[k, 0], corners[k, 1], corners[k, 2]
+    b = corners[k, 3], corners[k, 4], corners[k, 5]
+    c = corners[k, 6], corners[k, 7], corners[k, 8]
+    p = x, y, z
     ab, ac, ap = _minus(b, a), _minus(c, a), _minus(p, a)
     d1, d2 = _dot(ab, ap), _dot(ac, ap)
     if d1 <= 0 and d2 <= 0:
@@ -95,21 +100,39 @@ def _from_triangle(corners: Any, k: int, x: Any, y: Any, z: Any) -> Any:
         return _beyond(bp, _minus(c, b), up / (up + down))
     share = 1 / (va + vb + vc)
     v, w = vb * share, vc * share
-    return _square(tuple(ap[i] - v * ab[i] - w * ac[i] for i in range(3)))
+    rest = (
+        ap[0] - v * ab[0] - w * ac[0],
+        ap[1] - v * ab[1] - w * ac[1],
+        ap[2] - v * ab[2] - w * ac[2],
+    )
+    return _dot(rest, rest)
 
 
-def _minus(a: Any, b: Any) -> tuple[Any, ...]:
-    return tuple(a[i] - b[i] for i in range(3))
+@njit(error_model="numpy")
+def penetration(low, high, corners, first_leaf, x, y, z, radius):  # type: ignore[no-untyped-def]
+    """How deep a sphere reaches beyond the nearest triangle [m], −inf where it meets none; nodes and triangles tested.
+
+    low, high, corners, first_leaf : of the tree; the arrays may be `Counted`.
+    """
+    reach, meets, nodes, triangles = radius * radius, False, 0, 0
+    waiting = [0]
+    while len(waiting) > 0:
+        k = waiting.pop()
+        nodes += 1
+        if not _near(low, high, k, x, y, z, reach):
+            continue
+        if k < first_leaf:
+            waiting.append(2 * k + 1)
+            waiting.append(2 * k + 2)
+            continue
+        triangles += 1
+        away = _from_triangle(corners, k - first_leaf, x, y, z)
+        if away <= reach:
+            reach, meets = away, True  # only what is nearer still matters
+    return (radius - np.sqrt(reach) if meets else -np.inf), nodes, triangles
 
 
-def _dot(a: Any, b: Any) -> Any:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _square(a: Any) -> Any:
-    return _dot(a, a)
-
-
-def _beyond(a: Any, edge: Any, share: Any) -> Any:
-    """Squared length of ``a`` less a share of an edge."""
-    return _square(tuple(a[i] - share * edge[i] for i in range(3)))
+@njit(error_model="numpy", cache=True)
+def _all(low, high, corners, first_leaf, points, radii, found):  # type: ignore[no-untyped-def]
+    for j in range(points.shape[0]):
+        found[j] = penetration(low, high, corners, first_leaf, points[j, 0], points[j, 1], points[j, 2], radii[j])[0]

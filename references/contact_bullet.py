@@ -13,7 +13,7 @@ from fctd.case import Case
 from fctd.errors import InputError, Table
 from fctd.wellbore import Contacts
 from references.base import need
-from references.tube_mesh import Tube, TubeOptions, build_tube
+from references.tube_mesh import OnTube, Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 NORMAL, DISTANCE = 7, 8
 
 
-class Bullet:
+class Bullet(OnTube):
     """A sphere body moved to each point and asked for its closest points on the tube."""
 
     name = "bullet"
@@ -33,9 +33,9 @@ class Bullet:
     gives_clearance = False
     Options: ClassVar[type[Table]] = TubeOptions
 
-    def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:
+    def __init__(self, case: Case, options: TubeOptions) -> None:
         self._bullet = bullet = need("pybullet", type(self))
-        self.tube = build_tube(case, options) if tube is None else tube
+        self.tube = build_tube(case, options)
         if self.tube.triangles > MOST_TRIANGLES:
             raise InputError(
                 f"at most the {MOST_TRIANGLES} triangles that bullet takes",
@@ -44,14 +44,7 @@ class Bullet:
             )
         self._client = client = bullet.connect(bullet.DIRECT)
         weakref.finalize(self, bullet.disconnect, client)
-        shape = bullet.createCollisionShape(
-            bullet.GEOM_MESH,
-            vertices=np.asarray(self.tube.mesh.vertices).tolist(),
-            indices=np.asarray(self.tube.mesh.faces).ravel().tolist(),
-            flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
-            physicsClientId=client,
-        )
-        self._wall = bullet.createMultiBody(0, shape, physicsClientId=client)
+        self._wall = wall_of(bullet, client, np.asarray(self.tube.mesh.vertices), self.tube)
         self._spheres: dict[float, int] = {}
 
     def query(self, points: Array, radii: Array) -> Contacts:
@@ -79,14 +72,18 @@ class Bullet:
             self._spheres[radius] = self._bullet.createMultiBody(1, shape, physicsClientId=self._client)
         return self._spheres[radius]
 
-    @property
-    def pieces(self) -> int:
-        """Number of triangles."""
-        return self.tube.triangles
 
-    def error_bound(self, curvature: float) -> tuple[float, float]:
-        """The mesh's own."""
-        return self.tube.error_bound(curvature)
+def wall_of(bullet: Any, client: int, vertices: Array, tube: Tube) -> int:
+    """A fixed body of the tube's triangles, its vertices (n, 3) in Bullet's own units and axes."""
+    shape = bullet.createCollisionShape(
+        bullet.GEOM_MESH,
+        vertices=vertices.tolist(),
+        indices=np.asarray(tube.mesh.faces).ravel().tolist(),
+        flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
+        physicsClientId=client,
+    )
+    wall: int = bullet.createMultiBody(0, shape, physicsClientId=client)
+    return wall
 
 
 def _distance(hit: Any) -> float:

@@ -14,7 +14,7 @@ from fctd.errors import Table
 from fctd.wellbore import Contacts
 from references.base import need
 from references.contact_fcl import MOST_CONTACTS, POINT
-from references.tube_mesh import Tube, TubeOptions, build_tube
+from references.tube_mesh import OnTube, Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ class CoalOptions(TubeOptions):
     query: Literal["distance", "collide"] = "distance"
 
 
-class Coal:
+class Coal(OnTube):
     """A sphere at each point against a bounding-volume tree over the tube; requests and results are reused."""
 
     name = "coal"
@@ -33,21 +33,13 @@ class Coal:
     does: ClassVar[str] = "bounding-volume tree over a triangle mesh (successor of FCL)"
     Options: ClassVar[type[Table]] = CoalOptions
 
-    def __init__(self, case: Case, options: CoalOptions, tube: Tube | None = None) -> None:
+    def __init__(self, case: Case, options: CoalOptions) -> None:
         self._coal = coal = need("coal", type(self))
-        self.tube = build_tube(case, options) if tube is None else tube
-        vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
-        for vertex in np.asarray(self.tube.mesh.vertices):
-            vertices.append(vertex)
-        for a, b, c in np.asarray(self.tube.mesh.faces).tolist():
-            faces.append(coal.Triangle(a, b, c))
+        self.tube = build_tube(case, options)
         # The tree is built for the query: OBB is the faster one to collide with, RSS bounds distances.
         self._collide = options.query == "collide"
         self.gives_clearance = not self._collide
-        self._wall = coal.BVHModelOBB() if self._collide else coal.BVHModelOBBRSS()
-        self._wall.beginModel(len(faces), len(vertices))
-        self._wall.addSubModel(vertices, faces)
-        self._wall.endModel()
+        self._wall = wall_of(coal, self.tube, coal.BVHModelOBB() if self._collide else coal.BVHModelOBBRSS())
         self._here, self._there = coal.Transform3s(), coal.Transform3s()
         self._spheres: dict[float, Any] = {}
         self._distance_request, self._distance = coal.DistanceRequest(True), coal.DistanceResult()
@@ -91,11 +83,15 @@ class Coal:
             self._spheres[radius] = self._coal.Sphere(radius)
         return self._spheres[radius]
 
-    @property
-    def pieces(self) -> int:
-        """Number of triangles."""
-        return self.tube.triangles
 
-    def error_bound(self, curvature: float) -> tuple[float, float]:
-        """The mesh's own."""
-        return self.tube.error_bound(curvature)
+def wall_of(coal: Any, tube: Tube, model: Any) -> Any:
+    """An empty tree of coal's filled with the tube."""
+    vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+    for vertex in np.asarray(tube.mesh.vertices):
+        vertices.append(vertex)
+    for a, b, c in np.asarray(tube.mesh.faces).tolist():
+        faces.append(coal.Triangle(a, b, c))
+    model.beginModel(len(faces), len(vertices))
+    model.addSubModel(vertices, faces)
+    model.endModel()
+    return model

@@ -14,7 +14,7 @@ from fctd.case import Case
 from fctd.errors import Table
 from fctd.wellbore import Contacts
 from references.base import need
-from references.tube_mesh import Tube, TubeOptions, build_tube
+from references.tube_mesh import OnTube, Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ class FclOptions(TubeOptions):
     query: Literal["distance", "collide"] = "distance"
 
 
-class Fcl:
+class Fcl(OnTube):
     """A sphere at each point against a bounding-volume tree over the tube."""
 
     name = "fcl"
@@ -38,15 +38,10 @@ class Fcl:
     does: ClassVar[str] = "bounding-volume tree over a triangle mesh (FCL)"
     Options: ClassVar[type[Table]] = FclOptions
 
-    def __init__(self, case: Case, options: FclOptions, tube: Tube | None = None) -> None:
+    def __init__(self, case: Case, options: FclOptions) -> None:
         self._fcl = fcl = need("fcl", type(self))
-        self.tube = build_tube(case, options) if tube is None else tube
-        vertices, faces = np.asarray(self.tube.mesh.vertices), np.asarray(self.tube.mesh.faces)
-        model = fcl.BVHModel()
-        model.beginModel(len(faces), len(vertices))
-        model.addSubModel(vertices, faces)
-        model.endModel()
-        self._wall = fcl.CollisionObject(model, fcl.Transform())
+        self.tube = build_tube(case, options)
+        self._wall = wall_of(fcl, self.tube)
         self._point = fcl.CollisionObject(fcl.Sphere(POINT), fcl.Transform())
         self._spheres: dict[float, Any] = {}
         self._collide = options.query == "collide"
@@ -88,14 +83,15 @@ class Fcl:
             self._spheres[radius] = self._fcl.CollisionObject(self._fcl.Sphere(radius), self._fcl.Transform())
         return self._spheres[radius]
 
-    @property
-    def pieces(self) -> int:
-        """Number of triangles."""
-        return self.tube.triangles
 
-    def error_bound(self, curvature: float) -> tuple[float, float]:
-        """The mesh's own."""
-        return self.tube.error_bound(curvature)
+def wall_of(fcl: Any, tube: Tube) -> Any:
+    """The tube as FCL has it."""
+    vertices, faces = np.asarray(tube.mesh.vertices), np.asarray(tube.mesh.faces)
+    model = fcl.BVHModel()
+    model.beginModel(len(faces), len(vertices))
+    model.addSubModel(vertices, faces)
+    model.endModel()
+    return fcl.CollisionObject(model, fcl.Transform())
 
 
 def _depth(contact: Any) -> float:

@@ -13,16 +13,17 @@ from fctd.case import Case
 from fctd.errors import Table
 from fctd.wellbore import Contacts
 from references.base import need
-from references.tube_mesh import Tube, TubeOptions, build_tube
+from references.tube_mesh import OnTube, Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
 BATCH = 64  # spheres in the model
 FACE_RADIUS = 1e-6  # a flex has a thickness, which cannot be 0 [m]
+MEETS_STRING = '<contact contype="2" conaffinity="1" selfcollide="none"/>'  # and nothing else
 PARKED = 1e5  # height above the well of spheres without a point [m]
 
 
-class MuJoCo:
+class MuJoCo(OnTube):
     """Spheres moved to the points in batches; one collision pass a batch."""
 
     name = "mujoco"
@@ -31,9 +32,9 @@ class MuJoCo:
     gives_clearance = False
     Options: ClassVar[type[Table]] = TubeOptions
 
-    def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:
+    def __init__(self, case: Case, options: TubeOptions) -> None:
         self._mujoco = mujoco = need("mujoco", type(self))
-        self.tube = build_tube(case, options) if tube is None else tube
+        self.tube = build_tube(case, options)
         self._model = mujoco.MjModel.from_xml_string(_model(self.tube))
         self._data = mujoco.MjData(self._model)
         # Two views into the library's own memory: positions of the spheres, and their radii.
@@ -74,27 +75,19 @@ class MuJoCo:
         self._places[first:] = 0.0
         self._places[first:, 2] = -PARKED * (1 + np.arange(BATCH - first))
 
-    @property
-    def pieces(self) -> int:
-        """Number of triangles."""
-        return self.tube.triangles
-
-    def error_bound(self, curvature: float) -> tuple[float, float]:
-        """The mesh's own."""
-        return self.tube.error_bound(curvature)
-
 
 def _model(tube: Tube) -> str:
     """MuJoCo's description of the spheres and the wall; contact bits let spheres meet the wall alone."""
     sphere = '<body><freejoint/><geom type="sphere" size="1" mass="1" contype="1" conaffinity="2"/></body>'
+    wall = wall_of(tube, MEETS_STRING)
+    return f'<mujoco><size memory="64M"/><worldbody>{BATCH * sphere}</worldbody>{wall}</mujoco>'
+
+
+def wall_of(tube: Tube, contact: str = "") -> str:
+    """MuJoCo's description of the tube as a flex of the world."""
     vertices = " ".join(map(repr, np.asarray(tube.mesh.vertices).ravel().tolist()))
     faces = " ".join(map(str, np.asarray(tube.mesh.faces).ravel().tolist()))
-    return f"""<mujoco>
-      <size memory="64M"/>
-      <worldbody>{BATCH * sphere}</worldbody>
-      <deformable>
-        <flex dim="2" body="world" radius="{FACE_RADIUS}" vertex="{vertices}" element="{faces}">
-          <contact contype="2" conaffinity="1" selfcollide="none"/>
-        </flex>
-      </deformable>
-    </mujoco>"""
+    return (
+        f'<deformable><flex dim="2" body="world" radius="{FACE_RADIUS}" vertex="{vertices}" element="{faces}">'
+        f"{contact}</flex></deformable>"
+    )

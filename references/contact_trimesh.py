@@ -9,12 +9,12 @@ from fctd.case import Case
 from fctd.errors import Table
 from fctd.wellbore import Contacts
 from references.base import import_or_tell, need
-from references.tube_mesh import Tube, TubeOptions, build_tube
+from references.tube_mesh import OnTube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
 
-class TriMesh:
+class TriMesh(OnTube):
     """Closest points on the tube."""
 
     name = "trimesh"
@@ -23,10 +23,10 @@ class TriMesh:
     gives_clearance = True
     Options: ClassVar[type[Table]] = TubeOptions
 
-    def __init__(self, case: Case, options: TubeOptions, tube: Tube | None = None) -> None:
+    def __init__(self, case: Case, options: TubeOptions) -> None:
         import_or_tell("rtree", "rtree", self.name)
         self._proximity = need("trimesh.proximity", type(self))
-        self.tube = build_tube(case, options) if tube is None else tube
+        self.tube = build_tube(case, options)
         # The tree is made at first use: here, so that no query pays for it.
         assert self.tube.mesh.triangles_tree is not None
 
@@ -34,12 +34,3 @@ class TriMesh:
         """See ``ContactMethod.query``."""
         near, _, faces = self._proximity.closest_point(self.tube.mesh, points)
         return self.tube.contacts(points, radii, np.asarray(near), np.asarray(faces))
-
-    @property
-    def pieces(self) -> int:
-        """Number of triangles."""
-        return self.tube.triangles
-
-    def error_bound(self, curvature: float) -> tuple[float, float]:
-        """The mesh's own."""
-        return self.tube.error_bound(curvature)

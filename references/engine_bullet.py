@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from fctd import state, units
-from fctd.case import Case
 from fctd.errors import Table
 from fctd.run import Run
-from references.engine_run import run_window
-from references.engines import EngineRun, StepOptions, Window, check_coulomb, check_no_mud, need
-from references.free_bodies import FreeBodies, poses_of, tube_of, wall_stiffness
-from references.tube_mesh import Tube, TubeOptions
+from references.contact_bullet import wall_of
+from references.engine_run import InWindows
+from references.engines import check_coulomb, check_no_mud, need
+from references.free_bodies import FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
+from references.tube_mesh import Tube
 
 Array = NDArray[np.float64]
 
@@ -42,18 +42,15 @@ LINK = 0  # of a body: the one that carries its sphere
 BODY, PLACE, FORCE, FRICTION = 1, 6, 9, (10, 12)
 
 
-class BulletOptions(StepOptions):
+class BulletOptions(FreeBodyOptions):
     """What can be set.
 
     settings : ``fair``, the wall's stiffness and damping of the case, or ``default``, Bullet's hard contact with
-    every parameter as it comes.  facets, ring_spacing [m] : of the tube; rings stand at the ends of FCTD's
-    cylinders at least.  unit [m] : the length that Bullet is told to be 1.  axes : of Bullet, z across the plane of the
-    ``string`` (fair), or the ``global`` ones (default).
+    every parameter as it comes.  unit [m] : the length that Bullet is told to be 1.  axes : of Bullet, z across the
+    plane of the ``string`` (fair), or the ``global`` ones (default).
     """
 
     settings: Literal["fair", "default"] = "fair"
-    facets: int = TubeOptions.model_fields["facets"].default
-    ring_spacing: units.PositiveLength | None = None
     unit: units.PositiveLength = 1.0
     axes: Literal["string", "global"] | None = None
 
@@ -88,14 +85,7 @@ class _Bodies:
 
     def _add_wall(self, tube: Tube) -> int:
         bullet, client = self._bullet, self._client
-        shape = bullet.createCollisionShape(
-            bullet.GEOM_MESH,
-            vertices=(self._scale * np.asarray(tube.mesh.vertices) @ self._axes.T).tolist(),
-            indices=np.asarray(tube.mesh.faces).ravel().tolist(),
-            flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
-            physicsClientId=client,
-        )
-        wall: int = bullet.createMultiBody(0, shape, physicsClientId=client)
+        wall = wall_of(bullet, client, self._scale * np.asarray(tube.mesh.vertices) @ self._axes.T, tube)
         bullet.changeDynamics(wall, -1, lateralFriction=1.0, restitution=0, physicsClientId=client)
         bullet.setCollisionFilterGroupMask(wall, -1, WALL, STRING, physicsClientId=client)
         return wall
@@ -187,7 +177,7 @@ def _turned_poses(poses: Array, axes: Array) -> Array:
     return np.hstack([place, turned.as_quat(scalar_first=True), speed, spin])
 
 
-class Bullet:
+class Bullet(InWindows):
     """Free bodies in Bullet against a concave tube of triangles."""
 
     name: ClassVar[str] = "bullet"
@@ -203,9 +193,5 @@ class Bullet:
         """See ``StringEngine.begin``."""
         check_coulomb(run.case, self.name)
         check_no_mud(run.case, self.name)
-        tube = tube_of(run, self.options.facets, self.options.ring_spacing)
+        tube = tube_of(run, self.options)
         return FreeBodies(run, _Bodies(self._bullet, run, tube, self.options), self.options.step or SHARE * run.step)
-
-    def run(self, case: Case, window: Window) -> EngineRun:
-        """See ``StringEngine.run``."""
-        return run_window(case, window, self.begin)

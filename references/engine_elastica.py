@@ -14,14 +14,13 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from fctd import state, topdrive
-from fctd.case import Case
 from fctd.energy import Energy
 from fctd.errors import InputError, Table
 from fctd.query import query_walls
 from fctd.run import Run
 from fctd.topdrive import Motion, planned_speeds
-from references.engine_run import run_window
-from references.engines import EngineRun, StepOptions, Window, check_coulomb, check_no_mud, need
+from references.engine_run import InWindows
+from references.engines import StepOptions, check_coulomb, check_no_mud, need
 
 Array = NDArray[np.float64]
 
@@ -331,7 +330,7 @@ class ElasticaOptions(StepOptions):
     rotary: Literal["segment", "pipe"] = "segment"
 
 
-class Elastica:
+class Elastica(InWindows):
     """A Cosserat rod of PyElastica in the engine's hole."""
 
     name: ClassVar[str] = "elastica"
@@ -349,7 +348,3 @@ class Elastica:
         check_no_mud(run.case, self.name)
         _check_top(run)
         return _Stepper(self._elastica, run, self.options.step, self.options.rotary)
-
-    def run(self, case: Case, window: Window) -> EngineRun:
-        """See ``StringEngine.run``."""
-        return run_window(case, window, self.begin)

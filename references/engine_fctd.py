@@ -2,13 +2,12 @@
 
 from typing import ClassVar
 
-from fctd.case import Case
 from fctd.energy import Energy, energy_of
 from fctd.errors import Table
 from fctd.run import Run
 from fctd.topdrive import Motion
-from references.engine_run import run_window
-from references.engines import EngineRun, StepOptions, Window
+from references.engine_run import InWindows
+from references.engines import StepOptions
 
 
 class _Stepper:
@@ -29,7 +28,7 @@ class _Stepper:
         """Nothing is held."""
 
 
-class Fctd:
+class Fctd(InWindows):
     """The compiled stepper of the engine."""
 
     name: ClassVar[str] = "fctd"
@@ -43,7 +42,3 @@ class Fctd:
     def begin(self, run: Run) -> _Stepper:
         """See ``StringEngine.begin``."""
         return _Stepper(run, self.options.step or run.step)
-
-    def run(self, case: Case, window: Window) -> EngineRun:
-        """See ``StringEngine.run``."""
-        return run_window(case, window, self.begin)

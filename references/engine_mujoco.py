@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd import state, units
-from fctd.case import Case
 from fctd.errors import Table
 from fctd.run import Run
-from references.engine_run import run_window
-from references.engines import EngineRun, StepOptions, Window, check_coulomb, check_no_mud, need
-from references.free_bodies import FreeBodies, poses_of, tube_of, wall_stiffness
-from references.tube_mesh import Tube, TubeOptions
+from references.contact_mujoco import MEETS_STRING, wall_of
+from references.engine_run import InWindows
+from references.engines import check_coulomb, check_no_mud, need
+from references.free_bodies import FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
+from references.tube_mesh import Tube
 
 Array = NDArray[np.float64]
 
@@ -28,20 +28,16 @@ Array = NDArray[np.float64]
 SHARE = 0.5
 # Impedance and stiffness [N/m] of the fair contact, chosen as above; a stiffer wall chatters.
 IMPEDANCE, STIFFNESS = 0.3, 1e6
-FACE_RADIUS = 1e-6  # a flex has a thickness, which cannot be 0 [m]
 
 
-class MuJoCoOptions(StepOptions):
+class MuJoCoOptions(FreeBodyOptions):
     """What can be set.
 
-    settings : ``fair`` as above, with an elliptic cone, or ``default``: contact and cone as they come.  facets,
-    ring_spacing [m] : of the tube; rings stand at the ends of FCTD's cylinders at least.  stiffness [N/m] of a point
-    of the wall at most, and impedance of a contact, both of ``fair``.
+    settings : ``fair`` as above, with an elliptic cone, or ``default``: contact and cone as they come.  stiffness
+    [N/m] of a point of the wall at most, and impedance of a contact, both of ``fair``.
     """
 
     settings: Literal["fair", "default"] = "fair"
-    facets: int = TubeOptions.model_fields["facets"].default
-    ring_spacing: units.PositiveLength | None = None
     stiffness: units.PositiveStiffness = STIFFNESS
     impedance: Annotated[float, units.Number(noun="an impedance", above=0.0, at_most=0.9999)] = IMPEDANCE
 
@@ -110,14 +106,7 @@ def _model(run: Run, tube: Tube | None, options: MuJoCoOptions) -> str:
             f'<geom type="sphere" size="{radius!r}" pos="0 0 {arm!r}" {soft} '
             f'friction="{friction!r} 0 0" condim="3" priority="1" contype="1" conaffinity="2"/></body>'
         )
-    wall = ""
-    if tube is not None:
-        vertices = " ".join(map(repr, np.asarray(tube.mesh.vertices).ravel().tolist()))
-        faces = " ".join(map(str, np.asarray(tube.mesh.faces).ravel().tolist()))
-        wall = (
-            f'<deformable><flex dim="2" body="world" radius="{FACE_RADIUS}" vertex="{vertices}" element="{faces}">'
-            '<contact contype="2" conaffinity="1" selfcollide="none"/></flex></deformable>'
-        )
+    wall = "" if tube is None else wall_of(tube, MEETS_STRING)
     cone = 'cone="elliptic" integrator="implicit"' if fair else ""
     return (
         f'<mujoco><compiler balanceinertia="false" boundmass="0" boundinertia="0"/><size memory="256M"/>'
@@ -125,7 +114,7 @@ def _model(run: Run, tube: Tube | None, options: MuJoCoOptions) -> str:
     )
 
 
-class MuJoCo:
+class MuJoCo(InWindows):
     """Free bodies in MuJoCo against a tube of triangles."""
 
     name: ClassVar[str] = "mujoco"
@@ -141,9 +130,5 @@ class MuJoCo:
         """See ``StringEngine.begin``."""
         check_coulomb(run.case, self.name)
         check_no_mud(run.case, self.name)
-        tube = tube_of(run, self.options.facets, self.options.ring_spacing)
+        tube = tube_of(run, self.options)
         return FreeBodies(run, _Bodies(self._mujoco, run, tube, self.options), self.options.step or SHARE * run.step)
-
-    def run(self, case: Case, window: Window) -> EngineRun:
-        """See ``StringEngine.run``."""
-        return run_window(case, window, self.begin)

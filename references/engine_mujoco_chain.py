@@ -10,13 +10,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from fctd import state, topdrive
-from fctd.case import Case
 from fctd.energy import Energy
 from fctd.errors import InputError, Table
 from fctd.run import Run
 from fctd.topdrive import Motion, planned_speeds
-from references.engine_run import run_window
-from references.engines import EngineRun, StepOptions, Window, check_no_mud, need
+from references.engine_run import InWindows
+from references.engines import StepOptions, check_no_mud, need
 
 # Share of the step at which the twist of the chain would be unstable.
 SHARE = 0.5
@@ -33,7 +32,6 @@ class _Stepper:
         self.step = step or float(SHARE * 2 / fastest)
         self._model = mujoco.MjModel.from_xml_string(_model(run))
         self._data = mujoco.MjData(self._model)
-        self._spin = self._data.qvel.reshape(n, 3)
         self._turned = 0.0
         mujoco.mj_forward(self._model, self._data)
 
@@ -114,7 +112,7 @@ def _model(run: Run) -> str:
     )
 
 
-class MuJoCoChain:
+class MuJoCoChain(InWindows):
     """Nested bodies on ball joints, hanging free."""
 
     name: ClassVar[str] = "mujoco_chain"
@@ -148,7 +146,3 @@ class MuJoCoChain:
         if run.top[topdrive.TOP_TIME] > 0:
             raise InputError(f"a window that starts at 0 s with {self.name}", key="window", value="a moving string")
         return _Stepper(self._mujoco, run, self.options.step)
-
-    def run(self, case: Case, window: Window) -> EngineRun:
-        """See ``StringEngine.run``."""
-        return run_window(case, window, self.begin)

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import state, topdrive
-from fctd.case import Case
+from fctd.case import Case, naming_file
 from fctd.energy import Energy
 from fctd.errors import InputError
 from fctd.faults import UnstableError
@@ -57,7 +57,7 @@ def begin_run(case: Case, window: Window) -> tuple[Run, list[Stretch]]:
 
 def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> EngineRun:
     """Run a window with a stepper begun by ``begin``, record as ``fctd.simulate`` does, and hold it to the checks."""
-    try:
+    with naming_file(case):
         run, stretches = begin_run(case, window)
         parts = legs(case, stretches, window.start, window.start + window.duration, case.record.interval)
         recorder = Recorder(run)
@@ -66,8 +66,6 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
         )
         recorder.last_time = window.start
         stepper = begin(run)
-    except InputError as error:
-        raise (error if case.file is None else error.in_file(case.file)) from None
     broken = ""
     began = time.perf_counter()
     held = [stepper.energy()]
@@ -95,10 +93,30 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     )  # fmt: skip
 
 
+class InWindows:
+    """What all engines share: they are run by ``run_window``."""
+
+    def begin(self, run: Run) -> Stepper:
+        """See ``StringEngine.begin``."""
+        raise NotImplementedError
+
+    def run(self, case: Case, window: Window) -> EngineRun:
+        """See ``StringEngine.run``."""
+        return run_window(case, window, self.begin)
+
+
 def late(run: EngineRun, seconds: float = np.inf) -> pd.Series:
     """Means of the history under a Hann window, of its last seconds."""
     history = run.history[run.history["time_s"] > run.history["time_s"].max() - seconds]
-    numbers = history.select_dtypes("number")
+    return hann_means(history)
+
+
+def hann_means(rows: pd.DataFrame) -> pd.Series:
+    """Means of the columns of numbers under a Hann window over the rows.
+
+    A plain mean keeps a share of whatever swings about it; the window leaves next to none.
+    """
+    numbers = rows.select_dtypes("number")
     weights = np.hanning(len(numbers) + 2)[1:-1]
     return pd.Series(numbers.mul(weights, axis=0).sum() / weights.sum())
 

@@ -4,20 +4,17 @@ An engine advances the whole string of a case: inertia, contact and friction are
 not).  All start from the same state, which FCTD's stepper has reached, and are read by the same recorder.
 """
 
-import importlib
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 import pandas as pd
-from pydantic import ValidationError
 
 from fctd import units
 from fctd.case import Case
 from fctd.energy import Energy
-from fctd.errors import InputError, Table, explain, nearest
+from fctd.errors import InputError, Table
 from fctd.run import Run
 from fctd.topdrive import Motion
-from references.base import import_or_tell
+from references.base import import_or_tell, options_of, registered, version_of
 
 ENGINES: dict[str, str] = {
     "fctd": "references.engine_fctd:Fctd",
@@ -97,10 +94,7 @@ class StringEngine(Protocol):
 
 def engine_class(name: str) -> type[StringEngine]:
     """The class registered under a name; InputError with the nearest name for another."""
-    if name not in ENGINES:
-        raise InputError(nearest(name, ENGINES, "engine"), key="engine", value=name)
-    module, _, attribute = ENGINES[name].partition(":")
-    found: type[StringEngine] = getattr(importlib.import_module(module), attribute)
+    found: type[StringEngine] = registered(ENGINES, name, "engine", "engine")
     return found
 
 
@@ -110,19 +104,12 @@ def build(name: str, **options: Any) -> StringEngine:
     Raises InputError for an unknown name, a bad option or a package that is not installed.
     """
     engine = engine_class(name)
-    try:
-        chosen = engine.Options.model_validate(options)
-    except ValidationError as failure:
-        raise explain(failure, options, ()).at(name) from None
-    return engine(chosen)
+    return engine(options_of(engine.Options, name, options))
 
 
 def installed_version(name: str) -> str | None:
     """Version of the package that brings an engine, None where it is not installed."""
-    try:
-        return version(engine_class(name).distribution)
-    except PackageNotFoundError:
-        return None
+    return version_of(engine_class(name).distribution)
 
 
 def need(module: str, engine: type[StringEngine]) -> Any:

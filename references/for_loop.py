@@ -4,7 +4,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd.contact import LENGTH, contact_point, cylinder_wall, distance_along, store_wall
+from fctd.contact import DIRECTION, LENGTH, START, contact_point, cylinder_wall, distance_along, store_wall
 from fctd.dynamics import update_axes, update_loads, update_positions, whole_operations
 from fctd.state import RADIUS
 
@@ -30,6 +30,24 @@ def for_loop_owners(pieces: NDArray[np.float64], points: NDArray[np.float64]) ->
     owners = np.full(len(points), -1, dtype=np.int64)
     _loop(pieces, np.ascontiguousarray(points, dtype=float), owners)
     return owners
+
+
+@njit(error_model="numpy", cache=True)
+def _test(C, points, owners, squares):  # type: ignore[no-untyped-def]
+    for k in range(points.shape[0]):
+        i = owners[k]
+        x, y, z = points[k, 0] - C[i, START], points[k, 1] - C[i, START + 1], points[k, 2] - C[i, START + 2]
+        s = x * C[i, DIRECTION] + y * C[i, DIRECTION + 1] + z * C[i, DIRECTION + 2]
+        squares[k] = x * x + y * y + z * z - s * s if 0 <= s <= C[i, LENGTH] else np.inf
+
+
+def one_cylinder(
+    pieces: NDArray[np.float64], points: NDArray[np.float64], owners: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """|PT|² (n,) of Eqs 5 and 10 for each point (n, 3) and the one cylinder given (n,), inf above or below it [m²]."""
+    squares = np.empty(len(points))
+    _test(pieces, np.ascontiguousarray(points, dtype=float), owners, squares)
+    return squares
 
 
 @njit(error_model="numpy", cache=True)

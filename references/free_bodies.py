@@ -10,12 +10,13 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd import state
+from fctd import state, units
 from fctd.dynamics import update_axes, update_loads, whole_operations
 from fctd.energy import Energy, energy_of
 from fctd.rotations import rotation_columns
 from fctd.run import Run
 from fctd.topdrive import Motion, move_top_drive
+from references.engines import StepOptions
 from references.tube_mesh import Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
@@ -39,11 +40,19 @@ class Bodies(Protocol):
         """Give back what the engine holds."""
 
 
-def tube_of(run: Run, facets: int, ring_spacing: float | None) -> Tube | None:
-    """The hole of a run as triangles, None where contact is off; rings ``ring_spacing`` [m] apart at most."""
+class FreeBodyOptions(StepOptions):
+    """Step, and the tube: its facets, and the largest distance of rings [m], which stand at least where pieces end."""
+
+    facets: int = TubeOptions.model_fields["facets"].default
+    ring_spacing: units.PositiveLength | None = None
+
+
+def tube_of(run: Run, options: FreeBodyOptions) -> Tube | None:
+    """The hole of a run as triangles, None where contact is off."""
     if not run.case.contact.enabled:
         return None
-    return build_tube(run.case, TubeOptions(facets=facets, ring_spacing=ring_spacing or run.hole.total_depth))
+    spacing = options.ring_spacing or run.hole.total_depth
+    return build_tube(run.case, TubeOptions(facets=options.facets, ring_spacing=spacing))
 
 
 @njit(error_model="numpy", cache=True)
@@ -102,19 +111,10 @@ def _sum_contacts(S, body, contacts, before, poses, dt):  # type: ignore[no-unty
 def poses_of(run: Run) -> Array:
     """Poses (n, 13) of the bodies of a run, as of ``Bodies``; axes have to be up to date."""
     n = run.segments
-    rows: tuple[int, ...] = (
-        state.X,
-        state.Y,
-        state.Z,
-        state.QW,
-        state.QX,
-        state.QY,
-        state.QZ,
-        state.VX,
-        state.VY,
-        state.VZ,
-    )
-    rows = (*rows, state.GX, state.GY, state.GZ)
+    rows = (
+        state.X, state.Y, state.Z, state.QW, state.QX, state.QY, state.QZ,
+        state.VX, state.VY, state.VZ, state.GX, state.GY, state.GZ,
+    )  # fmt: skip
     return np.stack([state.row(run.S, offset, n) for offset in rows], axis=1)
 
 

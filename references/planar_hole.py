@@ -54,6 +54,15 @@ class PlanarHole:
         for i, (along, aside) in enumerate(steps):
             self.start[:, i + 1] = self.start[:, i] + along * self.tangent[:, i] + aside * self.normal[:, i]
 
+    def at(self, md: Array) -> tuple[Array, Array]:
+        """Points of the axis (2, ...) [m] at measured depths (...) [m], and its inclination there (...) [rad]."""
+        piece = np.clip(np.searchsorted(self.md, md, side="right") - 1, 0, len(self.md) - 1)
+        past, curvature = md - self.md[piece], self.curvature[piece]
+        along, aside = _arc(curvature, past)
+        tangent, normal = self.tangent[:, piece], self.normal[:, piece]
+        angle = np.arctan2(tangent[1], tangent[0]) + curvature * past
+        return self.start[:, piece] + along * tangent + aside * normal, angle
+
     def axis(self, points: Array) -> Axis:
         """Closest point of the axis to points (2, ...) [m]."""
         later = range(1, len(self.md))

@@ -90,6 +90,11 @@ def machine() -> dict[str, str]:
     return found
 
 
+def machine_table() -> pd.DataFrame:
+    """The same as a table: what, value."""
+    return pd.DataFrame(machine().items(), columns=["what", "value"])
+
+
 def cpu_name() -> str:
     """The processor's own name where Linux tells it; elsewhere what Python knows."""
     cpuinfo = Path("/proc/cpuinfo")

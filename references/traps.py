@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case import Case
-from fctd.wellbore import build_wellbore, find_contacts, hole_frame
+from fctd.wellbore import build_wellbore, find_contacts
+from references import contact_bullet, contact_coal, contact_fcl, contact_mujoco
 from references.base import method_class, need
 from references.tube_mesh import Tube, TubeOptions, build_tube
 
@@ -51,27 +52,15 @@ def scene(count: int = 150) -> Scene:
     case = Case.model_validate({"name": "bend", "wellbore": hole_spec, "string": {"components": [pipe]}})
     hole = build_wellbore(case)
     rng = np.random.default_rng(11)
-    axis, tangent = hole.at(rng.uniform(3.0, 37.0, count))
-    high, right = hole_frame(tangent)
-    angle = rng.uniform(0, 2 * np.pi, count)[:, None]
-    offset = 0.5 * HOLE - RADIUS + rng.uniform(0.003, 0.010, count)[:, None]
-    points = axis + offset * (np.cos(angle) * high + np.sin(angle) * right)
+    md, angle = rng.uniform(3.0, 37.0, count), rng.uniform(0, 2 * np.pi, count)
+    points = hole.off_axis(md, angle, 0.5 * HOLE - RADIUS + rng.uniform(0.003, 0.010, count))
     hits = find_contacts(hole, points, RADIUS)
-    return Scene(build_tube(case, TubeOptions()), points, hits.penetration, hits.normal, tangent)
-
-
-def _fcl_wall(fcl: Any, tube: Tube) -> Any:
-    vertices, faces = np.asarray(tube.mesh.vertices), np.asarray(tube.mesh.faces)
-    model = fcl.BVHModel()
-    model.beginModel(len(faces), len(vertices))
-    model.addSubModel(vertices, faces)
-    model.endModel()
-    return fcl.CollisionObject(model, fcl.Transform())
+    return Scene(build_tube(case, TubeOptions()), points, hits.penetration, hits.normal, hole.at(md)[1])
 
 
 def fcl_capsule(fcl: Any, at: Scene) -> float:
     """Largest error [m] of the depth of a 2 m capsule along the hole; the bend itself accounts for 2 mm."""
-    wall = _fcl_wall(fcl, at.tube)
+    wall = contact_fcl.wall_of(fcl, at.tube)
     capsule = fcl.CollisionObject(fcl.Capsule(RADIUS, 2.0), fcl.Transform())
     request, worst = fcl.CollisionRequest(num_max_contacts=1000, enable_contact=True), 0.0
     for point, depth, normal, tangent in zip(at.points, at.depth, at.normal, at.tangent, strict=True):
@@ -85,7 +74,7 @@ def fcl_capsule(fcl: Any, at: Scene) -> float:
 
 def fcl_first_contact(fcl: Any, at: Scene) -> float:
     """Largest error [mm] of the depth when only one contact is asked for, which is the default."""
-    wall, worst = _fcl_wall(fcl, at.tube), 0.0
+    wall, worst = contact_fcl.wall_of(fcl, at.tube), 0.0
     sphere = fcl.CollisionObject(fcl.Sphere(RADIUS), fcl.Transform())
     for point, depth in zip(at.points, at.depth, strict=True):
         sphere.setTranslation(point)
@@ -97,7 +86,7 @@ def fcl_first_contact(fcl: Any, at: Scene) -> float:
 
 def fcl_penetrating_distance(fcl: Any, at: Scene) -> float:
     """Share [%] of penetrating spheres that are given a distance that is not negative."""
-    wall = _fcl_wall(fcl, at.tube)
+    wall = contact_fcl.wall_of(fcl, at.tube)
     sphere, wrong = fcl.CollisionObject(fcl.Sphere(RADIUS), fcl.Transform()), 0
     for point in at.points:
         sphere.setTranslation(point)
@@ -107,15 +96,7 @@ def fcl_penetrating_distance(fcl: Any, at: Scene) -> float:
 
 def coal_penetrating_distance(coal: Any, at: Scene) -> float:
     """Largest error [mm] of the distance of a penetrating sphere."""
-    model = coal.BVHModelOBBRSS()
-    vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
-    for vertex in np.asarray(at.tube.mesh.vertices):
-        vertices.append(vertex)
-    for a, b, c in np.asarray(at.tube.mesh.faces).tolist():
-        faces.append(coal.Triangle(a, b, c))
-    model.beginModel(len(faces), len(vertices))
-    model.addSubModel(vertices, faces)
-    model.endModel()
+    model = contact_coal.wall_of(coal, at.tube, coal.BVHModelOBBRSS())
     sphere, there, worst = coal.Sphere(RADIUS), coal.Transform3s(), 0.0
     for point, depth in zip(at.points, at.depth, strict=True):
         there.setTranslation(point)
@@ -130,14 +111,7 @@ def bullet_offset_sphere(bullet: Any, at: Scene) -> float:
     """Share [%] of touching spheres that are missed when the sphere stands 5 m off its body's origin."""
     client = bullet.connect(bullet.DIRECT)
     try:
-        shape = bullet.createCollisionShape(
-            bullet.GEOM_MESH,
-            vertices=np.asarray(at.tube.mesh.vertices).tolist(),
-            indices=np.asarray(at.tube.mesh.faces).ravel().tolist(),
-            flags=bullet.GEOM_FORCE_CONCAVE_TRIMESH,
-            physicsClientId=client,
-        )
-        wall = bullet.createMultiBody(0, shape, physicsClientId=client)
+        wall = contact_bullet.wall_of(bullet, client, np.asarray(at.tube.mesh.vertices), at.tube)
         ball = bullet.createCollisionShape(
             bullet.GEOM_SPHERE, radius=RADIUS, collisionFramePosition=[0, 0, 5], physicsClientId=client
         )
@@ -152,14 +126,11 @@ def bullet_offset_sphere(bullet: Any, at: Scene) -> float:
 
 def mujoco_fixed_sphere(mujoco: Any, at: Scene) -> float:
     """Share [%] of touching spheres that are missed when they are mocap bodies."""
-    vertices = " ".join(map(repr, np.asarray(at.tube.mesh.vertices).ravel().tolist()))
-    faces = " ".join(map(str, np.asarray(at.tube.mesh.faces).ravel().tolist()))
     bodies = "".join(
         f'<body mocap="true" pos="{x!r} {y!r} {z!r}"><geom size="{RADIUS}"/></body>' for x, y, z in at.points.tolist()
     )
-    flex = f'<flex dim="2" body="world" radius="1e-6" vertex="{vertices}" element="{faces}"/>'
     model = mujoco.MjModel.from_xml_string(
-        f'<mujoco><size memory="64M"/><worldbody>{bodies}</worldbody><deformable>{flex}</deformable></mujoco>'
+        f'<mujoco><size memory="64M"/><worldbody>{bodies}</worldbody>{contact_mujoco.wall_of(at.tube)}</mujoco>'
     )
     data = mujoco.MjData(model)
     mujoco.mj_fwdPosition(model, data)

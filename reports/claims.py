@@ -48,6 +48,7 @@ class Row:
     because: str
     why: str
     limit: str
+    one_route: str
     remark: str
     command: str
     number: Quantity | None
@@ -89,7 +90,7 @@ def _row(cells: dict[Any, Any]) -> Row:
     verdict, recorded = cells["verdict"], cells["recorded"]
     look, sign = LOOKS[verdict]
     differs = verdict not in ("not yet run", recorded)
-    same = ("claim", "section", "says", "verdict", "because", "why", "limit", "remark", "command")
+    same = ("claim", "section", "says", "verdict", "because", "why", "limit", "one_route", "remark", "command")
     return Row(
         **{name: cells[name] for name in same},
         look=look,

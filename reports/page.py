@@ -121,6 +121,7 @@ def _draw(study: str, figure: figures.Figure, tables: figures.Tables, out: Path)
     with mpl.rc_context(style.RC):
         canvas = figure.draw(tables)
         canvas.savefig(out / svg, metadata={"Date": None})
+        canvas.set_layout_engine("none")  # what was laid out stays; half of the time of a drawing is its layout
         canvas.savefig(out / png)
     # As a data address, each drawing keeps its identifiers to itself and the page is one file.
     source = "data:image/svg+xml;base64," + base64.b64encode((out / svg).read_bytes()).decode()

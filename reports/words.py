@@ -5,6 +5,8 @@ from typing import Any
 
 import pandas as pd
 
+from fctd.operations import OPERATION_NAMES
+
 # Endings of column names, longest first, so that ``_kN_m`` is not taken for metres.
 UNITS = {
     "N_m_per_rad": "N·m/rad",
@@ -35,15 +37,6 @@ SYMBOLS = {
     "sum_r_ft": "Σ rFₜ",
 }
 
-NAMES = {
-    "rotate_off_bottom": "rotating off bottom",
-    "trip_out": "picking up",
-    "trip_in": "slacking off",
-    "drill_rotating": "drilling, rotating",
-    "drill_sliding": "drilling, sliding",
-    "back_ream": "back-reaming",
-}
-
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SPACE, NARROW_SPACE = "\u00a0", "\u202f"  # neither breaks a line
 MINUS = "\u2212"
@@ -60,7 +53,7 @@ def heading(column: str) -> tuple[str, str]:
 
 def name(identifier: str) -> str:
     """An operation in the driller's words; other names as they stand."""
-    return NAMES.get(identifier, identifier)
+    return OPERATION_NAMES.get(identifier, identifier)
 
 
 def number(value: float) -> str:

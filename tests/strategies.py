@@ -1,6 +1,7 @@
 """What the case tests feed in: a valid case, the rules it can break, and Hypothesis strategies."""
 
 import json
+from functools import cache
 from typing import Any
 
 from hypothesis import strategies as st
@@ -212,11 +213,15 @@ def write_case(raw: dict[str, Any]) -> str:
     return "".join(f"{json.dumps(key)} = {toml(value)}\n" for key, value in raw.items())
 
 
+# Hypothesis looks a strategy over when it is first drawn from: those that are made anew for each draw cost most of
+# the tests' time.  What is drawn is the same.
+@cache
 def positive(low: float, high: float) -> st.SearchStrategy[float]:
     """A number with few digits, so that failures read well."""
     return st.floats(low, high).map(lambda number: float(f"{number:.6g}"))
 
 
+@cache
 def lengths(low: float, high: float) -> st.SearchStrategy[float | str]:
     """A length [m] as a bare number or with one of several units."""
 
@@ -232,6 +237,56 @@ def optional(keys: dict[str, st.SearchStrategy[Any]]) -> st.SearchStrategy[dict[
     return st.fixed_dictionaries({}, optional=keys)
 
 
+HOLE_OPTIONS = optional({"overlap": lengths(0, 1)})
+PIPE_OPTIONS = optional(
+    {
+        "contact_diameter": lengths(0.16, 0.18),
+        "linear_mass": st.just("19.5 lb/ft"),
+        "youngs_modulus": st.just("206.8 GPa"),
+        "poisson_ratio": positive(0, 0.5),
+        "density": positive(2000, 9000),
+        "axial_stiffness": positive(1e6, 1e10),
+        "bending_stiffness": positive(1e4, 1e8),
+        "torsional_stiffness": st.just("1e6 N*m^2"),
+        "shear_stiffness": st.just("1e5 kN"),
+    }
+)
+RAMP = optional({"ramp_time": st.just("5 s")})
+TOP = optional({"top_md": lengths(0, 100)})
+TABLES = optional(
+    {
+        "mud": optional(
+            {
+                "density": st.sampled_from(["1200 kg/m^3", "10 ppg", 1300]),
+                "axial_damping": positive(0, 50),
+                "lateral_damping": st.just("5 N*s/m^2"),
+                "rotational_damping": st.just("0.1 N*s"),
+            }
+        ),
+        "rig": optional(
+            {
+                "block_weight": st.just("60 klbf"),
+                "sheave_efficiency": positive(0.5, 1),
+                "torque_offset": st.just("-0.5 kN*m"),
+            }
+        ),
+        "contact": optional({"friction_law": st.sampled_from(["coulomb", "paper"]), "damping": positive(0, 1e6)}),
+        "solver": optional(
+            {"step": st.sampled_from(["auto", "largest", "1 ms", 0.002]), "joint_damping": positive(0, 0.01)}
+        ),
+        "record": optional({"interval": st.just("0.5 s"), "profile_at": st.lists(lengths(100, 3000), max_size=3)}),
+    }
+)
+
+
+@cache
+def interval_options(stiffness: str | None) -> st.SearchStrategy[dict[str, Any]]:
+    """What an interval may have, of the kind of stiffness that the hole has itself."""
+    unit = {"stiffness": "N/m", "stiffness_per_length": "N/m/m"}
+    own = {stiffness: positive(1e4, 1e9).map(lambda k: f"{k!r} {unit[stiffness]}")} if stiffness else {}
+    return optional({"name": st.text("abc åé\"'\\", max_size=5), **own})
+
+
 @st.composite
 def wellbores(draw: st.DrawFn) -> dict[str, Any]:
     """A hole to 3000 m with one interval or two."""
@@ -239,23 +294,21 @@ def wellbores(draw: st.DrawFn) -> dict[str, Any]:
     angles = st.tuples(positive(0, 180), positive(-360, 720))
     stations = [[md, *draw(angles)] for md in (0, *depths, 3000)]
     kind = draw(st.sampled_from(["stiffness", "stiffness_per_length"]))
-    unit = {"stiffness": "N/m", "stiffness_per_length": "N/m/m"}[kind]
     hole: dict[str, Any] = {
         "stations": stations,
         **draw(st.sampled_from([{}, {"chord_tolerance": "1 mm"}, {"cylinder_length": 5}])),
         **draw(st.sampled_from([{}, {"geometry": "arcs"}, {"survey_method": "average_angle"}])),
-        **draw(optional({"overlap": lengths(0, 1)})),
+        **draw(HOLE_OPTIONS),
     }
     if draw(st.booleans()):
         hole[kind] = draw(positive(1e4, 1e9))
-    per_interval = {kind: positive(1e4, 1e9).map(lambda k: f"{k!r} {unit}")} if kind in hole else {}
     bottoms: list[Any] = draw(st.sampled_from([["3000 m"], [1000, 3000.0]]))
     hole["intervals"] = [
         {
             "to_md": to_md,
             "diameter": draw(lengths(0.2, 0.5)),
             "friction": draw(positive(0, 1)),
-            **draw(optional({"name": st.text("abc åé\"'\\", max_size=5), **per_interval})),
+            **draw(interval_options(kind if kind in hole else None)),
         }
         for to_md in bottoms
     ]
@@ -270,21 +323,7 @@ def components(draw: st.DrawFn, last: bool) -> dict[str, Any]:
         "outer_diameter": draw(lengths(0.1, 0.15)),
         "inner_diameter": draw(lengths(0, 0.09)),
         **draw(st.sampled_from([{"segments": 20}, {"segment_length": "10 m"}])),
-        **draw(
-            optional(
-                {
-                    "contact_diameter": lengths(0.16, 0.18),
-                    "linear_mass": st.just("19.5 lb/ft"),
-                    "youngs_modulus": st.just("206.8 GPa"),
-                    "poisson_ratio": positive(0, 0.5),
-                    "density": positive(2000, 9000),
-                    "axial_stiffness": positive(1e6, 1e10),
-                    "bending_stiffness": positive(1e4, 1e8),
-                    "torsional_stiffness": st.just("1e6 N*m^2"),
-                    "shear_stiffness": st.just("1e5 kN"),
-                }
-            )
-        ),
+        **draw(PIPE_OPTIONS),
     }
     if not last or draw(st.booleans()):
         part["length"] = draw(lengths(10, 3000))
@@ -298,7 +337,7 @@ def operation_lists(draw: st.DrawFn) -> list[dict[str, Any]]:
     md = draw(st.integers(1000, 2000))
     for _ in range(draw(st.integers(0, 4))):
         kind = draw(st.sampled_from(["trip_in", "trip_out", "rotate_off_bottom", "back_ream"]))
-        operation: dict[str, Any] = {"kind": kind, **draw(optional({"ramp_time": st.just("5 s")}))}
+        operation: dict[str, Any] = {"kind": kind, **draw(RAMP)}
         start = "at_md" if kind == "rotate_off_bottom" else "from_md"
         if not operations or draw(st.booleans()):
             operation[start] = f"{md} m"
@@ -324,33 +363,11 @@ def cases(draw: st.DrawFn) -> dict[str, Any]:
         "wellbore": draw(wellbores()),
         "string": {
             "components": [*(draw(components(last=False)) for _ in range(runs)), draw(components(last=True))],
-            **draw(optional({"top_md": lengths(0, 100)})),
+            **draw(TOP),
         },
         "operations": draw(operation_lists()),
     }
-    tables = {
-        "mud": optional(
-            {
-                "density": st.sampled_from(["1200 kg/m^3", "10 ppg", 1300]),
-                "axial_damping": positive(0, 50),
-                "lateral_damping": st.just("5 N*s/m^2"),
-                "rotational_damping": st.just("0.1 N*s"),
-            }
-        ),
-        "rig": optional(
-            {
-                "block_weight": st.just("60 klbf"),
-                "sheave_efficiency": positive(0.5, 1),
-                "torque_offset": st.just("-0.5 kN*m"),
-            }
-        ),
-        "contact": optional({"friction_law": st.sampled_from(["coulomb", "paper"]), "damping": positive(0, 1e6)}),
-        "solver": optional(
-            {"step": st.sampled_from(["auto", "largest", "1 ms", 0.002]), "joint_damping": positive(0, 0.01)}
-        ),
-        "record": optional({"interval": st.just("0.5 s"), "profile_at": st.lists(lengths(100, 3000), max_size=3)}),
-    }
-    return raw | draw(optional(tables))
+    return raw | draw(TABLES)
 
 
 def places(data: object) -> list[tuple[Any, Any]]:

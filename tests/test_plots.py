@@ -101,6 +101,16 @@ def test_a_chart_draws_every_series_in_the_units_of_its_axes() -> None:
                 np.testing.assert_allclose(fits[0].get_ydata(), rows["bit_depth_m"] / depth, rtol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("factors", "heading", "named"),
+    [([0.2], "friction factor 0.2", set()), ([0.2, 0.3], "", {"friction factor 0.2", "friction factor 0.3"})],
+)
+def test_friction_is_named_once(factors: list[float], heading: str, named: set[str]) -> None:
+    figure = plots.chart_figure(chart(["trip_in"], factors))
+    texts = {text.get_text() for legend in figure.legends for text in legend.get_texts()}
+    assert (figure._suptitle.get_text(), {text for text in texts if "friction" in text}) == (heading, named)
+
+
 def test_lines_differ_without_colour() -> None:
     """In grey, operations are told by their markers and friction factors by their dashes."""
     left, _ = plots.chart_figure(chart(list(KINDS), [0.1, 0.2, 0.3])).axes

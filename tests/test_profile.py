@@ -42,6 +42,14 @@ def test_loads_and_stress_of_a_hanging_string() -> None:
     assert middle["von_mises_Pa"] == pytest.approx(stress, rel=1e-4)
 
 
+def test_the_top_has_the_section_of_the_uppermost_pipe() -> None:
+    """One segment of thicker pipe at the top: the stress there is the whole weight over its own steel."""
+    case = make_case(components=[pipe(980, 20), pipe(None, 1, outer=0.14)])
+    point = equilibrium(case, "rotate_off_bottom", 1000.0)
+    area = math.pi * (0.07**2 - 0.035**2)
+    assert point.profile["von_mises_Pa"].iloc[0] == pytest.approx(point.hookload / area, rel=1e-3)
+
+
 def test_stress_and_buckling_of_a_bent_string_in_tension_and_in_compression() -> None:
     """Row by row: |T|/A + M r_o/I and the torque's shear; the limits are those of the buoyed weight."""
     mud = {"density": 1200.0}

@@ -8,7 +8,7 @@ from fctd import build_wellbore
 from fctd.contact import arc_owner, arc_wall, cylinder_owner, cylinder_wall
 from fctd.query import TOGETHER
 from fctd.state import ARCS
-from fctd.wellbore import Wellbore, hole_frame
+from fctd.wellbore import Wellbore
 from tests.cases import make_case
 
 BEND = [[0, 0, 0], [300, 0, 0], [600, 60, 40], [1000, 95, 130]]
@@ -33,10 +33,8 @@ def from_table(C, geometry, points, owner, out):
 def points_by_depth(hole: Wellbore, furthest: float, count: int) -> np.ndarray:
     """Points up to so far off the axis [m], also before the start and past the end of the hole."""
     rng = np.random.default_rng(5)
-    axis, tangent = hole.at(np.sort(rng.uniform(-30.0, 1030.0, count)))
-    high, right = hole_frame(tangent)
-    angle, off = rng.uniform(0, 2 * np.pi, (count, 1)), rng.uniform(0, furthest, (count, 1))
-    return np.ascontiguousarray(axis + off * (np.cos(angle) * high + np.sin(angle) * right))
+    md, angle = np.sort(rng.uniform(-30.0, 1030.0, count)), rng.uniform(0, 2 * np.pi, count)
+    return hole.off_axis(md, angle, rng.uniform(0, furthest, count))
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])

@@ -7,8 +7,9 @@ import pandas as pd
 import pytest
 
 import fctd
-from fctd import SimulationResult, simulate
+from fctd import SimulationResult, simulate, state
 from fctd.operations import schedule
+from fctd.run import prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [400, 0, 0], [850, 90, 0], [1200, 90, 0]]
@@ -260,3 +261,14 @@ def test_a_little_joint_damping_keeps_a_sliding_string_quiet() -> None:
 def test_two_runs_are_the_same_to_the_last_bit() -> None:
     first, second = (simulate(build_case(rotation(1000, 5, ramp=1))) for _ in range(2))
     pd.testing.assert_frame_equal(first.history, second.history, check_exact=True)
+
+
+def test_a_string_is_laid_with_its_bodies_and_its_clamp_along_the_hole() -> None:
+    """Quaternions and axes agree, also at the top of a string that hangs in a bend."""
+    case = make_case([[0, 0, 0], [900, 90, 30]], [pipe(200, 5)], [rotation(500, 5)], 300.0, {"geometry": "arcs"})
+    run, _ = prepare(case)
+    rows = slice(0, run.segments + 1)
+    w, x, y, z = (run.S[row:][rows] for row in (state.QW, state.QX, state.QY, state.QZ))
+    axes = np.stack([run.S[row:][rows] for row in (state.AX, state.AY, state.AZ)])
+    np.testing.assert_allclose([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], axes, atol=1e-12)
+    np.testing.assert_allclose(axes[:, 0], run.hole.at(np.array([300.0]))[1][0], atol=1e-12)

@@ -20,11 +20,15 @@ def points_near(hole: Wellbore, count: int, seed: int, reach: float = 0.15) -> t
     """Seeded points within ``reach`` of the axis, and the depths they were placed at."""
     rng = np.random.default_rng(seed)
     md = rng.uniform(0.5, hole.total_depth - 0.5, count)
-    axis, direction = hole.at(md)
-    high, right = hole_frame(direction)
     angle, radius = rng.uniform(0, 2 * np.pi, count), reach * np.sqrt(rng.uniform(0, 1, count))
-    offset = radius[:, None] * (np.cos(angle)[:, None] * high + np.sin(angle)[:, None] * right)
-    return axis + offset, md
+    return hole.off_axis(md, angle, radius), md
+
+
+def test_angles_count_from_the_high_side_clockwise_looking_downhole() -> None:
+    """A level hole to the north: up is the high side, east is on the right."""
+    hole = hole_of([[0, 90, 0], [1000, 90, 0]], geometry="arcs")
+    points = hole.off_axis(np.full(2, 500.0), np.radians([0.0, 90.0]), np.array([0.1, 0.2]))
+    np.testing.assert_allclose(points, [[500, 0, -0.1], [500, 0.2, 0]], atol=1e-9)
 
 
 @pytest.mark.parametrize("radius", [50.0, 286.5, 1e4, 1e7, 1e10])

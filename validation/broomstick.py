@@ -55,4 +55,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("broomstick", "What are hook load and torque at every depth and friction factor?", run, reproduce=True)
+STUDY = Study("broomstick", "What are hook load and torque at every depth and friction factor?", run)

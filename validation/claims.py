@@ -47,6 +47,7 @@ def row(found: Finding) -> dict[str, Any]:
         "because": claim.because or "",
         "why": found.why,
         "limit": claim.limited.limit if claim.limited else "",
+        "one_route": claim.one_route or "",
         "remark": claim.remark,
         "command": " ".join(["python -m validation", *studies]) if studies else "",
     }

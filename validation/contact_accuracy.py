@@ -1,5 +1,6 @@
 """Every contact method asked about the same points beside the wall: what it misses, its errors, its cost."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -7,12 +8,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import Case, InputError, build_wellbore, find_contacts
-from fctd.wellbore import hole_frame
 from references import base, traps
 from references.footprint import footprint
-from references.timing import machine, race
+from references.timing import machine_table, race
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study
+from validation.study import Check, Context, Outcome, Study, left_out
 
 Array = NDArray[np.float64]
 
@@ -71,11 +71,9 @@ def points_in(case: Case, count: int) -> pd.DataFrame:
             md = 200.0 + 2.0 * rng.integers(3, 265, count) + rng.uniform(0.0, 0.2, count)
         else:
             md = rng.uniform(*REGIONS[region], count)
-        axis, tangent = exact.at(md)
-        high, right = hole_frame(tangent)
-        angle = rng.uniform(0, 2 * np.pi, count)[:, None]
+        angle = rng.uniform(0, 2 * np.pi, count)
         offset = HOLE - RADIUS + rng.uniform(-BAND, BAND, count)
-        places = axis + offset[:, None] * (np.cos(angle) * high + np.sin(angle) * right)
+        places = exact.off_axis(md, angle, offset)
         parts.append(pd.DataFrame(places, columns=["x", "y", "z"]).assign(region=region, offset=offset))
     return pd.concat(parts, ignore_index=True)
 
@@ -114,46 +112,46 @@ def errors_of(method: base.ContactMethod, points: pd.DataFrame, case: Case) -> l
     return rows
 
 
-def run(context: Context) -> Outcome:
-    """Errors by region, then one race of all settings, then memory and build time in processes of their own."""
-    case = the_case()
-    points = points_in(case, 250 if context.quick else 2500)
-    rows, methods, skipped, refused = [], {}, [], []
-    for name, options in context.progress(settings(context.quick), "methods"):
-        if base.installed_version(name) is None:
-            skipped.append(name)
+def built(context: Context, case: Case) -> tuple[dict[str, base.ContactMethod], list[dict[str, str]], list[str]]:
+    """Methods by the label of their setting, settings that a library does not take, names that are not installed."""
+    methods: dict[str, base.ContactMethod] = {}
+    refused: list[dict[str, str]] = []
+    missing = [name for name in base.METHODS if base.installed_version(name) is None]
+    for name, options in settings(context.quick):
+        if name in missing:
             continue
         key = label(name, options)
         try:
             methods[key] = base.build(name, case, **options)
         except InputError as error:
             refused.append({"setting": key, "why": str(error)})
-            continue
-        rows += [{"setting": key, "method": name} | row for row in errors_of(methods[key], points, case)]
-    errors = pd.DataFrame(rows)
+    return methods, refused, missing
 
-    few = points.sample(120 if context.quick else 400, random_state=1)
-    places, radii = np.ascontiguousarray(few[["x", "y", "z"]]), np.full(len(few), RADIUS)
-    actions = {key: lambda m=method: m.query(places, radii) for key, method in methods.items()}
-    cost = race(actions, dict.fromkeys(actions, len(few)), 5 if context.quick else 15, BASELINE)
+
+def costs(methods: dict[str, base.ContactMethod], points: pd.DataFrame, rounds: int) -> pd.DataFrame:
+    """The race of all settings over the points, a row each."""
+    places, radii = np.ascontiguousarray(points[["x", "y", "z"]]), np.full(len(points), RADIUS)
+    actions = {key: partial(method.query, places, radii) for key, method in methods.items()}
+    cost = race(actions, dict.fromkeys(actions, len(points)), rounds, BASELINE)
     cost = cost.rename(columns={"name": "setting", "ns": "ns_per_point", "units": "points"})
     cost["method"] = [key.partition(",")[0] for key in cost["setting"]]
     cost["pieces"] = [methods[key].pieces for key in cost["setting"]]
-    bends = errors[errors["region"] != "straight"].groupby("setting")
-    cost["max_penetration_error_mm"] = cost["setting"].map(bends["max_penetration_error_mm"].max())
-    cost["max_angle_error_deg"] = cost["setting"].map(bends["max_angle_error_deg"].max())
+    return cost
 
-    # Cylinders and arcs are built by the engine itself; each mesh method at its own defaults.
-    builds = []
-    for name in context.progress(base.METHODS, "memory"):
-        if name not in skipped and not (context.quick and name not in ("cylinders", "fcl")):
-            memory, seconds = footprint(name, case)
-            builds.append(
-                {"method": name, "pieces": base.build(name, case).pieces, "memory_MB": memory, "build_s": seconds}
-            )
 
+def footprints(context: Context, case: Case, names: list[str]) -> pd.DataFrame:
+    """Memory and time of building each method at its own defaults; cylinders and arcs are the engine's own."""
+    rows = []
+    for name in context.progress(names, "memory"):
+        memory, seconds = footprint(name, case)
+        rows.append({"method": name, "pieces": base.build(name, case).pieces, "memory_MB": memory, "build_s": seconds})
+    return pd.DataFrame(rows)
+
+
+def tried(missing: list[str]) -> pd.DataFrame:
+    """The obvious ways to ask that go wrong."""
     at = traps.scene()
-    tried = [
+    rows = [
         {
             "package": base.method_class(trap.method).distribution,
             "tried": trap.tried,
@@ -163,19 +161,39 @@ def run(context: Context) -> Outcome:
             "used_instead": trap.instead,
         }
         for trap in traps.TRAPS
-        if trap.method not in skipped
+        if trap.method not in missing
     ]
+    return pd.DataFrame(rows)
+
+
+def run(context: Context) -> Outcome:
+    """Errors of every setting at the same points, cost of a point, memory and build time, and the traps."""
+    quick, case = context.quick, the_case()
+    points = points_in(case, 250 if quick else 2500)
+    methods, refused, missing = built(context, case)
+    rows = [
+        {"setting": key, "method": key.partition(",")[0]} | row
+        for key, method in context.progress(methods.items(), "methods")
+        for row in errors_of(method, points, case)
+    ]
+    errors = pd.DataFrame(rows)
+    cost = costs(methods, points.sample(120 if quick else 400, random_state=1), 5 if quick else 15)
+    bends = errors[errors["region"] != "straight"].groupby("setting")
+    for column in ("max_penetration_error_mm", "max_angle_error_deg"):
+        cost[column] = cost["setting"].map(bends[column].max())
+    raced = [name for name in base.METHODS if name not in missing]
+    trapped = tried(missing)
     return Outcome(
         tables={
             "errors": errors,
             "cost": cost,
-            "builds": pd.DataFrame(builds),
-            "traps": pd.DataFrame(tried),
+            "builds": footprints(context, case, [n for n in raced if not quick or n in ("cylinders", "fcl")]),
+            "traps": trapped,
             "refused": pd.DataFrame(refused, columns=["setting", "why"]),
-            "machine": pd.DataFrame(machine().items(), columns=["what", "value"]),
+            "machine": machine_table(),
         },
-        checks=checks(errors, pd.DataFrame(tried)),
-        notes=notes(skipped),
+        checks=checks(errors, trapped),
+        notes=notes(missing),
         display={
             "cost": "Cost of a point beside the largest error in bends; all settings raced in turns",
             "builds": "Memory and build time at default settings, each in a process of its own",
@@ -186,7 +204,7 @@ def run(context: Context) -> Outcome:
     )
 
 
-def checks(errors: pd.DataFrame, tried: pd.DataFrame) -> list[Check]:
+def checks(errors: pd.DataFrame, trapped: pd.DataFrame) -> list[Check]:
     """Geometry's bounds for all methods, and the traps that are recorded as findings."""
     # A micrometre for rounding and for the thickness that libraries want of a point.
     excess = errors["max_penetration_error_mm"] / (errors["bound_mm"] + 1e-3)
@@ -199,7 +217,7 @@ def checks(errors: pd.DataFrame, tried: pd.DataFrame) -> list[Check]:
         Check("missed contacts deeper than the geometric bound", float(late.max()), 1e-3, "at_most", "mm",
               "the same formulas"),
     ]  # fmt: skip
-    capsule = tried[tried["tried"].str.startswith("a capsule")] if len(tried) else tried
+    capsule = trapped[trapped["tried"].str.startswith("a capsule")] if len(trapped) else trapped
     if len(capsule):
         found.append(
             Check("error of a capsule's depth in python-fcl", float(capsule["found"].iloc[0]), 0.1, "at_least", "m",
@@ -210,9 +228,8 @@ def checks(errors: pd.DataFrame, tried: pd.DataFrame) -> list[Check]:
 
 def notes(skipped: list[str]) -> list[str]:
     """What a reader of the numbers must know."""
-    missing = [f"Not installed, and left out: {', '.join(skipped)}."] if skipped else []
     return [
-        *missing,
+        *left_out(skipped),
         "Truth is the exact arc. A mesh on the wall lies inside the hole by the sagitta of its facets and, between "
         "rings, towards the inside of the bend: contacts are found early on the outside of a bend and late on its "
         "inside.",
@@ -226,4 +243,4 @@ def notes(skipped: list[str]) -> list[str]:
     ]
 
 
-STUDY = Study("contact_accuracy", "What does each contact method get right, and what does a point cost?", run, True)
+STUDY = Study("contact_accuracy", "What does each contact method get right, and what does a point cost?", run)

@@ -9,19 +9,15 @@ import pandas as pd
 from fctd import simulate
 from fctd.drillstring import section_of
 from references.soft_string import soft_string
-from validation.cases import load, rotation, trip
-from validation.steady import last_seconds
+from validation.cases import load, rotation
+from validation.steady import TRIP_WINDOW, last_seconds, steady_trip
 from validation.study import Check, Context, Outcome, Study
 
 BIT = 2450.0
-WINDOW = 20.0  # [s] read at the end of a run
-SPEED = 0.2  # [m/s] of the trips
-# The trips pass the bit depth in the middle of the window that is read, and start far enough from it for
-# every contact to slide.
 SCHEDULES = {
     "rotate_off_bottom": rotation(BIT, 60.0, ramp=20.0),
-    "trip_out": trip(BIT + 8.0, BIT - SPEED * WINDOW / 2, SPEED, ramp=10.0),
-    "trip_in": trip(BIT - 8.0, BIT + SPEED * WINDOW / 2, SPEED, ramp=10.0),
+    "trip_out": steady_trip("trip_out", BIT),
+    "trip_in": steady_trip("trip_in", BIT),
 }
 
 
@@ -48,7 +44,7 @@ def one(geometry: str, law: str, operation: str, softer: float) -> tuple[dict[st
         string__components__0__segment_length=25.0,
     )
     result = simulate(case)
-    end = last_seconds(result, WINDOW)
+    end = last_seconds(result, TRIP_WINDOW)
     soft = soft_string(case, operation, BIT)
     row = {
         "geometry": geometry,
@@ -122,8 +118,5 @@ def _known(numbers: pd.DataFrame) -> pd.Series:
 
 
 STUDY = Study(
-    "curved_chain",
-    "Does a chain in one bend give the soft string's loads, rotating, picked up and slacked off?",
-    run,
-    reproduce=True,
+    "curved_chain", "Does a chain in one bend give the soft string's loads, rotating, picked up and slacked off?", run
 )

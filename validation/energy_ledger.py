@@ -2,13 +2,12 @@
 
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from fctd import simulate
 from fctd.run import prepare
 from validation.cases import load, rotation, trip
-from validation.study import Check, Context, Outcome, Study
+from validation.study import Check, Context, Outcome, Study, log_slope
 
 # A build of 60° in 50 m, turning by 30°: far sharper than wells are drilled.
 SHARP = [[0, 0, 0], [1700, 0, 350], [1750, 60, 20], [2600, 60, 20]]
@@ -49,12 +48,6 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
 FINE = 0.5
 
 
-def order(closure: pd.DataFrame) -> float:
-    """Slope of log residual over log step."""
-    steps, residuals = closure["step_s"].to_numpy(float), closure["residual_J"].to_numpy(float)
-    return float(np.polyfit(np.log(steps), np.log(residuals), 1)[0])
-
-
 def run(context: Context) -> Outcome:
     """The ledger at the default step and at fractions of it."""
     fractions = (1.0, 0.5, 0.125) if context.quick else (1.0, 0.5, 0.25, 0.125, 0.0625)
@@ -82,7 +75,7 @@ def run(context: Context) -> Outcome:
     table = pd.DataFrame(closure)
     at_default = table[table["step_fraction"] == 1.0].set_index("case")["relative_residual"]
     fine = table[table["case"].str.endswith("arcs") & (table["step_fraction"] <= FINE)]
-    orders = {name: order(part) for name, part in fine.groupby("case")}
+    orders = {name: log_slope(part["step_s"], part["residual_J"]) for name, part in fine.groupby("case")}
     return Outcome(
         tables={"ledger": pd.DataFrame(ledger), "closure": table},
         checks=[
@@ -107,4 +100,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("energy_ledger", "Is all the energy accounted for?", run, reproduce=True)
+STUDY = Study("energy_ledger", "Is all the energy accounted for?", run)

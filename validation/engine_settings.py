@@ -9,7 +9,7 @@ import pandas as pd
 from references.best_step import best_step, ladder
 from references.engine_mujoco import IMPEDANCE
 from references.engines import Window, build
-from references.friction_law import lean_of_two_directions, sliding
+from references.friction_law import Sliding, lean_of_two_directions, sliding
 from validation.cases import load, rotation
 from validation.study import Check
 
@@ -25,7 +25,9 @@ AZIMUTHS = (0.0, 15.0, 30.0, 45.0, 60.0)
 # Of MuJoCo's contact: its own 0.9 and less, the case's own wall and a softer one [N/m].
 IMPEDANCES, STIFFNESSES = (0.9, 0.7, 0.5, 0.3, 0.1), (1e7, 1e6)
 KEPT = 0.995  # least share of μN
-SPIN_UP, RUNGS, SECONDS = Window(0.0, 10.0), {"FCTD": 3, "Bullet": 3, "MuJoCo": 3, "PyElastica": 5}, 4.0
+SPIN_UP, SECONDS = Window(0.0, 10.0), 4.0
+# Engines at their best configuration, and the rungs of their ladders.
+RUNGS = {"FCTD": ("fctd", 3), "Bullet": ("bullet", 3), "MuJoCo": ("mujoco", 3), "PyElastica": ("elastica", 5)}
 
 
 def friction(azimuths: tuple[float, ...], missing: list[str]) -> pd.DataFrame:
@@ -41,14 +43,20 @@ def friction(azimuths: tuple[float, ...], missing: list[str]) -> pd.DataFrame:
                 {
                     "engine": label,
                     "azimuth_deg": azimuth,
-                    "status": found.status,
-                    "failed": found.failed,
-                    "share_of_mu_n": found.share,
-                    "lean_deg": np.degrees(found.lean),
+                    **_cells(found),
                     "two_directions_lean_deg": np.degrees(lean_of_two_directions(azimuth)) if fixed else np.nan,
                 }
             )
     return pd.DataFrame(rows)
+
+
+def _cells(found: Sliding) -> dict[str, Any]:
+    return {
+        "status": found.status,
+        "failed": found.failed,
+        "share_of_mu_n": found.share,
+        "lean_deg": np.degrees(found.lean),
+    }
 
 
 def impedances() -> pd.DataFrame:
@@ -57,16 +65,7 @@ def impedances() -> pd.DataFrame:
     for stiffness in STIFFNESSES:
         for impedance in IMPEDANCES:
             found = sliding("mujoco", 30.0, stiffness=stiffness, impedance=impedance)
-            rows.append(
-                {
-                    "stiffness_N_per_m": stiffness,
-                    "impedance": impedance,
-                    "status": found.status,
-                    "failed": found.failed,
-                    "share_of_mu_n": found.share,
-                    "lean_deg": np.degrees(found.lean),
-                }
-            )
+            rows.append({"stiffness_N_per_m": stiffness, "impedance": impedance, **_cells(found)})
     table = pd.DataFrame(rows)
     # The stiffest wall, and there the impedance nearest to MuJoCo's own, that keeps enough: rows are in this order.
     good = (table["status"] == "valid") & (table["share_of_mu_n"] >= KEPT)
@@ -80,7 +79,8 @@ def steps(names: tuple[str, ...]) -> pd.DataFrame:
     tables: list[pd.DataFrame] = []
     own = pd.Series(dtype=float)
     for label in names:
-        found = ladder(label_name(label), case, SPIN_UP, longest, RUNGS[label], SECONDS)
+        engine, rungs = RUNGS[label]
+        found = ladder(engine, case, SPIN_UP, longest, rungs, SECONDS)
         own = own if tables else found.iloc[0]
         tables.append(
             pd.DataFrame(
@@ -99,11 +99,6 @@ def steps(names: tuple[str, ...]) -> pd.DataFrame:
             )
         )
     return pd.concat(tables, ignore_index=True)
-
-
-def label_name(label: str) -> str:
-    """The key in ``references.engines`` of an engine's best configuration."""
-    return {"FCTD": "fctd", "Bullet": "bullet", "MuJoCo": "mujoco", "PyElastica": "elastica"}[label]
 
 
 def friction_checks(table: pd.DataFrame, missing: list[str]) -> list[Check]:

@@ -17,9 +17,7 @@ def run(context: Context) -> Outcome:
     case = load("johancsik3")
     rows, off, answered = [], [], 0
     for kind, (hookload, torque) in PUBLISHED.items():
-        soft = soft_string(
-            case, kind, BIT, speed=0.3 if kind != "rotate_off_bottom" else 0.0, rpm=60.0 if torque else 0.0
-        )
+        soft = soft_string(case, kind, BIT)
         off.append(100 * abs(soft.hookload / 1e3 / hookload - 1))
         if torque is not None:
             off.append(100 * abs(soft.surface_torque / 1e3 / torque - 1))
@@ -57,9 +55,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study(
-    "johancsik",
-    "Do soft and stiff string give the numbers Johancsik published?",
-    run,
-    reproduce=True,
-)
+STUDY = Study("johancsik", "Do soft and stiff string give the numbers Johancsik published?", run)

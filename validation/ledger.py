@@ -1,7 +1,8 @@
 """The claims of the paper: what ``claims.toml`` may say, and how a verdict follows from stored numbers.
 
 A claim rests on one number of one study and a bound that it keeps if the claim holds.  Where it does not, a second
-number, of a narrower question or with a wider bound, may show the limits within which it does.
+number, of a narrower question or with a wider bound, may show the limits within which it does.  A number that misses
+its bound contradicts the paper, so a second route to the same quantity stands beside it.
 """
 
 import math
@@ -63,6 +64,11 @@ class Number(Table):
             )
         return self
 
+    @property
+    def source(self) -> tuple[Any, ...]:
+        """Where it is stored: what tells it from another number."""
+        return self.study, self.check, self.table, self.column, self.take, sorted(self.where.items())
+
     def held(self, value: float, name: str, unit: str, because: str) -> Check:
         """A value beside the bound."""
         kinds: tuple[Kind, ...] = ("at_most", "at_least", "within")
@@ -81,7 +87,8 @@ class Claim(Table):
 
     says : the claim in our words.  verdict : what is recorded of it; a run that finds another is an error.
     because : where the bound comes from.  limited : the number within limits.  second_route : the same quantity from
-    elsewhere, held against the claim as well.  untestable : why nothing can be computed.
+    elsewhere, held against the claim as well; where the number contradicts the paper it must be there.  one_route : why
+    a claim that holds with limits has none.  untestable : why nothing can be computed.
     """
 
     id: Annotated[str, Field(pattern=r"^[a-z0-9]+(-[a-z0-9]+)*$", description="a name such as overlap-closes-gaps")]
@@ -92,6 +99,7 @@ class Claim(Table):
     number: Number | None = None
     limited: Limited | None = None
     second_route: Number | None = None
+    one_route: Text | None = None
     untestable: Text | None = None
     remark: str = ""
 
@@ -99,7 +107,7 @@ class Claim(Table):
     def _check(self) -> Self:
         exclusive(self, "number", "untestable", required=True)
         if self.untestable is not None:
-            for key in ("because", "limited", "second_route"):
+            for key in ("because", "limited", "second_route", "one_route"):
                 if getattr(self, key) is not None:
                     raise InputError("nothing, where the claim cannot be tested", key=key)
         elif self.because is None:
@@ -108,14 +116,31 @@ class Claim(Table):
             raise InputError("cannot be tested together with untestable, and not without", key="verdict")
         if self.verdict == "holds with limits" and self.limited is None:
             raise InputError("a number that shows the limits of a claim that holds with limits", key="limited")
-        if self.verdict == "does not hold" and self.second_route is None:
-            raise InputError("a second route to the number, since the result contradicts the paper", key="second_route")
+        self._check_routes()
         return self
+
+    def _check_routes(self) -> None:
+        """A number that contradicts the paper has a second route, or says why there can be none."""
+        exclusive(self, "second_route", "one_route")
+        needed = "a second route to the number, since the result contradicts the paper"
+        if self.verdict == "does not hold" and self.second_route is None:
+            raise InputError(needed, key="second_route")
+        if self.verdict == "holds with limits" and self.second_route is None and self.one_route is None:
+            raise InputError(f"{needed}, or one_route = why there is none", key="second_route")
+        if self.one_route is not None and self.verdict != "holds with limits":
+            raise InputError("nothing, but for a claim that holds with limits", key="one_route")
+        if self.second_route is not None and self.second_route.source in [number.source for number in self.first]:
+            raise InputError("a number of its own, not one that the claim rests on already", key="second_route")
+
+    @property
+    def first(self) -> tuple[Number, ...]:
+        """The number that decides, and the one within limits."""
+        return tuple(number for number in (self.number, self.limited) if number is not None)
 
     @property
     def numbers(self) -> tuple[Number, ...]:
         """All the numbers it rests on."""
-        return tuple(number for number in (self.number, self.limited, self.second_route) if number is not None)
+        return self.first if self.second_route is None else (*self.first, self.second_route)
 
 
 class Misprint(Table):
@@ -228,11 +253,9 @@ def judge(claim: Claim, results: "Results") -> Finding:
             return "holds", ""
         if isinstance(limited, Missing):
             return "not yet run", limited.why
-        if limited is not None and limited.met:
-            return "holds with limits", ""
         if isinstance(second, Missing):
             return "not yet run", f"second route: {second.why}"
-        return "does not hold", ""
+        return ("holds with limits" if limited is not None and limited.met else "does not hold"), ""
 
     found, why = verdict()
     return Finding(claim, found, number, limited, second, why)

@@ -58,4 +58,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("mesh_torque", "Does the torque off bottom depend on how contact is found?", run, reproduce=True)
+STUDY = Study("mesh_torque", "Does the torque off bottom depend on how contact is found?", run)

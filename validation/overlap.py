@@ -71,4 +71,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("overlap", "What does the overlap of the cylinders prevent?", run, reproduce=True)
+STUDY = Study("overlap", "What does the overlap of the cylinders prevent?", run)

@@ -4,15 +4,13 @@ import pandas as pd
 
 from fctd import simulate
 from references.soft_string import soft_string
-from validation.cases import load
 from validation.study import Check, Context, Outcome, Study
+from validation.wells import real_well
 
 
 def run(context: Context) -> Outcome:
     """The full-length string of 200 segments in the surveyed hole."""
-    assert context.data is not None  # the study needs it, so the runner has looked
-    survey = context.data / "surveys" / "nlog_K05-ENC-05-S1.csv"
-    case = load("nlog_k05", wellbore__survey=survey)
+    case = real_well(context)
     result = simulate(case)
     end = result.history[result.history["time_s"] > 50].mean(numeric_only=True)
     soft = soft_string(case, "rotate_off_bottom", case.operations[0].end_md)

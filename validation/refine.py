@@ -170,8 +170,5 @@ def run(context: Context) -> Outcome:
 
 
 STUDY = Study(
-    "refine",
-    "Does fctd refine land within its tolerance on wells it was not tuned on, and does grading pay?",
-    run,
-    reproduce=True,
+    "refine", "Does fctd refine land within its tolerance on wells it was not tuned on, and does grading pay?", run
 )

@@ -10,6 +10,7 @@ import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 
 from rich.console import Console
@@ -247,13 +248,13 @@ def outdated(name: str, now: Inputs, results: Path) -> str:
 
 def changes(names: Iterable[str], results: Path) -> dict[str, str]:
     """Study -> what has changed since its result was stored, for those where something has."""
-    sources, found = inputs.Sources(), {}
+    sources, surroundings, found = inputs.Sources(), cache(inputs.surroundings), {}
     for name in names:
         if (before := inputs.read(results / name)) is None:
             continue
-        around = inputs.surroundings(before.around.get(inputs.LENGTH) == "quick")
+        around = surroundings(before.around.get(inputs.LENGTH) == "quick")
         # Where the data lie is for the runner to know; here the files that were read tell.
-        around |= {key: value for key, value in before.around.items() if key == DATA}
+        around = around | {key: value for key, value in before.around.items() if key == DATA}
         if changed := Inputs(sources.used_by(STUDIES[name]), around).changed_since(before):
             found[name] = changed
     return found

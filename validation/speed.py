@@ -1,6 +1,6 @@
 """What a simulated second costs, with and without contact, in every engine; the paper's ratios; the targets."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import partial
 from typing import NamedTuple
 
@@ -13,12 +13,12 @@ from fctd.topdrive import Motion
 from references import base, engines
 from references.engines import Stepper
 from references.free_bodies import FreeBodies
-from references.timing import machine, race, units_for
+from references.timing import machine_table, race, units_for
 from references.workloads import NoWall, asking, copy_of, moving
 from validation import speed_kernel
 from validation.contact_swap import FULL_ONLY, TOO_SLOW
-from validation.speed_kernel import BEST, CONTACT, LEAD, chain
-from validation.study import Check, Context, Kind, Outcome, Progress, Study
+from validation.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
+from validation.study import Check, Context, Kind, Outcome, Progress, Study, left_out
 
 SEGMENTS = (60, 170)  # of the paper's FCTD model and of its Adams model
 # By then a wave of torque has run down 1500 m of steel [s].
@@ -79,11 +79,6 @@ def begin(name: str, start: Run, state: str, step: float | None) -> tuple[Run, S
     return run, stepper
 
 
-def steps_of(stepper: Stepper, motion: Motion, count: int) -> None:
-    """So many steps of a stepper."""
-    stepper.advance(motion, count * stepper.step)
-
-
 def verdict(run: Run, stepper: Stepper) -> str:
     """Whether what was timed still is a string in its hole."""
     try:
@@ -102,6 +97,33 @@ class Entry(NamedTuple):
     state: str
     engine: str
 
+    @property
+    def baseline(self) -> "Entry":
+        """FCTD in the same; in contact where the wall is taken away."""
+        return Entry(self.segments, TOUCHING if self.state == TAKEN else self.state, FCTD)
+
+
+class Racer(NamedTuple):
+    """A stepper under way, the run that it works on, and what its top drive does."""
+
+    run: Run
+    stepper: Stepper
+    motion: Motion
+
+
+def entries(kind: str, names: list[str], counts: Collection[int]) -> list[Entry]:
+    """All that race with one kind of step."""
+    found = [
+        Entry(n, state, name)
+        for n in counts
+        for state in (FREE, TOUCHING)
+        for name in names
+        if state == FREE or name != CHAIN
+    ]
+    if kind == OWN:
+        return found + [Entry(n, TOUCHING, BEST) for n in counts]
+    return found + [Entry(n, TAKEN, name) for n in counts for name in names if name == FCTD or name.endswith(IN_LOOP)]
+
 
 def race_engines(names: list[str], best: dict[int, float], rounds: int, aim: float, progress: Progress) -> pd.DataFrame:
     """Wall time of a simulated second of every engine, at each one's own step and at the shortest of those for all.
@@ -109,48 +131,52 @@ def race_engines(names: list[str], best: dict[int, float], rounds: int, aim: flo
     best : FCTD's largest stable step [s] for each number of segments, raced beside its own.  aim : length of a
     call [s].  Everything with the same kind of step is one race, so that any two rows of it can be compared.
     """
-    entries = [Entry(n, state, name) for n in best for state in (FREE, TOUCHING) for name in names]
-    entries = [entry for entry in entries if entry.state == FREE or entry.engine != CHAIN]
-    extra = {
-        OWN: [Entry(n, TOUCHING, BEST) for n in best],
-        EQUAL: [Entry(n, TAKEN, name) for n in best for name in names if name == FCTD or name.endswith(IN_LOOP)],
-    }
     cases = {(n, state): chain(n, **(OPEN if state == FREE else {})) for n in best for state in (FREE, TOUCHING)}
     starts = {key: moving(case, LEAD) for key, case in cases.items()}
     starts |= {(n, TAKEN): starts[n, TOUCHING] for n in best}
     tables: list[pd.DataFrame] = []
     own: dict[Entry, float] = {}
     for kind in (OWN, EQUAL):
-        actions: dict[str, Callable[[], object]] = {}
-        counts, baseline, held = {}, {}, {}
-        for entry in progress([*entries, *extra[kind]], kind):
+        racers: dict[Entry, Racer] = {}
+        for entry in progress(entries(kind, names, best), kind):
             n, state, name = entry
             start, motion = starts[n, state]
-            if kind == OWN:
-                step = best[n] if name == BEST else None
-            else:
+            step = best[n] if name == BEST else None
+            if kind == EQUAL:
                 step = min(s for other, s in own.items() if other.segments == n)
-            run, stepper = begin(name, moving(cases[n, state], 0.0)[0] if name == CHAIN else start, state, step)
             if name == CHAIN:  # it begins at rest, and ahead of the first wave there is little to compute
+                run, stepper = begin(name, moving(cases[n, state], 0.0)[0], state, step)
                 stepper.advance(motion, PASSED)
+            else:
+                run, stepper = begin(name, start, state, step)
             own.setdefault(entry, stepper.step)
-            steps, key = partial(steps_of, stepper, motion), str(entry)
-            count = units_for(steps, aim)
-            actions[key], counts[key] = partial(steps, count), count * stepper.step
-            baseline[key] = str(entry._replace(state=TOUCHING if state == TAKEN else state, engine=FCTD))
-            held[entry] = run, stepper
-        table = race(actions, counts, rounds, baseline)
-        table[list(Entry._fields)] = list(held)
-        fastest = table.set_index("name")["ns_least"]
-        table["ratio_to_fctd"] = [fastest[key] / fastest[baseline[key]] for key in table["name"]]
-        table["step_ms"] = [1e3 * stepper.step for _, stepper in held.values()]
-        table["check"] = ["falls" if entry.state == TAKEN else verdict(*held[entry]) for entry in held]
-        tables.append(table.assign(step=kind))
-        for _, stepper in held.values():
-            stepper.close()
+            racers[entry] = Racer(run, stepper, motion)
+        tables.append(race_of(racers, rounds, aim).assign(step=kind))
     table = pd.concat(tables, ignore_index=True)
     table = table.assign(ms_per_simulated_s=table["ns_least"] / 1e6, real_time_factor=1e9 / table["ns_least"])
     return table[COLUMNS]
+
+
+def race_of(racers: dict[Entry, Racer], rounds: int, aim: float) -> pd.DataFrame:
+    """One race, a row each, of which each is told whether it still is a string; the steppers are closed."""
+    actions: dict[str, Callable[[], object]] = {}
+    counts, baseline = {}, {}
+    for entry, racer in racers.items():
+        steps, key = partial(step_on, racer.stepper, racer.motion), str(entry)
+        count = units_for(steps, aim)
+        actions[key], counts[key] = partial(steps, count), count * racer.stepper.step
+        baseline[key] = str(entry.baseline)
+    table = race(actions, counts, rounds, baseline)
+    table[list(Entry._fields)] = list(racers)
+    fastest = table.set_index("name")["ns_least"]
+    table["ratio_to_fctd"] = [fastest[key] / fastest[baseline[key]] for key in table["name"]]
+    table["step_ms"] = [1e3 * racer.stepper.step for racer in racers.values()]
+    table["check"] = [
+        "falls" if entry.state == TAKEN else verdict(racer.run, racer.stepper) for entry, racer in racers.items()
+    ]
+    for racer in racers.values():
+        racer.stepper.close()
+    return table
 
 
 def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
@@ -287,7 +313,7 @@ def run(context: Context) -> Outcome:
         "targets": table_of(held, found["kernel"]),
         "steps": steps,
         **found,
-        "machine": pd.DataFrame(machine().items(), columns=["what", "value"]),
+        "machine": machine_table(),
     }
     return Outcome(
         tables=tables,
@@ -309,9 +335,8 @@ def run(context: Context) -> Outcome:
 
 def notes(kernel: pd.DataFrame, missing: list[str]) -> list[str]:
     """What a reader of the numbers must know."""
-    absent = [f"Not installed, and left out: {', '.join(missing)}."] if missing else []
     return [
-        *absent,
+        *left_out(missing),
         "All engines take the same string from the same state, FCTD's after some seconds, in motion (MuJoCo's ball "
         "chain, which hangs free, from rest); nothing is extrapolated, and nothing of building or compiling counts. A "
         "row's time is that of its fastest round of some milliseconds, which others on the machine disturb least, its "
@@ -336,5 +361,5 @@ def notes(kernel: pd.DataFrame, missing: list[str]) -> list[str]:
 
 
 STUDY = Study(
-    "speed", "What does a simulated second cost, here and in other engines, and what do the ratios contain?", run, True
+    "speed", "What does a simulated second cost, here and in other engines, and what do the ratios contain?", run
 )

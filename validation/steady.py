@@ -1,21 +1,37 @@
-"""Reading a steady state off the end of a simulation."""
+"""Bringing a simulation to a steady state, and reading it off the end."""
 
-import numpy as np
+from typing import Any
+
 import pandas as pd
 
 from fctd import SimulationResult
+from references.engine_run import hann_means
+from validation.cases import trip
+
+TRIP_SPEED, TRIP_WINDOW = 0.2, 20.0  # [m/s], [s] of a steady trip that are read
+
+
+def steady_trip(kind: str, depth: float) -> list[dict[str, Any]]:
+    """A trip whose bit passes a depth [m] in the middle of its last TRIP_WINDOW.
+
+    It starts 8 m before, which is far enough for every contact to slide.
+    """
+    down = 1.0 if kind == "trip_in" else -1.0
+    return trip(depth - down * 8.0, depth + down * TRIP_SPEED * TRIP_WINDOW / 2, TRIP_SPEED, ramp=10.0)
+
+
+def completed(result: SimulationResult) -> SimulationResult:
+    """The result of a run that completed; raises RuntimeError for any other."""
+    if result.status != "completed":
+        raise RuntimeError(f"{result.case.name}: {result.status}, {result.message}")
+    return result
 
 
 def last_seconds(result: SimulationResult, seconds: float) -> pd.Series:
-    """Means of the history over its last ``seconds``, weighted by a Hann window.
+    """Means of the history of a completed run over its last ``seconds``, under a Hann window.
 
     Friction does not damp the twisting of a string that turns all along, so its torque swings about the mean
-    for minutes.  A plain mean keeps a share of the swing; the window leaves none.  Raises RuntimeError for a
-    run that did not complete.
+    for minutes.
     """
-    if result.status != "completed":
-        raise RuntimeError(f"{result.case.name}: {result.status}, {result.message}")
-    history = result.history.select_dtypes("number")
-    late = history[history["time_s"] > history["time_s"].max() - seconds + 1e-6]
-    weights = np.hanning(len(late) + 2)[1:-1]
-    return pd.Series(late.mul(weights, axis=0).sum() / weights.sum())
+    history = completed(result).history
+    return hann_means(history[history["time_s"] > history["time_s"].max() - seconds + 1e-6])

@@ -10,33 +10,21 @@ from fctd import Case, simulate, torque_drag
 from fctd.case import KINDS
 from fctd.equilibrium import Solver
 from fctd.operations import steady_rates
-from validation.cases import load, rotation, trip
-from validation.steady import last_seconds
+from validation.cases import load, rotation
+from validation.steady import TRIP_WINDOW, last_seconds, steady_trip
 from validation.study import Check, Context, Outcome, Study
 
 DRILLING = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
 DEPTHS = [float(depth) for depth in range(1750, 2451, 10)]
 COMPARED = [1900.0, 2050.0, 2200.0, 2330.0, 2450.0]
-SPEED = 0.2  # [m/s] of the trips
-WINDOW = 20.0  # [s] of a trip that are read, the bit passing the depth in the middle
-
-
-def schedule(kind: str, depth: float) -> list[dict[str, Any]]:
-    """A run of the stepper that is steady when its last seconds are read."""
-    if kind == "rotate_off_bottom":
-        return rotation(depth, duration=90.0, ramp=20.0)
-    past = SPEED * WINDOW / 2
-    return (
-        trip(depth + 8.0, depth - past, SPEED, 10.0)
-        if kind == "trip_out"
-        else trip(depth - 8.0, depth + past, SPEED, 10.0)
-    )
 
 
 def stepped(kind: str, depth: float) -> pd.Series:
     """The stepper's steady state at a depth."""
-    result = simulate(load("paper_well", operations=schedule(kind, depth), record__interval=0.25))
-    return last_seconds(result, 50.0 if kind == "rotate_off_bottom" else WINDOW)
+    turns = kind == "rotate_off_bottom"
+    operations = rotation(depth, duration=90.0, ramp=20.0) if turns else steady_trip(kind, depth)
+    result = simulate(load("paper_well", operations=operations, record__interval=0.25))
+    return last_seconds(result, 50.0 if turns else TRIP_WINDOW)
 
 
 def compare(chart: pd.DataFrame, depths: list[float], context: Context) -> pd.DataFrame:
@@ -128,8 +116,5 @@ def run(context: Context) -> Outcome:
 
 
 STUDY = Study(
-    "steady_state",
-    "Does the steady solver find what the stepper settles to, everywhere, and in milliseconds?",
-    run,
-    reproduce=True,
+    "steady_state", "Does the steady solver find what the stepper settles to, everywhere, and in milliseconds?", run
 )

@@ -2,12 +2,14 @@
 
 import math
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, Protocol, TypeVar
 
+import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "validation" / "results"
@@ -92,6 +94,16 @@ class Outcome:
             raise ValueError("two checks share a name, so expected.toml could not tell them apart")
 
 
+def left_out(missing: Sequence[str]) -> list[str]:
+    """The note on what is not installed; none where all of it is."""
+    return [f"Not installed, and left out: {', '.join(missing)}."] if missing else []
+
+
+def log_slope(x: ArrayLike, y: ArrayLike) -> float:
+    """Exponent p of y ~ x^p by least squares, both positive: an order of convergence, a growth of cost."""
+    return float(np.polyfit(np.log(np.asarray(x, float)), np.log(np.asarray(y, float)), 1)[0])
+
+
 class Progress(Protocol):
     """Hands on the items of a loop while the terminal shows how far it has come."""
 
@@ -121,12 +133,12 @@ class Context:
 class Study:
     """One question, and the function that answers it.
 
-    ``reproduce`` marks the studies that ``make reproduce`` runs. ``needs`` names what must be there, or the
-    study is skipped by name.
+    ``reproduce`` : whether ``make reproduce`` runs it. ``needs`` names what must be there, or the study is skipped by
+    name.
     """
 
     name: str
     question: str
     run: Callable[[Context], Outcome]
-    reproduce: bool
+    reproduce: bool = True
     needs: tuple[Need, ...] = ()

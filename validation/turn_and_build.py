@@ -10,6 +10,7 @@ from fctd.drillstring import section_of
 from fctd.wellbore import hole_frame
 from references.cosserat import rest
 from validation.cases import load, rotation
+from validation.steady import completed
 from validation.study import Check, Context
 
 # Vertical, a build of 2 deg/m, then a build that turns to the right at the same rate of dogleg.
@@ -49,9 +50,7 @@ def turn_and_build(context: Context) -> tuple[pd.DataFrame, list[Check]]:
 
 def _compare(count: int) -> dict[str, Any]:
     case = section(count)
-    result = simulate(case)
-    if result.status != "completed":
-        raise RuntimeError(f"{case.name}: {result.status}, {result.message}")
+    result = completed(simulate(case))
     hole, pipe = build_wellbore(case), section_of(case.string.components[0], case.mud.density)
     stiffness, clearance = (
         case.wellbore.stiffness_per_length,

@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 
 from fctd import Case
+from validation.cases import load
+from validation.study import Context
 
 FOOT = 0.3048
 Stations = list[list[float]]
@@ -51,6 +53,12 @@ def well(
             "contact": {"friction_law": law},
         }
     )
+
+
+def real_well(context: Context, **changes: Any) -> Case:
+    """K05-ENC-05-S1, 8,161 m of public survey with an assumed string, for a study that needs the data."""
+    assert context.data is not None  # the study needs it, so the runner has looked
+    return load("nlog_k05", wellbore__survey=context.data / "surveys" / "nlog_K05-ENC-05-S1.csv", **changes)
 
 
 def assembly(*bottom: tuple[dict[str, Any], float]) -> list[dict[str, Any]]:

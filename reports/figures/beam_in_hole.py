@@ -12,12 +12,11 @@ def errors(tables: Tables) -> Canvas:
     ax = canvas.subplots()
     for index, beam in enumerate(table["beam"].unique()):
         of_beam = table[table["beam"] == beam].sort_values("segment_m")
-        look = {**style.line(index), "marker": style.MARKERS[index], "label": beam}
-        ax.plot(of_beam["segment_m"], of_beam["off_percent"].abs(), **look)
-    ax.axhline(1.0, color=style.QUIET, linewidth=1, linestyle=(0, (4, 2)))
+        ax.plot(of_beam["segment_m"], of_beam["off_percent"].abs(), **style.marked(index), label=beam)
+    ax.axhline(1.0, **style.BOUND)
     ax.set(xscale="log", yscale="log", xlabel="segment length, m", ylabel="off beam theory, %")
     style.plain_log_ticks(ax.xaxis)
-    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    style.legend_outside(canvas, ax)
     return canvas
 
 

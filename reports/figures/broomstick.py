@@ -2,15 +2,12 @@
 
 from matplotlib.figure import Figure as Canvas
 
-from fctd import plots
 from reports.figures import Figure, Tables, style
 
 
 def chart(tables: Tables) -> Canvas:
     """Hook load and torque against bit depth, a line for each operation and friction factor."""
-    canvas = plots.chart_figure(tables["chart"], "si")
-    canvas.set_size_inches(style.WIDTH_IN, 5.6)
-    return canvas
+    return style.chart(tables["chart"])
 
 
 FIGURES = [

@@ -25,7 +25,7 @@ def error_and_cost(tables: Tables) -> Canvas:
         style.plain_log_ticks(ax.yaxis)
     for ax, column in ((depth, "max_penetration_error_mm"), (angle, "max_angle_error_deg")):
         _exact_line(ax, FLOOR * cost.loc[cost[column] > 1e-5, column].min())
-    canvas.legend(*depth.get_legend_handles_labels(), loc="outside upper left", ncols=4)
+    style.legend_outside(canvas, depth, columns=4)
     return canvas
 
 

@@ -17,9 +17,8 @@ def operations(tables: Tables) -> Canvas:
         label = "sums, products, roots" if column == "arithmetic" else "comparisons"
         ax.plot(table.loc[some, column], height, **style.dots(index, filled=not index), markersize=6, label=label)
     ax.set(xscale="log", xlabel="operations of a point, number")
-    ax.set_yticks(range(len(table)), table["what"])
-    ax.set_ylim(len(table) - 0.5, -0.5)
-    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    style.rows_downwards(ax, list(table["what"]))
+    style.legend_outside(canvas, ax)
     return canvas
 
 

@@ -17,8 +17,7 @@ def costs(tables: Tables) -> Canvas:
         height = np.arange(len(loops)) + 0.14 * (2 * index - 1)
         ax.plot(at["ns_per_segment_step"], height, **style.dots(index), markersize=6, label=f"{segments} segments")
     ax.set(xscale="log", xlabel="one segment and step, ns")
-    ax.set_yticks(range(len(loops)), loops)
-    ax.set_ylim(len(loops) - 0.5, -0.5)
+    style.rows_downwards(ax, loops)
     style.legend_above(ax)
     return canvas
 
@@ -41,15 +40,11 @@ def figure_13(tables: Tables) -> Canvas:
     )
     above.set_ylabel("Σ rμFₙ, kN·m")
     below.plot(windows["bit_depth_m"], windows["difference_percent"], **style.dots(1, filled=False))
-    below.axhline(0, color=style.QUIET, linewidth=1)
+    below.axhline(0, **style.ZERO)
     below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %")
-    below.set_ylim(*_around_zero(windows["difference_percent"].abs().max()))
+    below.set_ylim(style.around_zero(windows["difference_percent"]))
     style.legend_above(above, columns=3)
     return canvas
-
-
-def _around_zero(largest: float) -> tuple[float, float]:
-    return -1.5 * largest, 1.5 * largest
 
 
 def facets(tables: Tables) -> Canvas:
@@ -69,8 +64,7 @@ def facets(tables: Tables) -> Canvas:
     ax.plot(
         meshes["facets"],
         meshes["sum_difference_percent"].abs(),
-        **style.line(1),
-        marker="s",
+        **style.marked(1),
         label="|mesh − cylinders|",
     )
     ax.set(xscale="log", yscale="log", xlabel="facets around the hole, number", ylabel="difference of Σ rμFₙ, %")
@@ -87,9 +81,9 @@ def torques(tables: Tables) -> Canvas:
     canvas = style.figure(1.2 + 0.28 * len(methods))
     ax = canvas.subplots()
     ax.plot(methods["sum_difference_percent"], methods["method"], **style.dots(1), markersize=6)
-    ax.axvline(0, color=style.QUIET, linewidth=1)
+    ax.axvline(0, **style.ZERO)
     ax.set(xlabel="Σ rμFₙ against FCTD, %")
-    ax.set_xlim(*_around_zero(methods["sum_difference_percent"].abs().max()))
+    ax.set_xlim(style.around_zero(methods["sum_difference_percent"]))
     ax.invert_yaxis()
     return canvas
 
@@ -97,7 +91,7 @@ def torques(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "costs",
-        "What one segment costs in one step of the same loop with each contact method, for 60 and 170 segments. "
+        "What one segment costs in one step of the same loop with each contact method, by number of segments. "
         "Compiled loops need no call from Python; the row that asks and finds nothing is what such calls cost.",
         costs,
     ),

@@ -39,13 +39,12 @@ def differences(tables: Tables) -> Canvas:
                     **style.dots(style.LAWS[law]),
                     markersize=6,
                 )
-        ax.axvline(0, color=style.QUIET, linewidth=1)
+        ax.axvline(0, **style.ZERO)
         for edge in range(len(geometries), len(rows), len(geometries)):
             ax.axhline(edge - 0.5, color=style.QUIET, linewidth=0.5)
         ax.set_xlabel(label)
         ax.margins(x=0.12)
-    axes[0].set_yticks(range(len(rows)), [f"{words.name(operation)}, {geometry}" for operation, geometry in rows])
-    axes[0].set_ylim(len(rows) - 0.5, -0.5)
+    style.rows_downwards(axes[0], [f"{words.name(operation)}, {geometry}" for operation, geometry in rows])
     handles = [
         matplotlib.lines.Line2D([], [], **style.dots(style.LAWS[law]), markersize=6, label=f"law {law}") for law in laws
     ]
@@ -78,7 +77,7 @@ def contact(tables: Tables) -> Canvas:
         ax.set_xlabel("measured depth, m")
         # Above the first contact there is nothing to see.
         ax.set_xlim(touched["md_m"].min() - 50, profiles["md_m"].max() + 20)
-    canvas.legend(*grid[0][0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
+    style.legend_outside(canvas, grid[0][0], columns=3)
     return canvas
 
 

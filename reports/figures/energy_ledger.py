@@ -17,8 +17,7 @@ def closure(tables: Tables) -> Canvas:
         ax.plot(
             ordered["step_s"] * 1e3,
             residual,
-            **style.line(index),
-            marker=style.MARKERS[index],
+            **style.marked(index),
             label=str(case),
         )
     ax.set(xscale="log", yscale="log", xlabel="time step, ms", ylabel="|residual| / work")

@@ -24,11 +24,10 @@ def loads(tables: Tables) -> Canvas:
                     row[column], height, **style.dots(index, filled=row["status"] == "valid"), markersize=6,
                     label=words.name(str(kind)) + turning,
                 )  # fmt: skip
-        ax.axvline(0, color=style.QUIET, linewidth=1)
+        ax.axvline(0, **style.ZERO)
         ax.set_xlabel(label)
         ax.margins(x=0.12)
-    axes[0].set_yticks(range(len(names)), names)
-    axes[0].set_ylim(len(names) - 0.5, -0.5)
+    style.rows_downwards(axes[0], names)
     handles, labels = axes[0].get_legend_handles_labels()
     first = {label: handle for handle, label in zip(handles, labels, strict=True)}
     canvas.legend(first.values(), first.keys(), loc="outside upper left", ncols=2)

@@ -26,7 +26,7 @@ def straight(tables: Tables) -> Canvas:
             )  # fmt: skip
         ax.set(xscale="log", xlabel="axial over tangential speed, –", ylabel=label)
         ax.set_ylim(bottom=0)
-    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    style.legend_outside(canvas, axes[0])
     return canvas
 
 

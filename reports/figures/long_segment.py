@@ -34,14 +34,14 @@ def frequencies(tables: Tables) -> Canvas:
     axes = canvas.subplots(1, 2, sharey=True)
     for ax, kind in zip(axes, table["kind"].unique(), strict=True):
         rows = table[table["kind"] == kind]
-        ax.axhline(0, color=style.QUIET, linewidth=1)
+        ax.axhline(0, **style.ZERO)
         for index, column, label in ((1, "long", "one long segment"), (0, "cut", "segments of 37.5 m")):
             ax.plot(
                 rows["continuous_Hz"], rows[f"{column}_off_percent"], **style.dots(index), markersize=7, label=label
             )
         ax.set(xlabel=f"{kind} frequency of the continuous string, Hz")
     axes[0].set_ylabel("frequency off, %")
-    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    style.legend_outside(canvas, axes[0])
     return canvas
 
 

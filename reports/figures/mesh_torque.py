@@ -23,10 +23,9 @@ def figure_13b(tables: Tables) -> Canvas:
     differences = (("sum_r_mu_fn_difference_percent", 1, "Σ rμFₙ"), ("difference_percent", 2, "surface torque"))
     for column, index, label in differences:
         below.plot(depth, windows[column], **style.dots(index, filled=False), label=label)
-    below.axhline(0, color=style.QUIET, linewidth=1)
+    below.axhline(0, **style.ZERO)
     below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %")
-    largest = 1.5 * float(windows[[column for column, *_ in differences]].abs().max().max())
-    below.set_ylim(-largest, largest)
+    below.set_ylim(style.around_zero(windows[[column for column, *_ in differences]]))
     below.legend(loc="upper left", ncols=2)
     style.legend_above(above, columns=3)
     return canvas

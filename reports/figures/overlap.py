@@ -1,7 +1,5 @@
 """A point dragged through a bend, with cylinders that overlap and cylinders that only meet."""
 
-from typing import Any
-
 from matplotlib.figure import Figure as Canvas
 
 from reports.figures import Figure, Tables, style
@@ -13,10 +11,11 @@ def drag(tables: Tables) -> Canvas:
     canvas = style.figure(4.6)
     force, direction = canvas.subplots(2, 1, sharex=True)
     # The run without overlap lies thin over the other; dashes would be lost in its jumps.
-    for index, (overlap, rows) in enumerate(sorted(table.groupby("overlap"), reverse=True)):
-        ordered = rows.sort_values("s_m")
+    for index, overlap in enumerate(sorted(table["overlap"].unique(), reverse=True)):
+        ordered = table[table["overlap"] == overlap].sort_values("s_m")
         look = {"color": style.COLOURS[index], "linewidth": (3.2, 1.0)[index], "alpha": (0.55, 1.0)[index]}
-        force.plot(ordered["s_m"], ordered["contact_force_N"] / 1e3, **look, label=_label(overlap))
+        label = f"with an overlap of {overlap:g} m" if overlap else "without overlap"
+        force.plot(ordered["s_m"], ordered["contact_force_N"] / 1e3, **look, label=label)
         touching = ordered["contact_force_N"] > 0
         direction.plot(ordered["s_m"], ordered["direction_deg"].where(touching), **look)
     force.set_ylabel("contact force, kN")
@@ -24,13 +23,6 @@ def drag(tables: Tables) -> Canvas:
     direction.set(xlabel="distance dragged, m", ylabel="direction of the force, °")
     style.legend_above(force)
     return canvas
-
-
-def _label(overlap: Any) -> str:
-    """The overlap is a length in m, or only yes or no."""
-    if not overlap:
-        return "without overlap"
-    return "with overlap" if overlap is True or str(overlap) == "True" else f"with an overlap of {overlap:g} m"
 
 
 FIGURES = [

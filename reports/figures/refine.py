@@ -1,6 +1,5 @@
 """Graded strings beside uniform ones, and where ``fctd refine`` landed."""
 
-import numpy as np
 from matplotlib.figure import Figure as Canvas
 
 from reports.figures import Figure, Tables, style
@@ -19,7 +18,7 @@ def layouts(tables: Tables) -> Canvas:
             ax = axes[row, column]
             for index, layout in enumerate(LAYOUTS):
                 of_kind = table[(table["well"] == well) & (table["layout"] == layout)]
-                look = style.line(index) | {"marker": style.MARKERS[index], "markersize": 4}
+                look = style.marked(index) | {"markersize": 4}
                 ax.plot(of_kind["segments"], of_kind[f"{quantity}_percent"], **look, label=layout)
             ax.set(xscale="log", yscale="log")
             style.plain_log_ticks(ax.xaxis)
@@ -30,7 +29,7 @@ def layouts(tables: Tables) -> Canvas:
                 ax.set_ylabel(f"error of {label}, %")
         axes[0, column].set_title(well)
         axes[1, column].set_xlabel("segments, count")
-    canvas.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    style.legend_outside(canvas, axes[0, 0])
     return canvas
 
 
@@ -46,11 +45,10 @@ def landed(tables: Tables) -> Canvas:
         for index, (value, label) in enumerate(((rows["estimate_percent"].iloc[0], "estimated"), (off, "found"))):
             ax.plot(value / tolerance, at, **style.dots(index), markersize=7, label=label if at == 0 else None)
         labels.append(f"{well}, {tolerance:g} %, {layout}: {rows['segments'].iloc[0]} segments")
-    ax.axvline(1.0, color=style.QUIET, linewidth=1, linestyle=(0, (4, 2)), label="tolerance")
-    ax.set_yticks(np.arange(len(labels)), labels)
-    ax.set_ylim(len(labels) - 0.5, -0.5)
+    ax.axvline(1.0, **style.BOUND, label="tolerance")
+    style.rows_downwards(ax, labels)
     ax.set(xlabel="error, tolerances", xlim=(0, 1.1))
-    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=3)
+    style.legend_outside(canvas, ax, columns=3)
     return canvas
 
 

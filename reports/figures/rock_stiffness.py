@@ -17,18 +17,17 @@ def stiffness(tables: Tables) -> Canvas:
         left.plot(
             answered["stiffness_N_per_m"],
             answered[column],
-            **style.line(index),
-            marker=style.MARKERS[index],
+            **style.marked(index),
             label=label,
         )
-    left.axhline(1.0, color=style.QUIET, linewidth=1, linestyle=(0, (1, 1.5)))
+    left.axhline(1.0, **style.BOUND)
     left.set(ylabel="largest change, %")
     right.plot(
-        table["stiffness_N_per_m"], table["penetration_of_clearance"], **style.line(0), marker="o",
+        table["stiffness_N_per_m"], table["penetration_of_clearance"], **style.marked(0),
         label="penetration / clearance",
     )  # fmt: skip
     right.plot(
-        table["stiffness_N_per_m"], table["step_ms"] / table["step_ms"].max(), **style.line(1), marker="s",
+        table["stiffness_N_per_m"], table["step_ms"] / table["step_ms"].max(), **style.marked(1),
         label="step / longest step",
     )  # fmt: skip
     right.set(ylabel="ratio, –")
@@ -45,7 +44,7 @@ FIGURES = [
     Figure(
         "stiffness",
         "The paper's well with walls of every stiffness. Left: largest change of hook load, torque and contact force "
-        "over four operations and all depths, against 10¹⁰ N/m; dotted: 1 %. Right: how deep the string lies in the "
+        "over four operations and all depths, against 10¹⁰ N/m; dashed: 1 %. Right: how deep the string lies in the "
         "wall, and how long a step of the stepper may be. Shaded: the string leaves the hole somewhere, no answer.",
         stiffness,
     )

@@ -28,7 +28,7 @@ def force(tables: Tables) -> Canvas:
         ax.set_xlabel("time, s")
     for ax in grid[:, 0]:
         ax.set_ylabel("contact force, kN")
-    canvas.legend(*grid[0][0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
+    style.legend_outside(canvas, grid[0][0], columns=3)
     return canvas
 
 
@@ -45,7 +45,7 @@ def displacement(tables: Tables) -> Canvas:
         marker = {"marker": "s", "markersize": 3.5, "markerfacecolor": "white"} if few else {}
         offset.plot(rows["md_m"], 1e3 * rows["offset_high_m"], **_look(index) | marker)
     for side, name, at, up in ((clearance, "high side", 0.15, "bottom"), (-clearance, "low side", 0.5, "top")):
-        offset.axhline(side, color=style.QUIET, linewidth=1)
+        offset.axhline(side, **style.ZERO)
         offset.annotate(
             name, (at, side), xycoords=("axes fraction", "data"), ha="center", va=up, color=style.QUIET, fontsize=9
         )
@@ -62,8 +62,8 @@ def convergence(tables: Tables) -> Canvas:
     own = table[table["geometry"] == table["geometry"].iloc[0]].sort_values("segments")
     canvas = style.figure(3.6)
     left, right = canvas.subplots(1, 2)
-    left.plot(own["segments"], own["total_rms_percent"], **style.line(0), marker="o", label="RMS of total force")
-    left.axhline(3.0, color=style.QUIET, linewidth=1, linestyle=(0, (1, 1.5)))
+    left.plot(own["segments"], own["total_rms_percent"], **style.marked(0), label="RMS of total force")
+    left.axhline(3.0, **style.BOUND)
     left.set_ylabel("force difference, % of the peak")
     for index, (column, label) in enumerate(
         (
@@ -72,8 +72,8 @@ def convergence(tables: Tables) -> Canvas:
             ("displacement_rms_percent", "RMS"),
         )
     ):
-        right.plot(own["segments"], own[column], **style.line(index), marker=style.MARKERS[index], label=label)
-    right.axhline(1.0, color=style.QUIET, linewidth=1, linestyle=(0, (1, 1.5)))
+        right.plot(own["segments"], own[column], **style.marked(index), label=label)
+    right.axhline(1.0, **style.BOUND)
     right.set_ylabel("displacement, % of the clearance")
     for ax in (left, right):
         ax.set(xscale="log", yscale="log", xlabel="segments, count")
@@ -118,7 +118,7 @@ FIGURES = [
     ),
     Figure(
         "convergence",
-        "Difference from the finite elements with more and more segments, at equal wall stiffness per metre. Dotted "
+        "Difference from the finite elements with more and more segments, at equal wall stiffness per metre. Dashed "
         "lines are the targets, 3 % and 1 %.",
         convergence,
     ),

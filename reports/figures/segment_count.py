@@ -26,13 +26,13 @@ def errors(tables: Tables) -> Canvas:
         of_well = table[(table["well"] == well) & (table["segments"] != table["reference"])]
         for index, (quantity, label) in enumerate(QUANTITIES.items()):
             error = of_well[f"{quantity}_percent"]
-            ax.plot(of_well["segments"], error, **style.line(index), label=label, marker=style.MARKERS[index],
+            ax.plot(of_well["segments"], error, **style.marked(index), label=label,
                     markersize=3)  # fmt: skip
         for limit in LIMITS:
             ax.axhline(limit, color=style.QUIET, linewidth=0.8)
-        for order, dash in ((1, (0, (1, 1.5))), (2, (0, (6, 2, 1, 2)))):
+        for order, dash in style.ORDERS.items():
             label = ("first order", "second order")[order - 1]
-            ax.plot([20, 640], [60, 60 * 32.0**-order], color=style.QUIET, linewidth=1.2, linestyle=dash, label=label)
+            ax.plot([20, 640], [60, 60 * 32.0**-order], **style.ZERO | {"linestyle": dash}, label=label)
         ax.set(xscale="log", yscale="log", title=well, ylim=(5e-4, 120))
         style.plain_log_ticks(ax.xaxis)
         ax.set_xticks([5, 20, 60, 160, 640])
@@ -43,7 +43,7 @@ def errors(tables: Tables) -> Canvas:
         ax.tick_params(labelbottom=True)
     for ax in axes[::3]:
         ax.set_ylabel("error, %")
-    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=4)
+    style.legend_outside(canvas, axes[0], columns=4)
     return canvas
 
 
@@ -55,7 +55,7 @@ def cost(tables: Tables) -> Canvas:
     wells = list(counts["well"].unique())
     for index, well in enumerate(wells):
         of_well = counts[counts["well"] == well]
-        look = style.line(index) | {"marker": style.MARKERS[index % 6], "markersize": 3.5}
+        look = style.marked(index) | {"markersize": 3.5}
         axes[0].plot(of_well["segments"], of_well["cost_ms"], **look, label=well)
         run = stepped[stepped["well"] == well].dropna()
         axes[1].plot(run["segments"], run["ms_per_simulated_s"], **look)
@@ -63,9 +63,9 @@ def cost(tables: Tables) -> Canvas:
     for ax, orders, at in ((axes[0], (1,), (40.0, 640.0)), (axes[1], (1, 2), (120.0, 960.0))):
         start = 0.4 * min(np.interp(at[0], *line.get_data()) for line in ax.get_lines() if len(line.get_xdata()))
         for order in orders:
-            label, dash = (("linear", (0, (1, 1.5))), ("quadratic", (0, (6, 2, 1, 2))))[order - 1]
+            label = ("linear", "quadratic")[order - 1]
             values = [start * (x / at[0]) ** order for x in at]
-            ax.plot(at, values, color=style.QUIET, linewidth=1.2, linestyle=dash, label=label)
+            ax.plot(at, values, **style.ZERO | {"linestyle": style.ORDERS[order]}, label=label)
         ax.set(xscale="log", yscale="log", xlabel="segments, count")
         style.plain_log_ticks(ax.xaxis)
         ax.set_xticks([5, 20, 60, 160, 640] if ax is axes[0] else [15, 60, 240, 960])
@@ -84,18 +84,18 @@ def cylinders(tables: Tables) -> Canvas:
     axes = canvas.subplots(1, 2)
     for index, well in enumerate(table["well"].unique()):
         of_well = table[table["well"] == well]
-        look = style.line(index) | {"marker": style.MARKERS[index % 6], "markersize": 3.5}
+        look = style.marked(index) | {"markersize": 3.5}
         share = of_well["miss_mm"] / of_well["clearance_mm"]
         axes[0].plot(share, of_well["contact_percent"], **look, label=well)
         axes[1].plot(of_well["cylinder_length_m"], of_well["moment_percent"], **look)
-    axes[0].axvline(1.0, color=style.QUIET, linewidth=1, linestyle=(0, (4, 2)))
+    axes[0].axvline(1.0, **style.BOUND)
     axes[0].set(xlabel="miss of the longest cylinder, clearances", ylabel="error of side force, %", title="Side force")
     axes[1].set(xlabel="length of a cylinder, m", ylabel="error of the moment (RMS), %", title="Bending moment")
     for ax in axes:
         ax.set(xscale="log", yscale="log")
     style.plain_log_ticks(axes[1].xaxis)
     axes[1].set_xticks([0.25, 1, 5, 20, 50])
-    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
+    style.legend_outside(canvas, axes[0], columns=3)
     return canvas
 
 

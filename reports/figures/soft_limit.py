@@ -23,12 +23,11 @@ def ladder(tables: Tables) -> Canvas:
             of_kind = table[table["operation"] == operation].set_index("string")[column]
             heights = [rungs.index(rung) for rung in of_kind.index]
             ax.plot(of_kind, heights, **style.dots(index), markersize=7, label=operation)
-        ax.axvline(ALLOWED, color=style.QUIET, linewidth=1, linestyle=(0, (4, 2)), label="bound of the last rung")
+        ax.axvline(ALLOWED, **style.BOUND, label="bound of the last rung")
         ax.set(xscale="log", xlabel=label)
         style.plain_log_ticks(ax.xaxis)
-    axes[0].set_yticks(range(len(rungs)), rungs)
-    axes[0].set_ylim(len(rungs) - 0.5, -0.5)
-    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=4)
+    style.rows_downwards(axes[0], rungs)
+    style.legend_outside(canvas, axes[0], columns=4)
     return canvas
 
 

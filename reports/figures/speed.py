@@ -24,11 +24,10 @@ def seconds(tables: Tables) -> Canvas:
             height = np.arange(len(names)) + 0.17 * (index - 1.5)
             look = style.dots(0 if state == "contact" else 1, filled=step == "own step")
             ax.plot(at, height, **look, markersize=5.5, label=f"{state}, {step}")
-        ax.axvline(REAL_TIME_MS, color=style.QUIET, linewidth=1, linestyle=(0, (4, 2)))
+        ax.axvline(REAL_TIME_MS, **style.BOUND)
         ax.set(xscale="log", xlabel="wall time of a simulated second, ms", title=f"{count} segments")
-    axes[0].set_yticks(range(len(names)), names)
-    axes[0].set_ylim(len(names) - 0.5, -0.5)
-    canvas.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    style.rows_downwards(axes[0], names)
+    style.legend_outside(canvas, axes[0])
     return canvas
 
 
@@ -37,7 +36,7 @@ def scaling(tables: Tables) -> Canvas:
     table = tables["scaling"]
     canvas = style.figure(2.6)
     ax = canvas.subplots()
-    ax.plot(table["segments"], table["ns_least"], **style.line(0), marker="o")
+    ax.plot(table["segments"], table["ns_least"], **style.marked(0))
     ax.set(
         xscale="log",
         xlabel="segments, number",

@@ -1,5 +1,6 @@
 """One look for all figures: fonts, lines told apart in grey and by the colour-blind, axes with units."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -33,15 +34,17 @@ RC: dict[RcKeyType, Any] = plots.RC | {
     "savefig.dpi": 160,
 }
 
-# The engine's palette; a dash and a marker for each colour.
-COLOURS = list(plots.PALETTE.values())
-DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (9, 3))]
+# The engine's palette and dashes; a dash and a marker for each colour.
+COLOURS, DASHES, QUIET, SHADE = list(plots.PALETTE.values()), plots.DASHES, plots.QUIET, plots.SHADE
 MARKERS = ["o", "s", "^", "D", "v", "P"]
 # A friction law looks the same in every figure.
 LAWS = {"paper": 0, "coulomb": 1, "karnopp": 2}
 
-SHADE = "#f1e9d8"
-QUIET = "#8a8a8a"
+# Grey lines: where nothing differs, and what is allowed.
+ZERO: dict[str, Any] = {"color": QUIET, "linewidth": 1}
+BOUND: dict[str, Any] = ZERO | {"linestyle": (0, (4, 2))}
+# Dashes of the powers that errors and costs follow.
+ORDERS: dict[int, Any] = {1: (0, (1, 1.5)), 2: (0, (6, 2, 1, 2))}
 
 # Contact angles run from -90° to 270°, so that neither the high nor the low side falls on the seam.
 SIDES = [-90, 0, 90, 180, 270]
@@ -51,6 +54,11 @@ SIDE_LABELS = ["left", "0°\nhigh", "90°\nright", "180°\nlow", "left"]
 def line(index: int) -> dict[str, Any]:
     """The look of the series number ``index`` drawn as a line."""
     return {"color": COLOURS[index % 6], "linestyle": DASHES[index % 6]}
+
+
+def marked(index: int) -> dict[str, Any]:
+    """The same with a marker at every point."""
+    return line(index) | {"marker": MARKERS[index % 6]}
 
 
 def dots(index: int, *, filled: bool = True) -> dict[str, Any]:
@@ -80,6 +88,30 @@ def legend_above(ax: Axes, columns: int = 2) -> None:
     ax.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=columns, borderaxespad=0.3)
 
 
+def legend_outside(canvas: Figure, ax: Axes, columns: int = 2) -> None:
+    """The legend of one axes over the whole figure."""
+    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=columns)
+
+
+def rows_downwards(ax: Axes, labels: Sequence[str]) -> None:
+    """A row for each label, the first on top."""
+    ax.set_yticks(range(len(labels)), labels)
+    ax.set_ylim(len(labels) - 0.5, -0.5)
+
+
+def around_zero(values: "pd.DataFrame | pd.Series[float]") -> tuple[float, float]:
+    """Limits of an axis of differences, with room on either side."""
+    largest = 1.5 * float(np.nanmax(np.abs(values.to_numpy(float))))
+    return -largest, largest
+
+
+def chart(table: pd.DataFrame) -> Figure:
+    """A torque-and-drag chart as ``fctd chart --plot`` draws it, as wide as the page's column."""
+    canvas = plots.chart_figure(table, "si")
+    canvas.set_size_inches(WIDTH_IN, 5.6)
+    return canvas
+
+
 def plain_log_ticks(axis: Axis) -> None:
     """Ticks of a logarithmic axis as 1, 2, 5, 10 and not as powers, where it spans little."""
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
@@ -91,8 +123,8 @@ def slopes(ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
     """Grey lines of first and second order, from above the largest value of a log-log plot."""
     at = np.array([x.min(), x.max()])
     bottom = ax.get_ylim()[0]
-    for order, dash, label in ((1, (0, (1, 1.5)), "first order"), (2, (0, (6, 2, 1, 2)), "second order")):
-        ax.plot(at, 2 * y.max() * (at / x.max()) ** order, color=QUIET, linewidth=1, linestyle=dash, label=label)
+    for order, label in ((1, "first order"), (2, "second order")):
+        ax.plot(at, 2 * y.max() * (at / x.max()) ** order, **ZERO | {"linestyle": ORDERS[order]}, label=label)
     ax.set_ylim(bottom=bottom)
 
 

@@ -7,7 +7,8 @@ pytest.importorskip("skfem")
 
 from fctd.errors import InputError
 from fctd.topdrive import ramp
-from references.beam_case import beam_of, top_of
+from references import beam_case, beam_fe
+from references.beam_case import beam_of, steady, top_of
 from validation.cases import load
 
 
@@ -76,3 +77,35 @@ def test_other_cases_are_refused(overrides, key):
 def test_a_fine_mesh_longer_than_the_string_is_refused():
     with pytest.raises(ValueError, match="fine mesh"):
         beam_of(load("scaled_section"), 0.3, 44.0)
+
+
+def slanted(**changes):
+    """A straight hole at 60 deg of 40 m, filled by its pipe."""
+    hole = {"wellbore__stations": [[0, 60, 0], [40, 60, 0]], "operations": None, "wellbore__intervals__0__to_md": 40.0}
+    even = {"string__components__1__segments": None, "string__components__1__segment_length": 0.6}
+    return load("scaled_section", **hole, **even, wellbore__intervals__0__friction=0.25, **changes)
+
+
+@pytest.mark.parametrize("segments", [1, 3])
+def test_a_pipe_laid_down_presses_with_its_weight_and_slides_with_its_friction(segments, monkeypatch):
+    """W sin I less what the clamp carries, ⅔ wL with L⁴ = 72 EI c/w of weight across; W cos I less μ of it."""
+    section = beam_of(load("scaled_section"), 0.3, 20.0).section
+    across = section.weight * np.sin(np.pi / 3)
+    clamp = 2 / 3 * across * (72 * section.EI * 0.025 / across) ** 0.25
+    elements = []
+
+    def beam(nodes, *others):
+        elements.append(np.diff(nodes))
+        return beam_fe.Beam(nodes, *others)
+
+    monkeypatch.setattr(beam_case, "Beam", beam)
+    found = steady(slanted(), 40.0, segments)
+    assert all(np.median(sizes) == pytest.approx(0.6 * segments, rel=0.05) for sizes in elements)
+    assert found.contact_force == pytest.approx(40 * across - clamp, rel=0.02)
+    assert found.hookload == pytest.approx(20 * section.weight - 0.25 * found.contact_force, rel=2e-3)
+
+
+def test_a_fall_that_does_not_converge_says_so(monkeypatch):
+    monkeypatch.setattr(beam_fe, "MOST_ITERATIONS", 1)
+    with pytest.raises(beam_fe.ConvergenceError):
+        steady(slanted(), 40.0)

@@ -7,6 +7,7 @@ pytest.importorskip("skfem")
 
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
+from skfem import BilinearForm, LinearForm
 
 from fctd.drillstring import Section
 from references.beam_fe import Beam, ConvergenceError, Surroundings, newton, statics
@@ -48,6 +49,29 @@ def test_tangent_is_the_derivative_of_the_forces():
     )
 
 
+def test_tables_assemble_as_the_forms_of_scikit_fem():
+    """Nodal forces, tangents and masses that one product of tables makes are those of scikit-fem's own loops."""
+    model = Beam(np.array([0.0, 0.6, 1.0]), section(1e4, 50.0, 4e3), Surroundings(weight=3.0))
+    rng = np.random.default_rng(2)
+    q = rng.standard_normal(model.strains.N)
+
+    def components(field):
+        return np.concatenate([field.grad[:, 0], np.asarray(field)[2:]])
+
+    density, derivative = rng.standard_normal((4, 2, 2)), rng.standard_normal((4, 4, 2, 2))
+    force = LinearForm(lambda v, w: (components(v) * w.density).sum(axis=0))
+    tangent = BilinearForm(lambda u, v, w: np.einsum("iep,ijep,jep->ep", components(v), w.derivative, components(u)))
+    inertia = BilinearForm(lambda u, v, w: 1.0 * (u[0] * v[0] + u[1] * v[1]) + 1e-4 * u[2] * v[2])
+    weight = LinearForm(lambda v, w: 3.0 * v[0])
+    strained = model._strained
+    assert strained.of(q) == pytest.approx(components(model.strains.interpolate(q)))
+    assert strained.forces(density) == pytest.approx(force.assemble(model.strains, density=density))
+    found = strained.matrix(strained.tangents(derivative)).toarray()
+    assert found == pytest.approx(tangent.assemble(model.strains, derivative=derivative).toarray())
+    assert model.mass.toarray() == pytest.approx(inertia.assemble(model.wall).toarray(), abs=1e-12)
+    assert model.gravity == pytest.approx(weight.assemble(model.wall), abs=1e-12)
+
+
 def test_elastica_tip():
     """A dead load across the end of an inextensible cantilever (Bisshopp & Drucker 1945), α = PL²/EI = 4."""
     alpha = 4.0
@@ -85,7 +109,7 @@ def test_euler_load_with_shear_and_compression():
 
         def softest(p, model=model, free=free):
             q = model.straight(0.0) * (1 - p / EA)
-            tangent = model.internal(q)[1].toarray()[np.ix_(free, free)]
+            tangent = model.resistance(q, 0 * q)[1].toarray()[np.ix_(free, free)]
             return np.linalg.eigvalsh(tangent)[0]
 
         errors.append(abs(brentq(softest, 1.0, 4.0, xtol=1e-12) / exact - 1))

@@ -185,3 +185,8 @@ def test_a_missing_package_is_named(name: str, monkeypatch: pytest.MonkeyPatch) 
         base.need("some_module", method)
     assert method.distribution in str(told.value)
     assert "not installed" in str(told.value)
+
+
+def test_a_package_that_is_not_there_has_no_version() -> None:
+    assert base.version_of("fctd") is not None
+    assert base.version_of("fctd-is-not-called-so") is None

@@ -63,10 +63,13 @@ def test_box_tree_finds_the_nearest_triangle():
     tree = BoxTree(np.asarray(mesh.triangles))
     points = rng.uniform(-1.3, 1.3, (150, 3)) * [1, 1, 1.6]
     _, distance, _ = trimesh.proximity.closest_point(mesh, points)
+    counted_one = interpreted(penetration)
     for point, away in zip(points, distance, strict=True):
-        deep, nodes, triangles = penetration(tree, tree.low, tree.high, tree.corners, *point, 0.4)
+        deep, nodes, triangles = counted_one(tree.low, tree.high, tree.corners, tree.first_leaf, *point, 0.4)
         assert nodes > triangles or nodes == 1
         assert deep == pytest.approx(0.4 - away) if away < 0.4 else deep == -math.inf
+    compiled = tree.penetrations(points, np.full(len(points), 0.4))
+    assert compiled == pytest.approx(np.where(distance < 0.4, 0.4 - distance, -np.inf))
 
 
 def test_box_tree_answers_as_coal_does():
@@ -80,13 +83,13 @@ def test_box_tree_answers_as_coal_does():
     tree = BoxTree(np.asarray(build_tube(case, TubeOptions(facets=16)).mesh.triangles))
     points = np.array([[0.0, 0.024, 12.0], [0.02, -0.015, 20.3], [0.0, 0.0, 5.0]])
     hits = coal.query(points, np.full(3, 0.03))
-    deep = [penetration(tree, tree.low, tree.high, tree.corners, *point, 0.03)[0] for point in points]
+    deep = tree.penetrations(points, np.full(3, 0.03))
     assert (hits.penetration[:2] > 0).all()
     assert deep == pytest.approx(hits.penetration)
 
 
 def test_a_sphere_meets_the_corner_of_a_box_when_it_reaches_it():
-    low, high = np.zeros((1, 3)), np.ones((1, 3))
-    assert _near(low, high, 0, 1.5, -0.5, 1.5, 0.751)
-    assert not _near(low, high, 0, 1.5, -0.5, 1.5, 0.749)
-    assert _near(low, high, 0, 0.5, 0.5, 0.5, 1e-9)
+    low, high, near = np.zeros((1, 3)), np.ones((1, 3)), interpreted(_near)
+    assert near(low, high, 0, 1.5, -0.5, 1.5, 0.751)
+    assert not near(low, high, 0, 1.5, -0.5, 1.5, 0.749)
+    assert near(low, high, 0, 0.5, 0.5, 0.5, 1e-9)

@@ -24,6 +24,15 @@ def test_a_point_beside_the_axis_is_found_again(md, offset):
     assert axis.normal == pytest.approx(normal, abs=1e-9)
 
 
+def test_points_of_the_axis_lie_on_it_at_their_depth():
+    hole, md = PlanarHole(STATIONS), np.array([0.0, 20.0, 32.0, 41.0, 50.0, 63.0, 90.0, 95.0])
+    points, inclination = hole.at(md)
+    axis = hole.axis(points)
+    assert axis.offset == pytest.approx(0.0, abs=1e-9)
+    assert axis.md == pytest.approx(md, abs=1e-9)
+    assert np.stack([np.cos(inclination), np.sin(inclination)]) == pytest.approx(axis.tangent, abs=1e-9)
+
+
 @given(st.floats(33.0, 49.0), st.floats(-0.3, 0.3))
 def test_normal_and_turn_are_derivatives_of_the_offset(md, offset):
     hole, h = PlanarHole(STATIONS), 1e-6

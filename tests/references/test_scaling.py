@@ -25,6 +25,15 @@ def test_loads_scale_back(reading: str) -> None:
     assert point.surface_torque / by.force / by.length == pytest.approx(full.surface_torque, rel=1e-6)
 
 
+def test_similitude_is_a_matter_of_dimensions() -> None:
+    """Every factor from those of length, time and force; Froude's number keeps gravity."""
+    by = factors("similar", 0.01)
+    assert by.length / by.time**2 == pytest.approx(1.0)
+    assert by.modulus == pytest.approx(by.force / by.length**2)
+    assert by.stiffness == pytest.approx(by.force / by.length)
+    assert by.damping == pytest.approx(by.force / (by.length / by.time))
+
+
 def test_lengths_alone_make_a_stiffer_string() -> None:
     """Similar by a tenth but for the modulus is a string ten times as stiff: the naive model at a tenth."""
     by, naive = factors("naive", 0.1), scaled(turning(), "naive", 0.1)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case import Case
-from fctd.wellbore import build_wellbore, hole_frame
+from fctd.wellbore import build_wellbore
 
 from ..cases import make_case, pipe
 
@@ -25,8 +25,6 @@ def bent_case(**wellbore: Any) -> Case:
 def beside_the_wall(region: str, count: int, seed: int = 7) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Points (n, 3) [m] within 15 mm of touching, from exact arcs, and their distance from the axis (n,) [m]."""
     rng = np.random.default_rng(seed)
-    axis, tangent = build_wellbore(bent_case()).at(rng.uniform(*REGIONS[region], count))
-    high, right = hole_frame(tangent)
-    angle = rng.uniform(0, 2 * np.pi, count)[:, None]
+    md, angle = rng.uniform(*REGIONS[region], count), rng.uniform(0, 2 * np.pi, count)
     offset = HOLE - RADIUS + rng.uniform(-0.015, 0.015, count)
-    return axis + offset[:, None] * (np.cos(angle) * high + np.sin(angle) * right), offset
+    return build_wellbore(bent_case()).off_axis(md, angle, offset), offset

@@ -3,6 +3,7 @@
 import itertools
 
 import numpy as np
+import pandas as pd
 import pytest
 
 pytest.importorskip("matplotlib")
@@ -38,7 +39,7 @@ def test_figure_draws(study, figure, tmp_path):
 
 
 def test_torque_is_drawn_in_kilonewton_metres():
-    tables = synthetic.paper_well()
+    tables = synthetic.STUDIES["paper_well"]()
     (figure,) = [figure for figure in figures.of_study("paper_well") if figure.name == "torque"]
     drawn = figure.draw(tables).axes[0].get_lines()
     assert len(drawn) == 4
@@ -59,3 +60,10 @@ def test_series_differ_in_lightness_from_their_neighbours():
 
     light = [lightness(colour) for colour in style.COLOURS]
     assert min(abs(a - b) for a, b in itertools.pairwise(light)) > 0.03
+
+
+def test_the_first_row_is_on_top_and_zero_in_the_middle():
+    ax = style.figure(2.0).subplots()
+    style.rows_downwards(ax, ["first", "second"])
+    assert ax.get_ylim() == (1.5, -0.5)
+    assert style.around_zero(pd.Series([-2.0, np.nan, 1.0])) == (-3.0, 3.0)

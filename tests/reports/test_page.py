@@ -175,6 +175,26 @@ limit = "In gentle wells."
 study = "jumps"
 check = "largest jump"
 at_most = 2.0
+[claim.second_route]
+study = "drops"
+check = "largest jump"
+at_most = 0.0
+[[claim]]
+id = "narrow-by-one-route"
+section = "4.3"
+says = "Owners were counted."
+verdict = "holds with limits"
+because = "target"
+one_route = "One number is printed."
+[claim.number]
+study = "jumps"
+check = "largest jump"
+at_most = 0.0
+[claim.limited]
+limit = "In wide wells."
+study = "jumps"
+check = "largest jump"
+at_most = 2.0
 [[claim]]
 id = "wrong"
 section = "6.3"
@@ -187,7 +207,7 @@ study = "jumps"
 check = "largest jump"
 at_least = 5.0
 [claim.second_route]
-study = "jumps"
+study = "drops"
 check = "largest jump"
 at_least = 4.0
 [[claim]]
@@ -228,8 +248,9 @@ tests = ["tests/test_joints.py::test_a_hinge_moves_along"]
 def judged_claims(tmp_path, monkeypatch):
     """A stored ledger with a claim for every verdict."""
     (tmp_path / "claims.toml").write_text(LEDGER)
-    record.write(replace(BLANK, study="jumps", checks=(judged(0.5),)), {}, tmp_path / "results")
-    monkeypatch.setitem(registry.STUDIES, "jumps", "no.module")
+    for name, value in (("jumps", 0.5), ("drops", 0.75)):
+        record.write(replace(BLANK, study=name, checks=(judged(value),)), {}, tmp_path / "results")
+        monkeypatch.setitem(registry.STUDIES, name, "no.module")
     monkeypatch.setattr(claims, "read_ledger", lambda: ledger.read_ledger(tmp_path / "claims.toml"))
     outcome = claims.run(Context(results=tmp_path / "results"))
     run = replace(BLANK, study="claims", question="What holds?", tables=tuple(outcome.tables))
@@ -241,13 +262,18 @@ def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, judged_
     text = words_of(html)
     assert problems == []
     assert text.index("The paper's claims") < text.index("Contents")
-    assert "✓ holds: 1 ◐ holds with limits: 1 ✗ does not hold: 2 – cannot be tested: 1 ○ not yet run: 1" in text
+    assert "✓ holds: 1 ◐ holds with limits: 2 ✗ does not hold: 2 – cannot be tested: 1 ○ not yet run: 1" in text
     holds = "5.2 No &lt;gap&gt; is left. ✓ holds 0.5 kN·m (at most 1 kN·m) largest jump: jumps Bound: target."
     assert f"{holds} python -m validation jumps" in text
     assert "never told" not in text
     assert "abs., 4.2 Owners are found. ◐ holds with limits 0.5 kN·m (at most 0 kN·m: not so)" in text
     assert "Limit. In gentle wells. 0.5 kN·m (at most 2 kN·m) largest jump" in text
-    assert "Second route. 0.5 kN·m (at least 4 kN·m: not so) largest jump: jumps Mind the step." in text
+    # Beside the number that it is held against, ahead of the bound.
+    first = "0.5 kN·m (at most 0 kN·m: not so) largest jump: jumps"
+    assert f"{first} Second route. 0.75 kN·m (at most 0 kN·m: not so) largest jump: drops Bound: target." in text
+    assert f"{first} No second route. One number is printed. Bound: target." in text
+    assert "Second route. 0.75 kN·m (at least 4 kN·m: not so) largest jump: drops Bound: target." in text
+    assert "Mind the step." in text
     assert "✗ does not hold recorded: holds" in text
     assert "○ not yet run ownership has not been run python -m validation ownership" in text
     assert "– cannot be tested The points are not public" in text

@@ -29,6 +29,7 @@ study = "toy"
 check = "error"
 at_most = 1.0
 """
+ONE_ROUTE = CLAIM.replace('because = "target"', 'because = "target"\none_route = "one number is printed"')
 LIMITED = '[claim.limited]\nlimit = "in vertical hole"\nstudy = "toy"\ncheck = "error"\nat_most = {}\n'
 SECOND = '[claim.second_route]\nstudy = "second"\ncheck = "error"\nat_most = 1.0\n'
 CELL = """
@@ -78,6 +79,7 @@ def verdict(answer):
         (0.5, "", "holds"),
         (1.5, "", "does not hold"),
         (1.5, LIMITED.format(2.0), "holds with limits"),
+        (2.0, LIMITED.format(2.0), "holds with limits"),
         (2.5, LIMITED.format(2.0), "does not hold"),
         (0.5, LIMITED.format(0.1), "holds"),
         (float("nan"), LIMITED.format(2.0), "does not hold"),
@@ -100,11 +102,42 @@ def test_a_number_that_contradicts_the_paper_has_a_second_route_that_does_too(ju
     answer = judged(CLAIM + SECOND, toy=0.5, second=3.0)
     assert (answer[0], verdict(answer)) == (1, "routes disagree")
     assert answer[2]["why"].iloc[0] == "the first route keeps the bound and the second does not"
-    limited = CLAIM.replace('"holds"', '"holds with limits"') + LIMITED.format(2.0)
-    assert verdict(judged(limited + SECOND, toy=1.5, second=0.5)) == "routes disagree"
-    assert judged(limited + SECOND, toy=1.5, second=1.6)[0] == 0
     told = "claim a-claim.second_route is missing: expected a second route"
     assert told in judged(text, toy=2.0)[1]
+    answer = judged(ONE_ROUTE.replace('"holds"', '"does not hold"'), toy=2.0)
+    assert (answer[0], told in answer[1]) == (1, True)
+
+
+def test_a_number_that_needs_limits_has_a_second_route_or_says_why_not(judged):
+    limited = CLAIM.replace('"holds"', '"holds with limits"') + LIMITED.format(2.0)
+    assert verdict(judged(limited + SECOND, toy=1.5, second=0.5)) == "routes disagree"
+    answer = judged(limited + SECOND, toy=1.5, second=1.6)
+    assert (answer[0], verdict(answer)) == (0, "holds with limits")
+    assert "one_route = why there is none" in judged(limited, toy=1.5)[1]
+    answer = judged(ONE_ROUTE.replace('"holds"', '"holds with limits"') + LIMITED.format(2.0), toy=1.5)
+    assert (answer[0], verdict(answer)) == (0, "holds with limits")
+    assert answer[2]["one_route"].iloc[0] == "one number is printed"
+    assert "second_route or one_route, not both" in judged(ONE_ROUTE + LIMITED.format(2.0) + SECOND, toy=1.5)[1]
+
+
+@pytest.mark.parametrize(
+    "second",
+    [
+        '[claim.second_route]\nstudy = "toy"\ncheck = "error"\nat_most = 0.5\n',
+        '[claim.second_route]\nstudy = "toy"\ncheck = "other"\nat_most = 0.5\n',
+    ],
+)
+def test_a_second_route_is_another_number(judged, second):
+    limited = LIMITED.format(2.0).replace('"error"', '"other"')
+    assert "expected a number of its own" in judged(CLAIM + limited + second, toy=0.5)[1]
+
+
+def test_the_same_table_holds_other_numbers(judged):
+    text = CLAIM[: CLAIM.index("[claim.number]")] + CELL + 'where = {place = "high"}\n'
+    other = CELL.replace("claim.number", "claim.second_route")
+    for more in ('where = {place = "low", depth_m = 0}', 'where = {place = "high"}\ntake = "least"'):
+        assert "a number of its own" not in judged(text + other + more, toy=0.5)[1]
+    assert "a number of its own" in judged(text + other + 'where = {place = "high"}', toy=0.5)[1]
 
 
 @pytest.mark.parametrize(
@@ -113,6 +146,7 @@ def test_a_number_that_contradicts_the_paper_has_a_second_route_that_does_too(ju
         (CLAIM, {}, "toy has not been run"),
         (CLAIM.replace('study = "toy"', 'study = "later"'), {"toy": 0.5}, "study later is to come"),
         (CLAIM + SECOND, {"toy": 2.0}, "second route: second has not been run"),
+        (CLAIM + LIMITED.format(2.0) + SECOND, {"toy": 1.5}, "second route: second has not been run"),
         (CLAIM + LIMITED.format(1.0).replace("toy", "second"), {"toy": 2.0}, "second has not been run"),
     ],
 )
@@ -223,6 +257,8 @@ def test_a_quick_run_may_leave_a_number_out(judged):
         ("pending", "pendings", "pendings"),
         ("[[claim]]", "[claim", "a TOML file"),
         ('because = "target"', 'because = "target"\nuntestable = "why"', "number or untestable, not both"),
+        ('because = "target"', 'because = "target"\none_route = "why"', "one_route = .* nothing, but for a claim that"),
+        ('verdict = "holds"', 'one_route = "why"', "one_route = .* nothing, but for a claim that"),
     ],
 )
 def test_a_ledger_that_cannot_be_meant_is_refused(register, tmp_path, old, new, message):
@@ -255,6 +291,8 @@ def test_the_papers_ledger_is_complete_and_reads():
     assert len(found.claim) >= 16
     assert all(claim.numbers or claim.untestable for claim in found.claim)
     assert list(registry.STUDIES)[-1] == "claims"
+    contradicted = [claim for claim in found.claim if claim.verdict in ("holds with limits", "does not hold")]
+    assert len([claim for claim in contradicted if claim.second_route is None]) <= 1
 
 
 def test_every_misprint_names_tests_that_there_are():

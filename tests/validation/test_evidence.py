@@ -4,19 +4,28 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fctd.contact import DIRECTION, START
+from fctd.run import prepare
+from references.engine_run import hann_means
+from references.engines import Window
+from references.for_loop import one_cylinder
 from validation import (
     contact_operations,
     cylinder_ringing,
-    energy_ledger,
+    engines_agree,
     friction_laws,
     long_segment,
     mud_effects,
+    ownership,
     paper_times,
     rock_stiffness,
+    segment_count,
     soft_stiff_map,
 )
 from validation import well_profile as profile
 from validation.cases import load, rotation
+from validation.steady import TRIP_SPEED, TRIP_WINDOW, steady_trip
+from validation.study import Context, log_slope
 
 
 def test_a_uniform_string_has_the_frequencies_of_a_quarter_wave():
@@ -109,6 +118,12 @@ def test_the_mud_of_a_case_resists_as_much_as_its_parts_do():
     assert keys["mud__rotational_damping"] * mud_effects.BIT == pytest.approx(turning)
 
 
+def test_mud_adds_to_the_soft_string_s_torque_what_it_adds_to_the_stiff_one_s():
+    """They differ by as much as the torques without mud do."""
+    thick = mud_effects.damped(None).iloc[-1]
+    assert thick["torque_change_soft_percent"] == pytest.approx(thick["torque_change_percent"], rel=0.01)
+
+
 def test_the_first_mode_of_even_damping_and_inertia_dies_at_half_their_ratio():
     case = load("paper_well")
     pipe = case.string.components[1]
@@ -169,6 +184,26 @@ def test_a_bend_is_as_far_off_as_the_worst_of_its_operations():
     assert soft_stiff_map.largest(rows, "severity >= 30 and string == 'pipe'").to_list() == [4.0]
 
 
+def test_the_bends_that_decide_are_those_of_the_least_and_the_largest_number():
+    columns = ["string", "hold_m", "severity_deg_per_100ft", "clearance_mm", "hookload_percent", "torque_percent"]
+    pipe, collar = soft_stiff_map.STRINGS
+    rows = [
+        (pipe, 600.0, 30.0, 5.0, -4.0, 9.0),
+        (pipe, 25.0, 30.0, 50.0, -1.0, 0.5),
+        (collar, 600.0, 60.0, 5.0, 2.0, -20.0),
+        (collar, 25.0, 20.0, 5.0, 3.0, 77.0),
+        (collar, 600.0, 20.0, 5.0, 1.0, 6.0),
+        (collar, 600.0, 10.0, 50.0, -8.0, 5.0),
+        (pipe, 600.0, 20.0, 50.0, 1.0, 10.0),
+    ]
+    found = list(soft_stiff_map.deciding(pd.DataFrame(rows, columns=columns)).values())
+    assert found[:3] == [
+        (pipe, 30.0, 0.05, soft_stiff_map.LIGHT),
+        (collar, 20.0, 0.005, soft_stiff_map.LIGHT),
+        (collar, 10.0, 0.05, soft_stiff_map.HEAVY),
+    ]
+
+
 def test_ratio_of_nothing_is_no_number():
     assert friction_laws._ratio(4.5, 1.5) == 3.0
     assert np.isnan(friction_laws._ratio(0.0, 1e-13))
@@ -189,6 +224,101 @@ def test_the_exact_well_is_smooth_and_as_long_as_its_measured_depth():
     cosine = np.sum(step[1:] * step[:-1], axis=1) / 0.05**2
     assert np.degrees(np.arccos(np.clip(cosine, -1, 1))).max() < 0.01
     assert profile.exact(np.array([2000.0]))[0, :2] == pytest.approx([43.790401] * 2, abs=1e-5)
+
+
+def test_the_well_summed_up_is_the_closed_form():
+    md = np.array([1750.0, 2000.0, 2250.0, 2450.0, 4300.0])
+    assert profile.integrated(md) == pytest.approx(profile.exact(md), abs=1e-6)
+
+
+def test_the_average_angle_s_second_route_finds_as_much():
+    rows = profile.run(Context(quick=True)).tables["methods"]
+    average = rows[rows["method"] == "average angle"]
+    assert average["off_integrated_m"].to_numpy() == pytest.approx(average["off_m"].to_numpy(), rel=1e-6)
+    # One build of 58°: its chord is longer than the arc's by half of the angle over its sine.
+    assert average["off_m"].iloc[1] > 500 * (1 - np.sinc(29 / 180))
+
+
+def test_a_connection_of_two_minutes_makes_the_papers_trip_real_time():
+    """2250 m in 4 h, stands of 28 m run at half a metre a second."""
+    assert 2250 / 28 * (56 + paper_times.connection(14400 / 2250)) == pytest.approx(14400)
+
+
+def test_points_of_a_straight_well_lie_where_they_were_made(monkeypatch):
+    monkeypatch.setattr(ownership, "WELLS", {name: ownership.WELLS[name] for name in ("build to 60°", "build to 120°")})
+    gentle, turned_back = ownership.run(Context(quick=True)).tables["owners"].to_dict("records")
+    assert gentle["elsewhere_percent"] == gentle["wrong_owner_percent"] == 0
+    assert turned_back["elsewhere_percent"] == pytest.approx(turned_back["wrong_owner_percent"], abs=0.2)
+    assert turned_back["elsewhere_percent"] > 10
+
+
+def test_a_library_is_raced_without_the_price_of_asking_it(monkeypatch):
+    """Times of ours, in place of measured ones: what a mesh costs is told over the paper's search and test."""
+    pytest.importorskip("trimesh")
+    ns = {contact_operations.ONE: 2.0, contact_operations.SEARCH: 98.0, contact_operations.ASKING: 150.0}
+    ns |= {contact_operations.TREE: 300.0, contact_operations.LIBRARY: 650.0}
+
+    def told(actions, counts, rounds, baseline):
+        for action in actions.values():
+            action()
+        assert counts[contact_operations.ONE] == counts[contact_operations.TREE] == 100 * run.segments
+        return pd.DataFrame([{"name": name, "ns_least": ns[name]} for name in actions])
+
+    monkeypatch.setattr(contact_operations, "race", told)
+    run, _ = prepare(load("scaled_section"))
+    found = contact_operations.times(run, True, 1).set_index("what")
+    assert found["over_one_cylinder"].to_dict() == pytest.approx(
+        {contact_operations.ONE: 1.0, contact_operations.SEARCH: 49.0, contact_operations.TREE: 150.0}
+        | ({contact_operations.LIBRARY: 250.0} if contact_operations.LIBRARY in found.index else {})
+    )
+    assert found.loc[contact_operations.TREE, "over_search_and_test"] == pytest.approx(3.0)
+
+
+def test_the_test_of_one_cylinder_is_the_papers_and_finds_the_distance_from_its_axis():
+    run, _ = prepare(load("paper_well", operations=rotation(2000.0, 1.0, 0.5)))
+    points = contact_operations.spheres(run)[0] + np.array([0.03, -0.02, 0.0])
+    owners, pieces = run.hole.owners(points), run.hole.pieces
+    away = points - pieces[owners, START : START + 3]
+    axes = pieces[owners, DIRECTION : DIRECTION + 3]
+    across = away - np.sum(away * axes, axis=1)[:, None] * axes
+    assert one_cylinder(pieces, points, owners) == pytest.approx(np.sum(across**2, axis=1), abs=1e-7)
+    assert np.isinf(one_cylinder(pieces, points, np.zeros_like(owners))[-1])
+
+
+def test_a_long_segment_twists_otherwise_than_what_it_stands_for(monkeypatch):
+    assert 10 < long_segment.twisting((2.0,))[2.0] < 13
+    monkeypatch.setattr(long_segment, "WATCHED", 1.0)
+    monkeypatch.setattr(long_segment, "the_case", lambda vertical, the_case=long_segment.the_case: the_case(37.5))
+    assert long_segment.twisting((2.0,)) == {2.0: 0.0}
+
+
+def test_finite_elements_are_told_over_the_soft_string_and_beside_the_segments():
+    pytest.importorskip("skfem")
+    bend = soft_stiff_map.PIPE, 60.0, 0.02, soft_stiff_map.LIGHT
+    row = soft_stiff_map.by_finite_elements(*bend, 4)
+    assert row["segments_off_percent"] < 1.0
+    stiff = pd.DataFrame(soft_stiff_map.compare(*bend)).set_index("operation")
+    assert row["hookload_percent"] == pytest.approx(stiff.loc["trip_in", "hookload_percent"], abs=1.0)
+    assert row["torque_percent"] == pytest.approx(stiff.loc["rotate_off_bottom", "torque_percent"], rel=0.02)
+    assert row["largest_percent"] == max(abs(row["hookload_percent"]), abs(row["torque_percent"]))
+
+
+def test_the_naive_model_at_its_own_size_is_a_thousandth_of_the_chain():
+    model, chain = engines_agree.small(), load("curved_chain")
+    assert model.string.components[0].outer_diameter == pytest.approx(chain.string.components[0].outer_diameter / 1e3)
+    assert model.string.components[0].youngs_modulus == chain.string.components[0].youngs_modulus
+    assert model.operations[0].start_md == pytest.approx(engines_agree.BIT / 1e3)
+    # By similarity: what a stiff wall of the whole chain would be.
+    assert model.wellbore.stiffness == pytest.approx(1e4)
+
+
+def test_the_stepper_s_moments_are_held_against_its_own_largest_count():
+    found = segment_count.step_through("4.5°/30 m", (5, 10)).set_index("segments")
+    assert found.loc[10, ["torque_off_largest_percent", "moment_off_largest_percent"]].to_list() == [0, 0]
+    assert segment_count.moment_error(np.array([1.0, 2.0]), np.array([3.0, 4.0])) == pytest.approx(100 * 2 / 12.5**0.5)
+    few, many = found["torque_kN_m"]
+    assert found.loc[5, "torque_off_largest_percent"] == pytest.approx(100 * abs(few / many - 1))
+    assert 5 < found.loc[5, "moment_off_largest_percent"] < 200
 
 
 def test_the_papers_equations_give_the_wall_and_cost_what_it_says():
@@ -214,6 +344,31 @@ def test_in_straight_hole_coulomb_shares_one_force_and_the_paper_gives_two():
 
 
 @pytest.mark.parametrize("power", [0.0, 1.0, 2.0])
-def test_the_ledger_s_order_is_the_power_of_the_step(power: float) -> None:
+def test_a_slope_is_the_power(power: float) -> None:
     step = np.array([1e-3, 5e-4, 1.25e-4])
-    assert energy_ledger.order(pd.DataFrame({"step_s": step, "residual_J": 7 * step**power})) == pytest.approx(power)
+    assert log_slope(step, 7 * step**power) == pytest.approx(power)
+
+
+@pytest.mark.parametrize("segments", [60, 170])
+def test_the_well_of_the_engines_has_the_segments_that_it_is_named_after(segments: int) -> None:
+    """Collars and pipe together; the long segment above is one more."""
+    collars, pipe, _ = engines_agree.well(segments, Window(44.0, 2.0)).string.components
+    assert collars.segments + pipe.segments == segments
+
+
+@pytest.mark.parametrize("kind", ["trip_in", "trip_out"])
+def test_a_steady_trip_passes_its_depth_in_the_middle_of_what_is_read(kind: str) -> None:
+    case = load("paper_well", operations=steady_trip(kind, 2000.0))
+    (trip,) = case.operations
+    assert trip.kind == kind
+    half = 0.5 * TRIP_WINDOW * TRIP_SPEED
+    assert trip.end_md == 2000.0 + (half if kind == "trip_in" else -half)
+    # What is left before the window is more than the ramp takes.
+    assert abs(trip.start_md - 2000.0) - half > 0.5 * trip.ramp_time * TRIP_SPEED
+
+
+def test_a_swing_leaves_next_to_nothing_in_a_mean() -> None:
+    time = np.linspace(0, 1, 400)
+    rows = pd.DataFrame({"time_s": time, "load": 5 + np.cos(6.5 * np.pi * time), "operation": "trip_in"})
+    assert abs(rows["load"].mean() - 5) > 0.03
+    assert hann_means(rows)["load"] == pytest.approx(5, abs=0.01)

@@ -167,7 +167,12 @@ def test_interrupt_while_writing_leaves_the_earlier_result(register, run, tmp_pa
         os.kill(os.getpid(), signal.SIGINT)
 
     monkeypatch.setattr(record, "_to_json", interrupt)
-    assert run("toy")[0] == 130
+    # Tests that run in the background have inherited that SIGINT is ignored.
+    inherited = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        assert run("toy")[0] == 130
+    finally:
+        signal.signal(signal.SIGINT, inherited)
     assert stored(tmp_path, "toy") == before
     assert [path.name for path in (tmp_path / "results").iterdir()] == ["toy"]
 

@@ -42,6 +42,25 @@ def test_differences_are_measured():
     assert shifted["position_difference_m"] == pytest.approx(0.3)
 
 
+def test_displacement_is_that_of_the_same_points_of_the_string():
+    coarse = model(shift=0.002).string.iloc[::30]
+    coarse.loc[coarse.index[-1], "horizontal_m"] -= 0.006
+    found = scaled_section.displacements(coarse, model().string, 0.025)
+    assert found["displacement_bit_percent"] == found["displacement_max_percent"] == pytest.approx(16.0)
+    assert found["displacement_above_end_percent"] == pytest.approx(8.0)
+    assert found["displacement_rms_percent"] == pytest.approx(np.sqrt((6 * 8**2 + 16**2) / 7))
+
+
+def test_the_steady_string_lies_where_its_own_shape_is():
+    """Held against itself it differs by nothing; the count is the one that was asked for."""
+    case = scaled_section.load("scaled_section")
+    point = scaled_section.equilibrium(case, "trip_in", 44.0)
+    truth = model()._replace(string=scaled_section._shape(case, point.profile.iloc[1:]))
+    (row,) = scaled_section._at_rest((30,), truth, 0.025).to_dict("records")
+    assert row["segments"] == 30
+    assert row["displacement_max_percent"] == pytest.approx(0.0, abs=1e-9)
+
+
 def test_a_contact_that_one_model_lacks_is_infinitely_far():
     outer = model()._replace(contacts=model().contacts.iloc[[0, 2]])
     assert differences(outer, model(), 0.025)["position_difference_m"] == np.inf

@@ -1,0 +1,46 @@
+"""A string that twists and rubs, and does nothing else: discs on torsion springs with dry friction.
+
+Each segment is a spring GJ/ℓ with half of its moment of inertia at either end, so that a long one is a spring with
+half its inertia at its lower end.  Dry friction stops a disc before it turns one; its limits come from the soft
+string.  Nothing here is the engine's: no contact, no bending, no axial motion.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case import Case
+from fctd.drillstring import lay_out
+from references.soft_string import soft_string
+
+Array = NDArray[np.float64]
+
+
+def twisted(case: Case, bit_depth: float, angle: Callable[[Array], Array], duration: float, step: float) -> Array:
+    """Torque at the top [N m] after every step of a string that lies untwisted at rest and is turned at its top.
+
+    angle : of the top drive [rad] at times [s]; step [s] : the discs' shortest period has to be longer than π of it.
+    """
+    string = lay_out(case, bit_depth)
+    sections = [string.sections[k] for k in string.component]
+    spring = np.array([section.GJ for section in sections]) / string.length
+    half = 0.5 * np.array([section.axial_inertia for section in sections]) * string.length
+    inertia = half + np.append(half[1:], 0.0)
+    ends = string.top_md + np.cumsum(string.length)
+    middles = ends - 0.5 * string.length
+    # What a disc can be held by: what the soft string's torque gains between the middles of its two segments.
+    soft = soft_string(case, "rotate_off_bottom", bit_depth).profile
+    held = -np.diff(np.interp(middles, soft.md, soft.torque), append=0.0)
+    # Angles of the top drive and of the discs; the most that friction takes of a disc's rate in a step.
+    angles, rate, most = np.zeros(len(ends) + 1), np.zeros(len(ends)), step * held / inertia
+    torque = np.empty(round(duration / step))
+    for k, drive in enumerate(angle(np.arange(1, len(torque) + 1) * np.float64(step))):
+        angles[0] = drive
+        pull = spring * (angles[:-1] - angles[1:])
+        torque[k] = pull[0]
+        pull[:-1] -= pull[1:]
+        rate += step / inertia * pull
+        rate -= np.minimum(np.maximum(rate, -most), most)
+        angles[1:] += step * rate
+    return torque

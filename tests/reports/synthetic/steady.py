@@ -1,0 +1,121 @@
+"""Steady strings: charts, soft and stiff, laws, walls."""
+
+import itertools
+
+import numpy as np
+import pandas as pd
+
+OPERATIONS = ("rotate_off_bottom", "trip_out", "trip_in")
+
+
+def _chart() -> pd.DataFrame:
+    depth = np.arange(500.0, 2500.0, 100.0)
+    kinds = ["trip_in", "trip_out", "rotate_off_bottom", "drill_rotating"]
+    return pd.concat(
+        pd.DataFrame(
+            {
+                "operation": kind,
+                "friction": 0.2,
+                "bit_depth_m": depth,
+                "hookload_N": (200 + 20 * k) * depth,
+                "surface_torque_N_m": 3 * depth * (k > 1),
+                "status": ["converged"] * (len(depth) - 1) + ["unstable"],
+            }
+        )
+        for k, kind in enumerate(kinds)
+    )
+
+
+def steady_state() -> dict[str, pd.DataFrame]:
+    compared = pd.DataFrame(
+        {
+            "operation": ["trip_in", "rotate_off_bottom"],
+            "bit_depth_m": [2000.0, 2000.0],
+            "hookload_stepped_kN": [400.0, 480.0],
+            "torque_stepped_kN_m": [0.0, 6.0],
+        }
+    )
+    return {"chart": _chart(), "compared": compared}
+
+
+def broomstick() -> dict[str, pd.DataFrame]:
+    return {"chart": pd.concat(_chart().assign(friction=factor) for factor in (0.1, 0.3))}
+
+
+def real_chart() -> dict[str, pd.DataFrame]:
+    return {"chart": _chart().assign(geometry="arcs")}
+
+
+def soft_limit() -> dict[str, pd.DataFrame]:
+    return {
+        "ladder": pd.DataFrame(
+            {
+                "string": ["as it is", "as it is", "soft", "soft"],
+                "operation": ["pick-up", "rotation"] * 2,
+                "hookload_off_percent": [0.5, 0.1, 0.02, 0.01],
+                "torque_off_percent": [0.0, 1.2, 0.0, 0.1],
+            }
+        )
+    }
+
+
+def soft_stiff_map() -> dict[str, pd.DataFrame]:
+    cells = itertools.product(("5 in pipe", "collar"), (10.0, 30.0, 60.0), (5.0, 50.0), OPERATIONS)
+    table = pd.DataFrame(
+        {
+            "string": string,
+            "severity_deg_per_100ft": severity,
+            "clearance_mm": clearance,
+            "operation": operation,
+            "contact_force_percent": severity / clearance**0.5 - 3.0,
+        }
+        for string, severity, clearance, operation in cells
+    )
+    return {"map": table, "light": table}
+
+
+def friction_laws() -> dict[str, pd.DataFrame]:
+    ratio = np.logspace(-2, 2, 17)
+    around = 1 / np.hypot(1, ratio)
+    parts = {"paper": (0 * ratio + 48, 0 * ratio + 3), "coulomb": (48 * ratio * around, 3 * around)}
+    return {
+        "straight": pd.concat(
+            pd.DataFrame(
+                {
+                    "law": law,
+                    "axial_over_tangential": ratio,
+                    "drag_kN": drag,
+                    "drag_closed_form_kN": drag,
+                    "torque_kN_m": torque,
+                    "torque_closed_form_kN_m": torque,
+                }
+            )
+            for law, (drag, torque) in parts.items()
+        )
+    }
+
+
+def rock_stiffness() -> dict[str, pd.DataFrame]:
+    stiffness = 10.0 ** np.arange(3, 11)
+    return {
+        "summary": pd.DataFrame(
+            {
+                "stiffness_N_per_m": stiffness,
+                "without_answer": (stiffness < 1e5).astype(int),
+                "loads_change_percent": 1e4 / stiffness,
+                "contact_force_change_percent": 2e4 / stiffness,
+                "penetration_of_clearance": 4e5 / stiffness,
+                "step_ms": np.minimum(1.5, 1.5e4 / np.sqrt(stiffness)),
+            }
+        )
+    }
+
+
+def beam_in_hole() -> dict[str, pd.DataFrame]:
+    segment = np.array([0.1, 0.5, 1.0])
+    return {
+        "beams": pd.concat(
+            pd.DataFrame({"beam": beam, "segment_m": segment, "off_percent": sign * segment**2})
+            for beam, sign in (("cantilever", 1.0), ("pendulum", -0.3))
+        )
+    }
