@@ -9,16 +9,19 @@ import numpy as np
 from fctd import topdrive
 from fctd.case import Case
 from fctd.faults import UnstableError
+from fctd.operations import Stretch
 from fctd.record import Recorder
 from fctd.results import SimulationResult
-from fctd.run import forget_start, prepare, settle
+from fctd.ringing import expected_ringing
+from fctd.run import Run, forget_start, prepare, settle
 from fctd.topdrive import Motion
 from fctd.wall_query import WallQuery
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
-# A ledger that is off by more than this share of the work gets a word of warning with the result.
-DOUBTFUL = 0.01
+# A ledger that is off by more than this share of the work gets a word of warning with the result, and so does a
+# string that cylinders ring by more than this share of its hook load.
+DOUBTFUL, RINGING = 0.01, 0.005
 
 
 def simulate(case: Case, progress: Progress | None = None, *, contact: WallQuery | None = None) -> SimulationResult:
@@ -56,10 +59,22 @@ def simulate(case: Case, progress: Progress | None = None, *, contact: WallQuery
         status, message = "interrupted", f"at {run.top[topdrive.TOP_TIME]:.4g} s"
     wall = time.perf_counter() - began
     result = recorder.result(status, message, wall, residual)
-    if status == "completed" and not result.run["energy_error"] < DOUBTFUL:
+    return replace(result, message="; ".join(_doubts(result, run, stretches))) if status == "completed" else result
+
+
+def _doubts(result: SimulationResult, run: Run, stretches: list[Stretch]) -> list[str]:
+    """What the reader of a completed run should know before trusting it."""
+    found = []
+    if not result.run["energy_error"] < DOUBTFUL:
         off = f"the energy ledger is off by {100 * result.run['energy_error']:.2g} %"
-        return replace(result, message=f"{off}: try a smaller solver.step, shorter segments, or arcs")
-    return result
+        found.append(f"{off}: try a smaller solver.step, shorter segments, or arcs")
+    swing, frequency, depth = expected_ringing(run, stretches).largest()
+    if swing > RINGING * float(result.history["hookload_N"].abs().mean()):
+        found.append(
+            f"the string slides over the joints of the hole's cylinders in time with its own {frequency:.2f} Hz: near "
+            f"{depth:.0f} m about ±{swing / 1e3:.2g} kN of hook load are not the well's; arcs have no joints"
+        )
+    return found
 
 
 def _records(motion: Motion, interval: float) -> list[float]:

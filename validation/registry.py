@@ -8,6 +8,7 @@ STUDIES: dict[str, str] = {
     "scaled_section": "validation.scaled_section",
     "energy_ledger": "validation.energy_ledger",
     "cylinder_error": "validation.cylinder_error",
+    "cylinder_ringing": "validation.cylinder_ringing",
     "overlap": "validation.overlap",
     "ownership": "validation.ownership",
     "contact_operations": "validation.contact_operations",

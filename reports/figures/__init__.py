@@ -27,6 +27,7 @@ MODULES: dict[str, str] = {
     "energy_ledger": "reports.figures.energy_ledger",
     "overlap": "reports.figures.overlap",
     "cylinder_error": "reports.figures.cylinder_error",
+    "cylinder_ringing": "reports.figures.cylinder_ringing",
     "contact_operations": "reports.figures.contact_operations",
     "rock_stiffness": "reports.figures.rock_stiffness",
     "long_segment": "reports.figures.long_segment",

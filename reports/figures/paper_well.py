@@ -103,7 +103,8 @@ FIGURES = [
     ),
     Figure(
         "hook_load",
-        "Hook load over the same depths, going in and rotating off bottom. Thin lines: well b.",
+        "Hook load over the same depths, going in and rotating off bottom. Thin lines: well b. It swings where its "
+        "collars pass the joints of the hole's cylinders in time with the string, an artefact of the cylinders.",
         hook_load,
     ),
     Figure(

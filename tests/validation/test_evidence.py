@@ -11,6 +11,7 @@ from references.engines import Window
 from references.for_loop import one_cylinder
 from validation import (
     contact_operations,
+    cylinder_ringing,
     engines_agree,
     friction_laws,
     long_segment,
@@ -142,6 +143,14 @@ def test_a_decaying_swing_has_its_rate():
     torque = 2400 + 1500 * np.exp(-0.012 * time) * np.sin(2 * np.pi * 0.233 * time)
     rate = mud_effects._rate(pd.DataFrame({"time_s": time, "surface_torque_N_m": torque}))
     assert rate == pytest.approx(0.012, rel=0.03)
+
+
+def test_a_swing_about_a_trend_has_its_size_and_frequency():
+    time = np.arange(0.0, 80.0, cylinder_ringing.RECORD)
+    about = cylinder_ringing.swing(800 - 0.3 * time + 15 * np.sin(2 * np.pi * 0.49 * time), cylinder_ringing.RECORD)
+    about = about[np.isfinite(about)]
+    assert np.abs(about).max() == pytest.approx(15, rel=0.05)
+    assert cylinder_ringing.dominant(about, cylinder_ringing.RECORD) == pytest.approx(0.49, rel=0.01)
 
 
 def test_segments_in_a_bend_are_an_eighth_of_what_fits_it():

@@ -31,6 +31,20 @@ def energy_ledger() -> dict[str, pd.DataFrame]:
     return {"ledger": ledger, "closure": closure}
 
 
+def cylinder_ringing() -> dict[str, pd.DataFrame]:
+    depths = np.arange(1895.0, 2450.0, 0.125)
+    rise = np.exp(-(((depths - 2230) / 50) ** 2))
+    names = {"the case's own": 15.0, "arcs": 0.2, "19 collars of 10.5 m": 2.0}
+    swing = pd.concat(
+        pd.DataFrame({"changed": name, "bit_depth_m": depths, "swing_kN": size * rise * np.sin(2 * np.pi * depths)})
+        for name, size in names.items()
+    )
+    coarse = depths[::80]
+    expected = {"bit_depth_m": coarse, "first_frequency_Hz": 1100 / coarse, "swing_kN": 12 * rise[::80]}
+    runs = {"changed": list(names), "swing_kN": list(names.values()), "at_m": 2230.0, "frequency_Hz": [0.495, 0.6, 0.5]}
+    return {"swing": swing, "expected": pd.DataFrame(expected), "runs": pd.DataFrame(runs)}
+
+
 def long_segment() -> dict[str, pd.DataFrame]:
     time = np.linspace(0, 20, 200)
     histories = pd.concat(

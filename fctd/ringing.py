@@ -1,0 +1,165 @@
+"""What the joints of the hole's cylinders do to a string that slides past them: it may ring along itself.
+
+A cylinder is a chord of the bend.  Along it the wall's force is tilted against the hole, from −½κℓ to ½κℓ, and jumps
+back at the joint.  Contact points that are whole cylinders apart meet their joints together, and where a harmonic of
+speed over cylinder length meets a frequency of the string, nothing but mud damps what builds up.  The real hole has no
+joints, nor have arcs.
+
+How much builds up is found without a time step: the contact forces are those of a soft string without friction, the
+modes those of the chain of masses and springs, and a mode whose frequency ω changes slowly reaches the integral of its
+force times exp(−i∫ω dt).  That is an estimate, within a factor of two or three: stiffness, clearance and friction are
+left out, as is that points which leave the hole's own axis lengthen the path.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh_tridiagonal
+
+from fctd import contact, state, topdrive
+from fctd.drillstring import String
+from fctd.operations import Stretch
+from fctd.run import Run
+from fctd.wellbore import Wellbore
+
+Array = NDArray[np.float64]
+
+MODES = 2
+STRIDE, SPAN = 10.0, 20.0  # [m] and [s] over which modes and contact forces are taken as constant, at most
+SAMPLES = 8  # of the forces in a period of the fastest mode, each the mean of its span
+
+
+class Ringing(NamedTuple):
+    """Expected swing of the hook load about its mean: a row for every stride of a run, a column for every mode.
+
+    bit_depth (k,) [m]; frequency [Hz] and amplitude [N], both (k, MODES).
+    """
+
+    bit_depth: Array
+    frequency: Array
+    amplitude: Array
+
+    def largest(self) -> tuple[float, float, float]:
+        """Amplitude [N], frequency [Hz] and bit depth [m] of the largest swing; zeros where there is none."""
+        if not self.amplitude.size:
+            return 0.0, 0.0, 0.0
+        row, mode = np.unravel_index(np.argmax(self.amplitude), self.amplitude.shape)
+        return float(self.amplitude[row, mode]), float(self.frequency[row, mode]), float(self.bit_depth[row])
+
+
+class Tilt(NamedTuple):
+    """Direction of the cylinders less that of the hole, integrated over measured depth: (k, 3) [m].
+
+    start, step : first measured depth and distance of the rows [m].
+    """
+
+    start: float
+    step: float
+    integral: Array
+
+    def means(self, edges: Array) -> Array:
+        """Mean tilt (m, n, 3) of n points between successive rows of their measured depths (m + 1, n) [m]."""
+        at = (edges - self.start) / self.step
+        i = np.clip(at.astype(np.int64), 0, len(self.integral) - 2)
+        value = self.integral[i] + (at - i)[..., None] * (self.integral[i + 1] - self.integral[i])
+        return np.asarray(np.diff(value, axis=0) / np.diff(edges, axis=0)[..., None])
+
+
+class Modes(NamedTuple):
+    """The slowest axial modes, shape (n, MODES) of unit modal mass [kg^-1/2], all else (MODES,).
+
+    frequency ω [rad/s]; damping [1/s]; pull : hook load of a unit modal impulse [kg^1/2 / s].
+    """
+
+    shape: Array
+    frequency: Array
+    damping: Array
+    pull: Array
+
+
+def expected_ringing(run: Run, stretches: list[Stretch]) -> Ringing:
+    """Ringing that joints of cylinders cause where a run feeds pipe at constant speed, each stretch from rest."""
+    depths: list[float] = []
+    frequencies: list[Array] = []
+    amplitudes: list[Array] = []
+    if run.laws.geometry == state.CYLINDERS and run.queried is None and run.segments > MODES:
+        tilt, probe, depth = cylinder_tilt(run.hole), run.S.copy(), run.string.bit_depth
+        for motion, _ in stretches:
+            fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration
+            steady = motion.feed_from == motion.feed_to != 0
+            strides = int(np.ceil(max(abs(fed) / STRIDE, motion.duration / SPAN))) if steady else 0
+            reached = np.zeros(MODES, complex)
+            for k in range(strides):
+                middle = depth + (k + 0.5) / strides * fed
+                string = run.string.lengthened(middle - run.string.bit_depth)
+                modes = _modes(run, string, probe)
+                force, span = _forces(run, string, tilt, modes, fed / strides, motion.feed_to)
+                rate = 1j * modes.frequency - modes.damping
+                left = span * np.arange(len(force), -1, -1)[:, None]
+                reached = reached * np.exp(rate * left[0])
+                reached += span * (force * np.exp(rate * (left[1:] + 0.5 * span))).sum(axis=0)
+                depths.append(middle)
+                frequencies.append(modes.frequency / (2 * np.pi))
+                amplitudes.append(np.abs(reached) * modes.pull)
+            depth += fed
+    shape = (-1, MODES)
+    return Ringing(np.array(depths), np.reshape(frequencies, shape), np.reshape(amplitudes, shape))
+
+
+def cylinder_tilt(hole: Wellbore) -> Tilt:
+    """Tilt of a hole of cylinders, whose own direction is linear between their middles; overlaps blend (Eq. 24)."""
+    ends, chords = hole.md, hole.directions[:-1]
+    overlap = np.maximum(hole.pieces[:, contact.OVERLAP], 1e-3)
+    step = 0.25 * max(float(overlap[:-1].min(initial=1.0)), 0.1)
+    md = np.arange(ends[0], ends[-1], step)
+    i = np.clip(np.searchsorted(ends, md, side="right") - 1, 0, len(chords) - 1)
+    above = np.maximum(i - 1, 0)
+    share = np.minimum((md - ends[i]) / overlap[above], 1.0)[:, None]
+    middle = 0.5 * (ends[1:] + ends[:-1])
+    tilt = (1 - share) * chords[above] + share * chords[i]
+    tilt -= np.stack([np.interp(md, middle, part) for part in chords.T], axis=1)
+    return Tilt(float(ends[0]), step, np.vstack([np.zeros(3), np.cumsum(0.5 * step * (tilt[1:] + tilt[:-1]), axis=0)]))
+
+
+def _modes(run: Run, string: String, probe: Array) -> Modes:
+    """Modes of a string hanging from the top drive; probe : a state buffer for its long segment."""
+    n = string.segments
+    if string.long_segment:
+        topdrive.set_long_segment(probe, string.length[0], run.pipe)
+    k, mass, mud = (state.row(probe, offset, n) for offset in (state.K_AXIAL, state.MASS, state.MUD_AXIAL))
+    square, vectors = eigh_tridiagonal(
+        (k + np.append(k[1:], 0.0)) / mass, -k[1:] / np.sqrt(mass[1:] * mass[:-1]),
+        select="i", select_range=(0, MODES - 1),
+    )  # fmt: skip
+    shape: Array = vectors / np.sqrt(mass)[:, None]
+    frequency = np.sqrt(square)
+    damping = 0.5 * (mud @ shape**2 + run.laws.joint_damping * square)
+    return Modes(shape, frequency, damping, k[0] * np.abs(shape[0]) / frequency)
+
+
+def _forces(run: Run, string: String, tilt: Tilt, modes: Modes, length: float, speed: float) -> tuple[Array, float]:
+    """Modal forces (m, MODES) over a stride about the string's depth, and the time of each [s].
+
+    length [m] and speed [m/s] of the stride, both below 0 where pipe is pulled.
+    """
+    n = string.segments
+    weight = string.of("weight") * string.length
+    md = string.top_md + np.cumsum(string.length)
+    for _ in range(2):
+        points, tangents = run.hole.at(md)
+        tension = np.append(np.cumsum((weight * tangents[:, 2])[:0:-1])[::-1], 0.0)
+        chords = np.diff(points, axis=0)
+        reach = np.linalg.norm(chords, axis=1)
+        # A segment is a chord of the bend and stretched: a few centimetres, which matter to joints.
+        md[1:] += np.cumsum(string.length[1:] * (1 + tension[:-1] / string.of("EA")[1:]) - reach)
+    load = np.zeros((n, 3))
+    load[:, 2] = 0.5 * (weight + np.append(weight[1:], 0.0))
+    load[1:-1] += tension[1:-1, None] * np.diff(chords / reach[:, None], axis=0)
+    load -= (load * tangents).sum(axis=1)[:, None] * tangents
+    places = md + state.row(run.S, state.ARM_CONTACT, n) - state.row(run.S, state.ARM_BOTTOM, n)
+    pressed = load.any(axis=1)
+    count = int(np.ceil(abs(length / speed) * modes.frequency[-1] * SAMPLES / (2 * np.pi)))
+    edges = np.linspace(-0.5, 0.5, count + 1)[:, None] * length
+    force = (load[pressed] * tilt.means(places[pressed] + edges)).sum(axis=-1) @ modes.shape[pressed]
+    return force, abs(length / speed) / count
