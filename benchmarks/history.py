@@ -144,7 +144,7 @@ def write(record: Record, folder: Path = HISTORY) -> Path:
 def read(folder: Path = HISTORY) -> list[tuple[Path, Record]]:
     """All records with their files, the oldest first; InputError for a file that is none, or no folder."""
     if not folder.is_dir():  # a gate that compares with nothing passes
-        raise InputError("a folder of records", key="--history", value=str(folder))
+        raise InputError("a folder of records", key="--history", value=folder)
     found = []
     for path in folder.glob("*.json"):
         try:

@@ -30,7 +30,7 @@ class Worker:
         self._process, self._root = process, root
         self.hello = self._read()
         if self.hello.get("protocol") != PROTOCOL or self.hello.get("reference") != reference_digest():
-            raise InputError("sources with the same reference kernel and protocol", key="release", value=str(root))
+            raise InputError("sources with the same reference kernel and protocol", key="release", value=root)
 
     def round(self) -> dict[str, float]:
         """Cost of each subject [ns per unit]."""
@@ -44,7 +44,7 @@ class Worker:
         assert self._process.stdout is not None
         line = self._process.stdout.readline()
         if not line:
-            raise InputError("sources whose worker runs (its error is above)", key="release", value=str(self._root))
+            raise InputError("sources whose worker runs (its error is above)", key="release", value=self._root)
         answer: dict[str, Any] = json.loads(line)
         return answer
 

@@ -68,7 +68,7 @@ def simulate_file(
     try:  # before hours of computing, not after
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"a folder that can be written ({error.strerror})", key="--out", value=str(folder)) from None
+        raise InputError(f"a folder that can be written ({error.strerror})", key="--out", value=folder) from None
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),

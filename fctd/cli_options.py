@@ -69,7 +69,7 @@ def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
     if path is None:
         return
     if path.suffix.lower() not in suffixes:
-        raise InputError(f"a file name that ends in {' or '.join(suffixes)}", key=key, value=str(path))
+        raise InputError(f"a file name that ends in {' or '.join(suffixes)}", key=key, value=path)
     try:
         folder = next(parent for parent in path.absolute().parents if parent.exists())
         taken = path.is_dir() or not folder.is_dir()
@@ -78,11 +78,11 @@ def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
     except OSError:  # a name too long for the file system
         writable = False
     if not writable:
-        raise InputError("a file that can be written", key=key, value=str(path))
+        raise InputError("a file that can be written", key=key, value=path)
 
 
 def spare_sources(case: Case, path: Path | None, key: str) -> None:
     """Refuse to write over the case file or its survey."""
     for source in (case.file, case.wellbore.survey):
         if path is not None and source is not None and path.exists() and path.samefile(source):
-            raise InputError("another file than the case and its survey", key=key, value=str(path))
+            raise InputError("another file than the case and its survey", key=key, value=path)

@@ -227,7 +227,7 @@ def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
     for key, path in wanted.items():
         check_target(path, key, PICTURES)
     if len({path.absolute() for path in wanted.values()}) < len(wanted):
-        raise InputError("a file of its own for each picture", key=key, value=str(path))
+        raise InputError("a file of its own for each picture", key=key, value=path)
     if not wanted:
         return None
     try:
@@ -235,7 +235,7 @@ def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
     except ModuleNotFoundError as error:
         key, path = next(iter(wanted.items()))
         expected = f"the package {error.name} for pictures (pip install matplotlib, or the extra fctd[plot])"
-        raise InputError(expected, key=key, value=str(path)) from None
+        raise InputError(expected, key=key, value=path) from None
     return plots
 
 

@@ -78,7 +78,9 @@ class InputError(ValueError):
 
 
 def show(value: object) -> str:
-    """A value as a case file writes it, cut to a readable length."""
+    """A value as a case file writes it, cut to a readable length; a path whole, as its end is what tells."""
+    if isinstance(value, PathLike):
+        return json.dumps(str(value), ensure_ascii=False)
     try:
         text = repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False, default=str)
     except (ValueError, TypeError):  # integers of thousands of digits, keys that are no strings

@@ -21,7 +21,7 @@ def whole_file(path: Path) -> Iterator[Path]:
         yield scratch
         scratch.replace(path)
     except OSError as error:
-        raise InputError(f"a file that can be written ({error.strerror or error})", value=str(path)) from error
+        raise InputError(f"a file that can be written ({error.strerror or error})", value=path) from error
     finally:
         with suppress(OSError):
             scratch.unlink(missing_ok=True)
