@@ -23,11 +23,12 @@ from fctd.cli_options import (
     messages,
     read_case,
     screen,
+    spare_sources,
 )
 from fctd.cli_refine import refine_command
 from fctd.cli_steady import chart_command, equilibrium_command
 from fctd.errors import InputError
-from fctd.results import SimulationResult
+from fctd.results import TABLES, SimulationResult
 from fctd.simulate import simulate
 from fctd.wall_query import WallQuery
 
@@ -69,6 +70,8 @@ def simulate_file(
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"a folder that can be written ({error.strerror})", key="--out", value=folder) from None
+    for name in TABLES:
+        spare_sources(case, folder / f"{name}.csv" if csv else None, "--out")
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),

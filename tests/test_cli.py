@@ -162,6 +162,17 @@ def test_a_disk_that_is_full_costs_the_file_and_not_the_answer(
     assert "32 segments" in captured.out
 
 
+def test_results_never_take_the_place_of_the_survey(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    survey = tmp_path / "history.csv"
+    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n1000,0,0\n")
+    read = ("--set", "wellbore.stations=", "--set", f"wellbore.survey={survey}")
+    assert run(monkeypatch, "simulate", case_file, *read, "--out", tmp_path, "--csv", "--quiet") == 2
+    assert f'--out = "{survey}": expected another file than the case and its survey' in capsys.readouterr().err
+    assert "1000,0,0" in survey.read_text()
+
+
 def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def stopped(case: object, **more: object) -> object:
         raise KeyboardInterrupt
