@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from benchmarks.measure import ROOT
+from benchmarks import measure
 from benchmarks.subjects import subjects
 
 PROCESSOR = {"NUMBA_CPU_NAME": "haswell", "NUMBA_CPU_FEATURES": ""}
@@ -27,12 +27,12 @@ def available() -> bool:
     return all(shutil.which(tool) for tool in ("valgrind", "callgrind_control"))
 
 
-def count(root: Path = ROOT) -> dict[str, float]:
+def count(root: Path = measure.ROOT) -> dict[str, float]:
     """Instructions per unit of every subject; raises subprocess.CalledProcessError where valgrind fails.
 
     Each subject runs once and then twice; the difference is one call, without what a call from Python costs.
     """
-    environment = {**os.environ, **PROCESSOR, "PYTHONPATH": str(root), "PYTHONHASHSEED": "0"}
+    environment = {**measure.environment(root), **PROCESSOR, "PYTHONHASHSEED": "0"}
     program = [sys.executable, "-m", "benchmarks.instructions"]
     # At full speed first: it fills the compile cache for this processor.
     subprocess.run(program, cwd=root, env=environment, check=True, capture_output=True)

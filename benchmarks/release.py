@@ -1,13 +1,12 @@
 """The sources of a release, taken out of the checkout's own history so that they can be raced against today's."""
 
 import io
-import os
 import subprocess
 import tarfile
 from pathlib import Path
 
 from benchmarks.history import Record, sources_of
-from benchmarks.measure import ROOT
+from benchmarks.measure import ROOT, cache
 
 # What a worker needs of a release.
 FOLDERS = ("fctd", "references", "benchmarks", "validation/cases")
@@ -36,7 +35,7 @@ def check_out(record: Record, file: Path, root: Path = ROOT) -> Path:
         except NoSourcesError:
             continue
         try:
-            folder = _cache() / f"release-{record.sources}-{record.reference}"
+            folder = cache() / f"release-{record.sources}-{record.reference}"
             with tarfile.open(fileobj=io.BytesIO(archive)) as tar:
                 tar.extractall(folder, filter="data")
         except (OSError, RuntimeError) as error:  # RuntimeError: there is no home
@@ -46,10 +45,6 @@ def check_out(record: Record, file: Path, root: Path = ROOT) -> Path:
     raise NoSourcesError(
         f"this {'shallow clone' if shallow else 'checkout'} does not hold commit {record.commit or '(unknown)'}"
     )
-
-
-def _cache() -> Path:
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fctd"
 
 
 def _git(root: Path, *arguments: str) -> bytes:

@@ -68,6 +68,22 @@ def test_two_releases_take_turns_in_pairs_of_processes(tmp_path: Path) -> None:
     assert costs["x"] == [60.0, 60.0]
 
 
+def test_sources_are_compiled_into_a_cache_of_their_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not into the one that tests and studies have filled in whatever order."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "of tests"))
+    folders = set()
+    for text in ("1", "2"):
+        (tmp_path / text / "fctd").mkdir(parents=True)
+        (tmp_path / text / "fctd" / "joints.py").write_text(text)
+        folders.add(measure.environment(tmp_path / text)["NUMBA_CACHE_DIR"])
+    assert len(folders) == 2
+    assert {Path(folder).parent for folder in folders} == {tmp_path / "fctd"}
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    monkeypatch.setattr(Path, "home", lambda: (_ for _ in ()).throw(RuntimeError("no home")))
+    assert measure.environment(tmp_path)["NUMBA_CACHE_DIR"] == str(tmp_path / "of tests")
+
+
 def test_a_worker_that_fails_or_measures_otherwise_is_told(tmp_path: Path) -> None:
     for name, changes in {"old": {"protocol": 0}, "other": {"reference": "another"}}.items():
         with pytest.raises(InputError, match="same reference kernel and protocol"):
