@@ -11,6 +11,7 @@ from fctd.run import prepare
 from fctd.wellbore import build_wellbore
 from references import base
 from validation.cases import load, rotation, trip
+from validation.long_segment import chain_frequencies
 
 
 def well_b(start: float = 1750.0, end: float = 2450.0, speed: float = 0.5, **changes: Any) -> Case:
@@ -53,6 +54,13 @@ def test_ringing_is_expected_where_a_harmonic_meets_the_string() -> None:
     # Pulled out, the string meets the same joints.
     out = ringing(well_b(2450.0, 1750.0)).largest()
     assert 0.5 * swing < out[0] < 2 * swing
+
+
+def test_frequencies_are_those_of_the_chain_at_that_depth() -> None:
+    expected = ringing(well_b(2000.0, 2100.0))
+    for at in (0, -1):
+        chain, _ = chain_frequencies(load("paper_well_b", operations=rotation(expected.bit_depth[at], 10.0, 1.0)))
+        assert expected.frequency[at] == pytest.approx(chain[: expected.frequency.shape[1]], rel=1e-6)
 
 
 def test_ringing_is_expected_of_cylinders_in_motion_alone() -> None:
