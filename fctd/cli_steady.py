@@ -27,7 +27,7 @@ from fctd.cli_options import (
     screen,
     spare_sources,
 )
-from fctd.equilibrium import Equilibrium, Solver, equilibrium
+from fctd.equilibrium import SOUND, Equilibrium, Solver, equilibrium
 from fctd.errors import InputError
 from fctd.operations import rates_of_all
 from fctd.results import versions, write_table
@@ -35,8 +35,6 @@ from fctd.torque_drag import torque_drag, with_friction
 from fctd.unit_systems import System, in_field_units, shown
 from fctd.units import LENGTH, SPEED
 
-# A string that is locked up is an answer; nobody drills with one that would leave its balance.
-SOUND = ("converged", "locked_up")
 TABLES, PICTURES = (".csv", ".parquet"), (".png", ".svg")
 MOST_DEPTHS = 10_000  # more is a slip in the step
 SCREEN_ROWS = 36

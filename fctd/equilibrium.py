@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 
 # Statuses whose numbers are those of a balance.
 ANSWERED = ("converged", "locked_up", "unstable")
+# Of these, a string that is locked up is an answer; nobody drills with one that would leave its balance.
+SOUND = ("converged", "locked_up")
 # What is left out of balance at a body, over the weight of the string.
 TOLERANCE = 1e-7
 # Imperfection of a first guess, so that a straight string may buckle [m].

@@ -12,16 +12,16 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, Final, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import layouts, survey
-from fctd.case import Case, check_bit_depth
+from fctd.case import Case, check_bit_depth, naming_file
 from fctd.drillstring import lay_out
-from fctd.equilibrium import Equilibrium, Solver
+from fctd.equilibrium import SOUND, Equilibrium, Solver
 from fctd.errors import InputError
 from fctd.operations import SteadyRates, rates_of_all
 from fctd.state import MAX_SEGMENTS
@@ -31,7 +31,6 @@ Array = NDArray[np.float64]
 Progress = Callable[[str], None]
 
 # A string in its balance, or one that cannot be pushed: the others' loads are nobody's.
-SOUND: Final = ("converged", "locked_up")
 # Segments of a first string, and of the one in which the hole is refined.
 FIRST, IN_HOLE = 16, (128, 512)
 # Cylinders are halved so many times at most.
@@ -95,7 +94,7 @@ def refine(
     of (the string's weight, Σ r μ F_n) where that is more; torque of a string that does not turn counts against all
     of Σ r μ F_n.  Raises InputError for input that cannot be used.
     """
-    try:
+    with naming_file(case):
         kinds = _kinds(case, operation)
         depth = _depth(case, kinds[0], bit_depth)
         _check(case, tolerance, most, depth)
@@ -111,8 +110,6 @@ def refine(
         fewer = task._replace(most=int(WORTH * found.segments)) if found.status == "within_tolerance" else task
         strings = _refine_string(held, fewer, "graded", tolerance - error_of_hole)
         return _better(found, _result(case, task, tolerance, error_of_hole, holes, strings))
-    except InputError as error:
-        raise (error if case.file is None else error.in_file(case.file)) from None
 
 
 class _Task(NamedTuple):

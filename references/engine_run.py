@@ -1,6 +1,7 @@
 """The one way in which every string engine is run: the same start, the same recorder, the same checks."""
 
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 
 import numpy as np
@@ -93,12 +94,12 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     )  # fmt: skip
 
 
-class InWindows:
+class InWindows(ABC):
     """What all engines share: they are run by ``run_window``."""
 
+    @abstractmethod
     def begin(self, run: Run) -> Stepper:
         """See ``StringEngine.begin``."""
-        raise NotImplementedError
 
     def run(self, case: Case, window: Window) -> EngineRun:
         """See ``StringEngine.run``."""

@@ -14,6 +14,7 @@ from fctd import simulate, torque_drag
 from fctd.ringing import Ringing, expected_ringing
 from fctd.run import prepare
 from validation.cases import load, trip
+from validation.steady import completed
 from validation.study import Check, Context, Outcome, Study
 
 Array = NDArray[np.float64]
@@ -87,9 +88,7 @@ def one(name: str, speed: float, changes: dict[str, Any]) -> tuple[dict[str, Any
     operations = trip(1750.0, 2450.0, speed, 10.0)
     law = {"contact__friction_law": "paper", "record__interval": RECORD}
     case = load("paper_well_b", operations=operations, **law | changes)
-    result = simulate(case)
-    if result.status != "completed":
-        raise RuntimeError(f"{name}: {result.status}, {result.message}")
+    result = completed(simulate(case))
     expected = expected_ringing(*prepare(case))
     history = result.history[["bit_depth_m", "hookload_N"]]
     about = swing(history["hookload_N"].to_numpy() / 1e3, RECORD)
@@ -197,5 +196,4 @@ STUDY = Study(
     "cylinder_ringing",
     "Why does the hook load swing while a string slides through a bend of cylinders?",
     run,
-    reproduce=True,
 )
