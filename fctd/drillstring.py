@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 # this long [m].
 LONG_SEGMENT_TILT = np.radians(1.0)
 SHORTEST_LONG_SEGMENT = 10.0
+# A layout is the string it stands for when no length is off by more [m].
+SAME_LENGTH = 1e-6
 
 
 class Section(NamedTuple):
@@ -83,25 +85,33 @@ def section_of(component: ComponentSpec, mud_density: float) -> Section:
 class String:
     """A laid-out string, arrays from the top segment to the bit, shape (n,).
 
-    length [m]; component : index into ``sections`` and the case's components; long_segment : whether the
-    top segment is the paper's long one, whose length may change while the string moves.
+    bit_depth : unstretched length below the rotary table [m]; length [m]; component : index into ``sections`` and
+    the case's components; long_segment : whether the top segment is the paper's long one, whose length may change
+    while the string moves.  Raises AssertionError where these do not agree, which is a defect of the program.
     """
 
     top_md: float
+    bit_depth: float
     length: Array
     component: NDArray[np.int64]
     sections: tuple[Section, ...]
     long_segment: bool
 
+    def __post_init__(self) -> None:
+        off = self.top_md + float(self.length.sum()) - self.bit_depth
+        if not abs(off) <= SAME_LENGTH:
+            raise AssertionError(f"the segments end {off:g} m below the bit depth, {self.bit_depth:g} m")
+        if self.length.min() <= 0:
+            raise AssertionError(f"a segment of {self.length.min():g} m")
+        # From the top down each component follows the one above it in the list, and none is left out.
+        steps = np.diff(self.component, prepend=len(self.sections), append=-1)
+        if len(self.component) != len(self.length) or not ((steps == 0) | (steps == -1)).all():
+            raise AssertionError("the segments do not follow the order of the components")
+
     @property
     def segments(self) -> int:
         """Number of segments."""
         return len(self.length)
-
-    @property
-    def bit_depth(self) -> float:
-        """Unstretched length below the rotary table [m]."""
-        return self.top_md + float(self.length.sum())
 
     def of(self, name: str) -> Array:
         """A section property of every segment, shape (n,), in the unit that `Section` gives."""
@@ -109,7 +119,8 @@ class String:
 
     def lengthened(self, by: float) -> "String":
         """The same string with ``by`` [m] more in its top segment."""
-        return replace(self, length=np.concatenate([self.length[:1] + by, self.length[1:]]))
+        longer = np.concatenate([self.length[:1] + by, self.length[1:]])
+        return replace(self, bit_depth=self.bit_depth + by, length=longer)
 
     def _short(self) -> NDArray[np.bool_]:
         """Components of one segment that is shorter than its neighbours: a stabiliser, a bit."""
@@ -165,11 +176,13 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         )
     lengths: list[float] = []
     owner: list[int] = []
+    taken: list[float] = []
     for k, part in enumerate(components):
         take = remaining if part.length is None else min(part.length, remaining)
         pieces = _divide(part, take)
         lengths += pieces
         owner += [k] * len(pieces)
+        taken.append(take)
         remaining -= take
         if remaining <= 1e-9:
             break
@@ -181,7 +194,8 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         )
     single = components[owner[-1]].length is None and components[owner[-1]].segments == 1
     while fed and not single and lengths[-1] < SHORTEST_LONG_SEGMENT and owner[-2:] == owner[-1:] * 2:
-        lengths[-2] += lengths.pop()
+        top = lengths.pop()  # before the line below indexes the list: `a[-2] += a.pop()` reads one item, writes another
+        lengths[-1] += top
         owner.pop()
     long_segment = fed or single
     if long_segment and lengths[-1] < SHORTEST_LONG_SEGMENT - 1e-9:
@@ -192,15 +206,19 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         )
     if fed and deepest is not None:
         _check_feed(case, owner[-1], deepest)
-    used = components[: max(owner) + 1]
     state.check_segments(len(lengths))
-    return String(
+    string = String(
         top_md=case.string.top_md,
+        bit_depth=bit_depth,
         length=np.array(lengths[::-1]),
         component=np.array(owner[::-1], dtype=np.int64),
-        sections=tuple(section_of(c, case.mud.density) for c in used),
+        sections=tuple(section_of(c, case.mud.density) for c in components[: len(taken)]),
         long_segment=long_segment,
     )
+    # Mass and weight are those of the case's components when each of them has its own metres.
+    if np.abs(np.bincount(string.component, string.length) - taken).max() > SAME_LENGTH:
+        raise AssertionError(f"the segments of a component are not as long as what of it is in the hole, {taken} m")
+    return string
 
 
 def _check_feed(case: Case, top: int, deepest: float) -> None:

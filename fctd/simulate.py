@@ -8,6 +8,7 @@ import numpy as np
 
 from fctd import topdrive
 from fctd.case import Case
+from fctd.drillstring import SAME_LENGTH
 from fctd.faults import UnstableError
 from fctd.operations import Stretch
 from fctd.record import Recorder
@@ -53,6 +54,7 @@ def simulate(case: Case, progress: Progress | None = None, *, contact: WallQuery
                 if progress is not None:
                     now = run.top[topdrive.TOP_TIME]
                     progress(now, total, now / max(time.perf_counter() - began, 1e-9))
+        _check_fed(run, stretches)
     except UnstableError as error:
         status, message = "unstable", f"at {run.top[topdrive.TOP_TIME]:.4g} s: {error}"
     except KeyboardInterrupt:
@@ -60,6 +62,19 @@ def simulate(case: Case, progress: Progress | None = None, *, contact: WallQuery
     wall = time.perf_counter() - began
     result = recorder.result(status, message, wall, residual)
     return replace(result, message="; ".join(_doubts(result, run, stretches))) if status == "completed" else result
+
+
+def _check_fed(run: Run, stretches: list[Stretch]) -> None:
+    """Raise AssertionError when the string of a finished run is not as long as its bit should be deep."""
+    end = run.case.operations[-1].end_md
+    length = float(run.top[topdrive.TOP_LENGTH])
+    fed = length - float(run.string.length[0]) if run.string.long_segment else 0.0
+    # A step feeds by the speed in its middle, exact but for h²/24 times the change of the ramp's slope, at most
+    # 3 Δv/T, and rounds the length.
+    allowed = SAME_LENGTH + run.steps * float(np.spacing(length))
+    allowed += sum(run.step**2 * abs(m.feed_to - m.feed_from) / (8 * m.duration) for m, _ in stretches)
+    if not abs(run.string.bit_depth + fed - end) <= allowed:
+        raise AssertionError(f"the fed string ends at {run.string.bit_depth + fed:.6f} m, the schedule at {end:.6f} m")
 
 
 def _doubts(result: SimulationResult, run: Run, stretches: list[Stretch]) -> list[str]:

@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 
 # The first and last piece reach this far beyond surface and total depth [m].
 RUN_OUT = 10.0
+# The pieces of a hole cover its axis when their lengths add up to this [m].
+SAME_LENGTH = 1e-6
 # Straight hole needs no short cylinders, but neighbours in the table should stay neighbours in space [m].
 LONGEST_CYLINDER = 30.0
 # More would not fit into memory, or take longer to lay out than to run.
@@ -43,6 +45,7 @@ class Wellbore:
 
     pieces : (m, COLUMNS) table of contact.py; geometry : CYLINDERS or ARCS.
     md (k,) [m], points (k, 3) [m], directions (k, 3): axis sampled at the ends of the pieces.
+    Raises AssertionError for pieces that do not cover the axis.
     """
 
     pieces: Array
@@ -53,6 +56,18 @@ class Wellbore:
     intervals: Array = field(repr=False)  # (k, 4) to_md, radius [m], stiffness, friction
     shoe: float  # length over which the hole leads from one interval to the next [m]
     courses: survey.Courses | None = None
+
+    def __post_init__(self) -> None:
+        # Pieces that leave a gap or end early would be a wrong hole without a word: a defect of the program.
+        chords = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
+        if not (chords <= np.diff(self.md) + SAME_LENGTH).all():
+            raise AssertionError("the axis of the hole is longer than its measured depth")
+        along, shared = self.total_depth, 0.0
+        if self.geometry == CYLINDERS:
+            along, shared = float(chords.sum()), float(self.pieces[:, contact.OVERLAP].sum())
+        covered = float(self.pieces[:, contact.LENGTH].sum()) - shared - 2 * RUN_OUT
+        if not abs(covered - along) <= SAME_LENGTH:
+            raise AssertionError(f"the pieces of the hole cover {covered:.6f} m of an axis of {along:.6f} m")
 
     @property
     def stiffest_wall(self) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fctd import state
-from fctd.drillstring import lay_out, section_of, shear_coefficient
+from fctd.drillstring import SHORTEST_LONG_SEGMENT, lay_out, section_of, shear_coefficient
 from fctd.errors import InputError
 from fctd.run import prepare
 from fctd.state import MAX_SEGMENTS
@@ -202,3 +202,26 @@ def test_section_by_hand() -> None:
     assert pytest.approx(206.8e9 / 2.6 * np.pi * (b**4 - a**4) / 2) == section.GJ
     assert section.axial_inertia == pytest.approx(7850 * np.pi * (b**4 - a**4) / 2)
     assert section.weight == pytest.approx(7850 * 8.819236e-3 * 9.80665, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("components", "operation"),
+    [
+        ([pipe(None, None, segment_length=9.0)], trip(100, 102)),
+        ([pipe(200, 20, outer=0.159), pipe(4000, None, segment_length=12.0)], trip(267, 300)),
+        ([pipe(200, 20, outer=0.159), pipe(None, None, segment_length=4.0)], trip(300, 213)),
+        ([pipe(4006, None, segment_length=13.0)], trip(20, 30)),
+    ],
+)
+def test_a_short_top_segment_joins_the_one_below_it(components: list, operation: dict) -> None:
+    """A fed segment is at least 10 m long, whatever it takes of its component; the string keeps its length."""
+    case = make_case(components=components, operations=[operation])
+    shallowest = min(operation["from_md"], operation["to_md"])
+    plain, run = lay_out(case, shallowest), prepare(case)[0]
+    fed = lay_out(case, shallowest, 1000.0)
+    joined = plain.segments - fed.segments + 1
+    assert joined > 1
+    np.testing.assert_allclose(fed.length, [plain.length[:joined].sum(), *plain.length[joined:]])
+    assert plain.length[: joined - 1].sum() < SHORTEST_LONG_SEGMENT <= fed.length[0]
+    assert run.string.bit_depth == pytest.approx(operation["from_md"], abs=1e-6)
+    assert run.string.length.sum() == pytest.approx(operation["from_md"], abs=1e-6)
