@@ -193,7 +193,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
             value=f"{sum(c.length or 0 for c in components):g} m of string",
         )
     single = components[owner[-1]].length is None and components[owner[-1]].segments == 1
-    while fed and not single and lengths[-1] < SHORTEST_LONG_SEGMENT and owner[-2:] == owner[-1:] * 2:
+    while fed and lengths[-1] < SHORTEST_LONG_SEGMENT and owner[-2:] == owner[-1:] * 2:
         top = lengths.pop()  # before the line below indexes the list: `a[-2] += a.pop()` reads one item, writes another
         lengths[-1] += top
         owner.pop()

@@ -1,9 +1,12 @@
 """Laying out a string, its stiffness and what does not fit."""
 
+import re
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from fctd import state
+from fctd import drillstring, state
 from fctd.drillstring import SHORTEST_LONG_SEGMENT, lay_out, section_of, shear_coefficient
 from fctd.errors import InputError
 from fctd.run import prepare
@@ -17,6 +20,11 @@ def test_shear_coefficient_limits() -> None:
         solid = 6 * (1 + nu) ** 2 / (7 + 12 * nu + 4 * nu**2)
         assert shear_coefficient(1.0, 0.0, nu) == pytest.approx(solid, rel=1e-12)
         assert shear_coefficient(1.0, 1.0 - 1e-9, nu) == pytest.approx((1 + nu) / (2 + nu), rel=1e-7)
+
+
+def test_shear_coefficient_between_its_limits() -> None:
+    """A bore of half the diameter, ν = 0.3, by hand: 15.84375/24.105."""
+    assert shear_coefficient(2.0, 1.0, 0.3) == pytest.approx(15.84375 / 24.105, rel=1e-12)
 
 
 def test_buoyancy_lowers_weight_and_not_mass() -> None:
@@ -134,6 +142,43 @@ def test_tributary_length_for_stiffness_per_metre() -> None:
 def test_what_does_not_fit_is_refused(case: dict, pattern: str) -> None:
     with pytest.raises(InputError, match=pattern):
         prepare(make_case(operations=[rotation(1000, 1)], **case))
+
+
+def test_a_bit_at_the_top_of_the_string_is_refused() -> None:
+    for depth in (100.0, 90.0):
+        with pytest.raises(InputError, match=rf"string\.top_md.*100 m.*less than the bit depth, {depth:g} m"):
+            lay_out(make_case(top_md=100.0), depth)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"bit_depth": 1000.1}, "end -0.1 m below the bit depth, 1000.1 m"),
+        ({"top_md": 1e-5}, "end 1e-05 m below the bit depth, 1000 m"),
+        ({"length": np.full(3, np.nan)}, "end nan m below"),
+        ({"length": np.array([1100.0, -200.0, 100.0])}, "a segment of -200 m"),
+        ({"component": np.array([1, 0])}, "order of the components"),
+        ({"component": np.array([0, 1, 0])}, "order of the components"),
+        ({"component": np.array([1, 1, 1])}, "order of the components"),
+        ({"component": np.array([0, 0, 0])}, "order of the components"),
+    ],
+)
+def test_a_layout_that_is_not_its_string_is_a_defect(change: dict, message: str) -> None:
+    case = make_case(components=[pipe(400, 2, outer=0.159), pipe(None, 1)])
+    string = lay_out(case, 1000.0)
+    with pytest.raises(AssertionError, match=re.escape(message)):
+        replace(string, **change)
+    assert string.lengthened(2e-7 - 1.0).bit_depth == pytest.approx(999.0)
+
+
+def test_metres_of_the_wrong_component_are_a_defect(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A string of the right length may still be made of the wrong pipe."""
+    whole = drillstring._divide
+    wrong = {400.0: 401.0, 600.0: 599.0}
+    monkeypatch.setattr(drillstring, "_divide", lambda part, take: whole(part, wrong[take]))
+    case = make_case(components=[pipe(400, None, outer=0.159, segment_length=10.0), pipe(None, 1)])
+    with pytest.raises(AssertionError, match=r"a component are not as long.*\[400\.0, 600\.0\] m"):
+        lay_out(case, 1000.0)
 
 
 def test_a_fed_top_segment_must_stay_in_vertical_hole() -> None:

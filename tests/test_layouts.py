@@ -10,7 +10,19 @@ from hypothesis import strategies as st
 
 from fctd import Case
 from fctd.drillstring import lay_out
-from fctd.layouts import LONGEST, coarseness, graded, segments_in_hole, uniform, with_components
+from fctd.layouts import (
+    LONGEST,
+    _grade,
+    _least,
+    _walk,
+    _wave,
+    coarseness,
+    graded,
+    segments_in_hole,
+    uniform,
+    with_components,
+)
+from fctd.specs import ComponentSpec
 from tests.cases import make_case, pipe
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [2000, 60, 0]]
@@ -127,3 +139,102 @@ def test_a_short_sharp_course_makes_no_stabiliser() -> None:
     for length in range(20, 120):
         string = lay_out(with_components(case, graded(case, 1400.0, float(length))), 1400.0)
         assert not string.mid_contact().any()
+
+
+ABOVE = np.linspace(0.0, 1000.0, 4001)
+
+
+@pytest.mark.parametrize(
+    ("end", "beyond", "runs"),
+    [
+        # Equal segments; what is left over at the top is one of them from half a segment on, else joins the last.
+        (105.0, 1.0, [(105.0, 11)]),
+        (104.9, 1.0, [(104.9, 10)]),
+        (3.0, 1.0, [(3.0, 1)]),
+        # Lengths double while the factor allows them all along the segment.
+        (500.0, 8.0, [(100.0, 10), (400.0, 5)]),
+        (500.0, 80.0, [(100.0, 10), (400.0, 5)]),
+        (480.0, 8.0, [(100.0, 10), (380.0, 5)]),
+        (455.0, 8.0, [(100.0, 10), (355.0, 4)]),
+        (130.0, 8.0, [(100.0, 10), (30.0, 1)]),
+        (500.0, 4.0, [(100.0, 10), (400.0, 10)]),
+        (500.0, 3.9, [(100.0, 10), (400.0, 20)]),
+        (500.0, 1.99, [(500.0, 50)]),
+        (500.0, 2.0, [(100.0, 10), (400.0, 20)]),
+    ],
+)
+def test_runs_of_equal_segments_by_hand(end: float, beyond: float, runs: list[tuple[float, int]]) -> None:
+    """Segments of 10 m below 100 m above the bit, ``beyond`` times as long above it."""
+    assert _walk(0.0, end, 10.0, ABOVE, np.where(ABOVE < 100.0, 1.0, beyond)) == runs
+
+
+def test_a_walk_begins_where_the_component_does() -> None:
+    factor = np.where(ABOVE < 100.0, 1.0, 2.0)
+    assert _walk(80.0, 160.0, 10.0, ABOVE, factor) == [(20.0, 2), (60.0, 3)]
+    assert _walk(995.0, 1030.0, 10.0, ABOVE, factor) == [(35.0, 2)]
+
+
+def test_the_least_factor_counts_both_ends() -> None:
+    above, factor = np.arange(5.0), np.array([5.0, 4.0, 3.0, 2.0, 1.0])
+    assert _least(0.5, 2.5, above, factor) == 2.0
+    assert _least(1.0, 2.0, above, factor) == 3.0
+    assert _least(1.0, 2.0, above, factor[::-1].copy()) == 2.0
+    assert _least(9.0, 10.0, above, factor) == 1.0
+
+
+def test_waves_are_those_of_each_pipe_in_its_hole() -> None:
+    """2π (EI r/w)^¼ by hand: collars at the bit, pipe above them, in open hole and in casing."""
+    intervals = [
+        {"to_md": 500, "diameter": 0.32, "friction": 0.1},
+        {"to_md": 900, "diameter": 0.2159, "friction": 0.2},
+    ]
+    case = make_case(
+        BUILD, [pipe(200, 20, outer=0.159), pipe(None, None, segment_length=10.0)], wellbore={"intervals": intervals}
+    )
+    above_bit = np.array([0.0, 199.0, 201.0, 750.0])
+    found = _wave(case, 1000.0 - above_bit, above_bit)
+
+    def wave(outer: float, hole: float) -> float:
+        area, second = math.pi / 4 * (outer**2 - 0.07**2), math.pi / 64 * (outer**4 - 0.07**4)
+        return 2 * math.pi * (206.8e9 * second * 0.5 * (hole - outer) / (area * 7850 * 9.80665)) ** 0.25
+
+    expected = [wave(0.159, 0.2159), wave(0.159, 0.2159), wave(0.127, 0.2159), wave(0.127, 0.32)]
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+    # A pipe that fills its hole has a wave of a millimetre's play.
+    tight = make_case(BUILD, [pipe(None, None, segment_length=10.0, contact_diameter=0.2159)])
+    ratio = _wave(tight, np.array([500.0]), np.array([0.0]))[0] / wave(0.127, 0.2159)
+    assert ratio == pytest.approx((1e-3 / (0.5 * (0.2159 - 0.127))) ** 0.25)
+
+
+@pytest.mark.parametrize(("bit", "count"), [(1000.0, 10 + 1 + 36), (50.0, 5), (102.0, 10 + 1), (103.0, 10 + 1 + 1)])
+def test_how_many_segments_by_hand(bit: float, count: int) -> None:
+    """100 m in tens, a stabiliser, and pipe of 25 m; whatever is in the hole of a component is a segment at least."""
+    components = [pipe(100, 10), pipe(2, 1, outer=0.2), pipe(None, None, segment_length=25.0)]
+    assert segments_in_hole(make_case(components=components), bit) == count
+    assert segments_in_hole(make_case(components=components, top_md=20.0), bit + 20.0) == count
+    assert segments_in_hole(make_case(components=[pipe(None, 8)]), bit) == 8
+
+
+def test_a_component_is_cut_by_hand() -> None:
+    components = [pipe(100, 10), pipe(8, 3), pipe(None, None, segment_length=25.0)]
+    parts = uniform(make_case(components=components), 1000.0, 23.0)
+    assert [(part.length, part.segments, part.segment_length) for part in parts] == [
+        (100.0, 4, None), (8.0, 1, None), (None, None, 23.0),
+    ]  # fmt: skip
+
+
+def test_a_component_is_graded_by_hand() -> None:
+    """The piece at the top has what the component has: the rest of its length, or none."""
+    bent = {"bend": 0.02, "toolface": 0.3}
+    case = make_case(components=[pipe(100, 10, **bent), pipe(None, None, segment_length=25.0)])
+    whole, endless = case.string.components
+
+    def graded_as(part: ComponentSpec, runs: list[tuple[float, int]]) -> list[tuple[object, ...]]:
+        return [(p.length, p.segments, p.segment_length, p.bend, p.toolface) for p in _grade(part, runs)]
+
+    assert graded_as(whole, [(100.0, 4)]) == [(100.0, 4, None, 0.02, 0.3)]
+    assert graded_as(whole, [(40.0, 1), (60.0, 3)]) == [(40.0, 2, None, 0.0, 0.3), (60.0, 3, None, 0.02, 0.3)]
+    # More of it than is in the hole: cut as below, by length.
+    assert graded_as(whole, [(40.0, 4), (30.0, 1)]) == [(40.0, 4, None, 0.0, 0.3), (60.0, None, 15.0, 0.02, 0.3)]
+    assert graded_as(whole, [(40.0, 4), (59.995, 3)])[1] == (60.0, 3, None, 0.02, 0.3)
+    assert graded_as(endless, [(40.0, 4), (30.0, 2)]) == [(40.0, 4, None, 0.0, 0.0), (None, None, 15.0, 0.0, 0.0)]

@@ -1,5 +1,7 @@
 """The hole: exact arcs, cylinders that converge to them, overlap without gaps, owners and queries."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -204,6 +206,84 @@ def test_the_hole_runs_on_beyond_both_ends(geometry: str) -> None:
     hits = find_contacts(hole, np.array([first, last]), 0.02)
     np.testing.assert_allclose(hits.penetration, 0.02 - 0.10795, atol=1e-9)
     np.testing.assert_allclose(hits.md, [-5, 805], atol=1e-6)
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+def test_the_hole_runs_on_straight_from_bent_ends(geometry: str) -> None:
+    """Beyond surface and total depth there is no more bend: 9 m of it would be 70 mm off."""
+    hole = hole_of([[0, 10, 30], [300, 40, 30], [600, 40, 120]], geometry=geometry, chord_tolerance=1e-5, overlap=0.05)
+    beyond = np.array([-9.0, -2.0, 2.0, 9.0])
+    ends = hole.at(np.array([0.0, 0.0, 600.0, 600.0]))[0]
+    tangent = survey.tangents(np.radians([[0, 10, 30], [0, 10, 30], [0, 40, 120], [0, 40, 120]]))
+    hits = find_contacts(hole, ends + beyond[:, None] * tangent, 0.02)
+    slack = 1e-9 if geometry == "arcs" else 3e-3  # a cylinder's axis leads off by half of its own turn
+    np.testing.assert_allclose(hits.penetration, 0.02 - 0.10795, atol=slack)
+    np.testing.assert_allclose(hits.md, beyond + np.array([0, 0, 600, 600]), atol=1e-3)
+
+
+def test_the_axis_within_the_first_and_the_last_cylinder() -> None:
+    hole = hole_of([[0, 0, 0], [100, 60, 0]], cylinder_length=10.0)
+    points, directions = hole.at(np.array([0.0, 5.0, 95.0, 100.0]))
+    np.testing.assert_allclose(points[[0, 3]], hole.points[[0, -1]], atol=1e-2)
+    for k, i in ((1, 0), (2, -2)):
+        chord = hole.points[i + 1] - hole.points[i]
+        np.testing.assert_allclose(directions[k], chord / np.linalg.norm(chord), atol=1e-12)
+        np.testing.assert_allclose(points[k], hole.points[i] + 5.0 * directions[k], atol=1e-9)
+
+
+def test_the_pieces_of_cylinders_overlap_but_at_the_end() -> None:
+    hole = hole_of([[0, 0, 0], [40, 0, 0], [40.1, 0, 0], [60, 0, 0]], cylinder_length=10.0, overlap=0.2)
+    overlap, length = hole.pieces[:, contact.OVERLAP], hole.pieces[:, contact.LENGTH]
+    # No further than half of the next one, which is 100 mm long after 40 m; nothing follows the last.
+    np.testing.assert_allclose(overlap, [0.2, 0.2, 0.2, 0.05, 0.2, 0.2, 0.0])
+    np.testing.assert_allclose(length, [20.2, 10.2, 10.2, 10.05, 0.3, 10.15, 19.95])
+    np.testing.assert_allclose(hole.pieces[:, contact.START_MD], [-10, 10, 20, 30, 40, 40.1, 50.05])
+    np.testing.assert_allclose(hole.pieces[:, contact.ALONE_TO], [*(length - overlap)[:-1], np.inf])
+    np.testing.assert_allclose(hole.pieces[:, contact.ALONE_FROM], [-np.inf, *overlap[:-1]], atol=1e-9)
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+def test_below_the_last_interval_the_hole_stays_as_it_is(geometry: str) -> None:
+    intervals = [
+        {"to_md": 300, "diameter": 0.32, "friction": 0.1},
+        {"to_md": 500, "diameter": 0.2159, "friction": 0.3, "stiffness": 5e6},
+    ]
+    hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry=geometry)
+    walls = hole.walls(hole.at(np.array([200.0, 499.0, 501.0, 999.0]))[0])
+    np.testing.assert_allclose(walls[:, 3:6], [[0.16, 1e7, 0.1], *[[0.10795, 5e6, 0.3]] * 3])
+
+
+def test_the_wall_along_the_hole_by_hand() -> None:
+    """A row at each interval's end and one at the end of the shoe that leads into the next."""
+    intervals = [
+        {"to_md": 500, "diameter": 0.32, "friction": 0.1, "stiffness": 2e7},
+        {"to_md": 500.1, "diameter": 0.3, "friction": 0.2},
+        {"to_md": 1000, "diameter": 0.22, "friction": 0.3},
+    ]
+    hole = hole_of([[0, 0, 0], [1000, 0, 0]], intervals=intervals, overlap=0.2)
+    expected = [
+        [500, 0.16, 2e7, 0.1],
+        [500.1, 0.15, 1e7, 0.2],  # the second interval is shorter than its shoe
+        [500.1, 0.15, 1e7, 0.2],
+        [500.3, 0.11, 1e7, 0.3],
+    ]
+    np.testing.assert_allclose(hole.wall_along(), expected)
+    alone = hole_of([[0, 0, 0], [1000, 0, 0]])
+    np.testing.assert_allclose(alone.wall_along(), [[1000, 0.10795, 1e7, 0.2]])
+    alone.wall_along()[:] = 0.0
+    np.testing.assert_allclose(alone.intervals, [[1000, 0.10795, 1e7, 0.2]])
+
+
+@pytest.mark.parametrize(("length", "overlap"), [(0.999, 0.0), (1.0, 0.1), (np.nan, 0.0)])
+def test_pieces_that_do_not_cover_the_hole_are_a_defect(length: float, overlap: float) -> None:
+    hole = hole_of([[0, 0, 0], [100, 0, 0], [200, 30, 0]], cylinder_length=5.0)
+    pieces = hole.pieces.copy()
+    pieces[:, contact.LENGTH] *= length
+    pieces[:, contact.OVERLAP] += overlap
+    with pytest.raises(AssertionError, match=r"the pieces of the hole cover (19|nan).* m of an axis of 199\.99"):
+        replace(hole, pieces=pieces)
+    with pytest.raises(AssertionError, match="the axis of the hole is longer than its measured depth"):
+        replace(hole, md=0.999 * hole.md)
 
 
 def test_contact_angle_convention() -> None:

@@ -1,0 +1,83 @@
+"""The schedule's stretches by hand, and the depths they reach."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fctd.operations import DEFAULT_RATES, MAY_TURN, MOVES, depth_range, rates_of_all, schedule, sensors
+from tests.cases import make_case, rotation, trip
+
+TURN = 2 * np.pi  # 60 rev/min [rad/s]
+
+
+@pytest.mark.parametrize(
+    ("operations", "expected"),
+    [
+        # The last operation ends in motion; one that another follows comes to rest.
+        ([trip(100, 102, 0.05, 4)], [(0, 4, 0, 0.05, 0, 0, 0), (4, 38, 0.05, 0.05, 0, 0, 0)]),
+        (
+            [trip(102, 100, 0.05, 4), rotation(100, 10, 60, 3)],
+            [
+                (0, 4, 0, -0.05, 0, 0, 0),
+                (4, 36, -0.05, -0.05, 0, 0, 0),
+                (40, 4, -0.05, 0, 0, 0, 0),
+                (44, 3, 0, 0, 0, TURN, 1),
+                (47, 7, 0, 0, TURN, TURN, 1),
+            ],
+        ),
+        # A short trip has shorter ramps and no cruise, a short rotation is all ramp.
+        ([trip(100, 100.1, 0.05, 10)], [(0, 4, 0, 0.05, 0, 0, 0)]),
+        (
+            [trip(100, 100.1, 0.05, 10), rotation(100.1, 2, 60, 5), {**trip(100.1, 100, 0.1, 1), "rpm": 30}],
+            [
+                (0, 2, 0, 0.05, 0, 0, 0),
+                (2, 2, 0.05, 0, 0, 0, 0),
+                (4, 2, 0, 0, 0, TURN, 1),
+                (6, 1, 0, -0.1, TURN, 0.5 * TURN, 2),
+                (7, 0.5, -0.1, -0.1, 0.5 * TURN, 0.5 * TURN, 2),
+            ],
+        ),
+    ],
+    ids=["one", "two", "short", "three"],
+)
+def test_stretches_by_hand(operations: list[dict[str, Any]], expected: list[tuple[float, ...]]) -> None:
+    """Start, duration, feed from and to, spin from and to, operation."""
+    found = [(*motion, k) for motion, k in schedule(make_case(operations=operations).operations)]
+    np.testing.assert_allclose(found, expected, atol=1e-9)
+
+
+def test_depths_of_a_schedule() -> None:
+    operations = [trip(100, 110), trip(110, 70), rotation(70, 5), trip(70, 90)]
+    assert depth_range(make_case(operations=operations)) == (100, 70, 110)
+
+
+@pytest.mark.parametrize(
+    ("kind", "power"),
+    [
+        ("trip_out", 1),
+        ("back_ream", 1),
+        ("rotate_off_bottom", 0),
+        ("trip_in", -1),
+        ("drill_rotating", -1),
+        ("drill_sliding", -1),
+    ],
+)
+def test_the_dead_line_reads_more_when_hoisting(kind: str, power: int) -> None:
+    rig = {"block_weight": 2e5, "sheave_efficiency": 0.9, "torque_offset": 300.0}
+    indicator, torque = sensors(make_case(rig=rig), kind, 5e5, 1e3)
+    assert indicator == pytest.approx(7e5 * 0.9**power)
+    assert torque == 1300.0
+
+
+def test_documented_rates() -> None:
+    assert {kind: DEFAULT_RATES[kind] for kind in DEFAULT_RATES} == {
+        "trip_in": (0.3, 0.0), "trip_out": (0.3, 0.0), "rotate_off_bottom": (0.0, 60.0), "back_ream": (0.1, 60.0),
+        "drill_rotating": (0.003, 120.0), "drill_sliding": (0.003, 0.0),
+    }  # fmt: skip
+    assert set(MOVES) == set(DEFAULT_RATES) - {"rotate_off_bottom"}
+    assert set(MAY_TURN) == set(DEFAULT_RATES) - {"drill_sliding"}
+    rates = rates_of_all(make_case(), ["trip_in", "rotate_off_bottom", "back_ream"], speed=0.7, rpm=30)
+    found = {kind: (rate.speed, rate.spin) for kind, rate in rates.items()}
+    half = pytest.approx(0.5 * TURN)
+    assert found == {"trip_in": (0.7, half), "rotate_off_bottom": (0.0, half), "back_ream": (-0.7, half)}
