@@ -204,7 +204,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
             key=f"string.components[{owner[-1]}]",
             value=f"{lengths[-1]:.3g} m of it at the top",
         )
-    if fed and deepest is not None:
+    if deepest is not None:
         _check_feed(case, owner[-1], deepest)
     state.check_segments(len(lengths))
     string = String(

@@ -1,16 +1,18 @@
 """Laying out a string, its stiffness and what does not fit."""
 
 import re
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from fctd import drillstring, state
-from fctd.drillstring import SHORTEST_LONG_SEGMENT, lay_out, section_of, shear_coefficient
+from fctd.drillstring import SHORTEST_LONG_SEGMENT, check_fit, lay_out, section_of, shear_coefficient
 from fctd.errors import InputError
 from fctd.run import prepare
 from fctd.state import MAX_SEGMENTS
+from fctd.wellbore import build_wellbore
 from tests.cases import make_case, pipe, rotation, trip
 
 
@@ -142,6 +144,53 @@ def test_tributary_length_for_stiffness_per_metre() -> None:
 def test_what_does_not_fit_is_refused(case: dict, pattern: str) -> None:
     with pytest.raises(InputError, match=pattern):
         prepare(make_case(operations=[rotation(1000, 1)], **case))
+
+
+@pytest.mark.parametrize(("depth", "fits"), [(850.0, True), (900.0, True), (900.1, False), (1000.0, False)])
+def test_wide_pipe_fits_where_the_hole_is_wide(depth: float, fits: bool) -> None:
+    """400 m of pipe below 250 mm of it, in 320 mm of hole to 500 m and 215.9 mm below."""
+    intervals = [
+        {"to_md": 500, "diameter": 0.32, "friction": 0.2},
+        {"to_md": 1000, "diameter": 0.2159, "friction": 0.2},
+    ]
+    components = [pipe(400, 10), pipe(None, None, outer=0.25, segment_length=20.0)]
+    case = make_case(components=components, wellbore={"intervals": intervals})
+    hole, string = build_wellbore(case), lay_out(case, depth)
+    refused = pytest.raises(InputError, match=r"components\[1\]\.contact_diameter.*250 mm.*at most the hole's 215\.9")
+    with nullcontext() if fits else refused:
+        check_fit(case, string, hole, depth)
+    # The same depth reached by feeding.
+    fed = case.model_copy(update={"operations": make_case(operations=[trip(840, depth)]).operations})
+    with nullcontext() if fits else refused:
+        prepare(fed)
+
+
+def test_a_wide_bottom_stands_below_a_narrow_hole() -> None:
+    intervals = [{"to_md": 500, "diameter": 0.2, "friction": 0.2}, {"to_md": 1000, "diameter": 0.3, "friction": 0.2}]
+    case = make_case(components=[pipe(300, 10, outer=0.25), pipe(None, 20)], wellbore={"intervals": intervals})
+    hole = build_wellbore(case)
+    for depth in (1000.0, 800.0):
+        check_fit(case, lay_out(case, depth), hole, depth)
+    with pytest.raises(InputError, match=r"components\[0\]\.contact_diameter.*at most the hole's 200 mm"):
+        check_fit(case, lay_out(case, 799.0), hole, 799.0)
+
+
+def test_a_trip_feeds_to_the_end_of_its_component() -> None:
+    case = make_case(components=[pipe(300, 12), pipe(500, 20)], top_md=100.0)
+    assert lay_out(case, 850.0, 900.0).long_segment
+    with pytest.raises(InputError, match=r"components\[1\]\.length.*depth of 900 m.*depth of 900\.1 m"):
+        lay_out(case, 850.0, 900.1)
+
+
+def test_a_whole_component_is_cut_evenly_and_a_part_of_it_nominally() -> None:
+    case = make_case(
+        components=[pipe(100, None, outer=0.159, segment_length=30.0), pipe(None, None, segment_length=30)]
+    )
+    np.testing.assert_allclose(lay_out(case, 1000.0).length[-3:], 100 / 3)
+    np.testing.assert_allclose(lay_out(case, 1000.0).length[:-3], 30)
+    np.testing.assert_allclose(lay_out(case, 95.0).length, [35, 30, 30])
+    np.testing.assert_allclose(lay_out(case, 14.0).length, [14])
+    np.testing.assert_allclose(lay_out(case, 40.0).length, [40])
 
 
 def test_a_bit_at_the_top_of_the_string_is_refused() -> None:

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from fctd import Case, equilibrium, simulate, state, topdrive
+from fctd import Case, InputError, equilibrium, simulate, state, topdrive
 from fctd.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.layouts import graded, uniform, with_components
 from fctd.operations import depth_range, schedule
-from fctd.run import prepare
+from fctd.run import contact_points, prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]
@@ -164,3 +164,48 @@ def test_other_layouts_are_as_long_and_as_heavy(components: list[dict[str, Any]]
         assert run.string.length.sum() == pytest.approx(bit, abs=1e-6)
         assert weight_of(other, run.string) == pytest.approx(expected, rel=1e-8)
         assert weight_of(other, lay_out(other, bit)) == pytest.approx(expected, rel=1e-8)
+
+
+def test_profiles_may_be_wanted_at_both_ends_of_a_trip() -> None:
+    prepare(make_case(operations=[trip(990, 1000)], record={"profile_at": [990.0, 1000.0]}))
+    for depth in (989.9, 1000.1):
+        with pytest.raises(InputError, match=rf"record\.profile_at\[1\].*{depth:g} m.*990 to 1000 m"):
+            prepare(make_case(operations=[trip(990, 1000)], record={"profile_at": [995.0, depth]}))
+
+
+@pytest.mark.parametrize(("law", "number"), [("coulomb", state.COULOMB), ("paper", state.PAPER)])
+@pytest.mark.parametrize(("enabled", "geometry"), [(True, state.ARCS), (False, state.OPEN)])
+def test_the_laws_of_a_run_are_those_of_its_case(law: str, number: int, enabled: bool, geometry: int) -> None:
+    contact = {"friction_law": law, "damping": 123.0, "enabled": enabled}
+    case = make_case(
+        operations=[rotation(1000, 1)], wellbore={"geometry": "arcs"}, contact=contact, solver={"joint_damping": 2e-5}
+    )
+    assert prepare(case)[0].laws == state.Laws(geometry, number, 1.0, 123.0, 2e-5, 0.0)
+
+
+def test_the_step_holds_for_the_shortest_top_segment() -> None:
+    """Which way a trip goes makes no difference; where it turns back does."""
+    components = [pipe(300, 12), pipe(None, 1)]
+
+    def step(moves: list[dict[str, Any]], **solver: Any) -> float:
+        return prepare(make_case(components=components, operations=moves, solver=solver))[0].step
+
+    down, up = step([trip(312, 400)]), step([trip(400, 312)])
+    assert down == pytest.approx(up, rel=1e-12)
+    assert step([trip(400, 350)]) > 1.01 * up
+    largest = step([trip(400, 312)], step="largest")
+    assert up == pytest.approx(0.8 * largest)
+    assert step([trip(400, 312)], step=largest) == largest
+    with pytest.raises(InputError, match=r"solver\.step.*at most the stable step"):
+        step([trip(400, 312)], step=1.001 * largest)
+
+
+def test_a_run_knows_the_pieces_its_points_lie_in() -> None:
+    case = make_case(BUILD, [pipe(None, None, segment_length=20.0)], [rotation(1400, 1)])
+    run, _ = prepare(case)
+    points = contact_points(run.S, run.segments)
+    np.testing.assert_array_equal(run.owner[1:-1], run.hole.owners(points))
+    # Laid unstretched on the axis: ends of segments on it, each a segment's length from the one above.
+    np.testing.assert_allclose(np.linalg.norm(np.diff(points, axis=0), axis=1), run.string.length[1:], atol=1e-9)
+    walls = run.hole.walls(points)
+    np.testing.assert_allclose(np.linalg.norm(walls[:, :3], axis=1), 0.0, atol=5e-3)

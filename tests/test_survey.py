@@ -60,6 +60,18 @@ def test_dogleg_keeps_its_precision_at_small_angles(inclination: float, azimuth:
     assert survey.dogleg(stations)[0] == pytest.approx(expected, rel=1e-6, abs=1e-15)
 
 
+@pytest.mark.parametrize("azimuth", [0.0, 45.0, 90.0, 180.0, 270.0])
+@pytest.mark.parametrize("inclination", [0.0, 45.0, 90.0, 180.0])
+def test_a_straight_course_has_a_normal_too(inclination: float, azimuth: float) -> None:
+    stations = survey.to_radians(np.array([[0, inclination, azimuth], [100, inclination, azimuth]]))
+    courses = survey.minimum_curvature(stations)
+    assert np.linalg.norm(courses.normal[0]) == pytest.approx(1.0, abs=1e-12)
+    assert courses.normal[0] @ courses.tangent[0] == pytest.approx(0.0, abs=1e-12)
+    points, tangents = survey.along_courses(courses, np.array([-5.0, 0.0, 60.0, 100.0, 120.0]))
+    np.testing.assert_allclose(tangents, np.tile(survey.tangents(stations)[0], (5, 1)), atol=1e-12)
+    np.testing.assert_allclose(points, np.outer([-5, 0, 60, 100, 120], tangents[0]), atol=1e-10)
+
+
 def test_opposite_directions_have_no_arc() -> None:
     stations = survey.to_radians(np.array([[0, 90, 0], [100, 90, 180.0]]))
     with pytest.raises(ValueError, match="opposite directions at station 1"):

@@ -1,0 +1,155 @@
+"""What is kept of a run, from sums and losses written by hand."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from fctd import state, topdrive
+from fctd.record import Recorder, _work
+from fctd.run import forget_start, prepare
+from fctd.topdrive import Motion
+from tests.cases import make_case, pipe, trip
+
+RIG = {"block_weight": 1e4, "sheave_efficiency": 0.5, "torque_offset": 50.0}
+
+
+def recorder_of(components: list[dict[str, Any]], profile_at: tuple[float, ...] = ()) -> Recorder:
+    """A string in vertical hole at the start of a trip out of 10 m, at rest and unstretched."""
+    sections = {"rig": RIG, "record": {"profile_at": profile_at}, "contact": {"enabled": False}}
+    run, _ = prepare(make_case(components=components, operations=[trip(1000, 990)], **sections))
+    forget_start(run)
+    return Recorder(run)
+
+
+def test_work_is_the_larger_of_losses_and_of_what_is_not_lifting() -> None:
+    columns = {name: [0.0, 1.0] for name in ("lost_friction_J", "lost_contact_J", "lost_mud_J", "lost_joints_J")}
+    ledger = pd.DataFrame({**columns, "top_drive_work_J": [0.0, 90.0], "gravity_J": [0.0, 100.0]})
+    assert _work(ledger) == 10.0
+    assert _work(ledger.assign(gravity_J=[0.0, 87.0])) == 4.0
+    assert np.isnan(_work(ledger.assign(lost_mud_J=[0.0, np.nan])))
+    assert np.isnan(_work(ledger.assign(gravity_J=[0.0, np.nan])))
+
+
+def test_numbers_of_a_run() -> None:
+    """Means over the interval, the speed of the run, and the largest residual of the ledger over the work."""
+    recorder = recorder_of([pipe(None, 10)])
+    run = recorder.run
+    for end in (0.5, 2.0):
+        run.advance(Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0), end - recorder.last_time)
+        recorder.record(0)
+    recorder.ledger[0]["residual_J"], recorder.ledger[1]["residual_J"] = -3.0, 1.0
+    recorder.ledger[1]["lost_mud_J"] = 1e6
+    numbers = recorder.result("completed", "", 4.0, 1e-7).run
+    assert numbers["simulated_s"] == pytest.approx(2.0)
+    assert (numbers["wall_s"], numbers["real_time_factor"]) == (4.0, pytest.approx(0.5))
+    assert (numbers["segments"], numbers["contact"], numbers["settling_residual"]) == (10, "cylinders", 1e-7)
+    assert (numbers["steps"], numbers["step_s"]) == (run.steps, run.step)
+    assert numbers["energy_error"] == pytest.approx(3.0 / numbers["work_J"])
+    assert numbers["work_J"] == pytest.approx(1e6, rel=1e-2)
+    idle = Recorder(run).result("unsettled", "", 0.0, float("nan"))
+    assert np.isnan([idle.run["real_time_factor"], idle.run["work_J"], idle.run["energy_error"]]).all()
+    assert len(idle.profile) == len(idle.history) == len(idle.energy) == 0
+
+
+def test_a_row_of_history_is_sums_over_its_span() -> None:
+    recorder = recorder_of([pipe(300, 6), pipe(None, 1)])
+    S, top, n = recorder.run.S, recorder.run.top, recorder.run.segments
+    for span in (2.0, 4.0):
+        sums = {
+            state.SUM_FRICTION_TORQUE: 3.0,
+            state.SUM_R_MU_N: 5.0,
+            state.SUM_MUD_TORQUE: 7.0,
+            state.SUM_NORMAL: 11.0,
+        }
+        for offset, value in sums.items():
+            state.row(S, offset, n)[:] = value
+        top[topdrive.TOP_TIME] += span
+        top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 400.0, 40.0
+        recorder.record(0)
+        assert not any(state.row(S, offset, n).any() for offset in sums)
+        assert not top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]].any()
+        row = recorder.history[-1]
+        assert row["operation"] == "trip_out"
+        expected = {
+            "time_s": top[topdrive.TOP_TIME], "bit_depth_m": 1000.0, "bit_md_m": 1000.0, "hookload_N": 400 / span,
+            "surface_torque_N_m": 40 / span, "weight_indicator_N": 0.5 * (400 / span + 1e4),
+            "drive_torque_N_m": 40 / span + 50, "sum_r_ft_N_m": 3 * n / span, "sum_r_mu_fn_N_m": 5 * n / span,
+            "mud_torque_N_m": 7 * n / span, "total_contact_force_N": 11 * n / span, "contact_count": 0,
+        }  # fmt: skip
+        assert {name: row[name] for name in row if name != "operation"} == pytest.approx(expected)
+
+
+def test_points_in_the_wall_are_counted() -> None:
+    recorder = recorder_of([pipe(None, 10)])
+    S, n = recorder.run.S, recorder.run.segments
+    recorder.run.top[topdrive.TOP_TIME] = 1.0
+    state.row(S, state.HOLE, n)[:], state.row(S, state.RADIUS, n)[:] = 0.1, 0.06
+    state.row(S, state.PX, n)[:] = [0.0, 0.03, 0.039, 0.041, 0.05, -0.041, -0.03, 0.0, 0.0, 0.041]
+    recorder.record(0)
+    assert recorder.history[-1]["contact_count"] == 4
+
+
+def test_the_ledger_by_hand() -> None:
+    """Gains are the top drive's work and the fed pipe's energy; what they exceed the held and the lost is residual."""
+    recorder = recorder_of([pipe(None, 10)])
+    S, top, n = recorder.run.S, recorder.run.top, recorder.run.segments
+    lost = {"friction": state.LOST_FRICTION, "contact": state.LOST_CONTACT, "mud": state.LOST_MUD,
+            "joints": state.LOST_JOINT}  # fmt: skip
+    for k, offset in enumerate(lost.values(), start=1):
+        state.row(S, offset, n)[:] = 10.0**k
+    state.row(S, state.VZ, n)[:] = 0.3
+    top[[topdrive.TOP_TIME, topdrive.TOP_WORK, topdrive.FED_ENERGY]] = 1.0, 7e5, 2e5
+    recorder.record(0)
+    (row,) = recorder.ledger
+    # Of the 109 m at the top, which are fed, the top drive itself carries half.
+    kinetic = 0.5 * 0.09 * 7850 * np.pi / 4 * (0.127**2 - 0.07**2) * (1000 - 0.5 * 109)
+    expected = {"time_s": 1.0, "top_drive_work_J": 7e5, "fed_pipe_J": 2e5, "kinetic_J": kinetic, "gravity_J": 0.0}
+    expected |= {f"lost_{name}_J": n * 10.0**k for k, name in enumerate(lost, start=1)}
+    expected["residual_J"] = kinetic + n * 11110.0 - 9e5
+    assert {name: row[name] for name in expected} == pytest.approx(expected, abs=1e-6)
+
+
+def test_a_profile_is_kept_where_the_bit_passes_its_depth() -> None:
+    recorder = recorder_of([pipe(300, 6), pipe(None, 1)], profile_at=(1000.0, 996.0, 995.0, 992.0, 990.0))
+    top = recorder.run.top
+    kept = []
+    for depth in (999.0, 996.5, 994.0, 993.0, 992.0005, 991.0):
+        top[topdrive.TOP_LENGTH] = depth - 300.0
+        top[topdrive.TOP_TIME] += 1.0
+        recorder.record(0)
+        kept.append(sorted(recorder.profiles))
+    # The first at once, two in one step, one within a millimetre, and the last not at all.
+    assert kept == [[1.0], [1.0], [1.0, 3.0], [1.0, 3.0], [1.0, 3.0, 5.0], [1.0, 3.0, 5.0]]
+    assert recorder.wanted == [990.0]
+    result = recorder.result("completed", "", 1.0, 0.0)
+    assert list(result.profile["bit_depth_m"].unique()) == pytest.approx([999.0, 994.0, 992.0005, 991.0])
+
+
+@pytest.mark.parametrize("long", [False, True])
+def test_a_profile_has_the_means_of_its_interval(long: bool) -> None:
+    recorder = recorder_of([pipe(300, 6), pipe(None, 1) if long else pipe(None, 14)])
+    # The trip makes the uppermost segment the one that is fed.
+    assert recorder.run.string.long_segment
+    S, top, n = recorder.run.S, recorder.run.top, recorder.run.segments
+    top[topdrive.TOP_TIME] = 2.0
+    for offset in (state.SUM_TENSION, state.SUM_TORQUE, state.SUM_NORMAL):
+        state.row(S, offset, n)[:] = offset + np.arange(n)
+    top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 400.0, 40.0
+    # The lowest segment turned by 0.1 rad against the one above it.
+    S[state.AX + n], S[state.AZ + n] = np.sin(0.1), np.cos(0.1)
+    recorder.record(0)
+    profile = recorder.result("completed", "", 1.0, 0.0).profile
+    assert list(profile["operation"].unique()) == ["trip_out"]
+    assert len(profile) == n + 1
+    # A row for the top and one per contact point, which carries what the joint below it does; the bit carries none.
+    below = np.arange(1, n)
+    tension = [200.0, *(state.SUM_TENSION + below) / 2, 0.0]
+    torque = [20.0, *(state.SUM_TORQUE + below) / 2, 0.0]
+    np.testing.assert_allclose(profile["effective_tension_N"], tension)
+    np.testing.assert_allclose(profile["torque_N_m"], torque)
+    np.testing.assert_allclose(profile["contact_force_N"], [0.0, *(state.SUM_NORMAL + np.arange(n)) / 2])
+    bending = np.zeros(n + 1)
+    bending[n - 1] = S[state.K_BEND + n] * 0.1
+    np.testing.assert_allclose(profile["bending_moment_N_m"], bending, rtol=1e-9, atol=1e-6)
