@@ -101,6 +101,26 @@ def test_a_short_component_touches_at_its_middle() -> None:
     assert run.S[state.ARM_CONTACT + k + 1] == 0
 
 
+@pytest.mark.parametrize(("above", "below", "short"), [(8.0, 10.0, False), (10.0, 8.0, False), (10.0, 10.0, True)])
+def test_a_short_component_is_shorter_than_both_neighbours(above: float, below: float, short: bool) -> None:
+    """One segment of 9 m; whatever longer ones are further off."""
+    far, near = pipe(300, 10), pipe(4 * above, 4)
+    stabiliser, nearer = pipe(9, 1, outer=0.2), pipe(4 * below, 4)
+    case = make_case(components=[pipe(300, 10), nearer, stabiliser, near, far, pipe(None, 20)])
+    string = lay_out(case, 1000.0)
+    (k,) = np.flatnonzero(string.component == 2)
+    assert np.flatnonzero(string.mid_contact()).tolist() == ([k] if short else [])
+    radius = string.contact_radius()
+    assert radius[k] == 0.1
+    assert radius[k - 1] == (0.0635 if short else 0.1)
+
+
+def test_a_bit_touches_at_its_end_with_its_own_radius() -> None:
+    string = lay_out(make_case(components=[pipe(1, 1, outer=0.2), pipe(None, 99)]), 1000.0)
+    assert not string.mid_contact().any()
+    np.testing.assert_array_equal(string.contact_radius(), [0.0635] * 99 + [0.1])
+
+
 def test_tributary_length_for_stiffness_per_metre() -> None:
     case = make_case(
         components=[pipe(100, 10, outer=0.159), pipe(900, 30)],
