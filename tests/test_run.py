@@ -1,5 +1,6 @@
 """The string a run starts from and the one it ends with: as long, as heavy and as made up as the steady solver's."""
 
+import sys
 from itertools import pairwise
 from typing import Any
 
@@ -11,8 +12,8 @@ from hypothesis import strategies as st
 from fctd import Case, InputError, equilibrium, simulate, state, topdrive
 from fctd.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.layouts import graded, uniform, with_components
-from fctd.operations import depth_range, schedule
-from fctd.run import contact_points, prepare
+from fctd.operations import Stretch, depth_range, schedule
+from fctd.run import Run, contact_points, prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]
@@ -135,6 +136,27 @@ def test_a_run_carries_the_weight_of_its_own_depth(components: list[dict[str, An
         # A row's loads are means over its second, in which 50 mm of pipe pass; the ramps speed up by 15 mm/s² at most.
         assert row["hookload_N"] == pytest.approx(expected, rel=3e-3)
     assert last["hookload_N"] == pytest.approx(still.hookload, rel=3e-3)
+
+
+def test_a_steep_ramp_read_at_odd_times_feeds_its_depth() -> None:
+    """Steps of unequal length miss a ramp by h²/24 times the change of its slope, which is no defect."""
+    moves = [trip(400, 410, speed=5.0, ramp=0.3), trip(410, 402, speed=3.0, ramp=0.2)]
+    string = [pipe(200, 4), pipe(None, None, segment_length=50.0)]
+    sections = {"record": {"interval": 0.13}, "contact": {"enabled": False}}
+    result = simulate(make_case(components=string, operations=moves, **sections))
+    assert result.status == "completed"
+    assert result.history["bit_depth_m"].iloc[-1] == pytest.approx(402.0, abs=1e-4)
+
+
+def test_a_run_that_feeds_another_depth_than_its_schedule_is_a_defect(monkeypatch: pytest.MonkeyPatch) -> None:
+    def prepare_wrongly(case: Case, contact: None) -> tuple[Run, list[Stretch]]:
+        run, stretches = prepare(case, contact)
+        return run, [s._replace(motion=s.motion._replace(feed_to=1.0001 * s.motion.feed_to)) for s in stretches]
+
+    monkeypatch.setattr(sys.modules["fctd.simulate"], "prepare", prepare_wrongly)
+    case = make_case(components=[pipe(None, 4)], operations=[trip(300, 301)], contact={"enabled": False})
+    with pytest.raises(AssertionError, match=r"ends at 301\.0000\d+ m, the schedule at 301\.000000 m"):
+        simulate(case)
 
 
 @given(moves=operations())
