@@ -26,7 +26,7 @@ def test_shear_coefficient_limits() -> None:
 
 def test_shear_coefficient_between_its_limits() -> None:
     """A bore of half the diameter, ν = 0.3, by hand: 15.84375/24.105."""
-    assert shear_coefficient(2.0, 1.0, 0.3) == pytest.approx(15.84375 / 24.105, rel=1e-12)
+    assert shear_coefficient(3.0, 1.5, 0.3) == pytest.approx(15.84375 / 24.105, rel=1e-12)
 
 
 def test_buoyancy_lowers_weight_and_not_mass() -> None:
@@ -193,6 +193,18 @@ def test_a_wide_bottom_stands_below_a_narrow_hole() -> None:
         check_fit(case, lay_out(case, depth), hole, depth)
     with pytest.raises(InputError, match=r"components\[0\]\.contact_diameter.*at most the hole's 200 mm"):
         check_fit(case, lay_out(case, 799.0), hole, 799.0)
+
+
+@pytest.mark.parametrize(("narrow_to", "bit"), [(0.5, 900.0), (1000.0, 0.9)])
+def test_the_first_metre_counts(narrow_to: float, bit: float) -> None:
+    """Neither a narrow spot at the surface nor a string that just enters the hole is passed over."""
+    intervals = [
+        {"to_md": narrow_to, "diameter": 0.1, "friction": 0.2},
+        {"to_md": 2000, "diameter": 0.3, "friction": 0},
+    ]
+    case = make_case(components=[pipe(None, 4)], wellbore={"intervals": intervals})
+    with pytest.raises(InputError, match=r"contact_diameter.*127 mm.*at most the hole's 100 mm"):
+        check_fit(case, lay_out(case, bit), build_wellbore(case), bit)
 
 
 def test_a_trip_feeds_to_the_end_of_its_component() -> None:

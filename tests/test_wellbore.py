@@ -148,6 +148,22 @@ def test_find_contacts_equals_brute_force(turns: list[tuple[float, float]], seed
     np.testing.assert_allclose(hits.md, md, atol=0.15 * bend + 0.3)
 
 
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+def test_a_search_starts_at_the_nearest_piece(geometry: str) -> None:
+    """Not at one of its neighbours: in a hole that turns back a search from there could end in the wrong leg."""
+    hole = hole_of(random_well([(20, 30)] * 6), geometry=geometry)
+    rng = np.random.default_rng(5)
+    k = rng.integers(0, len(hole.md) - 1, 200)
+    share = rng.uniform(0.0, 1.0, 200)
+    md = hole.md[k] + 1.0 + share * (hole.md[k + 1] - hole.md[k] - 2.0)  # a metre off the ends of the pieces
+    inside = hole.md[k + 1] - hole.md[k] > 4.0
+    points = hole.off_axis(md, 2 * np.pi * share, np.full(200, 0.05))[inside]
+    found = hole._nearest(points)
+    first = 0 if geometry == "cylinders" else 1  # arcs have a piece above the surface
+    np.testing.assert_array_equal(found, first + k[inside])
+    np.testing.assert_array_equal(found, hole.owners(points))
+
+
 def test_find_contacts_on_ten_thousand_points() -> None:
     rng = np.random.default_rng(7)
     turns = list(zip(rng.uniform(0, 25, 10), rng.uniform(-60, 60, 10), strict=True))
