@@ -86,6 +86,15 @@ def test_the_direction_of_an_arc_is_the_tangent_of_its_circle() -> None:
         np.testing.assert_allclose(found, [np.sin(angle), 0, np.cos(angle)], atol=1e-12)
 
 
+def test_the_direction_of_an_arc_is_that_of_the_survey_beside_its_axis_too() -> None:
+    """In a hole that builds and turns: a plane across the axis at a depth has one direction."""
+    hole, rng = hole_of(BEND, geometry="arcs"), np.random.default_rng(8)
+    md = rng.uniform(0, 1000, 50)
+    points, expected = hole.off_axis(md, rng.uniform(0, 2 * np.pi, 50), rng.uniform(0, 0.1, 50)), hole.at(md)[1]
+    for i, point, direction in zip(hole.owners(points), points, expected, strict=True):
+        np.testing.assert_allclose(contact.arc_direction(hole.pieces, i, *point), direction, atol=1e-10)
+
+
 def test_the_direction_of_cylinders_turns_evenly_in_their_overlap() -> None:
     """Along a cylinder its own; in the overlap from its own to the next one's, a unit vector throughout."""
     hole = hole_of(QUARTER, cylinder_length=9.0, overlap=0.2)
