@@ -26,14 +26,14 @@ def put(S: Array, j: int, rows: tuple[int, ...], values: Array | list[float]) ->
 
 
 def place(S: Array, j: int, rotation: Rotation, position: Array | list[float]) -> None:
-    """Orientation and axis of body j, and its centre of mass [m]."""
+    """Set orientation, axis and centre of mass [m] of body j."""
     put(S, j, QUATERNION, rotation.as_quat(scalar_first=True))
     put(S, j, AXIS, rotation.apply([0, 0, 1]))
     put(S, j, PLACE, position)
 
 
 def set_body(S: Array, j: int, mass: float, transverse: float, axial: float) -> None:
-    """Mass [kg] and moments of inertia [kg m²] of body j."""
+    """Set mass [kg] and moments of inertia [kg m²] of body j, and their inverses."""
     for row, inverse, value in (
         (state.MASS, state.INVERSE_MASS, mass),
         (state.J_TRANSVERSE, state.INVERSE_JT, transverse),

@@ -60,7 +60,7 @@ def test_bodies_carried_along_see_the_walls_that_free_points_see(geometry: str, 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def test_the_distance_inside_a_piece_is_to_its_nearer_end(geometry: str) -> None:
-    """On a straight piece in the middle of the hole: past what it shares with its neighbours, a search is due."""
+    """On a straight piece in the middle of the hole, less the part that the piece above shares with it."""
     hole = hole_of([[0, 20, 0], [100, 20, 0], [110, 20, 0], [200, 20, 0]], geometry=geometry, overlap=0.2)
     shared = 0.2 if geometry == "cylinders" else 0.0  # with the piece above, which reaches so far into this one
     inside = hole.off_axis(np.array([105.0]), np.array([1.0]), np.array([0.05]))
@@ -87,7 +87,7 @@ def test_the_direction_of_an_arc_is_the_tangent_of_its_circle() -> None:
 
 
 def test_the_direction_of_an_arc_is_that_of_the_survey_beside_its_axis_too() -> None:
-    """In a hole that builds and turns: a plane across the axis at a depth has one direction."""
+    """In a hole that builds and turns: all points of a plane across the axis have the direction of the axis there."""
     hole, rng = hole_of(BEND, geometry="arcs"), np.random.default_rng(8)
     md = rng.uniform(0, 1000, 50)
     points, expected = hole.off_axis(md, rng.uniform(0, 2 * np.pi, 50), rng.uniform(0, 0.1, 50)), hole.at(md)[1]

@@ -40,7 +40,7 @@ class Pushed:
 
 
 def pushed(turn, off, velocity, spin, depth=2e-3, damping=0.0, mu=0.25, law=state.COULOMB) -> Pushed:
-    """A body in a hole, turned and moving as one likes, that presses the wall by ``depth`` [m]."""
+    """A body in a hole, of any orientation and motion (global), pressed into the wall by ``depth`` [m]."""
     S = state.new_state(1)
     set_body(S, 1, MASS, INERTIA[0], INERTIA[2])
     turned = Rotation.from_rotvec(turn)
@@ -65,7 +65,7 @@ directions = vector.filter(lambda v: np.linalg.norm(v) > 0.1)
 
 @given(vector, directions, vector, vector, st.floats(0, 5e4))
 def test_the_wall_pushes_along_its_normal_by_spring_and_damper(turn, off, velocity, spin, damping) -> None:
-    """K δ + c v with the speed after the impulse, since the damper is implicit; never a pull; moment by its arm."""
+    """K δ + c v with the speed v after the impulse (implicit damper), never a pull; the force acts at T."""
     body = pushed(turn, off, velocity, spin, damping=damping, mu=0.0)
     normal_impulse = body.given(state.SUM_NORMAL)
     expected = DT * (STIFFNESS * 2e-3 + damping * body.toward(body.after))
@@ -86,7 +86,7 @@ def split(body: Pushed, loose: Pushed) -> tuple[Array, Array]:
 
 @given(vector, directions, vector, vector, st.floats(0, 5e4))
 def test_coulomb_friction_is_one_force_against_the_sliding_at_the_wall_side(turn, off, velocity, spin, damping):
-    """μN or what stops the sliding, in the plane of the wall, at T + r n; the ledger counts it at the speed after."""
+    """At T + r n in the plane of the wall: μN, or less if that would reverse the sliding; the ledger uses v after."""
     mu = 0.25
     body, loose = (pushed(turn, off, velocity, spin, damping=damping, mu=m) for m in (mu, 0.0))
     force, moment = split(body, loose)
@@ -132,7 +132,7 @@ def test_paper_friction_is_a_drag_along_the_axis_and_a_couple_about_it(turn, off
 
 @pytest.mark.parametrize("depth", [-1e-3, 0.0])
 def test_no_impulse_clear_of_the_wall(depth: float) -> None:
-    """Not even of the damper, whichever way the body moves."""
+    """The damper acts in contact only, whichever way the body moves."""
     S = state.new_state(1)
     set_body(S, 1, MASS, INERTIA[0], INERTIA[2])
     S[state.K_WALL + 1] = STIFFNESS

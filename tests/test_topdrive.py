@@ -41,7 +41,7 @@ def hung(length: float, stretch: float = 0.0, twist: float = 0.0) -> tuple[Array
 
 
 def test_a_ramp_leads_smoothly_from_one_speed_to_the_other() -> None:
-    """Both ends at rest of slope, the middle half-way, the two halves alike, and nothing beyond the ends."""
+    """A cubic step: no slope at either end, symmetric about the middle, constant before and after."""
     at_time = np.linspace(-1.0, 5.0, 601)
     found = np.array([topdrive.ramp(t, 0.0, 4.0, 2.0, -6.0) for t in at_time])
     assert np.all(found[at_time <= 0] == 2.0)
@@ -64,7 +64,7 @@ def test_the_planned_speeds_are_those_in_the_middle_of_the_step() -> None:
 
 
 def test_the_long_segment_is_half_its_pipe_at_the_end_of_a_spring() -> None:
-    """A hanging rod's frequency and stretch: half of mass, weight and mud at the end; EA/L, GJ/L, EI/L, κGA/L."""
+    """Half of mass, weight, inertia and mud damping at the lower end; EA/L, GJ/L, EI/L, κGA/L."""
     length = 12.0
     S, _ = hung(length)
     values = {
@@ -118,10 +118,7 @@ def test_readings_and_ledger_of_a_turning_top_drive() -> None:
 
 @pytest.mark.parametrize("fed", [2e-4, -2e-4])
 def test_readings_and_ledger_of_a_top_drive_that_feeds(fed: float) -> None:
-    """At rest: work −(T + wL/2) dL (1 + T/EA); the pipe brings T²/2EA, and the half of it below sinks by its height.
-
-    The mud drags on the half above with c L/2 dL.
-    """
+    """Work −(T + wL/2)(1 + T/EA) dL and c L/2 dL²/dt of the mud; the bodies rest while the pipe brings energy."""
     length, stretch, dt = 12.0, 1e-3, 0.01
     tension = 8e8 / length * stretch
     S, top = hung(length, stretch)
@@ -171,8 +168,8 @@ def test_the_top_drive_moves(feed: float) -> None:
 
 
 @pytest.mark.parametrize("side", [1, -1])
-def test_a_turn_is_moved_out_of_the_quaternions_beyond_one_and_not_before(side: int) -> None:
-    """The twist is told past half a turn of the quaternions, a whole turn, and is continuous where it is moved."""
+def test_a_turn_moves_out_of_the_quaternions_beyond_half_a_turn_of_twist(side: int) -> None:
+    """Beyond half a turn of twist a whole turn goes into TURNS and the top drive's quaternion changes sign."""
     for twist, turns in ((math.pi - 1e-6, 0), (math.pi + 1e-6, 1)):
         S, top = hung(12.0, twist=0.0)
         half = side * twist / 2
