@@ -183,3 +183,24 @@ def test_a_turning_body_on_the_axis_of_its_hole_touches_nothing(offset):
     assert np.linalg.norm(normal) <= 1 + 1e-12
     change = friction.coulomb_impulse(S, 1, 0.0, 0.0, 0.0, 0.0, 0.0, 6.28, *normal, 0.0)
     assert change == (0.0,) * 6
+
+
+@pytest.mark.parametrize(("geometry", "law", "pressed", "rubbed"), [
+    (state.OPEN, state.COULOMB, False, False), (state.OPEN, state.PAPER, False, False),
+    (state.CYLINDERS, state.PAPER, True, False), (state.ARCS, state.PAPER, True, False),
+    (state.CYLINDERS, state.COULOMB, True, True), (state.ARCS, state.COULOMB, True, True),
+])  # fmt: skip
+def test_a_run_follows_its_laws(geometry: int, law: int, pressed: bool, rubbed: bool) -> None:
+    """A body that slides around the wall: only ``coulomb`` friction resists that, and without a hole nothing does."""
+    S = state.new_state(1)
+    set_body(S, 1, MASS, INERTIA[0], INERTIA[2])
+    S[state.RADIUS + 1], S[state.HOLE + 1] = RADIUS, HOLE
+    S[state.K_WALL + 1], S[state.FRICTION + 1] = STIFFNESS, 0.25
+    put(S, 1, TO_WALL, [HOLE - RADIUS + 2e-3, 0, 0])
+    put(S, 1, VELOCITY, [0, 0.5, 0])
+    dynamics.update_motion(S, state.LANES, Laws(geometry, law, 1.0, 0.0, 0.0, 0.0), DT)
+    x, y, z = at(S, 1, VELOCITY)
+    impulse = DT * STIFFNESS * 2e-3
+    assert x == pytest.approx(-impulse / MASS if pressed else 0.0)
+    assert y == pytest.approx(0.5 - 0.25 * impulse / MASS if rubbed else 0.5)
+    assert z == 0

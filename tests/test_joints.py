@@ -55,13 +55,13 @@ def test_loads_are_minus_the_gradient_of_the_strain_energy(bend: tuple, gap: tup
         place(T, 2, Rotation.from_rotvec(turn_lower) * lower, at(S, 2, PLACE) + move)
         return float(joints.strain_energy(T, 2))
 
-    h = 1e-5
+    h = 1e-6
     for which, load in enumerate((force, on_upper, on_lower)):
         for k in range(3):
             delta = np.zeros((3, 3))
             delta[which, k] = h
             slope = (energy(*delta) - energy(*-delta)) / (2 * h)
-            assert -slope == pytest.approx(load[k], rel=1e-5, abs=20)
+            assert -slope == pytest.approx(load[k], rel=1e-6, abs=1e-3)
 
 
 @given(vector, vector)
