@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from fctd import joints, state
+from tests.bodies import FORCE, GLOBAL_SPIN, ON_LOWER, ON_UPPER, PLACE, VELOCITY, at, place, put
 
 STIFFNESS = {state.K_AXIAL: 4e7, state.K_SHEAR: 9e6, state.K_BEND: 4e4, state.K_TWIST: 3e4}
 small = st.floats(-1, 1)
@@ -27,24 +28,13 @@ def pair(upper: Rotation, lower: Rotation, gap: np.ndarray) -> np.ndarray:
     return S
 
 
-def place(S: np.ndarray, j: int, rotation: Rotation, position: np.ndarray) -> None:
-    w, x, y, z = rotation.as_quat(scalar_first=True)
-    S[[state.QW + j, state.QX + j, state.QY + j, state.QZ + j]] = w, x, y, z
-    S[[state.AX + j, state.AY + j, state.AZ + j]] = rotation.apply([0, 0, 1])
-    S[[state.X + j, state.Y + j, state.Z + j]] = position
-
-
-def at(S: np.ndarray, j: int, *rows: int) -> np.ndarray:
-    return S[[r + j for r in rows]]
-
-
 def loads(S: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Force on the lower body, moments about the centres of the upper and of the lower body."""
     joints.update_joint_loads(S, 2, 0.0, 1.0)
     return (
-        at(S, 2, state.FX, state.FY, state.FZ),
-        at(S, 2, state.UX, state.UY, state.UZ),
-        at(S, 2, state.LX, state.LY, state.LZ),
+        at(S, 2, FORCE),
+        at(S, 2, ON_UPPER),
+        at(S, 2, ON_LOWER),
     )
 
 
@@ -62,16 +52,16 @@ def test_loads_are_minus_the_gradient_of_the_strain_energy(bend: tuple, gap: tup
     def energy(move: np.ndarray, turn_upper: np.ndarray, turn_lower: np.ndarray) -> float:
         T = S.copy()
         place(T, 1, Rotation.from_rotvec(turn_upper) * upper, np.zeros(3))
-        place(T, 2, Rotation.from_rotvec(turn_lower) * lower, at(S, 2, state.X, state.Y, state.Z) + move)
+        place(T, 2, Rotation.from_rotvec(turn_lower) * lower, at(S, 2, PLACE) + move)
         return float(joints.strain_energy(T, 2))
 
-    h = 1e-5
+    h = 1e-6
     for which, load in enumerate((force, on_upper, on_lower)):
         for k in range(3):
             delta = np.zeros((3, 3))
             delta[which, k] = h
             slope = (energy(*delta) - energy(*-delta)) / (2 * h)
-            assert -slope == pytest.approx(load[k], rel=1e-5, abs=20)
+            assert -slope == pytest.approx(load[k], rel=1e-6, abs=1e-3)
 
 
 @given(vector, vector)
@@ -79,7 +69,7 @@ def test_net_force_and_moment_on_a_free_pair_vanish(bend: tuple, gap: tuple) -> 
     upper, lower, d = a_pair(bend, gap)
     S = pair(upper, lower, d)
     force, on_upper, on_lower = loads(S)
-    between = at(S, 2, state.X, state.Y, state.Z) - at(S, 1, state.X, state.Y, state.Z)
+    between = at(S, 2, PLACE) - at(S, 1, PLACE)
     net = on_upper + on_lower + np.cross(between, force)
     scale = np.linalg.norm(on_upper) + np.linalg.norm(on_lower) + np.linalg.norm(force)
     np.testing.assert_allclose(net, 0, atol=1e-12 * scale + 1e-9)
@@ -135,18 +125,14 @@ def test_damping_acts_on_relative_motion_only(bend, gap, drift, turn, other) -> 
     S = pair(upper, lower, d)
     springs = loads(S)
     for j in (1, 2):
-        position = at(S, j, state.X, state.Y, state.Z)
-        S[[state.VX + j, state.VY + j, state.VZ + j]] = np.array(drift) + np.cross(turn, position)
-        S[[state.GX + j, state.GY + j, state.GZ + j]] = turn
+        position = at(S, j, PLACE)
+        put(S, j, VELOCITY, np.array(drift) + np.cross(turn, position))
+        put(S, j, GLOBAL_SPIN, turn)
     joints.update_joint_loads(S, 2, 1e-3, 1.0)
-    for rows, spring in zip(
-        ((state.FX, state.FY, state.FZ), (state.UX, state.UY, state.UZ), (state.LX, state.LY, state.LZ)),
-        springs,
-        strict=True,
-    ):
-        np.testing.assert_allclose(at(S, 2, *rows), spring, atol=1e-7 * (1 + np.abs(spring).max()))
+    for rows, spring in zip((FORCE, ON_UPPER, ON_LOWER), springs, strict=True):
+        np.testing.assert_allclose(at(S, 2, rows), spring, atol=1e-7 * (1 + np.abs(spring).max()))
     lost = S[state.LOST_JOINT + 2]
-    S[[state.GX + 2, state.GY + 2, state.GZ + 2]] += np.array(other)
+    put(S, 2, GLOBAL_SPIN, np.array(turn) + other)
     joints.update_joint_loads(S, 2, 1e-3, 1.0)
     assert S[state.LOST_JOINT + 2] >= lost - 1e-12
 
@@ -157,5 +143,64 @@ def test_a_bit_that_turned_once_feels_nothing_of_the_inert_column_below(short_of
     half = math.pi - short_of_a_turn
     S[state.QW + 1], S[state.QZ + 1] = math.cos(half), math.sin(half)
     joints.update_joint_loads(S, state.LANES, 1e-4, 1e-3)
-    loads = at(S, 2, state.FX, state.FY, state.FZ, state.UX, state.UY, state.UZ, state.LX, state.LY, state.LZ)
+    loads = at(S, 2, (*FORCE, *ON_UPPER, *ON_LOWER))
     np.testing.assert_array_equal(loads, 0.0)
+
+
+@pytest.mark.parametrize(("motion", "rows", "damper"), [
+    ("pulled", VELOCITY, 4e7), ("sheared", VELOCITY, 9e6), ("turned", GLOBAL_SPIN, 3e4), ("bent", GLOBAL_SPIN, 4e4),
+])  # fmt: skip
+def test_each_damper_is_its_stiffness_by_the_damping_time(motion: str, rows: tuple[int, ...], damper: float) -> None:
+    """A straight joint that moves in one way only: c v against it, and c v² lost."""
+    upper = Rotation.from_rotvec([0.7, -0.2, 0.4])
+    S, way = pair(upper, upper, np.zeros(3)), upper.apply([0, 0, 1] if motion in ("pulled", "turned") else [1, 0, 0])
+    # Bending about the middle of the gap: the centres move with it.
+    if motion == "bent":
+        put(S, 2, VELOCITY, np.cross(0.3 * way, 5 * upper.apply([0, 0, 1])))
+    put(S, 2, rows, 0.3 * way)
+    time, dt = 1e-3, 0.5
+    joints.update_joint_loads(S, 2, time, dt)
+    drag = -time * damper * 0.3 * way
+    if rows == VELOCITY:
+        np.testing.assert_allclose(at(S, 2, FORCE), drag, atol=1e-6)
+    else:
+        np.testing.assert_allclose(at(S, 2, FORCE), 0, atol=1e-6)
+        np.testing.assert_allclose(at(S, 2, ON_LOWER), drag, atol=1e-6)
+        np.testing.assert_allclose(at(S, 2, ON_UPPER), -drag, atol=1e-6)
+    assert S[state.LOST_JOINT + 2] == pytest.approx(dt * time * damper * 0.09, rel=1e-9)
+
+
+@given(vector, vector, vector, vector, vector, vector)
+def test_what_the_dampers_take_from_both_bodies_is_what_is_lost(bend, gap, drift, other, spin, turn) -> None:
+    """Power of their loads on the two bodies, each by its own motion; they balance as the springs do."""
+    upper, lower, d = a_pair(bend, gap)
+    S = pair(upper, lower, d)
+    springs = loads(S)
+    motions = ((np.array(drift), np.array(spin)), (np.array(other), np.array(turn)))
+    for j, (velocity, rate) in zip((1, 2), motions, strict=True):
+        put(S, j, VELOCITY, velocity)
+        put(S, j, GLOBAL_SPIN, rate)
+    joints.update_joint_loads(S, 2, 1e-3, 1.0)
+    force, on_upper, on_lower = (at(S, 2, r) - s for r, s in zip((FORCE, ON_UPPER, ON_LOWER), springs, strict=True))
+    (v1, w1), (v2, w2) = motions
+    power = force @ (v2 - v1) + on_upper @ w1 + on_lower @ w2
+    scale = 1e-3 * 4e7 * 100
+    assert S[state.LOST_JOINT + 2] == pytest.approx(-power, abs=1e-9 * scale)
+    between = at(S, 2, PLACE) - at(S, 1, PLACE)
+    np.testing.assert_allclose(on_upper + on_lower + np.cross(between, force), 0, atol=1e-9 * scale)
+
+
+@given(vector, vector)
+def test_tension_and_torque_are_summed_over_the_steps(bend: tuple, gap: tuple) -> None:
+    """Tension is what the joint pulls along the half-way direction; torque what turns the lower body's axis."""
+    upper, lower, d = a_pair(bend, gap)
+    S, dt = pair(upper, lower, d), 0.25
+    for _ in range(2):
+        joints.update_joint_loads(S, 2, 0.0, dt)
+    sum_of_axes = upper.apply([0, 0, 1]) + lower.apply([0, 0, 1])
+    pull = -at(S, 2, FORCE) @ sum_of_axes / np.linalg.norm(sum_of_axes)
+    assert S[state.SUM_TENSION + 2] == pytest.approx(2 * dt * pull, rel=1e-9, abs=1e-6)
+    # Without a gap the twist is the only load that has a moment about the axis.
+    straight = pair(upper, lower, np.zeros(3))
+    _, _, on_lower = loads(straight)
+    assert S[state.SUM_TORQUE + 2] == pytest.approx(2 * dt * (on_lower @ lower.apply([0, 0, 1])), rel=1e-9, abs=1e-6)

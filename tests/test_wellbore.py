@@ -218,10 +218,10 @@ def test_the_wall_leads_from_one_size_of_hole_to_the_next(geometry: str, station
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def test_the_hole_runs_on_beyond_both_ends(geometry: str) -> None:
     hole = hole_of([[0, 0, 0], [500, 0, 0], [800, 45, 30]], geometry=geometry)
-    first, last = hole.at(np.array([-5.0, 805.0]))[0]
-    hits = find_contacts(hole, np.array([first, last]), 0.02)
+    md = np.array([-200.0, -25.0, -5.0, 805.0, 825.0, 900.0])
+    hits = find_contacts(hole, hole.at(md)[0], 0.02)
     np.testing.assert_allclose(hits.penetration, 0.02 - 0.10795, atol=1e-9)
-    np.testing.assert_allclose(hits.md, [-5, 805], atol=1e-6)
+    np.testing.assert_allclose(hits.md, md, atol=1e-6)
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])

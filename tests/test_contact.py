@@ -1,0 +1,110 @@
+"""The wall that the stepper remembers beside every body, against the geometry of the hole."""
+
+import numpy as np
+import pytest
+
+from fctd import build_wellbore, contact, state
+from fctd.wellbore import Wellbore
+from tests.bodies import AXIS, PLACE, TO_WALL, Array, put
+from tests.cases import make_case
+
+BEND = [[0, 0, 0], [300, 0, 0], [600, 60, 40], [1000, 95, 130]]
+SHOE = [
+    {"to_md": 500, "diameter": 0.3, "friction": 0.2, "stiffness": 2e7},
+    {"to_md": 1000, "diameter": 0.2, "friction": 0.3},
+]
+RADIUS = 450 / (np.pi / 2)
+QUARTER = [[0, 0, 0], [450, 90, 0]]
+
+
+def hole_of(stations: list[list[float]], **wellbore) -> Wellbore:
+    return build_wellbore(make_case(stations, wellbore=wellbore))
+
+
+def put_points(S: Array, points: Array, rng: np.random.Generator) -> None:
+    """Bodies whose contact points are these, each with an axis and an arm of its own."""
+    for j, point in enumerate(points, start=1):
+        axis = rng.normal(size=3)
+        axis /= np.linalg.norm(axis)
+        arm = S[state.ARM_CONTACT + j] = rng.uniform(-3, 3)
+        put(S, j, AXIS, axis)
+        put(S, j, PLACE, point - arm * axis)
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+@pytest.mark.parametrize("direction", [1, -1])
+def test_bodies_carried_along_see_the_walls_that_free_points_see(geometry: str, direction: int) -> None:
+    """Down or up through bends and a shoe, past both ends of the hole: in their pieces, overlaps and at the ends."""
+    hole, n, rng = hole_of(BEND, geometry=geometry, intervals=SHOE), 11, np.random.default_rng(3)
+    S, packed = state.new_state(n), 16
+    share = rng.uniform(0.5, 3, n)
+    state.row(S, state.TRIBUTARY, n)[:] = share
+    angle, off = rng.uniform(0, 2 * np.pi, n), rng.uniform(0, 0.14, n)
+    owner, followed = np.zeros(n + 2, np.int64), 0
+    for k, travel in enumerate(np.arange(0.0, 110.0, 0.37)):
+        md = np.linspace(-10.0, 920.0, n) + (travel if direction > 0 else 110 - travel)
+        points = hole.off_axis(md, angle + 0.01 * k, off)
+        put_points(S, points, rng)
+        if k == 0:
+            owner[1 : n + 1] = hole.owners(points)
+        contact.update_walls(S, owner, n, packed, hole.pieces, hole.geometry)
+        expected = hole.walls(points, owner[1 : n + 1])
+        found = np.stack([state.row(S, row, n) for row in (*TO_WALL, state.HOLE)], axis=1)
+        np.testing.assert_allclose(found, expected[:, :4], atol=1e-11)
+        np.testing.assert_allclose(state.row(S, state.K_WALL, n), expected[:, 4] * share, rtol=1e-12)
+        np.testing.assert_allclose(state.row(S, state.FRICTION, n), expected[:, 5], rtol=1e-12)
+        np.testing.assert_allclose(expected[:, 6], md, atol=0.02)
+        followed += int((state.row(S, state.SLACK, n) > 0).sum())
+    assert followed > 0.4 * n * (k + 1)  # most need no search
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+def test_the_distance_inside_a_piece_is_to_its_nearer_end(geometry: str) -> None:
+    """On a straight piece in the middle of the hole, less the part that the piece above shares with it."""
+    hole = hole_of([[0, 20, 0], [100, 20, 0], [110, 20, 0], [200, 20, 0]], geometry=geometry, overlap=0.2)
+    shared = 0.2 if geometry == "cylinders" else 0.0  # with the piece above, which reaches so far into this one
+    inside = hole.off_axis(np.array([105.0]), np.array([1.0]), np.array([0.05]))
+    (middle,), (start, end) = hole.owners(inside), (100.0, 110.0)
+    assert {start, end} <= set(hole.md)
+    rng, S, owner = np.random.default_rng(4), state.new_state(1), np.array([0, middle, 0])
+    for md in (105.0, 100.7, 109.6):
+        for _ in range(2):  # the first puts the piece into the buffer
+            put_points(S, hole.off_axis(np.array([md]), np.array([1.0]), np.array([0.05])), rng)
+            contact.update_walls(S, owner, 1, state.LANES, hole.pieces, hole.geometry)
+        assert owner[1] == middle
+        assert S[state.SLACK + 1] == pytest.approx(min(md - start - shared, end - md), abs=1e-6)
+
+
+def test_the_direction_of_an_arc_is_the_tangent_of_its_circle() -> None:
+    """A quarter of a circle in the x–z plane, beside its axis too."""
+    hole = hole_of(QUARTER, geometry="arcs")
+    for md, x_off, y_off in ((10.0, 0.0, 0.1), (200.0, 0.09, -0.05), (440.0, -0.1, 0.02)):
+        angle = md / RADIUS
+        x, z = RADIUS - (RADIUS + x_off) * np.cos(angle), (RADIUS + x_off) * np.sin(angle)
+        i = int(hole.owners(np.array([[x, y_off, z]]))[0])
+        found = contact.arc_direction(hole.pieces, i, x, y_off, z)
+        np.testing.assert_allclose(found, [np.sin(angle), 0, np.cos(angle)], atol=1e-12)
+
+
+def test_the_direction_of_an_arc_is_that_of_the_survey_beside_its_axis_too() -> None:
+    """In a hole that builds and turns: all points of a plane across the axis have the direction of the axis there."""
+    hole, rng = hole_of(BEND, geometry="arcs"), np.random.default_rng(8)
+    md = rng.uniform(0, 1000, 50)
+    points, expected = hole.off_axis(md, rng.uniform(0, 2 * np.pi, 50), rng.uniform(0, 0.1, 50)), hole.at(md)[1]
+    for i, point, direction in zip(hole.owners(points), points, expected, strict=True):
+        np.testing.assert_allclose(contact.arc_direction(hole.pieces, i, *point), direction, atol=1e-10)
+
+
+def test_the_direction_of_cylinders_turns_evenly_in_their_overlap() -> None:
+    """Along a cylinder its own; in the overlap from its own to the next one's, a unit vector throughout."""
+    hole = hole_of(QUARTER, cylinder_length=9.0, overlap=0.2)
+    i = 20
+    here, following = hole.pieces[i : i + 2, contact.DIRECTION : contact.DIRECTION + 3]
+    start, length = hole.pieces[i, contact.START : contact.START + 3], hole.pieces[i, contact.LENGTH]
+    shared = hole.pieces[i, contact.OVERLAP]
+    assert shared == pytest.approx(0.2)
+    for share in (-5.0, -1e-6, 0.25, 0.5, 1.0):
+        x, y, z = start + (length - shared * (1 - share)) * here
+        blend = here + max(share, 0.0) * (following - here)
+        found = contact.cylinder_direction(hole.pieces, i, x, y, z)
+        np.testing.assert_allclose(found, blend / np.linalg.norm(blend), atol=1e-12)
