@@ -20,6 +20,7 @@ from fctd.errors import MISSING, InputError, Table, explain, look_up, nearest, s
 from fctd.input_file import read_text
 from fctd.specs import BitSpec, ContactSpec, MudSpec, RecordSpec, RigSpec, SolverSpec, StringSpec, WellboreSpec
 
+LARGEST_FILE: Final = 4  # MiB: 100,000 stations written out; the TOML reader takes some seconds for them
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
 
 
@@ -247,7 +248,7 @@ def parse_override(text: str) -> tuple[str, Any]:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(read_text(path))
+        return tomllib.loads(read_text(path, LARGEST_FILE))
     except OSError as error:
         raise InputError(f"a case file that can be read ({error.strerror})") from error
     except InputError:

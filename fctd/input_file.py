@@ -8,20 +8,18 @@ from pathlib import Path
 
 from fctd.errors import InputError
 
-LARGEST = 64 * 2**20  # bytes: more than 100,000 stations with a dozen other columns
 
-
-def read_text(path: Path) -> str:
-    """The text of a file in UTF-8, line ends as "\\n".
+def read_text(path: Path, largest: int) -> str:
+    """The text of a UTF-8 file of at most ``largest`` MiB, every line end a newline.
 
     Raises InputError for what is no regular file or too large, OSError where it cannot be read, and ValueError where
     it is not UTF-8.
     """
     check_regular(path)
     with path.open("rb") as file:
-        content = file.read(LARGEST + 1)
-    if len(content) > LARGEST:
-        raise InputError(f"a file of at most {LARGEST // 2**20} MiB")
+        content = file.read(largest * 2**20 + 1)
+    if len(content) > largest * 2**20:
+        raise InputError(f"a file of at most {largest} MiB")
     return io.StringIO(content.decode("utf-8-sig"), newline=None).read()
 
 

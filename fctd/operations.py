@@ -120,8 +120,9 @@ def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float |
     own = next((o for o in case.operations if o.kind == kind), None)
     defaults = DEFAULT_RATES[kind] if own is None else (own.speed, own.rpm)
     moves, turns, may_turn = kind in MOVES, DEFAULT_RATES[kind][1] > 0, kind in MAY_TURN
-    speed = defaults[0] if speed is None else bare(speed, "speed", "a number of metres per second")
-    rpm = defaults[1] if rpm is None else bare(rpm, "rpm", "a number of revolutions per minute")
+    speed, rpm = defaults[0] if speed is None else speed, defaults[1] if rpm is None else rpm
+    bare(speed, "speed", "a number of metres per second")
+    bare(rpm, "rpm", "a number of revolutions per minute")
     if not (np.isfinite(speed) and (speed > 0 if moves else speed == 0)):
         raise InputError(f"a speed {'above 0' if moves else 'of 0'} for {kind}", key="speed", value=speed)
     if not (np.isfinite(rpm) and (rpm > 0 if turns else rpm >= 0 if may_turn else rpm == 0)):

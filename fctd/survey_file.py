@@ -30,6 +30,7 @@ _UNITS: Final[dict[StationKey, tuple[str, str]]] = {
     "azi": ("deg", "rad"),
 }
 _UNIT_ENDS_HEADER: Final = re.compile(r"(?:\(\s*|_)(?P<unit>[a-z]+)\s*\)?$")
+_LARGEST_FILE: Final = 32  # MiB: 100,000 stations with 40 other columns
 _SAME: Final = 1e-9  # m and deg: rows closer than this are one station written twice
 
 
@@ -76,7 +77,7 @@ def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.fl
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """Line number in the file and stripped cells of every row that is not blank."""
     try:
-        reader = csv.reader(io.StringIO(read_text(path)))
+        reader = csv.reader(io.StringIO(read_text(path, _LARGEST_FILE)))
         rows = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
     except OSError as error:
         raise InputError(f"a survey file that can be read ({error.strerror})") from error

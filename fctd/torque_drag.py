@@ -1,6 +1,6 @@
 """Torque-and-drag charts: the steady string of several operations at many bit depths, a row each."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
@@ -84,7 +84,7 @@ def _answer(point: Equilibrium, value: float) -> float:
 
 
 def _check_depths(bit_depths: Sequence[float]) -> list[float]:
-    if isinstance(bit_depths, str) or not isinstance(bit_depths, Iterable):
+    if np.ndim(bit_depths) != 1:
         raise InputError("a list of numbers of metres", key="bit_depths", value=bit_depths)
     depths = [bare(depth, f"bit_depths[{k}]", "a number of metres") for k, depth in enumerate(bit_depths)]
     if not depths:

@@ -37,7 +37,7 @@ def check_file(path: Path, key: str = "") -> None:
     target = Path(os.path.realpath(path))
     try:
         if target.exists() and not stat.S_ISREG(target.stat().st_mode):
-            raise InputError("a regular file to write, no folder, pipe or device", key=key, value=path)
+            raise InputError("a regular file that can be written, no folder, pipe or device", key=key, value=path)
         check_new(_scratch(target))
         if target.exists() and not os.access(target, os.W_OK):
             raise PermissionError(None, "Permission denied")
