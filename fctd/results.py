@@ -1,10 +1,12 @@
 """What a simulation returns, and the files of all results: tables that carry the case, versions and commit."""
 
 import json
+import os
 import platform
 import subprocess
 import time
 from collections.abc import Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
@@ -21,11 +23,9 @@ from fctd.case import Case
 from fctd.errors import InputError
 from fctd.input_file import check_regular
 from fctd.whole_file import check_file, left_overs, whole_file
-from fctd.whole_folder import check_folder, repair, whole_folder
+from fctd.whole_folder import LOOKS, PAUSE, check_folder, repair, whole_folder
 
 TABLES = ("history", "profile", "energy")
-# A reader that meets another process between its two renames looks again.
-LOOKS, PAUSE = 5, 0.05
 
 
 @dataclass(frozen=True)
@@ -115,17 +115,24 @@ def open_result(folder: Path) -> SimulationResult:
 
 def _read(folder: Path) -> SimulationResult:
     tables, origins = {}, {}
-    for name, file in zip(TABLES, result_files(csv=False), strict=True):
+    with ExitStack() as stack:
         try:
-            check_regular(folder / file)
-            with (folder / file).open("rb") as source:
-                table = pq.read_table(source)
-            tables[name], origins[name] = table.to_pandas(), table.schema.metadata or {}
-        except InputError as error:
-            raise error.in_file(folder / file) from None
-        except (OSError, ValueError) as error:
-            expected = f"a table that fctd simulate wrote ({getattr(error, 'strerror', None) or error})"
-            raise InputError(expected, value=folder / file) from error
+            # One folder for all tables, also where another process gives its name to the next one meanwhile.
+            place = os.open(folder, os.O_RDONLY)
+        except OSError as error:
+            raise InputError(f"a folder that fctd simulate wrote ({error.strerror})", value=folder) from error
+        stack.callback(os.close, place)
+        for name, file in zip(TABLES, result_files(csv=False), strict=True):
+            try:
+                check_regular(folder / file)
+                with open(file, "rb", opener=lambda path, flags: os.open(path, flags, dir_fd=place)) as source:
+                    table = pq.read_table(source)
+                tables[name], origins[name] = table.to_pandas(), table.schema.metadata or {}
+            except InputError as error:
+                raise error.in_file(folder / file) from None
+            except (OSError, ValueError) as error:
+                expected = f"a table that fctd simulate wrote ({getattr(error, 'strerror', None) or error})"
+                raise InputError(expected, value=folder / file) from error
     runs = {name: origin.get(b"identity", b"").decode() for name, origin in origins.items()}
     if len(set(runs.values())) > 1:
         found = ", ".join(f"{name}: {identity[:8] or 'none'}" for name, identity in runs.items())

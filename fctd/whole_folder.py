@@ -8,8 +8,10 @@ import errno
 import os
 import re
 import shutil
+import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager, suppress
+from itertools import count
 from pathlib import Path
 
 from fctd.errors import InputError
@@ -17,6 +19,10 @@ from fctd.whole_file import check_new, left_by_dead
 
 Own = Callable[[Path], Collection[str]]
 """Names of the files in a folder that a new folder replaces; all others are the user's and stay."""
+
+
+# How often a folder is looked for that another process swaps, and how long in between [s].
+LOOKS, PAUSE = 20, 0.05
 
 
 @contextmanager
@@ -123,12 +129,24 @@ def _hand_over(old: Path, folder: Path, own: Own) -> None:
         return
     replaced = own(old)
     for name in sorted(os.listdir(old)):
-        place = folder / name
         if name in replaced:
             (old / name).unlink()
-            continue
-        while os.path.lexists(place):  # the user has made another of that name meanwhile
-            place = place.with_name(f"{place.name}.old")
-        (old / name).rename(place)
+        else:
+            _move(old / name, folder)
     with suppress(FileNotFoundError):
         old.rmdir()
+
+
+def _move(path: Path, folder: Path) -> None:
+    """Move a file or folder of the user's into another folder."""
+    for look in count(1):
+        place = folder / path.name
+        while os.path.lexists(place):  # the user has made another of that name meanwhile
+            place = place.with_name(f"{place.name}.old")
+        try:
+            path.rename(place)
+            return
+        except FileNotFoundError:  # another process is between its two renames
+            if look == LOOKS:
+                raise
+            time.sleep(PAUSE)

@@ -10,6 +10,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fctd import open_result, results
+from fctd import whole_folder as whole_folder_module
 from fctd.errors import InputError
 from fctd.results import TABLES, own_files
 from fctd.whole_folder import check_folder, repair, whole_folder
@@ -103,6 +104,26 @@ def test_another_process_puts_its_own_between_the_two_renames(tmp_path: Path, mo
             rename(other, folder)
 
     monkeypatch.setattr(os, "rename", meanwhile)
+    result(2.0).save(folder)
+    assert value(folder) == 2.0
+    check_foreign(folder)
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_what_the_user_keeps_waits_for_another_process_between_its_renames(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder, rename = tmp_path / "out", os.rename
+    earlier(folder)
+
+    def hidden(source: Path, target: Path) -> None:
+        if Path(source).name == "notes.txt":
+            monkeypatch.setattr(os, "rename", rename)
+            rename(folder, tmp_path / "hidden")
+        rename(source, target)
+
+    monkeypatch.setattr(os, "rename", hidden)
+    monkeypatch.setattr(whole_folder_module.time, "sleep", lambda _: rename(tmp_path / "hidden", folder))
     result(2.0).save(folder)
     assert value(folder) == 2.0
     check_foreign(folder)
@@ -225,6 +246,31 @@ def test_tables_of_two_runs_are_not_read(tmp_path: Path, monkeypatch: pytest.Mon
     assert str(tmp_path / "out") in str(caught.value)
     assert "expected tables of one run, found those of several" in str(caught.value)
     assert "simulate the case again" in str(caught.value)
+
+
+def test_a_result_that_is_replaced_while_it_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The tables read are all of the same run: the old one's are gone by then, and the new one is read."""
+    folder, read = tmp_path / "out", pq.read_table
+    earlier(folder)
+
+    def replaced(source: object) -> object:
+        monkeypatch.setattr(pq, "read_table", read)
+        table = read(source)
+        result(2.0).save(folder)
+        return table
+
+    monkeypatch.setattr(pq, "read_table", replaced)
+    assert value(folder) == 2.0
+
+
+@pytest.mark.parametrize("name", ["missing", "file"])
+def test_what_is_no_folder_is_no_result(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(results, "PAUSE", 0.0)
+    (tmp_path / "file").touch()
+    with pytest.raises(InputError) as caught:
+        open_result(tmp_path / name)
+    assert str(tmp_path / name) in str(caught.value)
+    assert "that fctd simulate wrote" in str(caught.value)
 
 
 def test_a_result_is_read_as_it_was_saved(tmp_path: Path) -> None:
