@@ -64,7 +64,10 @@ def check_folder(folder: Path, key: str = "") -> Path:
             raise InputError(f"{advice} (this one is or holds a mount point)", key=key, value=folder)
         check_new(_beside(target, os.getpid())[0])
     except OSError as error:
-        raise InputError(f"a folder that can be written ({error.strerror or error})", key=key, value=folder) from None
+        reason = error.strerror or str(error)
+        here = f"{advice} (beside this one nothing can be written: {reason})"
+        expected = here if os.path.isdir(target) else f"a folder that can be written ({reason})"
+        raise InputError(expected, key=key, value=folder) from None
     return target
 
 

@@ -217,6 +217,16 @@ def test_a_mount_point_is_refused(mounted: str, tmp_path: Path, monkeypatch: pyt
         check_folder(tmp_path / "out")
 
 
+def test_a_folder_in_one_that_cannot_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "out").mkdir()
+    monkeypatch.setattr(os, "access", lambda place, mode: place != tmp_path)
+    with pytest.raises(InputError, match=r"out/result \(beside this one nothing can be written: Permission denied\)"):
+        check_folder(tmp_path / "out")
+    with pytest.raises(InputError, match=r"a folder that can be written \(Permission denied\)"):
+        check_folder(tmp_path / "new")
+    assert check_folder(tmp_path / "out" / "result")
+
+
 @pytest.mark.parametrize("name", ["x" * 250, "a/" + "x" * 300, "/".join(["x" * 200] * 30), "file", "file/out"])
 def test_what_cannot_be_made_is_refused_before(name: str, tmp_path: Path) -> None:
     (tmp_path / "file").touch()
