@@ -55,7 +55,7 @@ with ends_program():
     from fctd.equilibrium import Equilibrium, equilibrium
     from fctd.errors import InputError
     from fctd.refine import Refinement, refine
-    from fctd.results import SimulationResult
+    from fctd.results import SimulationResult, open_result
     from fctd.simulate import simulate
     from fctd.torque_drag import torque_drag
     from fctd.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
@@ -72,6 +72,7 @@ __all__ = [
     "equilibrium",
     "find_contacts",
     "load_case",
+    "open_result",
     "refine",
     "simulate",
     "torque_drag",

@@ -17,8 +17,10 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 
 from fctd import units
 from fctd.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
+from fctd.input_file import read_text
 from fctd.specs import BitSpec, ContactSpec, MudSpec, RecordSpec, RigSpec, SolverSpec, StringSpec, WellboreSpec
 
+LARGEST_FILE: Final = 4  # MiB: 100,000 stations written out; the TOML reader takes some seconds for them
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
 
 
@@ -246,9 +248,11 @@ def parse_override(text: str) -> tuple[str, Any]:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        return tomllib.loads(read_text(path, LARGEST_FILE))
     except OSError as error:
         raise InputError(f"a case file that can be read ({error.strerror})") from error
+    except InputError:
+        raise
     except (ValueError, RecursionError) as error:  # no text, no TOML, or nested without end
         raise InputError(f"a case file in TOML ({error})") from error
 
@@ -259,7 +263,7 @@ def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
         intervals = look_up(raw, "wellbore", "intervals")
         for i in range(len(intervals) if isinstance(intervals, list) else 0):
             set_key(raw, f"wellbore.intervals[{i}].friction", value)
-    elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.isfile(value):
+    elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
         set_key(raw, key, os.path.abspath(value))  # whoever types a path means it from where they are
     else:
         set_key(raw, key, value)

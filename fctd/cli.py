@@ -3,6 +3,7 @@
 import re
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import typer
@@ -23,12 +24,13 @@ from fctd.cli_options import (
     messages,
     read_case,
     screen,
-    spare_sources,
+    spare_files,
 )
 from fctd.cli_refine import refine_command
 from fctd.cli_steady import chart_command, equilibrium_command
 from fctd.errors import InputError
-from fctd.results import TABLES, SimulationResult
+from fctd.interrupts import as_interrupts
+from fctd.results import SimulationResult, check_result_folder, own_files, result_files
 from fctd.simulate import simulate
 from fctd.wall_query import WallQuery
 
@@ -66,12 +68,8 @@ def simulate_file(
     case = read_case(case_file, overrides, friction)
     method = None if contact is None else contact(case)
     folder = out or Path(re.sub(r"[^\w.-]+", "-", f"{case.name}-result"))
-    try:  # before hours of computing, not after
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"a folder that can be written ({error.strerror})", key="--out", value=folder) from None
-    for name in TABLES:
-        spare_sources(case, folder / f"{name}.csv" if csv else None, "--out")
+    check_result_folder(folder, csv, "--out")  # before hours of computing, not after
+    spare_files(case, (folder / name for name in own_files(folder).union(result_files(csv))), "--out")
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -79,17 +77,20 @@ def simulate_file(
         TimeElapsedColumn(),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
-        task = bar.add_task("compiling, settling", total=1.0, factor="–")
+    result = None
+    try:
+        with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
+            task = bar.add_task("compiling, settling", total=1.0, factor="–")
 
-        def show(now: float, total: float, factor: float) -> None:
-            bar.update(task, description=case.name, total=total, completed=now, factor=f"{factor:.0f}")
+            def show(now: float, total: float, factor: float) -> None:
+                bar.update(task, description=case.name, total=total, completed=now, factor=f"{factor:.0f}")
 
-        result = simulate(case, progress=show, contact=method)
-    try:  # files first, since whoever reads the screen may close it; the screen also where a file fails
-        written = result.save(folder, csv=csv)
-    finally:
-        _summarise(result)
+            result = simulate(case, progress=show, contact=method)
+            # Files first: the screen, also that of the bar, may have been closed.
+            written = result.save(folder, csv=csv)
+    finally:  # the screen also where a file fails
+        if result is not None:
+            _summarise(result)
     screen.print(f"Written: {', '.join(str(p) for p in written)}", soft_wrap=True, highlight=False)
     if result.status == "interrupted":
         raise typer.Exit(INTERRUPTED)
@@ -137,12 +138,11 @@ def main() -> None:
 def run(commands: typer.Typer) -> None:
     """Run a command line: one line for bad input or a file that cannot be written, no traceback."""
     try:
-        commands()
-    except InputError as error:
-        messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
-        sys.exit(BAD_INPUT)
-    except OSError as error:  # a disk that is full, a folder that has gone meanwhile
-        messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
+        with as_interrupts():
+            commands()
+    except (InputError, OSError) as error:  # OSError: a disk that is full, a terminal that has gone meanwhile
+        with suppress(OSError):
+            messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)

@@ -1,7 +1,6 @@
 """What the commands share: options, exit codes, the screen, and values and files checked before any computing."""
 
-import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,7 +9,10 @@ from rich.console import Console
 
 from fctd.case import Case, load_case, parse_override
 from fctd.errors import InputError
+from fctd.results import own_files, table_files
 from fctd.units import Dimension, Quantity
+from fctd.whole_file import check_file
+from fctd.whole_folder import repair
 
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
@@ -32,6 +34,7 @@ Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
 
 def read_case(path: Path, overrides: Sequence[str], friction: float | None = None) -> Case:
     """The case of a file after ``--set`` and ``--friction``."""
+    repair(path.parent, own_files)  # a killed ``simulate`` may have been about to move the file with its folder
     changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
     if friction is not None:
         changes["friction"] = friction
@@ -70,19 +73,19 @@ def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
         return
     if path.suffix.lower() not in suffixes:
         raise InputError(f"a file name that ends in {' or '.join(suffixes)}", key=key, value=path)
-    try:
-        folder = next(parent for parent in path.absolute().parents if parent.exists())
-        taken = path.is_dir() or not folder.is_dir()
-        places = [folder, path] if path.exists() else [folder]
-        writable = not taken and all(os.access(place, os.W_OK) for place in places)
-    except OSError:  # a name too long for the file system
-        writable = False
-    if not writable:
-        raise InputError("a file that can be written", key=key, value=path)
+    for file in table_files(path):
+        check_file(file, key)
 
 
 def spare_sources(case: Case, path: Path | None, key: str) -> None:
-    """Refuse to write over the case file or its survey."""
-    for source in (case.file, case.wellbore.survey):
-        if path is not None and source is not None and path.exists() and path.samefile(source):
-            raise InputError("another file than the case and its survey", key=key, value=path)
+    """Refuse a file that, or whose side file, would be written over the case file or its survey."""
+    if path is not None:
+        spare_files(case, table_files(path), key)
+
+
+def spare_files(case: Case, paths: Iterable[Path], key: str) -> None:
+    """Refuse files one of which is the case file or its survey."""
+    for path in paths:
+        for source in (case.file, case.wellbore.survey):
+            if source is not None and path.exists() and path.samefile(source):
+                raise InputError("another file than the case and its survey", key=key, value=path)

@@ -110,6 +110,7 @@ def equilibrium_command(
     (operation,) = operations
     case = read_case(case_file, overrides, friction)
     spare_sources(case, out, "--out")
+    spare_sources(case, plot, "--plot")
     depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
     _check_in_hole(case, [depth], "--bit-depth", bit_depth)
     drive = read_drive(speed, rpm)
@@ -158,7 +159,8 @@ def chart_command(
     check_target(out, "--out", TABLES)
     plots = _plots({"--plot": plot, "--plot-profile": plot_profile})
     case = read_case(case_file, overrides)
-    spare_sources(case, out, "--out")
+    for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
+        spare_sources(case, path, key)
     bit_depths = read_depths(depths)
     _check_in_hole(case, bit_depths, "--depths", depths)
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
@@ -224,7 +226,7 @@ def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
     wanted = {key: path for key, path in targets.items() if path is not None}
     for key, path in wanted.items():
         check_target(path, key, PICTURES)
-    if len({path.absolute() for path in wanted.values()}) < len(wanted):
+    if len({path.resolve() for path in wanted.values()}) < len(wanted):
         raise InputError("a file of its own for each picture", key=key, value=path)
     if not wanted:
         return None

@@ -21,6 +21,7 @@ from fctd.first_guess import MD, NODE, guess
 from fctd.operations import SteadyRates, sensors, steady_rates
 from fctd.profile import Loads, profile_table
 from fctd.tangent import POSE, Steady, assemble, frictionless_tangent, read_loads
+from fctd.units import bare
 from fctd.wellbore import Wellbore, build_wellbore, hole_frame
 
 Array = NDArray[np.float64]
@@ -277,4 +278,5 @@ def equilibrium(
     that cannot be used; a string that finds no balance is told by ``status``.
     """
     with naming_file(case):
-        return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm), bit_depth)
+        depth = bare(bit_depth, "bit_depth", "a number of metres")
+        return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm), depth)

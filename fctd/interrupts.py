@@ -1,18 +1,49 @@
-"""Ctrl-C in the second or two that importing takes."""
+"""Ctrl-C, and the signals with which a system or a closing terminal ends a program."""
 
+import signal
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from types import FrameType
+
+
+@contextmanager
+def as_interrupts() -> Iterator[None]:
+    """Inside, SIGTERM and SIGHUP raise KeyboardInterrupt as Ctrl-C does, unless the caller ignores or handles them.
+
+    Only the first does: a terminal that closes sends several, and they must not cost the results that the first one
+    made the program write.  Does nothing outside the main thread.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    ours = [number for number in numbers if signal.getsignal(number) == signal.SIG_DFL]
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        for each in ours:
+            signal.signal(each, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    for number in ours:
+        signal.signal(number, interrupt)
+    try:
+        yield
+    finally:
+        for number in ours:
+            signal.signal(number, signal.SIG_DFL)
 
 
 @contextmanager
 def ends_program() -> Iterator[None]:
-    """Inside, Ctrl-C ends a program with exit code 130, as it does later, without a traceback.
+    """Inside, Ctrl-C, SIGTERM or SIGHUP end a program with exit code 130, as they do later, without a traceback.
 
-    An interactive session gets its KeyboardInterrupt and goes on.
+    For the second or two that importing takes.  An interactive session gets its KeyboardInterrupt and goes on.
     """
     try:
-        yield
+        with as_interrupts():
+            yield
     except KeyboardInterrupt:
         if hasattr(sys, "ps1"):
             raise

@@ -8,6 +8,7 @@ import numpy as np
 from fctd.case import KINDS, Case, Operation
 from fctd.errors import InputError, nearest
 from fctd.topdrive import Motion
+from fctd.units import bare
 
 
 class Stretch(NamedTuple):
@@ -120,6 +121,8 @@ def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float |
     defaults = DEFAULT_RATES[kind] if own is None else (own.speed, own.rpm)
     moves, turns, may_turn = kind in MOVES, DEFAULT_RATES[kind][1] > 0, kind in MAY_TURN
     speed, rpm = defaults[0] if speed is None else speed, defaults[1] if rpm is None else rpm
+    bare(speed, "speed", "a number of metres per second")
+    bare(rpm, "rpm", "a number of revolutions per minute")
     if not (np.isfinite(speed) and (speed > 0 if moves else speed == 0)):
         raise InputError(f"a speed {'above 0' if moves else 'of 0'} for {kind}", key="speed", value=speed)
     if not (np.isfinite(rpm) and (rpm > 0 if turns else rpm >= 0 if may_turn else rpm == 0)):

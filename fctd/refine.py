@@ -25,6 +25,7 @@ from fctd.equilibrium import SOUND, Equilibrium, Solver
 from fctd.errors import InputError
 from fctd.operations import SteadyRates, rates_of_all
 from fctd.state import MAX_SEGMENTS
+from fctd.units import bare
 
 Array = NDArray[np.float64]
 # Called before every level with what is about to be solved.
@@ -383,15 +384,15 @@ def _kinds(case: Case, operation: str | Sequence[str] | None) -> list[str]:
 def _depth(case: Case, kind: str, bit_depth: float | None) -> float:
     """The bit depth asked for, else the end of the case's first operation of that kind, else of its first."""
     if bit_depth is not None:
-        return float(bit_depth)
+        return bare(bit_depth, "bit_depth", "a number of metres")
     if not case.operations:
         raise InputError("a bit depth, as the case has no operation", key="bit_depth")
     return next((o for o in case.operations if o.kind == kind), case.operations[0]).end_md
 
 
 def _check(case: Case, tolerance: float, most: int, depth: float) -> None:
-    if not 0 < tolerance < 1:
+    if not 0 < bare(tolerance, "tolerance", "a share above 0 and below 1, such as 0.01") < 1:
         raise InputError("a share above 0 and below 1, such as 0.01", key="tolerance", value=tolerance)
-    if not FIRST <= most <= MAX_SEGMENTS:
+    if not FIRST <= bare(most, "most", "a number of segments") <= MAX_SEGMENTS:
         raise InputError(f"{FIRST} to {MAX_SEGMENTS} segments", key="most", value=most)
     check_bit_depth(depth, *case.depths, "bit_depth", f"{depth:g} m")

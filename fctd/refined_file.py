@@ -8,8 +8,9 @@ from typing import Any
 
 import tomlkit
 
-from fctd.case import apply_override, load_case
+from fctd.case import LARGEST_FILE, apply_override, load_case
 from fctd.errors import look_up, split_key
+from fctd.input_file import read_text
 from fctd.refine import Refinement
 from fctd.specs import ComponentSpec
 from fctd.whole_file import whole_file
@@ -21,7 +22,7 @@ BEND = ("bend", "toolface")
 
 def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any], out: Path) -> None:
     """Write the case file ``source``, changed by ``overrides``, with the string and the hole of a refinement."""
-    raw: Any = tomlkit.parse(source.read_text(encoding="utf-8-sig"))
+    raw: Any = tomlkit.parse(read_text(source, LARGEST_FILE))
     for key, value in overrides.items():
         if value is None:
             *parents, last = split_key(key)

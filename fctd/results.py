@@ -1,13 +1,17 @@
 """What a simulation returns, and the files of all results: tables that carry the case, versions and commit."""
 
 import json
+import os
 import platform
 import subprocess
+import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from contextlib import ExitStack
+from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
+from uuid import uuid4
 
 import numba
 import numpy as np
@@ -16,7 +20,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fctd.case import Case
-from fctd.whole_file import whole_file
+from fctd.errors import InputError
+from fctd.input_file import check_regular
+from fctd.whole_file import check_file, left_overs, whole_file
+from fctd.whole_folder import LOOKS, PAUSE, check_folder, repair, whole_folder
 
 TABLES = ("history", "profile", "energy")
 
@@ -29,6 +36,7 @@ class SimulationResult:
     more to say.  history : a row per record interval; loads are means over the interval, depths and energies
     values at its end.  profile : a row per contact point from the top to the bit, for every recorded bit
     depth.  energy : the ledger, a row per record interval.  run : segments, step, counts and timing.
+    identity : of the run, the same in all of its files.
     """
 
     case: Case
@@ -38,11 +46,13 @@ class SimulationResult:
     profile: pd.DataFrame
     energy: pd.DataFrame
     run: dict[str, Any]
+    identity: str = field(default_factory=lambda: uuid4().hex)
 
     def save(self, folder: Path, csv: bool = False) -> list[Path]:
-        """Write history, profile and energy tables into ``folder``; returns the files written.
+        """Write history, profile and energy tables as the results in ``folder``; returns the files written.
 
-        Raises InputError where a file cannot be written.
+        They take the place of an earlier run's tables all at once; other files in the folder stay.  Raises
+        InputError where the folder cannot be written.
         """
         metadata = {
             "case": self.case.model_dump_json(),
@@ -50,18 +60,100 @@ class SimulationResult:
             "message": self.message,
             "run": self.run,
             "versions": versions(),
+            "identity": self.identity,
+            "csv": csv,
         }
-        written = []
-        for name in TABLES:
-            frame: pd.DataFrame = getattr(self, name)
-            path = folder / f"{name}.parquet"
-            write_parquet(frame, path, metadata)
-            written.append(path)
-            if csv:
-                path = folder / f"{name}.csv"
-                write_csv(frame, path)
-                written.append(path)
-        return written
+        with whole_folder(folder, own_files) as new:
+            for name in TABLES:
+                frame: pd.DataFrame = getattr(self, name)
+                _to_parquet(frame, new / f"{name}.parquet", metadata)
+                if csv:
+                    _to_csv(frame, new / f"{name}.csv")
+        return [folder / name for name in result_files(csv)]
+
+
+def check_result_folder(folder: Path, csv: bool, key: str = "") -> None:
+    """Finish what a killed run left of a folder; InputError where ``SimulationResult.save`` could not replace it."""
+    repair(folder, own_files)
+    check_folder(folder, key)
+    for name in result_files(csv):
+        check_file(folder / name, key)
+
+
+def result_files(csv: bool) -> list[str]:
+    """Names of the files that ``SimulationResult.save`` writes."""
+    return [f"{name}.{suffix}" for name in TABLES for suffix in (("parquet", "csv") if csv else ("parquet",))]
+
+
+def own_files(folder: Path) -> set[str]:
+    """Names of the files of an earlier run in a folder, which the next result replaces.
+
+    A CSV file is one of them where the tables say that their run wrote it; else it is the user's.
+    """
+    tables = [folder / name for name in result_files(csv=False)]
+    csv = any(_metadata(path).get(b"csv") == b"true" for path in tables if path.is_file())
+    places = [folder / name for name in result_files(csv)]
+    found = {path for path in places if path.is_file()}
+    return {path.name for path in found.union(*map(left_overs, places))}
+
+
+def open_result(folder: Path) -> SimulationResult:
+    """The result that ``SimulationResult.save`` wrote into a folder; finishes a replacement that was killed.
+
+    Raises InputError for a folder without a whole result, and for one whose tables come from different runs.
+    """
+    for look in range(LOOKS):
+        repair(folder, own_files)
+        try:
+            return _read(folder)
+        except InputError:
+            if look == LOOKS - 1:
+                raise
+            time.sleep(PAUSE)
+    raise AssertionError("the last look returns or raises")
+
+
+def _read(folder: Path) -> SimulationResult:
+    tables, origins = {}, {}
+    with ExitStack() as stack:
+        try:
+            # One folder for all tables, also where another process gives its name to the next one meanwhile.
+            place = os.open(folder, os.O_RDONLY)
+        except OSError as error:
+            raise InputError(f"a folder that fctd simulate wrote ({error.strerror})", value=folder) from error
+        stack.callback(os.close, place)
+        for name, file in zip(TABLES, result_files(csv=False), strict=True):
+            try:
+                check_regular(folder / file)
+                with open(file, "rb", opener=lambda path, flags: os.open(path, flags, dir_fd=place)) as source:
+                    table = pq.read_table(source)
+                tables[name], origins[name] = table.to_pandas(), table.schema.metadata or {}
+            except InputError as error:
+                raise error.in_file(folder / file) from None
+            except (OSError, ValueError) as error:
+                expected = f"a table that fctd simulate wrote ({getattr(error, 'strerror', None) or error})"
+                raise InputError(expected, value=folder / file) from error
+    runs = {name: origin.get(b"identity", b"").decode() for name, origin in origins.items()}
+    if len(set(runs.values())) > 1:
+        found = ", ".join(f"{name}: {identity[:8] or 'none'}" for name, identity in runs.items())
+        expected = f"tables of one run, found those of several ({found}): simulate the case again into this folder"
+        raise InputError(expected, value=folder)
+    origin = origins["history"]
+    try:
+        case = Case.model_validate_json(origin[b"case"])
+        status, message, run = (origin[key].decode() for key in (b"status", b"message", b"run"))
+        return SimulationResult(case, status, message, **tables, run=json.loads(run), identity=runs["history"])
+    except (KeyError, ValueError) as error:
+        expected = f"the metadata that fctd simulate writes ({type(error).__name__}: {error})"
+        raise InputError(expected, value=folder / "history.parquet") from error
+
+
+def _metadata(path: Path) -> dict[bytes, bytes]:
+    """Metadata of a Parquet file; empty where it is none."""
+    try:
+        return dict(pq.read_schema(path).metadata or {})
+    except (OSError, ValueError):
+        return {}
 
 
 def write_table(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> list[Path]:
@@ -70,30 +162,35 @@ def write_table(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) ->
     Parquet carries the metadata itself; beside a CSV, which any reader must find a plain table, it goes into
     a JSON file of its own: ``chart.csv.json``.  Raises InputError where a file cannot be written.
     """
-    if path.suffix.lower() == ".csv":
-        beside = path.with_name(path.name + ".json")
-        write_csv(frame, path)
+    files = table_files(path)
+    with whole_file(path) as scratch:
+        if len(files) == 1:
+            _to_parquet(frame, scratch, metadata)
+        else:
+            _to_csv(frame, scratch)
+    for beside in files[1:]:
         with whole_file(beside) as scratch:
             scratch.write_text(json.dumps(metadata, indent=1), encoding="utf-8")
-        return [path, beside]
-    write_parquet(frame, path, metadata)
-    return [path]
+    return files
 
 
-def write_csv(frame: pd.DataFrame, path: Path) -> None:
-    """Write a table as CSV, one row of headers."""
-    with whole_file(path) as scratch:
-        frame.to_csv(scratch, index=False)
+def table_files(path: Path) -> list[Path]:
+    """The files that ``write_table`` writes for a path."""
+    return [path, path.with_name(path.name + ".json")] if path.suffix.lower() == ".csv" else [path]
 
 
-def write_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
-    """Write a table, the metadata beside pandas' own: texts as they are, all else as JSON."""
+def _to_csv(frame: pd.DataFrame, path: Path) -> None:
+    """One row of headers."""
+    frame.to_csv(path, index=False)
+
+
+def _to_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
+    """The metadata beside pandas' own: texts as they are, all else as JSON."""
     table = pa.Table.from_pandas(frame, preserve_index=False)
     kept = dict(table.schema.metadata or {})
     for key, value in metadata.items():
         kept[key.encode()] = (value if isinstance(value, str) else json.dumps(value)).encode()
-    with whole_file(path) as scratch:
-        pq.write_table(table.replace_schema_metadata(kept), scratch)
+    pq.write_table(table.replace_schema_metadata(kept), path)
 
 
 def versions() -> dict[str, str]:

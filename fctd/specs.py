@@ -66,7 +66,7 @@ class WellboreSpec(Table):
         if survey is None or info.context is None:
             return survey
         path: Path = info.context["folder"] / survey
-        if not os.path.isfile(path):  # Path.is_file raises on names too long for the file system
+        if not os.path.exists(path):  # Path.exists raises on names too long for the file system
             raise InputError(f"a survey file that exists, looked for {path}")
         return path
 

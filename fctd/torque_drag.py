@@ -9,7 +9,7 @@ from fctd.case import Case, naming_file
 from fctd.equilibrium import Equilibrium, Solver
 from fctd.errors import InputError
 from fctd.operations import SteadyRates, rates_of_all
-from fctd.units import FRICTION
+from fctd.units import FRICTION, bare
 
 # Called after every row with the number of rows done and of all.
 Progress = Callable[[int, int], None]
@@ -84,7 +84,9 @@ def _answer(point: Equilibrium, value: float) -> float:
 
 
 def _check_depths(bit_depths: Sequence[float]) -> list[float]:
-    depths = [float(depth) for depth in bit_depths]
+    if np.ndim(bit_depths) != 1:
+        raise InputError("a list of numbers of metres", key="bit_depths", value=bit_depths)
+    depths = [bare(depth, f"bit_depths[{k}]", "a number of metres") for k, depth in enumerate(bit_depths)]
     if not depths:
         raise InputError("at least one bit depth", key="bit_depths", value=[])
     for before, here in zip([-np.inf, *depths], depths, strict=False):
@@ -96,12 +98,10 @@ def _check_depths(bit_depths: Sequence[float]) -> list[float]:
 def _factors(friction: float | Sequence[float] | None) -> list[float | None]:
     if friction is None:
         return [None]
-    factors = [float(factor) for factor in np.atleast_1d(friction)]
-    for factor in factors:
-        try:
-            FRICTION.parse(factor)
-        except InputError as error:
-            raise error.at("friction") from None
+    try:
+        factors = [FRICTION.parse(factor) for factor in np.atleast_1d(friction).tolist()]
+    except InputError as error:
+        raise error.at("friction") from None
     if not factors:
         raise InputError("at least one friction factor", key="friction", value=[])
     return list(factors)

@@ -173,6 +173,14 @@ class Quantity(Number):
             raise InputError(self.expected, value=value) from error
 
 
+def bare(value: object, key: str, noun: str) -> float:
+    """An argument of a call from Python as a float; InputError, which names it, for a text such as "2000 m"."""
+    try:
+        return Number(noun=noun).read(value)
+    except InputError as error:
+        raise error.at(key) from None
+
+
 Bare = Annotated[float, Number(noun="a bare number")]
 Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SEGMENTS, which says more
 FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0)  # 20 means per cent

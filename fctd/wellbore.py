@@ -24,6 +24,8 @@ SAME_LENGTH = 1e-6
 LONGEST_CYLINDER = 30.0
 # More would not fit into memory, or take longer to lay out than to run.
 MOST_CYLINDERS = 2_000_000
+# No point of a string is further from the origin [m]; squares of far larger numbers overflow.
+FARTHEST = 1e7
 # Below this inclination the high side is north [rad].
 VERTICAL = np.radians(0.1)
 
@@ -145,12 +147,15 @@ def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Co
     """Penetration, normal and measured depth of points in a hole (§4.2–4.4).
 
     points : (n, 3) north, east, down [m]; radii : (n,) or one, contact radius of the string [m].
-    Raises ValueError when shapes disagree or a value is not finite.
+    Raises ValueError when shapes disagree or a value is not finite, and InputError for a point beyond FARTHEST.
     """
     points = np.atleast_2d(np.asarray(points, dtype=float))
     radii = np.broadcast_to(np.asarray(radii, dtype=float), points.shape[:1])
     if points.shape[1] != 3 or not np.all(np.isfinite(points)) or not np.all(np.isfinite(radii)):
         raise ValueError("points must be finite, shape (n, 3), and radii finite, shape (n,)")
+    for k, axis in np.argwhere(np.abs(points) > FARTHEST)[:1].tolist():
+        expected = f"a point within {FARTHEST:g} m of the origin, north, east and down"
+        raise InputError(expected, key=f"points[{k}][{axis}]", value=float(points[k, axis]))
     walls = wellbore.walls(points)
     distance = np.linalg.norm(walls[:, :3], axis=1)
     normal = walls[:, :3] / np.maximum(distance, 1e-300)[:, None]

@@ -1,6 +1,8 @@
-"""Result files: written whole or not at all."""
+"""Result files: written whole or not at all, and refused before the computing where they could not be written."""
 
 import os
+import re
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -12,16 +14,75 @@ from fctd.errors import InputError
 def whole_file(path: Path) -> Iterator[Path]:
     """A file to write that takes the place of ``path`` once all of it is written; folders on the way are made.
 
-    A full disk or an interruption leaves what was there before.  Raises InputError, which names ``path``, where
-    the system refuses.
+    A full disk or an interruption leaves what was there before.  A symlink stays one: the file it leads to is
+    replaced.  Raises InputError, which names ``path``, where the system refuses.
     """
-    scratch = path.with_stem(f".{path.stem}-{os.getpid()}")  # the suffix stays: it may say the format
+    target = Path(os.path.realpath(path))
+    scratch = _scratch(target)
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        for left in left_overs(target):
+            left.unlink(missing_ok=True)
         yield scratch
-        scratch.replace(path)
+        scratch.replace(target)
     except OSError as error:
         raise InputError(f"a file that can be written ({error.strerror or error})", value=path) from error
     finally:
         with suppress(OSError):
             scratch.unlink(missing_ok=True)
+
+
+def check_file(path: Path, key: str = "") -> None:
+    """Raise InputError, which names ``key`` and ``path``, for a file that ``whole_file`` could not write."""
+    target = Path(os.path.realpath(path))
+    try:
+        if target.exists() and not stat.S_ISREG(target.stat().st_mode):
+            raise InputError("a regular file that can be written, no folder, pipe or device", key=key, value=path)
+        check_new(_scratch(target))
+        if target.exists() and not os.access(target, os.W_OK):
+            raise PermissionError(None, "Permission denied")
+    except OSError as error:
+        raise InputError(f"a file that can be written ({error.strerror or error})", key=key, value=path) from None
+
+
+def check_new(path: Path) -> None:
+    """Raise OSError where neither ``path`` nor the folders on the way to it can be made."""
+    with suppress(FileNotFoundError):
+        path.lstat()  # refuses a path that is too long
+    folder = next(parent for parent in path.parents if parent.exists())
+    if not folder.is_dir():
+        raise NotADirectoryError(None, f"{folder} is no folder")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise PermissionError(None, "Permission denied")
+    for name in path.relative_to(folder).parts:
+        with suppress(FileNotFoundError):
+            (folder / name).lstat()  # refuses a name that is too long
+
+
+def left_overs(path: Path) -> list[Path]:
+    """What processes that were killed left beside ``path`` while they wrote it."""
+    return [left for left, _ in left_by_dead(path.parent, rf"\.{re.escape(path.stem)}-PID{re.escape(path.suffix)}")]
+
+
+def left_by_dead(folder: Path, pattern: str) -> list[tuple[Path, int]]:
+    """Entries of a folder whose names match a pattern, and the id at PID in it, where that process has ended."""
+    names = re.compile(pattern.replace("PID", r"([1-9][0-9]{0,6})"))
+    try:
+        found = [(folder / name, match) for name in os.listdir(folder) if (match := names.fullmatch(name))]
+    except OSError:  # no such folder
+        return []
+    return [(path, int(match[1])) for path, match in found if not _runs(int(match[1]))]
+
+
+def _runs(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:  # another user's
+        return True
+    return True
+
+
+def _scratch(path: Path) -> Path:
+    return path.with_stem(f".{path.stem}-{os.getpid()}")  # the suffix stays: it may say the format

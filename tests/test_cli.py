@@ -10,7 +10,7 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from fctd import cli
+from fctd import cli, open_result
 from fctd.interrupts import ends_program
 
 CASE = """
@@ -155,10 +155,11 @@ def test_a_disk_that_is_full_costs_the_file_and_not_the_answer(
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("fctd.results.pq.write_table", full)
-    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path, "--quiet") == 2
+    out = tmp_path / "out"
+    assert run(monkeypatch, "simulate", case_file, "--out", out, "--quiet") == 2
     captured = capsys.readouterr()
-    assert "history.parquet" in captured.err
-    assert "No space left on device" in captured.err
+    assert f'"{out}": expected a folder that can be written (No space left on device)' in captured.err
+    assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
     assert "32 segments" in captured.out
 
 
@@ -173,12 +174,66 @@ def test_results_never_take_the_place_of_the_survey(
     assert "1000,0,0" in survey.read_text()
 
 
+@pytest.mark.parametrize("name", ["energy.parquet", "profile.csv", "history.csv"])
+def test_results_never_take_the_place_of_the_case(
+    name: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = case_file.with_name("out")
+    out.mkdir()
+    case = case_file.rename(out / name)
+    assert run(monkeypatch, "simulate", case, "--out", out, "--csv", "--quiet") == 2
+    assert f'--out = "{case}": expected another file than the case and its survey' in capsys.readouterr().err
+    assert case.read_text() == CASE
+
+
+def test_a_case_in_its_own_result_folder_stays(case_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where a run was killed between its two renames, with the case in neither place."""
+    out = case_file.with_name("out")
+    out.mkdir()
+    case = case_file.rename(out / "energy.toml")
+    assert run(monkeypatch, "simulate", case, "--out", out, "--csv", "--quiet") == 0
+    first = open_result(out)
+    out.rename(out.with_name(".out-old-4194304"))
+    first.save(out.with_name(".out-run-4194304"))
+    assert run(monkeypatch, "simulate", case, "--out", out, "--quiet") == 0
+    assert case.read_text() == CASE
+    assert open_result(out).identity != first.identity
+    assert {path.name for path in out.iterdir()} == {
+        "energy.toml", "history.parquet", "profile.parquet", "energy.parquet",
+    }  # fmt: skip
+    assert [path.name for path in out.parent.iterdir()] == ["out"]
+
+
+@pytest.mark.parametrize(
+    ("out", "expected"),
+    [
+        (".", "a folder of its own for the results, such as result"),
+        ("x" * 250, "a folder that can be written (File name too long)"),
+        ("small.toml", "a folder that can be written (this is a file)"),
+        ("small.toml/out", "a folder that can be written"),
+        ("taken", "a regular file that can be written, no folder, pipe or device"),
+    ],
+)
+def test_a_folder_that_cannot_be_replaced_is_refused_before(
+    out: str, expected: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(case_file.parent)
+    monkeypatch.setattr(cli, "simulate", lambda *_, **__: pytest.fail("the case was computed"))
+    (case_file.parent / "taken").mkdir()
+    os.mkfifo(case_file.parent / "taken" / "profile.parquet")
+    assert run(monkeypatch, "simulate", case_file.name, "--out", out, "--quiet") == 2
+    message = capsys.readouterr().err
+    assert message.startswith("--out = ")
+    assert f"expected {expected}" in message
+
+
 def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def stopped(case: object, **more: object) -> object:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(cli, "simulate", stopped)
-    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path, "--quiet") == 130
+    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
+    assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
 
 
 @pytest.mark.parametrize("package", ["numba", "typer"])

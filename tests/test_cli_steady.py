@@ -1,6 +1,7 @@
 """The steady commands as a user meets them: tables, units, statuses, messages, exit codes."""
 
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -344,6 +345,52 @@ def test_the_survey_is_not_written_over(
     assert run(monkeypatch, command, case_file, *given, *settings(f"wellbore.survey={survey}")) == 2
     assert "another file than the case and its survey" in capsys.readouterr().err
     assert survey.read_text().startswith("md_m")
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+@pytest.mark.parametrize("option", ["--out", "--plot"])
+def test_nor_by_a_side_file_or_a_picture(
+    option: str, command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """``chart.csv.json`` goes beside ``chart.csv``."""
+    pytest.importorskip("matplotlib")
+    survey = tmp_path / {"--out": "hole.csv.json", "--plot": "hole.png"}[option]
+    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,0,0\n")
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "hole.csv")}
+    options |= {"--plot": str(tmp_path / "hole.png")} if option == "--plot" else {}
+    given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
+    assert run(monkeypatch, command, case_file, *given, *settings(f"wellbore.survey={survey}")) == 2
+    assert f'{option} = "{survey}": expected another file than the case and its survey' in capsys.readouterr().err
+    assert survey.read_text().startswith("md_m")
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("x" * 248 + ".csv", "a file that can be written (File name too long)"),  # with the process beside it
+        ("new/" + "x" * 248 + ".csv", "a file that can be written (File name too long)"),
+        ("x" * 243 + ".csv", "a file that can be written (File name too long)"),  # the side file's
+        ("pipe.csv", "a regular file that can be written, no folder, pipe or device"),
+        ("device.csv", "a regular file that can be written, no folder, pipe or device"),
+        ("taken.csv", "a regular file that can be written, no folder, pipe or device"),  # the side file
+    ],
+)
+def test_a_target_that_cannot_be_written_is_refused_before(
+    name: str, expected: str, command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    os.mkfifo(tmp_path / "pipe.csv")
+    os.mkfifo(tmp_path / "taken.csv.json")
+    (tmp_path / "device.csv").symlink_to("/dev/null")
+    for compute in ("torque_drag", "equilibrium"):
+        monkeypatch.setattr(f"fctd.cli_steady.{compute}", lambda *_, **__: pytest.fail("the case was computed"))
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / name)}
+    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 2
+    message = capsys.readouterr().err
+    assert message.startswith("--out = ")
+    assert f"expected {expected}" in message
 
 
 def test_without_matplotlib_a_picture_is_refused_before_computing(

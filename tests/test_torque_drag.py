@@ -67,6 +67,11 @@ def test_a_row_per_operation_friction_and_depth() -> None:
         ({"friction": [0.2, 20]}, "friction = 20.0: expected a friction factor at least 0 and at most 5"),
         ({"friction": []}, "friction = []: expected at least one friction factor"),
         ({"speed": -1.0}, "speed = -1.0: expected a speed above 0"),
+        ({"bit_depths": "500 m"}, 'bit_depths = "500 m": expected a list of numbers of metres'),
+        ({"bit_depths": 500.0}, "bit_depths = 500.0: expected a list of numbers of metres"),
+        ({"bit_depths": [500, "600 m"]}, 'bit_depths[1] = "600 m": expected a number of metres'),
+        ({"friction": "0.2"}, 'friction = "0.2": expected a friction factor'),
+        ({"friction": [0.1, "0.2"]}, 'friction = "0.1": expected a friction factor'),
     ],
 )
 def test_bad_input_is_answered(call: dict[str, Any], expected: str) -> None:

@@ -164,6 +164,26 @@ def test_a_search_starts_at_the_nearest_piece(geometry: str) -> None:
     np.testing.assert_array_equal(found, hole.owners(points))
 
 
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+@pytest.mark.parametrize("far", [1e300, -1e300, 1.001e7, 1e160])
+def test_find_contacts_refuses_points_that_are_nowhere(far: float, geometry: str) -> None:
+    hole = hole_of([[0, 0, 0], [450, 90, 0]], geometry=geometry)
+    with pytest.raises(InputError) as caught:
+        find_contacts(hole, [[0.0, 0.0, 10.0], [0.0, far, 0.0]], 0.05)
+    expected = f"points[1][1] = {far!r}: expected a point within 1e+07 m of the origin, north, east and down"
+    assert str(caught.value) == expected
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+def test_find_contacts_far_from_the_hole(geometry: str) -> None:
+    """As far as it answers: beside a vertical hole the distance is the coordinate's."""
+    hole = hole_of([[0, 0, 0], [450, 0, 0]], geometry=geometry)
+    hits = find_contacts(hole, [[0.0, 1e7, 100.0], [-1e7, 0.0, 200.0]], 0.05)
+    np.testing.assert_allclose(hits.penetration, 1e7 - (0.10795 - 0.05), rtol=1e-15)
+    np.testing.assert_allclose(hits.normal, [[0, 1, 0], [-1, 0, 0]], atol=1e-12)
+    np.testing.assert_allclose(hits.md, [100, 200])
+
+
 def test_find_contacts_on_ten_thousand_points() -> None:
     rng = np.random.default_rng(7)
     turns = list(zip(rng.uniform(0, 25, 10), rng.uniform(-60, 60, 10), strict=True))

@@ -1,0 +1,32 @@
+"""Files that users write, read with a bound: a pipe would block, and a device may have no end."""
+
+import errno
+import io
+import os
+import stat
+from pathlib import Path
+
+from fctd.errors import InputError
+
+
+def read_text(path: Path, largest: int) -> str:
+    """The text of a UTF-8 file of at most ``largest`` MiB, every line end a newline.
+
+    Raises InputError for what is no regular file or too large, OSError where it cannot be read, and ValueError where
+    it is not UTF-8.
+    """
+    check_regular(path)
+    with path.open("rb") as file:
+        content = file.read(largest * 2**20 + 1)
+    if len(content) > largest * 2**20:
+        raise InputError(f"a file of at most {largest} MiB")
+    return io.StringIO(content.decode("utf-8-sig"), newline=None).read()
+
+
+def check_regular(path: Path) -> None:
+    """Raise InputError for a pipe or a device, OSError for a folder and for what is not there."""
+    mode = path.stat().st_mode
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(mode):
+        raise InputError("a regular file (this is a pipe or a device: write its content into a file first)")

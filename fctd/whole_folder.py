@@ -1,0 +1,155 @@
+"""Folders of results, replaced as a whole: the new one is written beside the old, then two renames swap them.
+
+``.DIR-run-PID`` is the new folder and ``.DIR-old-PID`` the one before; both are there only between the two renames.
+A process killed at any time leaves enough for ``repair`` to finish: what was written completely is put into place.
+"""
+
+import errno
+import os
+import re
+import shutil
+import time
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager, suppress
+from itertools import count
+from pathlib import Path
+
+from fctd.errors import InputError
+from fctd.whole_file import check_new, left_by_dead
+
+Own = Callable[[Path], Collection[str]]
+"""Names of the files in a folder that a new folder replaces; all others are the user's and stay."""
+
+
+# How often a folder is looked for that another process swaps, and how long in between [s].
+LOOKS, PAUSE = 20, 0.05
+
+
+@contextmanager
+def whole_folder(folder: Path, own: Own) -> Iterator[Path]:
+    """A folder to fill that takes the place of ``folder``, or becomes it, once it is left without an error.
+
+    A failure or an interruption leaves the folder as it was.  Raises InputError, which names ``folder``, where the
+    system refuses; where it refuses the swap alone, the message says where the new files are.
+    """
+    target = check_folder(folder)
+    new, old = _beside(target, os.getpid())
+    try:
+        repair(target, own)
+        _finish(target, os.getpid(), own)  # an earlier process of this id may have been killed
+        new.mkdir(parents=True)
+        try:
+            yield new
+            if target.is_dir():
+                shutil.copymode(target, new)
+            _swap(new, target, old, own)
+        finally:
+            _finish(target, os.getpid(), own)
+    except OSError as error:
+        raise InputError(f"a folder that can be written ({error.strerror or error})", value=folder) from error
+
+
+def check_folder(folder: Path, key: str = "") -> Path:
+    """The folder without symlinks; InputError, which names ``key`` and ``folder``, where it could not be replaced."""
+    target = Path(os.path.realpath(folder))
+    advice = f"a folder of its own for the results, such as {folder / 'result'}"
+    in_use = (Path(os.path.realpath(place)) for place in (os.curdir, os.path.expanduser("~")))
+    if any(place.is_relative_to(target) for place in in_use):
+        raise InputError(f"{advice} (this one is or holds the current folder or your home)", key=key, value=folder)
+    try:
+        if target.exists() and not target.is_dir():
+            raise InputError("a folder that can be written (this is a file)", key=key, value=folder)
+        inside = [target / name for name in os.listdir(target)] if target.exists() else []
+        if any(os.path.ismount(place) for place in (target, *inside)):
+            raise InputError(f"{advice} (this one is or holds a mount point)", key=key, value=folder)
+        check_new(_beside(target, os.getpid())[0])
+    except OSError as error:
+        reason = error.strerror or str(error)
+        here = f"{advice} (beside this one nothing can be written: {reason})"
+        expected = here if os.path.isdir(target) else f"a folder that can be written ({reason})"
+        raise InputError(expected, key=key, value=folder) from None
+    return target
+
+
+def repair(folder: Path, own: Own) -> None:
+    """Finish what processes that were killed left beside a folder, as far as the system lets us."""
+    folder = Path(os.path.realpath(folder))
+    left = left_by_dead(folder.parent, rf"\.{re.escape(folder.name)}-(?:run|old)-PID")
+    for process in {process for _, process in left}:
+        with suppress(OSError):  # another process does the same, or the folder cannot be written: it stays as it is
+            _finish(folder, process, own)
+
+
+def _beside(folder: Path, process: int) -> tuple[Path, Path]:
+    """Where a process keeps the new folder and the one before."""
+    return folder.with_name(f".{folder.name}-run-{process}"), folder.with_name(f".{folder.name}-old-{process}")
+
+
+def _swap(new: Path, folder: Path, old: Path, own: Own) -> None:
+    """Give a new folder the place of the one there, if any; another process may do the same at the same time."""
+    try:
+        while not _rename_over(new, folder):
+            _hand_over(old, folder, own)
+            with suppress(FileNotFoundError):  # another process is between its two renames
+                folder.rename(old)
+    except OSError as error:
+        if old.is_dir():
+            raise
+        kept = folder.with_name(f"{folder.name}-{os.getpid()}")  # a name that no repair removes
+        new.rename(kept)
+        expected = f"a folder that can be renamed ({error.strerror or error}); the new files are in {kept}"
+        raise InputError(expected, value=folder) from error
+
+
+def _finish(folder: Path, process: int, own: Own) -> None:
+    """Bring the folders of a process that no longer swaps them to their end, whatever step it reached."""
+    new, old = _beside(folder, process)
+    if old.is_dir():
+        if new.is_dir():  # between the two renames: the new folder is complete
+            if not _rename_over(new, folder) and not own(folder):
+                _hand_over(new, folder, lambda _: ())
+        elif not folder.exists():
+            old.rename(folder)
+        _hand_over(old, folder, own)
+    if new.is_dir():
+        shutil.rmtree(new)
+
+
+def _rename_over(new: Path, folder: Path) -> bool:
+    """Rename a folder to where there is none or an empty one; False where there is one that is not empty."""
+    try:
+        new.rename(folder)
+    except OSError as error:
+        if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
+            raise
+        return False
+    return True
+
+
+def _hand_over(old: Path, folder: Path, own: Own) -> None:
+    """Move what the user keeps in the old folder into the one in its place, and remove the rest of it."""
+    if not old.is_dir():
+        return
+    replaced = own(old)
+    for name in sorted(os.listdir(old)):
+        if name in replaced:
+            (old / name).unlink()
+        else:
+            _move(old / name, folder)
+    with suppress(FileNotFoundError):
+        old.rmdir()
+
+
+def _move(path: Path, folder: Path) -> None:
+    """Move a file or folder of the user's into another folder."""
+    for look in count(1):
+        place = folder / path.name
+        while os.path.lexists(place):  # the user has made another of that name meanwhile
+            place = place.with_name(f"{place.name}.old")
+        try:
+            path.rename(place)
+            return
+        except FileNotFoundError:  # another process is between its two renames
+            if look == LOOKS:
+                raise
+            time.sleep(PAUSE)

@@ -1,0 +1,66 @@
+"""Case and survey files are regular and bounded: a pipe would block, and a device may have no end."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from fctd import load_case
+from fctd.errors import InputError
+from fctd.input_file import read_text
+from fctd.survey_file import read_stations
+
+NO_FILE = "expected a regular file (this is a pipe or a device"
+
+
+@pytest.mark.parametrize("name", ["pipe", "/dev/zero", "/dev/null", "link"])
+def test_a_pipe_or_a_device_is_refused_at_once(name: str, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "link").symlink_to("/dev/zero")
+    path = tmp_path / name
+    for read in (load_case, read_stations):
+        with pytest.raises(InputError) as caught:
+            read(path)
+        assert str(caught.value).startswith(f"{path}: {NO_FILE}")
+
+
+def test_a_survey_that_is_a_pipe_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    os.mkfifo(tmp_path / "hole.csv")
+    case = tmp_path / "case.toml"
+    case.write_text(
+        'name = "a"\n[wellbore]\nsurvey = "hole.csv"\n'
+        "[[wellbore.intervals]]\nto_md = 10\ndiameter = 0.2\nfriction = 0.1\n"
+        '[[string.components]]\nname = "pipe"\nouter_diameter = 0.1\ninner_diameter = 0.05\nsegment_length = 5\n'
+    )
+    monkeypatch.chdir(tmp_path)
+    for overrides in ({}, {"wellbore.survey": "hole.csv"}):
+        with pytest.raises(InputError) as caught:
+            load_case("case.toml", overrides)
+        assert f"{tmp_path}/hole.csv: {NO_FILE}" in str(caught.value)
+
+
+@pytest.mark.parametrize(("read", "limit"), [(load_case, 4), (read_stations, 32)])
+def test_the_limit_is_named(read: Callable[[Path], object], limit: int, tmp_path: Path) -> None:
+    """Of a sparse file of a terabyte no more is read than the limit."""
+    path = tmp_path / "large"
+    with path.open("wb") as file:
+        file.truncate(2**40)
+    with pytest.raises(InputError) as caught:
+        read(path)
+    assert str(caught.value) == f"{path}: expected a file of at most {limit} MiB"
+
+
+def test_a_file_of_the_limit_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "large"
+    path.write_bytes(b"a" * 2**20)
+    assert len(read_text(path, 1)) == 2**20
+    path.write_bytes(b"a" * (2**20 + 1))
+    with pytest.raises(InputError, match="at most 1 MiB"):
+        read_text(path, 1)
+
+
+def test_line_ends_and_byte_order_mark(tmp_path: Path) -> None:
+    path = tmp_path / "text"
+    path.write_bytes(b"\xef\xbb\xbfa\r\nb\rc\n")
+    assert read_text(path, 1) == "a\nb\nc\n"

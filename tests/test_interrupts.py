@@ -1,0 +1,167 @@
+"""SIGTERM and SIGHUP end a program as Ctrl-C does: results reached are kept, exit code 130, nothing left behind."""
+
+import os
+import pty
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from fctd import cli, cli_refine, cli_steady, open_result
+from fctd.interrupts import as_interrupts
+from tests.test_cli import CASE, run
+
+ROOT = Path(__file__).parents[1]
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+KILL = (signal.SIGTERM, signal.SIGHUP)
+
+
+@pytest.fixture
+def case_file(tmp_path: Path) -> Path:
+    path = tmp_path / "small.toml"
+    path.write_text(CASE)
+    return path
+
+
+def sending(real: Callable[..., object], number: int, after: int) -> Callable[..., object]:
+    """A command's function that gets a signal, twice, when it reports its progress."""
+    assert threading.current_thread() is threading.main_thread()  # elsewhere the signal would end the tests
+
+    def call(*arguments: object, progress: Callable[..., object], **more: object) -> object:
+        calls = []
+
+        def report(*values: object) -> None:
+            progress(*values)
+            calls.append(values)
+            if len(calls) == after:
+                os.kill(os.getpid(), number)
+
+        return real(*arguments, progress=report, **more)
+
+    return call
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_run_keeps_what_it_has(
+    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(cli, "simulate", sending(cli.simulate, number, 2))
+    out = tmp_path / "out"
+    assert run(monkeypatch, "simulate", case_file, "--out", out, "--set", "record.interval=1 s", "--quiet") == 130
+    result = open_result(out)
+    assert (result.status, result.message) == ("interrupted", "at 2 s")
+    assert list(result.history["time_s"]) == pytest.approx([1.0, 2.0])
+    assert "interrupted: at 2 s" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("command", ["settling", "chart", "refine"])
+def test_a_command_without_results_ends_without_files(
+    command: str, number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    def settle(*_: object) -> None:
+        os.kill(os.getpid(), number)
+
+    options = {
+        "settling": ("simulate", case_file, "--out", tmp_path / "out", "--quiet"),
+        "chart": ("chart", case_file, "--operation", "trip_in", "--depths", "700:750:10", "--out", tmp_path / "a.csv"),
+        "refine": ("refine", case_file, "--out", tmp_path / "fine.toml"),
+    }
+    monkeypatch.setattr(sys.modules["fctd.simulate"], "settle", settle)
+    monkeypatch.setattr(cli_steady, "torque_drag", sending(cli_steady.torque_drag, number, 2))
+    monkeypatch.setattr(cli_refine, "refine", sending(cli_refine.refine, number, 1))
+    assert run(monkeypatch, *options[command]) == 130
+    assert "Traceback" not in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
+
+
+@pytest.mark.parametrize("number", KILL)
+def test_the_second_signal_does_not_cost_the_results(
+    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A terminal that closes sends SIGHUP from the system and from the shell."""
+    save = cli.SimulationResult.save
+
+    def again(*arguments: object, **more: object) -> object:
+        for each in KILL:
+            os.kill(os.getpid(), each)
+        return save(*arguments, **more)
+
+    monkeypatch.setattr(cli, "simulate", sending(cli.simulate, number, 1))
+    monkeypatch.setattr(cli.SimulationResult, "save", again)
+    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
+    assert open_result(tmp_path / "out").status == "interrupted"
+
+
+def test_a_terminal_that_has_gone_does_not_cost_the_results(case_file: Path, tmp_path: Path) -> None:
+    """With its bar and its tables on that terminal."""
+    code = (
+        "import os, signal, time\nfrom fctd import cli\nreal = cli.simulate\n"
+        "def simulate(*a, progress, **k):\n"
+        "    def report(*v):\n"
+        "        progress(*v)\n"
+        "        os.write(1, b'going') if v[0] < 1.5 else None\n"
+        "        time.sleep(60) if v[0] > 1.5 else None\n"
+        "    return real(*a, progress=report, **k)\n"
+        "cli.simulate = simulate\ncli.main()\n"
+    )
+    leader, follower = pty.openpty()
+    arguments = ["simulate", str(case_file), "--out", str(tmp_path / "out"), "--set", "record.interval=1 s"]
+    started = subprocess.Popen(
+        [sys.executable, "-c", code, *arguments], cwd=ROOT, stdin=follower, stdout=follower, stderr=follower,
+        start_new_session=True, preexec_fn=lambda: os.close(os.open(os.ttyname(1), os.O_RDWR)),
+    )  # fmt: skip
+    os.close(follower)
+    seen = b""
+    while b"going" not in seen:
+        seen += os.read(leader, 4096)
+    os.close(leader)  # the system sends SIGHUP
+    started.wait(50)
+    assert open_result(tmp_path / "out").status == "interrupted"
+
+
+def test_signals_that_the_caller_ignores_or_handles_stay_so() -> None:
+    """``nohup fctd …`` goes on when its terminal closes."""
+    handled: list[int] = []
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN), signal.signal(signal.SIGTERM, lambda n, _: handled.append(n))
+    try:
+        with as_interrupts():
+            for number in KILL:
+                os.kill(os.getpid(), number)
+        assert handled == [signal.SIGTERM]
+        assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before[0])
+        signal.signal(signal.SIGTERM, before[1])
+
+
+def test_afterwards_the_signals_are_the_systems_again() -> None:
+    with pytest.raises(KeyboardInterrupt), as_interrupts():
+        os.kill(os.getpid(), signal.SIGTERM)
+    assert [signal.getsignal(number) for number in KILL] == [signal.SIG_DFL] * 2
+
+
+def test_in_another_thread_nothing_is_changed() -> None:
+    seen: list[object] = []
+
+    def inside() -> None:
+        with as_interrupts():
+            seen.append(signal.getsignal(signal.SIGTERM))
+
+    thread = threading.Thread(target=inside)
+    thread.start()
+    thread.join()
+    assert seen == [signal.SIG_DFL]
+
+
+@pytest.mark.parametrize("number", KILL)
+def test_while_it_is_imported(number: int, tmp_path: Path) -> None:
+    (tmp_path / "numba.py").write_text(f"import os\nos.kill(os.getpid(), {int(number)})\n")
+    environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
+    done = subprocess.run([sys.executable, "-m", "fctd"], env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")

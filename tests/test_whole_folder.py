@@ -1,0 +1,341 @@
+"""A result folder is the old one or the new one, whatever happens to the process that replaces it."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+
+from fctd import open_result, results
+from fctd import whole_folder as whole_folder_module
+from fctd.errors import InputError
+from fctd.results import TABLES, own_files
+from fctd.whole_folder import check_folder, repair, whole_folder
+from tests.killed_saves import FOREIGN, earlier, result
+
+ROOT = Path(__file__).parents[1]
+ENDED = 4_194_304  # no process: beyond the ids that Linux gives
+
+
+def value(folder: Path) -> float:
+    """The value of a whole result."""
+    found = open_result(folder)
+    values = {float(frame["value"].iloc[0]) for frame in (found.history, found.profile, found.energy)}
+    (one,) = values
+    return one
+
+
+def check_foreign(folder: Path) -> None:
+    """The user's own files are as they were."""
+    assert {name: (folder / name).read_text() for name in FOREIGN} == FOREIGN
+    assert (folder / "link").readlink() == Path("sub")
+
+
+def test_a_new_result_takes_the_place_of_the_old_one(tmp_path: Path) -> None:
+    folder = tmp_path / "new" / "out"
+    earlier(folder)
+    folder.chmod(0o750)
+    assert {path.name for path in folder.glob("*.csv")} == {f"{name}.csv" for name in TABLES}
+    assert result(2.0).save(folder) == [folder / f"{name}.parquet" for name in TABLES]
+    assert value(folder) == 2.0
+    check_foreign(folder)
+    assert not list(folder.glob("*.csv"))  # those of the run before would lie beside tables of this one
+    assert [path.name for path in folder.parent.iterdir()] == ["out"]
+    assert folder.stat().st_mode & 0o777 == 0o750
+
+
+def test_killed_at_every_step_it_is_the_old_or_the_new_one(tmp_path: Path) -> None:
+    """SIGKILL before every change of the file system, also while it is repaired."""
+    done = subprocess.run([sys.executable, "-m", "tests.killed_saves", tmp_path], cwd=ROOT, capture_output=True)
+    assert done.returncode == 0, done.stderr.decode()
+    found, between = [], 0
+    for base in sorted(tmp_path.iterdir(), key=lambda path: [int(part) for part in path.name.split("-")]):
+        folder = base / "out"
+        tables = [folder / f"{name}.parquet" for name in TABLES]
+        seen = {float(pd.read_parquet(table)["value"].iloc[0]) for table in tables if table.exists()}
+        assert len(seen) <= 1, f"{base}: tables of two runs, before any repair"
+        between += not folder.exists()
+        found.append(value(folder))
+        check_foreign(folder)
+        assert [path.name for path in base.iterdir()] == ["out"], base
+        csv = {f"{name}.csv" for name in TABLES} if found[-1] == 1.0 else set()
+        assert {path.name for path in folder.glob("*.csv")} == csv, base
+    assert set(found) == {1.0, 2.0}
+    assert between >= 2
+    assert len(found) > 60
+
+
+def test_what_the_user_made_meanwhile_is_kept(tmp_path: Path) -> None:
+    """Killed between the renames, and the user writes notes into a folder made anew."""
+    folder, old, new = tmp_path / "out", tmp_path / f".out-old-{ENDED}", tmp_path / f".out-run-{ENDED}"
+    earlier(old)
+    result(2.0).save(new)
+    folder.mkdir()
+    (folder / "notes.txt").write_text("meanwhile")
+    assert value(folder) == 2.0
+    assert (folder / "notes.txt").read_text() == "meanwhile"
+    assert (folder / "notes.txt.old").read_text() == FOREIGN["notes.txt"]
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_a_result_of_another_process_that_came_between_is_kept(tmp_path: Path) -> None:
+    folder, old, new = tmp_path / "out", tmp_path / f".out-old-{ENDED}", tmp_path / f".out-run-{ENDED}"
+    earlier(old)
+    result(2.0).save(new)
+    result(3.0).save(folder)
+    assert value(folder) == 3.0
+    check_foreign(folder)
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_another_process_puts_its_own_between_the_two_renames(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder, rename = tmp_path / "out", os.rename
+    earlier(folder)
+
+    def meanwhile(source: Path, target: Path) -> None:
+        rename(source, target)
+        if Path(target).name.startswith(".out-old-"):
+            monkeypatch.setattr(os, "rename", rename)
+            other = tmp_path / f".out-run-{os.getppid()}"
+            result(3.0).save(other)
+            rename(other, folder)
+
+    monkeypatch.setattr(os, "rename", meanwhile)
+    result(2.0).save(folder)
+    assert value(folder) == 2.0
+    check_foreign(folder)
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_what_the_user_keeps_waits_for_another_process_between_its_renames(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder, rename = tmp_path / "out", os.rename
+    earlier(folder)
+
+    def hidden(source: Path, target: Path) -> None:
+        if Path(source).name == "notes.txt":
+            monkeypatch.setattr(os, "rename", rename)
+            rename(folder, tmp_path / "hidden")
+        rename(source, target)
+
+    monkeypatch.setattr(os, "rename", hidden)
+    monkeypatch.setattr(whole_folder_module.time, "sleep", lambda _: rename(tmp_path / "hidden", folder))
+    result(2.0).save(folder)
+    assert value(folder) == 2.0
+    check_foreign(folder)
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_a_process_that_lives_is_left_alone(tmp_path: Path) -> None:
+    writing = tmp_path / f".out-run-{os.getppid()}"
+    writing.mkdir()
+    earlier(tmp_path / "out")
+    assert value(tmp_path / "out") == 1.0
+    assert writing.is_dir()
+
+
+@pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), KeyboardInterrupt(), SystemExit(1)])
+@pytest.mark.parametrize("moment", ["write", "rename"])
+def test_a_failure_leaves_the_old_or_the_new_one(
+    moment: str, failure: BaseException, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder, rename = tmp_path / "out", os.rename
+    earlier(folder)
+
+    def fail(*_: object) -> None:
+        raise failure
+
+    def fail_between(source: Path, target: Path) -> None:
+        rename(source, target)
+        if Path(target).name.startswith(".out-old-"):
+            monkeypatch.setattr(os, "rename", rename)
+            raise failure
+
+    monkeypatch.setattr(*((pq, "write_table", fail) if moment == "write" else (os, "rename", fail_between)))
+    with pytest.raises((InputError, KeyboardInterrupt, SystemExit)) as caught:
+        result(2.0).save(folder)
+    if isinstance(failure, OSError):
+        assert str(caught.value) == f'"{folder}": expected a folder that can be written (No space left on device)'
+    assert value(folder) == (1.0 if moment == "write" else 2.0)
+    check_foreign(folder)
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_where_the_swap_is_refused_the_message_says_where_the_files_are(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A folder of another user in /tmp may be written and not renamed."""
+    folder, rename = tmp_path / "out", os.rename
+    earlier(folder)
+
+    def refuse(source: Path, target: Path) -> None:
+        if Path(source) == folder:
+            raise PermissionError(1, "Operation not permitted")
+        rename(source, target)
+
+    monkeypatch.setattr(os, "rename", refuse)
+    with pytest.raises(InputError) as caught:
+        result(2.0).save(folder)
+    kept = tmp_path / f"out-{os.getpid()}"
+    assert f"a folder that can be renamed (Operation not permitted); the new files are in {kept}" in str(caught.value)
+    assert (value(folder), value(kept)) == (1.0, 2.0)
+    check_foreign(folder)
+
+
+def test_a_symlink_stays_one(tmp_path: Path) -> None:
+    earlier(tmp_path / "real")
+    (tmp_path / "out").symlink_to("real")
+    result(2.0).save(tmp_path / "out")
+    assert (tmp_path / "out").readlink() == Path("real")
+    assert value(tmp_path / "real") == 2.0
+    check_foreign(tmp_path / "out")
+
+
+@pytest.mark.parametrize("place", [".", "..", "~", "link", "/"])
+def test_the_current_folder_is_not_replaced(place: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "around" / "here").mkdir(parents=True)
+    (tmp_path / "home").mkdir()
+    monkeypatch.chdir(tmp_path / "around" / "here")
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    Path("link").symlink_to(".")
+    with pytest.raises(InputError) as caught:
+        check_folder(Path(place).expanduser(), "--out")
+    remedy = Path(place).expanduser() / "result"
+    assert f"expected a folder of its own for the results, such as {remedy} (this one is or holds" in str(caught.value)
+    assert check_folder(remedy).name == "result"
+
+
+@pytest.mark.parametrize("mounted", ["out", "out/inside"])
+def test_a_mount_point_is_refused(mounted: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "out" / "inside").mkdir(parents=True)
+    monkeypatch.setattr(os.path, "ismount", lambda place: place == tmp_path / mounted)
+    with pytest.raises(InputError, match=r"this one is or holds a mount point"):
+        check_folder(tmp_path / "out")
+
+
+def test_a_folder_in_one_that_cannot_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "out").mkdir()
+    monkeypatch.setattr(os, "access", lambda place, mode: place != tmp_path)
+    with pytest.raises(InputError, match=r"out/result \(beside this one nothing can be written: Permission denied\)"):
+        check_folder(tmp_path / "out")
+    with pytest.raises(InputError, match=r"a folder that can be written \(Permission denied\)"):
+        check_folder(tmp_path / "new")
+    assert check_folder(tmp_path / "out" / "result")
+
+
+@pytest.mark.parametrize("name", ["x" * 250, "a/" + "x" * 300, "/".join(["x" * 200] * 30), "file", "file/out"])
+def test_what_cannot_be_made_is_refused_before(name: str, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(InputError, match="a folder that can be written"):
+        check_folder(tmp_path / name)
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_files_of_processes_that_were_killed_are_removed(tmp_path: Path) -> None:
+    earlier(tmp_path)
+    left, alive = tmp_path / f".history-{ENDED}.parquet", tmp_path / f".history-{os.getppid()}.parquet"
+    for path in (left, alive):
+        path.touch()
+    assert left.name in own_files(tmp_path)
+    result(2.0).save(tmp_path)
+    assert not left.exists()
+    assert alive.exists()
+
+
+def test_tables_of_two_runs_are_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(results, "PAUSE", 0.0)
+    result(1.0).save(tmp_path / "out")
+    result(2.0).save(tmp_path / "other")
+    (tmp_path / "other" / "energy.parquet").replace(tmp_path / "out" / "energy.parquet")
+    with pytest.raises(InputError) as caught:
+        open_result(tmp_path / "out")
+    assert str(tmp_path / "out") in str(caught.value)
+    assert "expected tables of one run, found those of several" in str(caught.value)
+    assert "simulate the case again" in str(caught.value)
+
+
+def test_a_result_that_is_replaced_while_it_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The tables read are all of the same run: the old one's are gone by then, and the new one is read."""
+    folder, read = tmp_path / "out", pq.read_table
+    earlier(folder)
+
+    def replaced(source: object) -> object:
+        monkeypatch.setattr(pq, "read_table", read)
+        table = read(source)
+        result(2.0).save(folder)
+        return table
+
+    monkeypatch.setattr(pq, "read_table", replaced)
+    assert value(folder) == 2.0
+
+
+@pytest.mark.parametrize("name", ["missing", "file"])
+def test_what_is_no_folder_is_no_result(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(results, "PAUSE", 0.0)
+    (tmp_path / "file").touch()
+    with pytest.raises(InputError) as caught:
+        open_result(tmp_path / name)
+    assert str(tmp_path / name) in str(caught.value)
+    assert "that fctd simulate wrote" in str(caught.value)
+
+
+def test_a_result_is_read_as_it_was_saved(tmp_path: Path) -> None:
+    saved = result(1.5)
+    saved.save(tmp_path / "out")
+    read = open_result(tmp_path / "out")
+    for name in TABLES:
+        pd.testing.assert_frame_equal(getattr(read, name), getattr(saved, name))
+    assert (read.case, read.status, read.message, read.run, read.identity) == (
+        saved.case, saved.status, saved.message, saved.run, saved.identity,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["history", "profile", "energy"])
+@pytest.mark.parametrize("damage", ["missing", "cut", "text", "pipe"])
+def test_a_damaged_result_is_named(damage: str, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(results, "PAUSE", 0.0)
+    result(1.0).save(tmp_path / "out")
+    path = tmp_path / "out" / f"{name}.parquet"
+    content = path.read_bytes()
+    path.unlink()
+    if damage == "cut":
+        path.write_bytes(content[: len(content) // 2])
+    elif damage == "text":
+        path.write_text("not a table")
+    elif damage == "pipe":
+        os.mkfifo(path)
+    with pytest.raises(InputError) as caught:
+        open_result(tmp_path / "out")
+    assert str(path) in str(caught.value)
+
+
+def test_a_table_of_another_origin_is_no_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(results, "PAUSE", 0.0)
+    for name in TABLES:
+        pd.DataFrame({"a": [1]}).to_parquet(tmp_path / f"{name}.parquet")
+    with pytest.raises(InputError, match="the metadata that fctd simulate writes"):
+        open_result(tmp_path)
+
+
+def test_a_csv_file_of_the_users_own_stays(tmp_path: Path) -> None:
+    result(1.0).save(tmp_path / "out")
+    (tmp_path / "out" / "profile.csv").write_text("my own")
+    result(2.0).save(tmp_path / "out")
+    assert (tmp_path / "out" / "profile.csv").read_text() == "my own"
+
+
+def test_an_empty_folder_is_repaired_to_nothing(tmp_path: Path) -> None:
+    (tmp_path / f".out-run-{ENDED}").mkdir()
+    repair(tmp_path / "out", own_files)
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_new_folder_is_beside_the_old_one_until_it_is_whole(tmp_path: Path) -> None:
+    with whole_folder(tmp_path / "out", own_files) as new:
+        assert new.parent == tmp_path
+        assert not (tmp_path / "out").exists()
+    assert (tmp_path / "out").is_dir()
