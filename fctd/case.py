@@ -17,7 +17,18 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 
 from fctd import units
 from fctd.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
-from fctd.specs import BitSpec, ContactSpec, MudSpec, RecordSpec, RigSpec, SolverSpec, StringSpec, WellboreSpec
+from fctd.specs import (
+    BitSpec,
+    ContactSpec,
+    FileName,
+    MudSpec,
+    RecordSpec,
+    RigSpec,
+    SolverSpec,
+    StringSpec,
+    WellboreSpec,
+)
+from fctd.text import is_utf8
 
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
 
@@ -132,7 +143,7 @@ class Case(Table):
     solver: SolverSpec = SolverSpec()
     record: RecordSpec = RecordSpec()
     operations: tuple[Annotated[Operation, Field(discriminator="kind")], ...] = ()
-    file: Path | None = None
+    file: FileName | None = None
 
     @field_validator("operations", mode="before")
     @classmethod
@@ -237,6 +248,8 @@ def parse_override(text: str) -> tuple[str, Any]:
         raise InputError("key=value", value=text)
     if not written:
         return key, None
+    if key != "wellbore.survey" and not is_utf8(written):  # only a file may have any bytes in its name
+        raise InputError("a value in UTF-8", key=key, value=written)
     try:
         table = tomllib.loads(f"value = {written}")
     except (ValueError, RecursionError):

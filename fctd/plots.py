@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from fctd.equilibrium import Equilibrium
 from fctd.operations import OPERATION_NAMES
+from fctd.text import printable
 from fctd.torque_drag import own_friction
 from fctd.unit_systems import System, shown
 from fctd.whole_file import whole_file
@@ -43,6 +44,7 @@ RC: dict[RcKeyType, Any] = {
     "lines.linewidth": 1.5,
     "lines.markersize": 5,
     "savefig.dpi": 150,
+    "text.parse_math": False,  # a dollar sign in a name begins no formula
     # The same numbers give the same file, byte for byte.
     "svg.hashsalt": "fctd",
 }
@@ -254,8 +256,8 @@ def _label(ax: Axes, column: str, units: System) -> None:
 
 
 def _title(figure: Figure, text: str) -> None:
-    """A heading; what a case is called is no formula."""
-    figure.suptitle(text.replace("$", r"\$"), x=0.01, ha="left", fontsize=10.5, fontweight="bold")
+    """A heading."""
+    figure.suptitle(printable(text), x=0.01, ha="left", fontsize=10.5, fontweight="bold")
 
 
 def _handle(kind: str, status: str = "converged") -> Line2D:

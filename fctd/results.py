@@ -45,7 +45,7 @@ class SimulationResult:
         Raises InputError where a file cannot be written.
         """
         metadata = {
-            "case": self.case.model_dump_json(),
+            "case": self.case.model_dump(mode="json"),
             "status": self.status,
             "message": self.message,
             "run": self.run,
@@ -92,8 +92,8 @@ def write_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) 
     kept = dict(table.schema.metadata or {})
     for key, value in metadata.items():
         kept[key.encode()] = (value if isinstance(value, str) else json.dumps(value)).encode()
-    with whole_file(path) as scratch:
-        pq.write_table(table.replace_schema_metadata(kept), scratch)
+    with whole_file(path) as scratch, scratch.open("wb") as sink:  # pyarrow opens only names in UTF-8
+        pq.write_table(table.replace_schema_metadata(kept), sink)
 
 
 def versions() -> dict[str, str]:

@@ -87,7 +87,7 @@ def render(results: Path, studies: Iterable[str], out: Path, changes: Mapping[st
     page = environment.get_template("page.html").render(
         sections=sections, claims=claims, changes=changes or {}, number=words.number, quantity=words.quantity
     )
-    (out / "index.html").write_text(page, encoding="utf-8")
+    (out / "index.html").write_text(page, encoding="utf-8", errors="backslashreplace")
     problems = [f"{section.study}: {problem}" for section in sections for problem in section.problems]
     return ([f"{LEDGER}: {claims.problem}"] if claims.problem else []) + problems
 
