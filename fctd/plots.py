@@ -44,7 +44,6 @@ RC: dict[RcKeyType, Any] = {
     "lines.linewidth": 1.5,
     "lines.markersize": 5,
     "savefig.dpi": 150,
-    "text.parse_math": False,  # a dollar sign in a name begins no formula
     # The same numbers give the same file, byte for byte.
     "svg.hashsalt": "fctd",
 }
@@ -256,8 +255,8 @@ def _label(ax: Axes, column: str, units: System) -> None:
 
 
 def _title(figure: Figure, text: str) -> None:
-    """A heading."""
-    figure.suptitle(printable(text), x=0.01, ha="left", fontsize=10.5, fontweight="bold")
+    """A heading; what a case is called is no formula."""
+    figure.suptitle(printable(text), parse_math=False, x=0.01, ha="left", fontsize=10.5, fontweight="bold")
 
 
 def _handle(kind: str, status: str = "converged") -> Line2D:

@@ -18,9 +18,15 @@ from pydantic import BeforeValidator, Field, StrictBool, ValidationInfo, field_v
 from fctd import units
 from fctd.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.survey_file import StationKey, check_stations, read_stations
+from fctd.text import is_utf8
 
-# pydantic reads only texts in UTF-8 as paths; a file may have any bytes in its name.
-FileName = Annotated[Path, BeforeValidator(lambda raw: Path(raw) if isinstance(raw, str) else raw)]
+
+def _as_path(raw: object) -> object:
+    """A file may have any bytes in its name, but pydantic takes only texts in UTF-8 for paths."""
+    return Path(raw) if isinstance(raw, str) and not is_utf8(raw) else raw
+
+
+FileName = Annotated[Path, BeforeValidator(_as_path)]
 
 
 class IntervalSpec(Table):

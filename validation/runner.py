@@ -219,7 +219,7 @@ def run_one(
     except Exception as error:
         # One study must not take the others with it: its failure is a result, and the exit code tells.
         if not isinstance(error, InputError):  # which says all there is to know
-            traceback.print_exc()
+            print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
         message = f"{type(error).__name__}: {error}"
         run = replace(blank, message=message, wall_s=time.perf_counter() - start)
         record.write(run, {}, context.results)
