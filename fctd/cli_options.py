@@ -27,8 +27,9 @@ class Terminal(Console):
         super().__init__(stderr=stderr, markup=False, emoji=False, highlight=False)
 
     def render_str(self, text: str, **options: Any) -> Text:
-        """The string as rich prints it; rich calls this for strings, also those in tables."""
-        return super().render_str(printable_lines(text), **options)
+        """The string as rich lays it out; rich calls this for strings, also those in tables."""
+        shown = printable_lines(text).encode(self.encoding, errors="backslashreplace")  # before columns get their width
+        return super().render_str(shown.decode(self.encoding), **options)
 
 
 # Results go to standard output; progress and errors to standard error, so that neither spoils the other.
