@@ -4,16 +4,21 @@ import io
 import json
 import os
 import sys
+from contextlib import redirect_stdout
 from pathlib import Path
 
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
+from hypothesis import given
+from rich.table import Table
 
 from fctd import cli
 from fctd.case import Case
+from fctd.text import printable_lines
 from references.__main__ import app as references_app
 from tests.test_cli import CASE
+from tests.test_text import ANYTHING
 
 # A name as TOML writes it, and as it is shown: markup, emoji code, formula, CSI, OSC, C1, a line's end, an override.
 WILD = r"[/x] [bold]y :x: $\\frac{ \u001b[31m \u001b]0;t\u0007 \u009b1m \n \u202e"
@@ -56,6 +61,23 @@ def check_plain(*printed: str) -> None:
     """No character that steers a terminal but the line's end."""
     for text in printed:
         assert all(line.isprintable() for line in text.split("\n"))
+
+
+@given(ANYTHING)
+def test_any_text_reaches_the_terminal_as_it_stands(text: str) -> None:
+    with redirect_stdout(io.StringIO()) as out:
+        cli.screen.print(text, soft_wrap=True)
+    assert out.getvalue() == printable_lines(text) + "\n"
+
+
+@given(ANYTHING)
+def test_a_table_holds_any_text(text: str) -> None:
+    table = Table(title=text)
+    table.add_column(text)
+    table.add_row(text)
+    with redirect_stdout(io.StringIO()) as out:
+        cli.screen.print(table)
+    check_plain(out.getvalue())
 
 
 @pytest.mark.parametrize("command", list(COMMANDS))
