@@ -84,7 +84,7 @@ def test_a_table_holds_any_text(text: str) -> None:
 def test_a_name_is_printed_as_it_stands(
     command: str, wild: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.setattr(cli.screen, "_width", 200)
     arguments = [*COMMANDS[command], wild]
     assert fctd(monkeypatch, *arguments) == 0
     out, err = capsys.readouterr()
@@ -96,7 +96,7 @@ def test_a_name_is_printed_as_it_stands(
 def test_a_name_beside_a_progress_bar(
     command: str, wild: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.setattr(cli.messages, "_width", 200)
     monkeypatch.setenv("TTY_COMPATIBLE", "1")  # a terminal, for rich
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr(cli.messages, "is_interactive", True)
