@@ -26,7 +26,7 @@ History = Annotated[Path, typer.Option("--history", metavar="FOLDER", help="Wher
 
 def tell(line: str) -> None:
     """Progress, on standard error."""
-    messages.print(line, highlight=False, markup=False)
+    messages.print(line)
 
 
 @app.command("gate")
@@ -39,7 +39,7 @@ def gate_command(folder: History = history.HISTORY) -> None:
     file, record = last
     outcome = gate(record, file, tell)
     if not outcome.verdicts:
-        screen.print(outcome.how, markup=False)
+        screen.print(outcome.how)
         return
     screen.print(tables.verdict_table(outcome))
     screen.print(tables.shown_table(outcome))
@@ -47,10 +47,10 @@ def gate_command(folder: History = history.HISTORY) -> None:
         if verdict.status == "slower":
             screen.print(
                 f"slower: {verdict.kernel} takes {verdict.change:.2f} times what it took"
-                f" (noise leaves {verdict.low:.2f} to {verdict.high:.2f})", markup=False,
-            )  # fmt: skip
+                f" (noise leaves {verdict.low:.2f} to {verdict.high:.2f})"
+            )
         elif verdict.status == "missing":
-            screen.print(f"missing: {verdict.kernel} is no longer measured; record a new release", markup=False)
+            screen.print(f"missing: {verdict.kernel} is no longer measured; record a new release")
     if not outcome.passed:
         raise typer.Exit(FAILED)
 
@@ -73,7 +73,7 @@ def record_command(
     changed = history.uncommitted()
     if changed:
         raise InputError("everything committed: a record names its commit", key="git", value=changed)
-    screen.print(str(history.write(measured(release), folder)), markup=False)
+    screen.print(str(history.write(measured(release), folder)))
 
 
 def measured(release: str = "") -> history.Record:

@@ -18,7 +18,18 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 from fctd import units
 from fctd.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
 from fctd.input_file import read_text
-from fctd.specs import BitSpec, ContactSpec, MudSpec, RecordSpec, RigSpec, SolverSpec, StringSpec, WellboreSpec
+from fctd.specs import (
+    BitSpec,
+    ContactSpec,
+    FileName,
+    MudSpec,
+    RecordSpec,
+    RigSpec,
+    SolverSpec,
+    StringSpec,
+    WellboreSpec,
+)
+from fctd.text import is_utf8
 
 LARGEST_FILE: Final = 4  # MiB: 100,000 stations written out; the TOML reader takes some seconds for them
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
@@ -134,7 +145,7 @@ class Case(Table):
     solver: SolverSpec = SolverSpec()
     record: RecordSpec = RecordSpec()
     operations: tuple[Annotated[Operation, Field(discriminator="kind")], ...] = ()
-    file: Path | None = None
+    file: FileName | None = None
 
     @field_validator("operations", mode="before")
     @classmethod
@@ -239,6 +250,8 @@ def parse_override(text: str) -> tuple[str, Any]:
         raise InputError("key=value", value=text)
     if not written:
         return key, None
+    if key != "wellbore.survey" and not is_utf8(written):  # only a file may have any bytes in its name
+        raise InputError("a value in UTF-8", key=key, value=written)
     try:
         table = tomllib.loads(f"value = {written}")
     except (ValueError, RecursionError):

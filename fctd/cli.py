@@ -1,6 +1,5 @@
 """The command line, also ``python -m fctd``: the application, and ``fctd simulate CASE``."""
 
-import re
 import sys
 from collections.abc import Callable
 from contextlib import suppress
@@ -22,6 +21,8 @@ from fctd.cli_options import (
     Overrides,
     Quiet,
     messages,
+    print_status,
+    print_written,
     read_case,
     screen,
     spare_files,
@@ -32,6 +33,7 @@ from fctd.errors import InputError
 from fctd.interrupts import as_interrupts
 from fctd.results import SimulationResult, check_result_folder, own_files, result_files
 from fctd.simulate import simulate
+from fctd.text import degrade_output, file_name, printable
 from fctd.wall_query import WallQuery
 
 app = typer.Typer(
@@ -67,11 +69,11 @@ def simulate_file(
     """What ``simulate`` does; ``contact`` builds another contact method for the case (see fctd.simulate)."""
     case = read_case(case_file, overrides, friction)
     method = None if contact is None else contact(case)
-    folder = out or Path(re.sub(r"[^\w.-]+", "-", f"{case.name}-result"))
+    folder = out or Path(file_name(case.name, "-result"))
     check_result_folder(folder, csv, "--out")  # before hours of computing, not after
     spare_files(case, (folder / name for name in own_files(folder).union(result_files(csv))), "--out")
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         TextColumn("{task.completed:.0f}/{task.total:.0f} s simulated, {task.fields[factor]} × real time"),
         TimeElapsedColumn(),
@@ -83,7 +85,7 @@ def simulate_file(
             task = bar.add_task("compiling, settling", total=1.0, factor="–")
 
             def show(now: float, total: float, factor: float) -> None:
-                bar.update(task, description=case.name, total=total, completed=now, factor=f"{factor:.0f}")
+                bar.update(task, description=printable(case.name), total=total, completed=now, factor=f"{factor:.0f}")
 
             result = simulate(case, progress=show, contact=method)
             # Files first: the screen, also that of the bar, may have been closed.
@@ -91,7 +93,7 @@ def simulate_file(
     finally:  # the screen also where a file fails
         if result is not None:
             _summarise(result)
-    screen.print(f"Written: {', '.join(str(p) for p in written)}", soft_wrap=True, highlight=False)
+    print_written(written)
     if result.status == "interrupted":
         raise typer.Exit(INTERRUPTED)
     if result.status != "completed":
@@ -101,12 +103,13 @@ def simulate_file(
 def _summarise(result: SimulationResult) -> None:
     """Print the state at the end and the numbers of the run."""
     if result.message:
-        messages.print(f"[bold]{result.status}[/bold]: {result.message}", highlight=False, soft_wrap=True)
+        print_status(result.status, result.message)
     if len(result.history):
         last = result.history.iloc[-1]
-        table = Table(title=f"{result.case.name}: {last['operation']}, bit at {last['bit_depth_m']:.1f} m")
-        for name in ("hook load kN", "surface torque kN·m", "Σ r μ F_n kN·m", "contact force kN", "contacts"):
-            table.add_column(name, justify="right")
+        name = printable(result.case.name)
+        table = Table(title=f"{name}: {last['operation']}, bit at {last['bit_depth_m']:.1f} m")
+        for heading in ("hook load kN", "surface torque kN·m", "Σ r μ F_n kN·m", "contact force kN", "contacts"):
+            table.add_column(heading, justify="right")
         table.add_row(
             f"{last['hookload_N'] / 1e3:.1f}",
             f"{last['surface_torque_N_m'] / 1e3:.3f}",
@@ -121,7 +124,7 @@ def _summarise(result: SimulationResult) -> None:
         f"{run['simulated_s']:.0f} s simulated in {run['wall_s']:.2f} s "
         f"({run['real_time_factor']:.0f} × real time), "
         f"energy error {run['energy_error']:.1e}",
-        highlight=False, soft_wrap=True,
+        soft_wrap=True,
     )  # fmt: skip
 
 
@@ -137,12 +140,13 @@ def main() -> None:
 
 def run(commands: typer.Typer) -> None:
     """Run a command line: one line for bad input or a file that cannot be written, no traceback."""
+    degrade_output()
     try:
         with as_interrupts():
             commands()
     except (InputError, OSError) as error:  # OSError: a disk that is full, a terminal that has gone meanwhile
         with suppress(OSError):
-            messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
+            messages.print(str(error), style="bold", soft_wrap=True)
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)

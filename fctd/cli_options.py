@@ -6,18 +6,36 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
+from rich.text import Text
 
 from fctd.case import Case, load_case, parse_override
 from fctd.errors import InputError
 from fctd.results import own_files, table_files
+from fctd.text import printable, printable_lines
 from fctd.units import Dimension, Quantity
 from fctd.whole_file import check_file
 from fctd.whole_folder import repair
 
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
+
+class Terminal(Console):
+    """A console on which every string stands as it is: no markup, no emoji codes, escapes for what does not print.
+
+    Only the end of a line keeps its effect, so a text from outside that must stay on one line passes `printable`.
+    """
+
+    def __init__(self, *, stderr: bool = False) -> None:
+        super().__init__(stderr=stderr, markup=False, emoji=False, highlight=False)
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        """The string as rich lays it out; rich calls this for strings, also those in tables."""
+        shown = printable_lines(text).encode(self.encoding, errors="backslashreplace")  # before columns get their width
+        return super().render_str(shown.decode(self.encoding), **options)
+
+
 # Results go to standard output; progress and errors to standard error, so that neither spoils the other.
-screen, messages = Console(), Console(stderr=True)
+screen, messages = Terminal(), Terminal(stderr=True)
 
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]
 Overrides = Annotated[
@@ -89,3 +107,14 @@ def spare_files(case: Case, paths: Iterable[Path], key: str) -> None:
         for source in (case.file, case.wellbore.survey):
             if source is not None and path.exists() and path.samefile(source):
                 raise InputError("another file than the case and its survey", key=key, value=path)
+
+
+def print_status(status: str, message: str) -> None:
+    """Print how a computation ended and why, on standard error."""
+    messages.print(Text.assemble((status, "bold"), f": {printable(message)}"), soft_wrap=True)
+
+
+def print_written(paths: Sequence[Path]) -> None:
+    """Print the files that were written, if any, on a line that can be copied."""
+    if paths:
+        screen.print(f"Written: {', '.join(printable(str(path)) for path in paths)}", soft_wrap=True)

@@ -17,6 +17,8 @@ from fctd.cli_options import (
     Quiet,
     check_target,
     messages,
+    print_status,
+    print_written,
     read_case,
     read_quantity,
     read_share,
@@ -25,7 +27,8 @@ from fctd.cli_options import (
 )
 from fctd.cli_steady import KIND_HELP, Rpm, Speed, Units, read_drive
 from fctd.refine import Refinement, refine
-from fctd.refined_file import write_refined
+from fctd.refined_file import survey_from, write_refined
+from fctd.text import printable
 from fctd.unit_systems import System, shown
 from fctd.units import LENGTH
 
@@ -62,6 +65,8 @@ def refine_command(
     share = read_share(tolerance, "--tolerance")
     case = read_case(case_file, overrides, friction)
     spare_sources(case, out, "--out")
+    if out is not None:
+        survey_from(out, case)  # before the computing, not after
     depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth")
     with messages.status("compiling") as status:
         if quiet:
@@ -79,7 +84,7 @@ def refine_command(
     finally:
         _print(refined, graded, units)
     if target is not None:
-        screen.print(f"Written: {target}", soft_wrap=True, highlight=False)
+        print_written([target])
     elif out is not None:
         messages.print("Nothing is written: no string has an answer.")
     if refined.status != "within_tolerance":
@@ -89,8 +94,8 @@ def refine_command(
 def _print(refined: Refinement, graded: bool, units: System) -> None:
     """Print every level, and what follows; which layout a string has only where both were tried."""
     metre, load, torque = (shown(name, units) for name in ("bit_depth_m", "hookload_N", "surface_torque_N_m"))
-    title = f"{refined.case.name}: bit at {refined.bit_depth * metre.factor:.1f} {metre.label}"
-    screen.print(title, style="bold", highlight=False, markup=False)
+    title = f"{printable(refined.case.name)}: bit at {refined.bit_depth * metre.factor:.1f} {metre.label}"
+    screen.print(title, style="bold")
     table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
     table.add_column("", no_wrap=True)
     table.add_column("operation", no_wrap=True)
@@ -119,12 +124,12 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
         screen.print(
             f"{refined.segments} {cut}, from {refined.shortest * metre.factor:.3g} {metre.label} up: an error of "
             f"{_percent(refined.error)} % is left, {_percent(refined.tolerance)} % is allowed.",
-            highlight=False, soft_wrap=True,
+            soft_wrap=True,
         )  # fmt: skip
         if graded and refined.layout == "uniform":
-            screen.print("Grading would not save a tenth of them.", highlight=False, soft_wrap=True)
+            screen.print("Grading would not save a tenth of them.", soft_wrap=True)
     else:
-        messages.print(f"[bold]{refined.status}[/bold]: {refined.message}", highlight=False, soft_wrap=True)
+        print_status(refined.status, refined.message)
 
 
 def _percent(share: float) -> str:

@@ -22,6 +22,8 @@ from fctd.cli_options import (
     Quiet,
     check_target,
     messages,
+    print_status,
+    print_written,
     read_case,
     read_quantity,
     screen,
@@ -31,6 +33,7 @@ from fctd.equilibrium import SOUND, Equilibrium, Solver, equilibrium
 from fctd.errors import InputError
 from fctd.operations import rates_of_all
 from fctd.results import versions, write_table
+from fctd.text import printable
 from fctd.torque_drag import torque_drag, with_friction
 from fctd.unit_systems import System, in_field_units, shown
 from fctd.units import LENGTH, SPEED
@@ -127,7 +130,7 @@ def equilibrium_command(
         _print_point(point, units)
     if not point.answered and (out is not None or plot is not None):
         messages.print("Nothing is written: without a balance there is no profile.")
-    _print_written(written)
+    print_written(written)
     if point.status not in SOUND:
         raise typer.Exit(FAILED)
 
@@ -167,12 +170,12 @@ def chart_command(
     factors = list(dict.fromkeys(frictions))
     drive = read_drive(speed, rpm)
 
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
         task = bar.add_task("compiling", total=None)
 
         def show(done: int, total: int) -> None:
-            bar.update(task, description=case.name, completed=done, total=total)
+            bar.update(task, description=printable(case.name), completed=done, total=total)
 
         chart = torque_drag(case, kinds, bit_depths, factors or None, **drive, progress=show)
 
@@ -189,7 +192,7 @@ def chart_command(
             written += plots.save(plots.profile_figure(points, units), plot_profile)
     finally:
         _print_chart(chart, case.name, units)
-    _print_written(written)
+    print_written(written)
     if not chart["status"].isin(SOUND).all():
         raise typer.Exit(FAILED)
 
@@ -263,7 +266,7 @@ def _print_point(point: Equilibrium, units: System) -> None:
     """Print the loads of a string, and where it is near its limits."""
     metre = shown("bit_depth_m", units)
     depth = f"{point.bit_depth * metre.factor:.1f} {metre.label}"
-    screen.print(f"{point.case.name}: {point.operation}, bit at {depth}", style="bold", highlight=False, markup=False)
+    screen.print(f"{printable(point.case.name)}: {point.operation}, bit at {depth}", style="bold")
     table = Table(box=SIMPLE_HEAD, show_header=False)
     for name, value in _loads(point).items():
         unit = shown(name, units)
@@ -281,9 +284,9 @@ def _print_point(point: Equilibrium, units: System) -> None:
                 table.add_row(f"beyond {mode} limit", where, metre.label)
     table.columns[1].justify = "right"
     screen.print(table)
-    screen.print(f"{point.status}, {point.iterations} iterations", highlight=False)
+    screen.print(f"{point.status}, {point.iterations} iterations")
     if point.message:
-        messages.print(f"[bold]{point.status}[/bold]: {point.message}", highlight=False, soft_wrap=True)
+        print_status(point.status, point.message)
 
 
 def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
@@ -299,7 +302,7 @@ def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
 def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     """Print a table that fits the screen, and every row that is more than a converged number."""
     units_of = {column: shown(column, units) for column in CHART_SHOWS}
-    screen.print(name, style="bold", highlight=False, markup=False)
+    screen.print(printable(name), style="bold")
     table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
     for heading in ("operation", "μ"):
         table.add_column(heading, no_wrap=True)
@@ -320,11 +323,11 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
             table.add_row(*names, *values, row["status"])
     screen.print(table)
     counts = ", ".join(f"{count} {status}" for status, count in chart["status"].value_counts().items())
-    screen.print(f"{len(chart)} rows: {counts}", highlight=False, soft_wrap=True)
+    screen.print(f"{len(chart)} rows: {counts}", soft_wrap=True)
     depth = units_of["bit_depth_m"]
     for (operation, friction), rows in series:
         for line in _exceptions(rows, depth.factor, depth.label):
-            messages.print(f"{operation}, friction {_factor(friction)}: {line}", highlight=False, soft_wrap=True)
+            messages.print(f"{operation}, friction {_factor(friction)}: {line}", soft_wrap=True)
 
 
 def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
@@ -341,8 +344,3 @@ def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
 def _factor(friction: object) -> str:
     """A friction factor in words; intervals may differ."""
     return f"{friction:g}" if isinstance(friction, float) and np.isfinite(friction) else "case's"
-
-
-def _print_written(paths: Sequence[Path]) -> None:
-    if paths:
-        screen.print(f"Written: {', '.join(map(str, paths))}", soft_wrap=True, highlight=False)

@@ -19,6 +19,8 @@ from typing import Any, Final
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, model_validator
 from pydantic_core import ErrorDetails
 
+from fctd.text import printable
+
 _LONGEST_VALUE: Final = 80  # characters of a value shown in a message
 
 
@@ -69,7 +71,8 @@ class InputError(ValueError):
 
     def __str__(self) -> str:
         file = "" if self.file is None else f"{self.file}: "
-        return "\n".join([f"{file}{self._subject()}expected {self.expected}", *map(str, self.more)])
+        line = printable(f"{file}{self._subject()}expected {self.expected}")
+        return "\n".join([line, *map(str, self.more)])
 
     def _subject(self) -> str:
         if self.value is MISSING:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from fctd.equilibrium import Equilibrium
 from fctd.operations import OPERATION_NAMES
+from fctd.text import printable
 from fctd.torque_drag import own_friction
 from fctd.unit_systems import System, shown
 from fctd.whole_file import whole_file
@@ -255,7 +256,7 @@ def _label(ax: Axes, column: str, units: System) -> None:
 
 def _title(figure: Figure, text: str) -> None:
     """A heading; what a case is called is no formula."""
-    figure.suptitle(text.replace("$", r"\$"), x=0.01, ha="left", fontsize=10.5, fontweight="bold")
+    figure.suptitle(printable(text), parse_math=False, x=0.01, ha="left", fontsize=10.5, fontweight="bold")
 
 
 def _handle(kind: str, status: str = "converged") -> Line2D:

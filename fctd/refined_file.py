@@ -8,16 +8,31 @@ from typing import Any
 
 import tomlkit
 
-from fctd.case import LARGEST_FILE, apply_override, load_case
-from fctd.errors import look_up, split_key
+from fctd.case import LARGEST_FILE, Case, apply_override, load_case
+from fctd.errors import InputError, look_up, split_key
 from fctd.input_file import read_text
 from fctd.refine import Refinement
 from fctd.specs import ComponentSpec
+from fctd.text import is_utf8
 from fctd.whole_file import whole_file
 
 # What a cut decides of a component, and what it moves; all else stays as the user wrote it.
 CUT = ("length", "segments", "segment_length")
 BEND = ("bend", "toolface")
+
+
+def survey_from(out: Path, case: Case) -> str | None:
+    """The case's survey as a file ``out`` has to name it, None without a survey.
+
+    Raises InputError for a name that is no UTF-8, which TOML cannot hold.
+    """
+    if case.wellbore.survey is None:
+        return None
+    path = os.path.relpath(case.wellbore.survey, out.absolute().parent)
+    if not is_utf8(path):
+        expected = "a file in the folder of the survey, whose path from elsewhere is not UTF-8, as TOML must be"
+        raise InputError(expected, key="--out", value=out)
+    return path
 
 
 def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any], out: Path) -> None:
@@ -41,8 +56,9 @@ def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any
                 raw["wellbore"][key] = _metres(size)
                 said = raw["wellbore"].item(key).trivia
                 said.comment = said.comment_ws = ""  # of the value before
-    if hole.survey is not None:
-        raw["wellbore"]["survey"] = os.path.relpath(hole.survey, out.absolute().parent)
+    survey = survey_from(out, refined.case)
+    if survey is not None:
+        raw["wellbore"]["survey"] = survey
     with whole_file(out) as scratch:
         scratch.write_text(_heading(refined) + tomlkit.dumps(raw), encoding="utf-8")
 

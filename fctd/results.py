@@ -55,7 +55,7 @@ class SimulationResult:
         InputError where the folder cannot be written.
         """
         metadata = {
-            "case": self.case.model_dump_json(),
+            "case": self.case.model_dump(mode="json"),
             "status": self.status,
             "message": self.message,
             "run": self.run,
@@ -190,7 +190,8 @@ def _to_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) ->
     kept = dict(table.schema.metadata or {})
     for key, value in metadata.items():
         kept[key.encode()] = (value if isinstance(value, str) else json.dumps(value)).encode()
-    pq.write_table(table.replace_schema_metadata(kept), path)
+    with path.open("wb") as sink:  # pyarrow opens only names in UTF-8
+        pq.write_table(table.replace_schema_metadata(kept), sink)
 
 
 def versions() -> dict[str, str]:

@@ -9,15 +9,24 @@ import os
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, StrictBool, ValidationInfo, field_validator, model_validator
+from pydantic import BeforeValidator, Field, StrictBool, ValidationInfo, field_validator, model_validator
 
 from fctd import units
 from fctd.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.survey_file import StationKey, check_stations, read_stations
+from fctd.text import is_utf8
+
+
+def _as_path(raw: object) -> object:
+    """A file may have any bytes in its name, but pydantic takes only texts in UTF-8 for paths."""
+    return Path(raw) if isinstance(raw, str) and not is_utf8(raw) else raw
+
+
+FileName = Annotated[Path, BeforeValidator(_as_path)]
 
 
 class IntervalSpec(Table):
@@ -38,7 +47,7 @@ class WellboreSpec(Table):
     and one of `stiffness` [N/m, a contact point] and `stiffness_per_length` [N/m/m].
     """
 
-    survey: Path | None = None
+    survey: FileName | None = None
     stations: tuple[tuple[units.Bare, units.Bare, units.Bare], ...] | None = None
     columns: dict[StationKey, str] | None = None
     survey_method: Literal["average_angle", "minimum_curvature"] = "minimum_curvature"

@@ -2,6 +2,7 @@
 
 import typer
 
+from fctd.text import degrade_output, printable_lines
 from validation import runner, study
 from validation.registry import STUDIES
 
@@ -24,13 +25,15 @@ def main() -> None:
     try:
         problems = page.render(study.RESULTS, STUDIES, OUT, runner.changes(STUDIES, study.RESULTS))
     except OSError as error:
-        typer.echo(f"error: {OUT}: expected a folder that can be written ({error})", err=True)
+        message = f"error: {OUT}: expected a folder that can be written ({error})"
+        typer.echo(printable_lines(message), err=True)
         raise typer.Exit(2) from error
     for problem in problems:
-        typer.echo(problem, err=True)
-    typer.echo(f"report: {OUT / 'index.html'}")
+        typer.echo(printable_lines(problem), err=True)
+    typer.echo(printable_lines(f"report: {OUT / 'index.html'}"))
     raise typer.Exit(1 if problems else 0)
 
 
 if __name__ == "__main__":
+    degrade_output()
     app(prog_name="python -m reports")

@@ -2,6 +2,7 @@
 
 import base64
 import shutil
+import sys
 import traceback
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -11,6 +12,7 @@ import jinja2
 import matplotlib as mpl
 import pandas as pd
 
+from fctd.text import printable_lines
 from reports import figures, words
 from reports.claims import LEDGER, read_claims
 from reports.figures import style
@@ -87,7 +89,7 @@ def render(results: Path, studies: Iterable[str], out: Path, changes: Mapping[st
     page = environment.get_template("page.html").render(
         sections=sections, claims=claims, changes=changes or {}, number=words.number, quantity=words.quantity
     )
-    (out / "index.html").write_text(page, encoding="utf-8")
+    (out / "index.html").write_text(page, encoding="utf-8", errors="backslashreplace")
     problems = [f"{section.study}: {problem}" for section in sections for problem in section.problems]
     return ([f"{LEDGER}: {claims.problem}"] if claims.problem else []) + problems
 
@@ -112,7 +114,7 @@ def _section(folder: Path, out: Path) -> Section:
             section.pictures.append(_draw(section.study, figure, tables, out))
         except Exception as error:
             # A figure that cannot be drawn must not cost the reader the rest of the page.
-            traceback.print_exc()
+            print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
             section.problems.append(f"figure {figure.name!r} could not be drawn: {type(error).__name__}: {error}")
     return section
 

@@ -5,6 +5,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from fctd.text import degrade_output, printable_lines
 from validation import runner, study
 from validation.registry import STUDIES
 
@@ -30,14 +31,14 @@ def main(
     """
     if show:
         for name in STUDIES:
-            typer.echo(_line(name))
+            typer.echo(printable_lines(_line(name)))
         return
     try:
         chosen = _choose(names or [], every, reproduce)
         expected = runner.read_expected(runner.EXPECTED)
         runner.check_results(study.RESULTS)
     except runner.UsageError as error:
-        typer.echo(f"error: {error}", err=True)
+        typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
     try:
         code = runner.run_all(
@@ -50,7 +51,8 @@ def main(
             console=Console(),
         )
     except OSError as error:  # of the results folder: what a study fails at is its own result
-        typer.echo(f"error: {study.RESULTS}: expected a folder that can be written ({error})", err=True)
+        message = f"error: {study.RESULTS}: expected a folder that can be written ({error})"
+        typer.echo(printable_lines(message), err=True)
         raise typer.Exit(2) from error
     raise typer.Exit(code)
 
@@ -77,4 +79,5 @@ def _line(name: str) -> str:
 
 
 if __name__ == "__main__":
+    degrade_output()
     app(prog_name="python -m validation")

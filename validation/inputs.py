@@ -56,7 +56,8 @@ class Inputs:
 
     def write(self, folder: Path) -> None:
         """Store beside a result."""
-        (folder / "inputs.json").write_text(json.dumps(asdict(self), indent=1, ensure_ascii=False) + "\n")
+        text = json.dumps(asdict(self), indent=1, ensure_ascii=False) + "\n"
+        (folder / "inputs.json").write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
 _STORED: TypeAdapter[Inputs] = TypeAdapter(Inputs)

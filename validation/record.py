@@ -147,7 +147,7 @@ _STORED: TypeAdapter[Record] = TypeAdapter(Record)
 
 def read(folder: Path) -> Record:
     """The record stored in a result folder; OSError, ValueError, TypeError or LookupError where there is none."""
-    stored = json.loads((folder / "verdict.json").read_text())
+    stored = json.loads((folder / "verdict.json").read_text(encoding="utf-8"))
     # The stored verdicts are left aside, since they follow from value and bound.
     checks = [{"check": entry, "recorded": entry["recorded"]} for entry in stored["checks"]]
     found = _STORED.validate_python(stored | {"checks": checks})
@@ -172,7 +172,9 @@ def read_tables(folder: Path, record: Record) -> dict[str, pd.DataFrame]:
 
 
 def _write_verdict(record: Record, path: Path) -> None:
-    path.write_text(json.dumps(_to_json(record), indent=2, ensure_ascii=False) + "\n")
+    text = json.dumps(_to_json(record), indent=2, ensure_ascii=False) + "\n"
+    # A path in a message may hold bytes that are no UTF-8: their escape is JSON's as well.
+    path.write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
 def _to_json(record: Record) -> dict[str, Any]:

@@ -25,6 +25,7 @@ from rich.progress import (
 from rich.text import Text
 
 from fctd.errors import InputError
+from fctd.text import printable_lines
 from validation import inputs, record
 from validation.inputs import Inputs
 from validation.record import Judged, Provenance, Record, Standing
@@ -87,7 +88,7 @@ def read_expected(path: Path) -> Expected:
     """study -> check -> ``missed: why``, or ``varies: why`` it is met on one machine and missed on another."""
     expected: dict[str, dict[str, str]] = {}
     try:
-        tables = tomllib.loads(path.read_text())
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except tomllib.TOMLDecodeError as error:
         raise UsageError(f"{path.name}: {error}") from error
     for study, checks in tables.items():
@@ -218,7 +219,7 @@ def run_one(
     except Exception as error:
         # One study must not take the others with it: its failure is a result, and the exit code tells.
         if not isinstance(error, InputError):  # which says all there is to know
-            traceback.print_exc()
+            print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
         message = f"{type(error).__name__}: {error}"
         run = replace(blank, message=message, wall_s=time.perf_counter() - start)
         record.write(run, {}, context.results)
@@ -329,5 +330,5 @@ class Bars:
 
 
 def _say(console: Console, text: str, style: str = "") -> None:
-    """Print as it stands: check names may hold brackets, and a log must not wrap."""
-    console.print(Text(text, style), soft_wrap=True)
+    """Print as it stands: check names may hold brackets, messages anything, and a log must not wrap."""
+    console.print(Text(printable_lines(text), style), soft_wrap=True)

@@ -38,7 +38,7 @@ def test_simulate_writes_what_the_engine_writes(
     assert len(pd.read_csv(tmp_path / "history.csv")) == 1
     metadata = pq.read_schema(tmp_path / "history.parquet").metadata
     assert b'"contact": "cylinders"' in metadata[b"run"]
-    assert b'"friction":0.3' in metadata[b"case"]
+    assert b'"friction": 0.3' in metadata[b"case"]
 
 
 @pytest.mark.parametrize(

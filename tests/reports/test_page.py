@@ -81,6 +81,12 @@ def test_finished_study_has_question_checks_figure_notes_and_origin(render, tmp_
     assert 'src="data:image/svg+xml;base64,' in html
 
 
+def test_a_message_from_outside_is_text_on_the_page(render):
+    broken = replace(BLANK, status="failed", message="OSError: <b>[/x]</b> {{ 7 * 6 }} data-\udcff")
+    html, _ = render((broken, {}))
+    assert r"OSError: &lt;b&gt;[/x]&lt;/b&gt; {{ 7 * 6 }} data-\udcff" in html
+
+
 def test_verdicts_are_told_in_words(render):
     checks = (
         judged(1.0, name="a"),

@@ -52,6 +52,12 @@ def test_unknown_name_is_answered_with_the_nearest(invoke):
     assert not study.RESULTS.exists()
 
 
+def test_what_was_asked_for_is_shown_as_it_stands(invoke):
+    answer = invoke("[/x]\x1b[31m\x9b")
+    assert answer.exit_code == 2
+    assert r"[/x]\x1b[31m\x9b" in answer.output
+
+
 def test_nothing_asked_for(invoke):
     answer = invoke()
     assert answer.exit_code == 2

@@ -115,6 +115,18 @@ def test_failed_study_is_recorded_and_the_others_go_on(register, run, tmp_path, 
     assert "Traceback" in capsys.readouterr().err
 
 
+def test_a_message_is_shown_as_it_stands_and_stored_with_any_bytes(register, run, tmp_path, capsys):
+    message = "[/x] :x: \x1b[31m Σ data-\udcff"
+
+    def fail(context):
+        raise ArithmeticError(message)
+
+    register("broken", fail)
+    _, text = run("broken")
+    assert r"ArithmeticError: [/x] :x: \x1b[31m Σ data-\udcff" in text
+    assert record.read(tmp_path / "results" / "broken").message == f"ArithmeticError: {message}"
+
+
 def test_study_that_cannot_be_loaded_fails_like_any_other(register, run, tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(registry.STUDIES, "absent", "validation.no_such_module")
     assert run("absent")[0] == 1
