@@ -29,6 +29,7 @@ from fctd.cli_refine import refine_command
 from fctd.cli_steady import chart_command, equilibrium_command
 from fctd.errors import InputError
 from fctd.results import TABLES, SimulationResult
+from fctd.run import LONGEST_SETTLING
 from fctd.simulate import simulate
 from fctd.wall_query import WallQuery
 
@@ -82,10 +83,14 @@ def simulate_file(
     with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
         task = bar.add_task("compiling, settling", total=1.0, factor="–")
 
+        def settling(now: float, imbalance: float) -> None:
+            words = f"settling, {imbalance:.0e} of the weight out of balance"
+            bar.update(task, description=words, total=LONGEST_SETTLING, completed=now)
+
         def show(now: float, total: float, factor: float) -> None:
             bar.update(task, description=case.name, total=total, completed=now, factor=f"{factor:.0f}")
 
-        result = simulate(case, progress=show, contact=method)
+        result = simulate(case, progress=show, contact=method, settling=settling)
     try:  # files first, since whoever reads the screen may close it; the screen also where a file fails
         written = result.save(folder, csv=csv)
     finally:

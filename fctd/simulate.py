@@ -13,7 +13,7 @@ from fctd.operations import Stretch
 from fctd.record import Recorder
 from fctd.results import SimulationResult
 from fctd.ringing import expected_ringing
-from fctd.run import Run, forget_start, prepare, settle
+from fctd.run import Run, Settling, forget_start, prepare, settle
 from fctd.topdrive import Motion
 from fctd.wall_query import WallQuery
 
@@ -24,18 +24,24 @@ Progress = Callable[[float, float, float], None]
 DOUBTFUL, RINGING = 0.01, 0.005
 
 
-def simulate(case: Case, progress: Progress | None = None, *, contact: WallQuery | None = None) -> SimulationResult:
+def simulate(
+    case: Case,
+    progress: Progress | None = None,
+    *,
+    contact: WallQuery | None = None,
+    settling: Settling | None = None,
+) -> SimulationResult:
     """Simulate a case's operations.
 
     contact : another contact method, built for the hole of this case, that answers for the wall at every step;
-    friction, force law and step stay the same.
+    friction, force law and step stay the same.  settling : called while the string settles before the start.
 
     Returns whatever was reached: ``status`` is ``completed``, or says why it stopped and ``message`` when.
     Raises InputError for a case that cannot be simulated.
     """
     run, stretches = prepare(case, contact)
     try:
-        residual = settle(run)
+        residual = settle(run, progress=settling)
     except UnstableError as error:
         return Recorder(run).result("unsettled", f"before the start: {error}", 0.0, float("nan"))
     forget_start(run)
@@ -57,6 +63,9 @@ def simulate(case: Case, progress: Progress | None = None, *, contact: WallQuery
         status, message = "unstable", f"at {run.top[topdrive.TOP_TIME]:.4g} s: {error}"
     except KeyboardInterrupt:
         status, message = "interrupted", f"at {run.top[topdrive.TOP_TIME]:.4g} s"
+        if run.top[topdrive.TOP_TIME] > recorder.last_time:  # a part of a record interval
+            run.refresh()
+            recorder.record(operation)
     wall = time.perf_counter() - began
     result = recorder.result(status, message, wall, residual)
     return replace(result, message="; ".join(_doubts(result, run, stretches))) if status == "completed" else result

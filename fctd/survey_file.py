@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Callable, Mapping, Sequence
+from itertools import islice
 from os import PathLike
 from pathlib import Path
 from typing import Final, Literal
@@ -29,6 +30,9 @@ _UNITS: Final[dict[StationKey, tuple[str, str]]] = {
 }
 _UNIT_ENDS_HEADER: Final = re.compile(r"(?:\(\s*|_)(?P<unit>[a-z]+)\s*\)?$")
 _SAME: Final = 1e-9  # m and deg: rows closer than this are one station written twice
+# Four times the deepest well drilled, and a station every half metre of it: beyond these the file holds something else.
+DEEPEST: Final = 50_000.0  # [m] measured depth
+MOST_STATIONS: Final = 100_000
 
 
 def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] | None = None) -> NDArray[np.float64]:
@@ -53,6 +57,10 @@ def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.fl
 
     for row, column in np.argwhere(~np.isfinite(stations)).tolist():
         raise refuse(row, column, "a finite number")
+    if len(stations) > MOST_STATIONS:
+        raise InputError(f"at most {MOST_STATIONS} stations")
+    for row in np.flatnonzero(stations[:, 0] > DEEPEST).tolist():
+        raise refuse(row, 0, f"a measured depth of at most {DEEPEST / 1e3:g} km")
     for row in np.flatnonzero((stations[:, 1] < 0.0) | (stations[:, 1] > 180.0)).tolist():
         raise refuse(row, 1, "an inclination from 0 to 180 deg")
     # Unwrapped azimuths pass, -999.25 and the other nulls of well logs do not.
@@ -76,7 +84,9 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
     try:
         with path.open(encoding="utf-8-sig", newline="") as lines:
             reader = csv.reader(lines)
-            rows = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
+            # One line more than can be used is enough to refuse a file that would fill the memory.
+            found = islice(filter(any, reader), MOST_STATIONS + 2)
+            rows = [(reader.line_num, [cell.strip() for cell in cells]) for cells in found]
     except OSError as error:
         raise InputError(f"a survey file that can be read ({error.strerror})") from error
     except (ValueError, csv.Error) as error:
