@@ -21,6 +21,7 @@ from fctd.cli_options import (
     Overrides,
     Quiet,
     messages,
+    print_notes,
     read_case,
     screen,
     spare_sources,
@@ -104,8 +105,9 @@ def simulate_file(
 
 def _summarise(result: SimulationResult) -> None:
     """Print the state at the end and the numbers of the run."""
-    if result.message:
+    if result.message and result.status != "completed":
         messages.print(f"[bold]{result.status}[/bold]: {result.message}", highlight=False, soft_wrap=True)
+    print_notes(note for note in result.notes if str(note) != result.message or result.status == "completed")
     if len(result.history):
         last = result.history.iloc[-1]
         table = Table(title=f"{result.case.name}: {last['operation']}, bit at {last['bit_depth_m']:.1f} m")

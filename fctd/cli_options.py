@@ -1,7 +1,7 @@
 """What the commands share: options, exit codes, the screen, and values and files checked before any computing."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,6 +10,7 @@ from rich.console import Console
 
 from fctd.case import Case, load_case, parse_override
 from fctd.errors import InputError
+from fctd.notes import Note
 from fctd.units import Dimension, Quantity
 
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -36,6 +37,12 @@ def read_case(path: Path, overrides: Sequence[str], friction: float | None = Non
     if friction is not None:
         changes["friction"] = friction
     return load_case(path, changes)
+
+
+def print_notes(notes: Iterable[Note]) -> None:
+    """Print notes, a line each."""
+    for note in notes:
+        messages.print(f"note: {note}", highlight=False, markup=False, soft_wrap=True)
 
 
 def read_quantity(text: str, dimension: Dimension, key: str) -> float:

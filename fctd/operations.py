@@ -10,7 +10,6 @@ from fctd.errors import InputError, nearest
 from fctd.topdrive import Motion
 from fctd.units import FASTEST, MOST_RPM
 
-
 # A shorter operation is over before the first step, and has no load to record [s].
 SHORTEST = 1e-3
 

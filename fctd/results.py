@@ -16,6 +16,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fctd.case import Case
+from fctd.notes import Note, as_metadata
 from fctd.whole_file import whole_file
 
 TABLES = ("history", "profile", "energy")
@@ -25,10 +26,12 @@ TABLES = ("history", "profile", "energy")
 class SimulationResult:
     """Outcome of ``fctd.simulate``.
 
-    status : ``completed``, ``unstable``, ``unsettled`` or ``interrupted``; message says more when there is
-    more to say.  history : a row per record interval; loads are means over the interval, depths and energies
-    values at its end.  profile : a row per contact point from the top to the bit, for every recorded bit
-    depth.  energy : the ledger, a row per record interval.  run : segments, step, counts and timing.
+    status : ``completed``, ``inaccurate`` (the energy ledger is off by more than a tenth of the work), ``unstable``,
+    ``unsettled`` or ``interrupted``; message says more when there is more to say.  history : a row per record
+    interval; loads are means over the interval, depths and energies values at its end.  profile : a row per contact
+    point from the top to the bit, for every recorded bit depth.  energy : the ledger, a row per record interval.  run :
+    segments, step, counts and timing.  notes : what to know before using the numbers, each code once, where it was
+    worst.
     """
 
     case: Case
@@ -38,6 +41,7 @@ class SimulationResult:
     profile: pd.DataFrame
     energy: pd.DataFrame
     run: dict[str, Any]
+    notes: tuple[Note, ...] = ()
 
     def save(self, folder: Path, csv: bool = False) -> list[Path]:
         """Write history, profile and energy tables into ``folder``; returns the files written.
@@ -48,6 +52,7 @@ class SimulationResult:
             "case": self.case.model_dump_json(),
             "status": self.status,
             "message": self.message,
+            "notes": as_metadata(self.notes),
             "run": self.run,
             "versions": versions(),
         }

@@ -220,10 +220,9 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
 
 def _divided(breaks: Array, counts: Array) -> Array:
     """Ends of the parts when every stretch between breaks (k + 1,) is cut into ``counts`` (k,) equal ones."""
-    counts = counts.astype(np.int64)
-    first = np.cumsum(counts) - counts
-    within = np.arange(counts.sum()) - np.repeat(first, counts)
-    ends = within * np.repeat(np.diff(breaks) / counts, counts) + np.repeat(breaks[:-1], counts)
+    parts = counts.astype(np.int64)
+    within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    ends = within * np.repeat(np.diff(breaks) / parts, parts) + np.repeat(breaks[:-1], parts)
     return np.append(ends, breaks[-1])
 
 
