@@ -21,6 +21,7 @@ from fctd.cli_options import (
     Overrides,
     Quiet,
     messages,
+    print_notes,
     print_status,
     print_written,
     read_case,
@@ -32,6 +33,7 @@ from fctd.cli_steady import chart_command, equilibrium_command
 from fctd.errors import InputError
 from fctd.interrupts import as_interrupts
 from fctd.results import SimulationResult, check_result_folder, own_files, result_files
+from fctd.run import LONGEST_SETTLING
 from fctd.simulate import simulate
 from fctd.text import degrade_output, file_name, printable
 from fctd.wall_query import WallQuery
@@ -84,10 +86,14 @@ def simulate_file(
         with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
             task = bar.add_task("compiling, settling", total=1.0, factor="–")
 
+            def settling(now: float, imbalance: float) -> None:
+                words = f"settling, {imbalance:.0e} of the weight out of balance"
+                bar.update(task, description=words, total=LONGEST_SETTLING, completed=now)
+
             def show(now: float, total: float, factor: float) -> None:
                 bar.update(task, description=printable(case.name), total=total, completed=now, factor=f"{factor:.0f}")
 
-            result = simulate(case, progress=show, contact=method)
+            result = simulate(case, progress=show, contact=method, settling=settling)
             # Files first: the screen, also that of the bar, may have been closed.
             written = result.save(folder, csv=csv)
     finally:  # the screen also where a file fails
@@ -102,8 +108,9 @@ def simulate_file(
 
 def _summarise(result: SimulationResult) -> None:
     """Print the state at the end and the numbers of the run."""
-    if result.message:
+    if result.message and result.status != "completed":
         print_status(result.status, result.message)
+    print_notes(note for note in result.notes if str(note) != result.message or result.status == "completed")
     if len(result.history):
         last = result.history.iloc[-1]
         name = printable(result.case.name)

@@ -10,6 +10,7 @@ from rich.text import Text
 
 from fctd.case import Case, load_case, parse_override
 from fctd.errors import InputError
+from fctd.notes import Note
 from fctd.results import own_files, table_files
 from fctd.text import printable, printable_lines
 from fctd.units import Dimension, Quantity
@@ -57,6 +58,12 @@ def read_case(path: Path, overrides: Sequence[str], friction: float | None = Non
     if friction is not None:
         changes["friction"] = friction
     return load_case(path, changes)
+
+
+def print_notes(notes: Iterable[Note]) -> None:
+    """Print notes, a line each."""
+    for note in notes:
+        messages.print(f"note: {note}", soft_wrap=True)
 
 
 def read_quantity(text: str, dimension: Dimension, key: str) -> float:

@@ -22,6 +22,7 @@ from fctd.cli_options import (
     Quiet,
     check_target,
     messages,
+    print_notes,
     print_status,
     print_written,
     read_case,
@@ -31,6 +32,7 @@ from fctd.cli_options import (
 )
 from fctd.equilibrium import SOUND, Equilibrium, Solver, equilibrium
 from fctd.errors import InputError
+from fctd.notes import MEANINGS, as_metadata, meanings_of
 from fctd.operations import rates_of_all
 from fctd.results import versions, write_table
 from fctd.text import printable
@@ -123,6 +125,7 @@ def equilibrium_command(
         if point.answered and out is not None:
             metadata = _metadata(case, units, [operation], drive)
             metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
+            metadata |= {"notes": as_metadata(point.notes)}
             written += write_table(_in(units, point.profile), out, metadata)
         if point.answered and plots is not None:
             written += plots.save(plots.profile_figure([point], units), plot)
@@ -182,7 +185,8 @@ def chart_command(
     written = []
     try:  # as above
         if out is not None:
-            written += write_table(_in(units, chart), out, _metadata(case, units, kinds, drive))
+            metadata = _metadata(case, units, kinds, drive) | {"notes": meanings_of(chart["notes"])}
+            written += write_table(_in(units, chart), out, metadata)
         if plots is not None and plot is not None:
             written += plots.save(plots.chart_figure(chart, units, case.name), plot)
         if plots is not None and plot_profile is not None:
@@ -287,6 +291,7 @@ def _print_point(point: Equilibrium, units: System) -> None:
     screen.print(f"{point.status}, {point.iterations} iterations")
     if point.message:
         print_status(point.status, point.message)
+    print_notes(point.notes)
 
 
 def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
@@ -331,14 +336,27 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
 
 
 def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
-    """The runs of rows of one series that are not converged, a line each."""
-    lines = []
-    for status, run in groupby(zip(rows["status"], rows["bit_depth_m"] * factor, strict=True), key=lambda row: row[0]):
-        depths = [depth for _, depth in run]
-        if status != "converged":
-            span = f"{depths[0]:g}" if len(depths) == 1 else f"{depths[0]:g} to {depths[-1]:g}"
-            lines.append(f"{status} at {span} {label} ({len(depths)} of {len(rows)})")
+    """The runs of rows of one series that are not converged, and those with the same note, a line each."""
+    depths = rows["bit_depth_m"] * factor
+    lines = [f"{status} at {where}" for status, where in _runs(rows["status"], depths, label) if status != "converged"]
+    for code, meaning in MEANINGS.items():
+        noted = rows["notes"].str.split(", ").map(lambda codes, code=code: code in codes)
+        lines += [
+            f"note {code} at {where}: {meaning.headline}: {meaning.remedy}"
+            for has, where in _runs(noted, depths, label)
+            if has
+        ]
     return lines
+
+
+def _runs(values: "pd.Series[Any]", depths: "pd.Series[float]", label: str) -> list[tuple[Any, str]]:
+    """Every run of equal values, and at which depths it stands."""
+    found = []
+    for value, run in groupby(zip(values, depths, strict=True), key=lambda row: row[0]):
+        at = [depth for _, depth in run]
+        span = f"{at[0]:g}" if len(at) == 1 else f"{at[0]:g} to {at[-1]:g}"
+        found.append((value, f"{span} {label} ({len(at)} of {len(depths)})"))
+    return found
 
 
 def _factor(friction: object) -> str:

@@ -27,7 +27,7 @@ class Section(NamedTuple):
     """One metre of a component: what its segments are made of.
 
     mass [kg/m], weight (buoyed) [N/m], axial_inertia and tilt_inertia [kg m], EA [N], GJ, EI [N m^2],
-    shear κGA [N], outer, inner and contact radius [m].
+    shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa].
     """
 
     mass: float
@@ -41,6 +41,7 @@ class Section(NamedTuple):
     outer: float
     inner: float
     contact_radius: float
+    yield_strength: float
 
 
 def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
@@ -78,6 +79,7 @@ def section_of(component: ComponentSpec, mud_density: float) -> Section:
         outer=b,
         inner=a,
         contact_radius=0.5 * component.contact_diameter,
+        yield_strength=component.yield_strength,
     )
 
 

@@ -18,6 +18,7 @@ from fctd.contact import START_MD
 from fctd.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, converge, hold_back, take_step
 from fctd.drillstring import String, check_fit, fill, lay_out
 from fctd.first_guess import MD, NODE, guess
+from fctd.notes import Note, string_notes
 from fctd.operations import SteadyRates, sensors, steady_rates
 from fctd.profile import Loads, profile_table
 from fctd.tangent import POSE, Steady, assemble, frictionless_tangent, read_loads
@@ -82,26 +83,46 @@ class Equilibrium:
     def profile(self) -> pd.DataFrame:
         """The string from the top to the bit, a row per contact point; columns as of ``profile_table``."""
         shape = self._shape
-        walls = shape.hole.walls(shape.contacts[:, :3], shape.owner)
-        tension, torque, bending = shape.joints.T
-        loads = Loads(tension, torque, bending, shape.contacts[:, 3], shape.bit_tension, shape.bit_torque)
         return profile_table(
-            shape.hole, shape.string, self.case.mud.density, shape.top, shape.contacts[:, :3], walls, loads
+            shape.hole, shape.string, self.case.mud.density, shape.top, shape.contacts[:, :3], shape.walls, shape.loads
         )
+
+    @cached_property
+    def notes(self) -> tuple[Note, ...]:
+        """What to know before using the numbers; nothing where there are none."""
+        if not self.answered:
+            return ()
+        shape, in_hole = self._shape, self.case.contact.enabled
+        return string_notes(shape.string, shape.loads, self.hookload, shape.walls, shape.radius, in_hole=in_hole)
 
 
 @dataclass(frozen=True)
 class Shape:
-    """What a profile is made of: rows of ``tangent.read_loads`` (n, ...), and where the string hangs."""
+    """What a profile is made of: rows of ``tangent.read_loads`` (n, ...), and where the string hangs.
+
+    top (3,), radius (n,) of the contact points [m].
+    """
 
     hole: Wellbore
     string: String
     top: Array
     joints: Array
     contacts: Array
+    radius: Array
     owner: NDArray[np.int64]
     bit_tension: float
     bit_torque: float
+
+    @cached_property
+    def walls(self) -> Array:
+        """Walls (n, 7) beside the contact points, as of ``Wellbore.walls``."""
+        return self.hole.walls(self.contacts[:, :3], self.owner)
+
+    @property
+    def loads(self) -> Loads:
+        """What the string carries."""
+        tension, torque, bending = self.joints.T
+        return Loads(tension, torque, bending, self.contacts[:, 3], self.bit_tension, self.bit_torque)
 
 
 class Workspace:
@@ -171,12 +192,12 @@ class Solver:
         imbalance = float(np.linalg.norm(w.R[1 : n + 1, :3], axis=1).max())
         # A string that lies level pulls neither way, to rounding.
         pushed = -hookload - case.rig.block_weight > n * allowed
-        status, message = self._judge(code, negative, pushed, contacts, imbalance)
-        indicator, drive = sensors(case, operation, hookload, torque)
         shape = Shape(
-            hole, string, w.P[0, :3].copy(), joints[1:], contacts[1:], w.owner[1 : n + 1].copy(),
-            -weight_on_bit, laws.bit_torque,
+            hole, string, w.P[0, :3].copy(), joints[1:], contacts[1:], state.row(w.S, state.RADIUS, n).copy(),
+            w.owner[1 : n + 1].copy(), -weight_on_bit, laws.bit_torque,
         )  # fmt: skip
+        status, message = self._judge(code, negative, pushed, shape, imbalance)
+        indicator, drive = sensors(case, operation, hookload, torque)
         normal, r_ft, r_mu_n = (float(contacts[:, k].sum()) for k in (3, 4, 5))
         return Equilibrium(
             case, operation, bit_depth, status, message, iterations, hookload, torque, indicator, drive,
@@ -247,13 +268,13 @@ class Solver:
             half = 0.5 * component.bend
             kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
 
-    def _judge(self, code: int, negative: int, pushed: bool, contacts: Array, imbalance: float) -> tuple[str, str]:
+    def _judge(self, code: int, negative: int, pushed: bool, shape: Shape, imbalance: float) -> tuple[str, str]:
         """Status and message of a solution."""
         if code == NOT_FINITE:
             return "not_finite", "a force is not finite"
         if self.geometry != state.OPEN:
-            walls = self.hole.walls(contacts[1:, :3], self.work.owner[1 : len(contacts)])
-            outside = np.linalg.norm(walls[:, :3], axis=1) > 2 * walls[:, 3]
+            # Deeper in the wall than the hole's radius, as for a string in motion (faults.py).
+            outside = np.linalg.norm(shape.walls[:, :3], axis=1) + shape.radius > 2 * shape.walls[:, 3]
             if outside.any():
                 return "diverged", f"segment {int(np.argmax(outside)) + 1} has left the hole"
         if code != CONVERGED:

@@ -8,7 +8,10 @@ import numpy as np
 from fctd.case import KINDS, Case, Operation
 from fctd.errors import InputError, nearest
 from fctd.topdrive import Motion
-from fctd.units import bare
+from fctd.units import FASTEST, MOST_RPM, bare
+
+# A shorter operation is over before the first step, and has no load to record [s].
+SHORTEST = 1e-3
 
 
 class Stretch(NamedTuple):
@@ -38,14 +41,23 @@ def schedule(operations: Sequence[Operation]) -> list[Stretch]:
     """Stretches of the operations one after the other, starting from rest.
 
     Each operation ramps speed and rotation within its ramp time.  One that another follows comes to rest at
-    its end depth; the last one ends in motion, so that its end can be read as a steady state.
+    its end depth; the last one ends in motion, so that its end can be read as a steady state.  Raises InputError
+    for an operation shorter than ``SHORTEST``.
     """
     stretches: list[Stretch] = []
     clock, turning = 0.0, 0.0
     for k, operation in enumerate(operations):
         rate = rad_per_s(operation.rpm)
         stops = k + 1 < len(operations)
-        for duration, feed_from, feed_to in _feed(operation, stops):
+        parts = _feed(operation, stops)
+        lasts = sum(duration for duration, _, _ in parts)
+        if lasts < SHORTEST:
+            raise InputError(
+                f"an operation that lasts at least {1e3 * SHORTEST:g} ms",
+                key=f"operations[{k}]",
+                value=f"{lasts:.3g} s",
+            )
+        for duration, feed_from, feed_to in parts:
             motion = Motion(clock, duration, feed_from, feed_to, turning, rate)
             stretches.append(Stretch(motion, k))
             clock += duration
@@ -112,8 +124,8 @@ MAY_TURN = tuple(kind for kind, (_, rpm) in DEFAULT_RATES.items() if rpm > 0 or 
 def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float | None = None) -> SteadyRates:
     """Rates of an operation: as given, else as the case's first operation of that kind, else DEFAULT_RATES.
 
-    speed [m/s] and rpm are not negative; the kind sets the direction.  Raises InputError for an unknown kind
-    and for rates that are not of its kind.
+    speed [m/s] and rpm are not negative; the kind sets the direction.  Raises InputError for an unknown kind,
+    for rates that are not of its kind and for rates beyond ``units.FASTEST`` and ``units.MOST_RPM``.
     """
     if kind not in KINDS:
         raise InputError(nearest(kind, KINDS, "kind"), key="operation", value=kind)
@@ -123,10 +135,12 @@ def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float |
     speed, rpm = defaults[0] if speed is None else speed, defaults[1] if rpm is None else rpm
     bare(speed, "speed", "a number of metres per second")
     bare(rpm, "rpm", "a number of revolutions per minute")
-    if not (np.isfinite(speed) and (speed > 0 if moves else speed == 0)):
-        raise InputError(f"a speed {'above 0' if moves else 'of 0'} for {kind}", key="speed", value=speed)
-    if not (np.isfinite(rpm) and (rpm > 0 if turns else rpm >= 0 if may_turn else rpm == 0)):
+    if not (0 < speed <= FASTEST if moves else speed == 0):
+        wanted = f"above 0 and at most {FASTEST:g} m/s" if moves else "of 0"
+        raise InputError(f"a speed {wanted} for {kind}", key="speed", value=speed)
+    if not (0 <= rpm <= MOST_RPM and (rpm > 0 if turns else may_turn or rpm == 0)):
         wanted = "above 0" if turns else "at least 0" if may_turn else "of 0"
+        wanted += f" and at most {MOST_RPM:g}" if may_turn else ""
         raise InputError(f"rev/min {wanted} for {kind}", key="rpm", value=rpm)
     return SteadyRates(speed if KINDS[kind].downwards else -speed, rad_per_s(rpm))
 

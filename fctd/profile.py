@@ -11,6 +11,7 @@ from fctd.topdrive import GRAVITY
 from fctd.wellbore import Wellbore, hole_frame
 
 Array = NDArray[np.float64]
+Load = float | Array
 
 
 class Loads(NamedTuple):
@@ -44,11 +45,30 @@ def buckling_limits(EI: Array, weight: Array, inclination: Array, clearance: Arr
     return np.maximum(2 * lying, 1.94 * hanging), np.maximum(2 * np.sqrt(2) * lying, 5.55 * hanging)
 
 
-def _at_contacts(joints: Array, middle: NDArray[np.bool_], end: float) -> Array:
-    """What the n joints carry, at the top and at the n contact points: the joint there, or the mean of the two
-    beside a contact in the middle of its segment."""
-    below = np.append(joints[1:], end)
-    return np.append(joints[0], np.where(middle, 0.5 * (joints + below), below))
+def at_contacts(string: String, loads: Loads) -> tuple[Array, Array, Array]:
+    """Tension [N], torque and bending [N m] at the top and at the n contact points, each (n + 1,).
+
+    They are those of the joint there, or the mean of the two beside a contact in the middle of its segment.
+    """
+    middle = string.mid_contact()
+
+    def along(joints: Array, end: float) -> Array:
+        below = np.append(joints[1:], end)
+        return np.append(joints[0], np.where(middle, 0.5 * (joints + below), below))
+
+    return along(loads.tension, loads.bit_tension), along(loads.torque, loads.bit_torque), along(loads.bending, 0.0)
+
+
+def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Load) -> Array:
+    """Von Mises stress at the outer fibre [Pa].
+
+    tension (effective) [N], torque, bending [N m]; outer and inner radius [m].  What equal pressure all around adds
+    to every normal stress has no share in it.
+    """
+    steel, second = np.pi * (outer**2 - inner**2), np.pi / 4 * (outer**4 - inner**4)
+    axial = np.abs(tension) / steel + bending * outer / second
+    shear = torque * outer / (2 * second)
+    return np.asarray(np.sqrt(axial**2 + 3 * shear**2))
 
 
 def profile_table(
@@ -63,23 +83,16 @@ def profile_table(
     high, right = hole_frame(direction)
     up, aside = np.sum(offset * high, axis=1), np.sum(offset * right, axis=1)
     inclination = hole.inclination(np.append(string.top_md, md))
-    middle = string.mid_contact()
 
     def of(name: str) -> Array:
         values = string.of(name)
         return np.append(values[0], values)
 
     outer, inner = of("outer"), of("inner")
-    steel, second = np.pi * (outer**2 - inner**2), np.pi / 4 * (outer**4 - inner**4)
-    tension = _at_contacts(loads.tension, middle, loads.bit_tension)
-    torque = _at_contacts(loads.torque, middle, loads.bit_torque)
-    bending = _at_contacts(loads.bending, middle, 0.0)
+    tension, torque, bending = at_contacts(string, loads)
     # Buoyed weight carries effective tension; the steel's own follows from the pressure of equal mud inside
     # and outside.
-    pressure = mud_density * GRAVITY * np.append(top[2], points[:, 2])
-    # At the outer fibre; what equal pressure all around adds to every normal stress has no share in it.
-    axial = np.abs(tension) / steel + bending * outer / second
-    shear = torque * outer / (2 * second)
+    pressure, steel = mud_density * GRAVITY * np.append(top[2], points[:, 2]), np.pi * (outer**2 - inner**2)
     clearance = walls[:, 3] - string.contact_radius()
     sinusoidal, helical = buckling_limits(of("EI"), of("weight"), inclination, np.append(clearance[0], clearance))
     return pd.DataFrame(
@@ -96,7 +109,7 @@ def profile_table(
             "offset_high_m": np.append(0.0, up),
             "offset_right_m": np.append(0.0, aside),
             "clearance_m": np.append(clearance[0], clearance),
-            "von_mises_Pa": np.sqrt(axial**2 + 3 * shear**2),
+            "von_mises_Pa": von_mises(tension, torque, bending, outer, inner),
             "sinusoidal_limit_N": sinusoidal,
             "helical_limit_N": helical,
             "buckling": np.select([tension < -helical, tension < -sinusoidal], ["helical", "sinusoidal"], "none"),

@@ -1,5 +1,6 @@
 """What is kept of a run: history, profiles along the string, and the energy ledger."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 
 from fctd import state, topdrive
 from fctd.energy import energy_of, penetration
+from fctd.notes import Note, string_notes
 from fctd.operations import sensors
 from fctd.profile import Loads, profile_table
 from fctd.results import SimulationResult
@@ -53,6 +55,7 @@ class Recorder:
         self.profiles: dict[float, pd.DataFrame] = {}  # by time
         self.wanted = list(run.case.record.profile_at)
         self.mean = {offset: np.zeros(run.segments) for offset in SUMS}
+        self.notes: dict[str, Note] = {}  # by code, the worst of each
 
     def rows(self, offset: int) -> Array:
         """One quantity of every segment."""
@@ -96,6 +99,7 @@ class Recorder:
             }
         )
         self.ledger.append(self._balance())
+        self._look(hookload)
         low, high = sorted((before, self.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]
         if passed:
@@ -124,7 +128,8 @@ class Recorder:
             "settling_residual": residual,
         }
         profile = pd.concat(list(self.profiles.values()), ignore_index=True) if self.profiles else pd.DataFrame()
-        return SimulationResult(run.case, status, message, pd.DataFrame(self.history), profile, energy, numbers)
+        history, notes = pd.DataFrame(self.history), tuple(self.notes.values())
+        return SimulationResult(run.case, status, message, history, profile, energy, numbers, notes)
 
     def _bit_md(self) -> float:
         """Where the bit is along the hole [m]."""
@@ -150,6 +155,31 @@ class Recorder:
         residual = sum(held.values()) + sum(losses.values()) - sum(gains.values())
         return {"time_s": self.last_time, **held, **gains, **losses, "residual_J": residual}
 
+    def _look(self, hookload: float) -> None:
+        """Keep a note that is new, or says worse than the one before."""
+        run = self.run
+        _, walls = self._walls()
+        radius, in_hole = self.rows(state.RADIUS), run.case.contact.enabled
+        for note in string_notes(run.string, self._loads(), hookload, walls, radius, in_hole=in_hole):
+            if note.code not in self.notes or note.excess > self.notes[note.code].excess:
+                self.notes[note.code] = replace(note, text=f"{note.text}, with the bit at {self.bit_depth:.0f} m")
+
+    def _loads(self) -> Loads:
+        """What the string carries: means over the last interval, bending as it is."""
+        run = self.run
+        axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
+        turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
+        tension, torque = self.mean[state.SUM_TENSION].copy(), self.mean[state.SUM_TORQUE].copy()
+        if run.string.long_segment:
+            # Half of a long segment's weight and mud is not lumped below but at the top.
+            tension[0], torque[0] = (self.history[-1][name] for name in ("hookload_N", "surface_torque_N_m"))
+        return Loads(
+            tension=tension,
+            torque=torque,
+            bending=self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0)),
+            normal=self.mean[state.SUM_NORMAL],
+        )
+
     def _profile(self) -> pd.DataFrame:
         """The string from the top to the bit: loads are means over the last interval.
 
@@ -157,20 +187,8 @@ class Recorder:
         """
         run = self.run
         points, walls = self._walls()
-        axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
-        turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
-        tension, torque = self.mean[state.SUM_TENSION].copy(), self.mean[state.SUM_TORQUE].copy()
-        if run.string.long_segment:
-            # Half of a long segment's weight and mud is not lumped below but at the top.
-            tension[0], torque[0] = (self.history[-1][name] for name in ("hookload_N", "surface_torque_N_m"))
-        loads = Loads(
-            tension=tension,
-            torque=torque,
-            bending=self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0)),
-            normal=self.mean[state.SUM_NORMAL],
-        )
         top = run.S[[state.X, state.Y, state.Z]]
-        table = profile_table(run.hole, run.string, run.case.mud.density, top, points, walls, loads)
+        table = profile_table(run.hole, run.string, run.case.mud.density, top, points, walls, self._loads())
         table.insert(0, "operation", self.history[-1]["operation"])
         table.insert(0, "bit_depth_m", self.bit_depth)
         return table

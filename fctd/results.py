@@ -22,6 +22,7 @@ import pyarrow.parquet as pq
 from fctd.case import Case
 from fctd.errors import InputError
 from fctd.input_file import check_regular
+from fctd.notes import Note, as_metadata
 from fctd.whole_file import check_file, left_overs, whole_file
 from fctd.whole_folder import LOOKS, PAUSE, check_folder, repair, whole_folder
 
@@ -32,11 +33,12 @@ TABLES = ("history", "profile", "energy")
 class SimulationResult:
     """Outcome of ``fctd.simulate``.
 
-    status : ``completed``, ``unstable``, ``unsettled`` or ``interrupted``; message says more when there is
-    more to say.  history : a row per record interval; loads are means over the interval, depths and energies
-    values at its end.  profile : a row per contact point from the top to the bit, for every recorded bit
-    depth.  energy : the ledger, a row per record interval.  run : segments, step, counts and timing.
-    identity : of the run, the same in all of its files.
+    status : ``completed``, ``inaccurate`` (the energy ledger is off by more than a tenth of the work), ``unstable``,
+    ``unsettled`` or ``interrupted``; message says more when there is more to say.  history : a row per record
+    interval; loads are means over the interval, depths and energies values at its end.  profile : a row per contact
+    point from the top to the bit, for every recorded bit depth.  energy : the ledger, a row per record interval.  run :
+    segments, step, counts and timing.  notes : what to know before using the numbers, each code once, where it was
+    worst.  identity : of the run, the same in all of its files.
     """
 
     case: Case
@@ -46,6 +48,7 @@ class SimulationResult:
     profile: pd.DataFrame
     energy: pd.DataFrame
     run: dict[str, Any]
+    notes: tuple[Note, ...] = ()
     identity: str = field(default_factory=lambda: uuid4().hex)
 
     def save(self, folder: Path, csv: bool = False) -> list[Path]:
@@ -58,6 +61,7 @@ class SimulationResult:
             "case": self.case.model_dump(mode="json"),
             "status": self.status,
             "message": self.message,
+            "notes": as_metadata(self.notes),
             "run": self.run,
             "versions": versions(),
             "identity": self.identity,

@@ -1,5 +1,6 @@
 """A run before its first step: hole, string, step, and the string settled at its start."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -27,9 +28,15 @@ LONGEST_SETTLING = 400.0  # [s] simulated
 HANDED_OVER, LEAST_WINDOWS = 1e-3, 3
 STILL = Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 VELOCITY, PLACE = (state.VX, state.VY, state.VZ), (state.X, state.Y, state.Z)
-# Beyond these a run would take hours or not fit into memory: a slip in the case, not a wish.
-MOST_STEPS = 100_000_000
-MOST_RECORDS = 1_000_000
+# Beyond these a run would take hours or not fit into memory: a slip in the case, not a wish.  A step of one segment
+# takes some 20 ns, a record keeps 2 kB and a row of a profile 200 bytes.
+MOST_SEGMENT_STEPS = 1e12
+MOST_RECORDS = 200_000
+MOST_PROFILE_ROWS = 2_000_000
+# Compiled code does not see Ctrl-C: it is left after so many steps of a segment, a fraction of a second.
+SLICE = 2_000_000
+# Called while a string settles, with simulated time [s] and the largest force out of balance over the weight.
+Settling = Callable[[float, float], None]
 
 
 @dataclass
@@ -57,17 +64,20 @@ class Run:
         return self.string.segments
 
     def advance(self, motion: Motion, duration: float, laws: state.Laws | None = None) -> None:
-        """Advance by ``duration`` [s] in equal steps no longer than the run's."""
+        """Advance by ``duration`` [s] in equal steps no longer than the run's; Ctrl-C stops it between two of them."""
         steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
-        laws = laws or self.laws
+        laws, dt = laws or self.laws, duration / steps
         if self.queried is not None:
-            self.queried.advance(self.S, self.top, laws, motion, self.pipe, duration / steps, steps)
-        else:
+            self.queried.advance(self.S, self.top, laws, motion, self.pipe, dt, steps)
+            self.steps += steps
+            return
+        at_once = max(SLICE // self.segments, 1)
+        for done in range(0, steps, at_once):
+            count = min(at_once, steps - done)
             dynamics.advance(
-                self.S, self.top, self.owner, self.segments, self.hole.pieces, laws,
-                motion, self.pipe, duration / steps, steps,
-            )  # fmt: skip
-        self.steps += steps
+                self.S, self.top, self.owner, self.segments, self.hole.pieces, laws, motion, self.pipe, dt, count
+            )
+            self.steps += count
 
     def refresh(self) -> None:
         """Bring axes and walls up to the present positions."""
@@ -130,27 +140,37 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
         settling=0.0,
     )
     limit = _step_limit(S, case, string, hole, pipe, shallowest - first)
-    duration = sum(s.motion.duration for s in stretches)
-    if (duration + LONGEST_SETTLING) / limit > MOST_STEPS:
-        raise InputError(
-            f"masses, stiffnesses, speeds and durations that need at most {MOST_STEPS:.0g} steps",
-            key="solver.step",
-            value=f"a stable step of {limit:.3g} s for {duration:g} s",
-        )
-    if duration / case.record.interval > MOST_RECORDS:
-        raise InputError(
-            f"at most {MOST_RECORDS:.0g} records", key="record.interval", value=f"{case.record.interval:g} s"
-        )
     wanted = case.solver.step
     step = SHARES[wanted] * limit if isinstance(wanted, str) else wanted
     if step > limit * (1 + 1e-9):
         raise InputError(
             f"'auto', 'largest' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
         )
+    _check_cost(case, n, step, sum(s.motion.duration for s in stretches))
     # A walk from the top would stop at the first slab a point lies in, which past 90° may be a far one's.
     owner = np.zeros(n + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
     return Run(case, hole, string, pipe, S, top, owner, step, laws), stretches
+
+
+def _check_cost(case: Case, segments: int, step: float, duration: float) -> None:
+    """Raise InputError for a run that would take hours or more memory than there is; step and duration [s]."""
+    most = MOST_SEGMENT_STEPS / dynamics.whole_operations(segments)
+    if (duration + LONGEST_SETTLING) / step > most:
+        raise InputError(
+            f"masses, stiffnesses, speeds and durations that need at most {most:.2g} steps of {segments} segments",
+            key="solver.step",
+            value=f"{step:.3g} s for {duration:g} s and up to {LONGEST_SETTLING:g} s of settling",
+        )
+    if duration / case.record.interval > MOST_RECORDS:
+        raise InputError(f"at most {MOST_RECORDS} records", key="record.interval", value=f"{case.record.interval:g} s")
+    profiles = len(case.record.profile_at)
+    if profiles * (segments + 1) > MOST_PROFILE_ROWS:
+        raise InputError(
+            f"at most {MOST_PROFILE_ROWS // (segments + 1)} profiles of {segments} segments",
+            key="record.profile_at",
+            value=f"{profiles} depths",
+        )
 
 
 def _check_dynamic(case: Case) -> None:
@@ -226,7 +246,7 @@ def _transported(axes: Array) -> Array:
     return out
 
 
-def settle(run: Run, tolerance: float = SETTLED) -> float:
+def settle(run: Run, tolerance: float = SETTLED, progress: Settling | None = None) -> float:
     """Relax the frictionless string at rest; returns the largest force out of balance over the weight.
 
     Raises UnstableError when the string does not come to rest or leaves the hole.
@@ -235,11 +255,11 @@ def settle(run: Run, tolerance: float = SETTLED) -> float:
     critical for its stretching would leave the swing creeping for minutes.
     """
     if run.queried is not None:
-        settle(replace(run, queried=None), tolerance)
-        return _hand_over(run)
+        settle(replace(run, queried=None), tolerance, progress)
+        return _hand_over(run, progress)
     laws, weight = _relaxing(run)
     residual = np.inf
-    for _ in range(int(LONGEST_SETTLING * laws.settling)):
+    for k in range(int(LONGEST_SETTLING * laws.settling)):
         run.advance(STILL, 1 / laws.settling, laws)
         before = _three(run, VELOCITY)
         run.advance(STILL, run.step, laws)
@@ -249,12 +269,14 @@ def settle(run: Run, tolerance: float = SETTLED) -> float:
         residual = float(np.abs(state.row(run.S, state.MASS, run.segments) * pull).max()) / weight
         run.refresh()
         run.check()
+        if progress is not None:
+            progress((k + 1) / laws.settling, residual)
         if residual < tolerance:
             return residual
     raise UnstableError(f"forces are out of balance by {residual:.2g} of the weight after {LONGEST_SETTLING:g} s")
 
 
-def _hand_over(run: Run) -> float:
+def _hand_over(run: Run, progress: Settling | None) -> float:
     """Relax a string that the hole's own pieces have settled once more, against another contact method's wall.
 
     Returns the imbalance as ``settle``, but of forces averaged over a window: in the corner between two facets
@@ -269,6 +291,8 @@ def _hand_over(run: Run) -> float:
         residual = float(np.abs(state.row(run.S, state.MASS, run.segments) * pull).max()) / weight
         run.refresh()
         run.check()
+        if progress is not None:
+            progress((k + 1) * window, residual)
         if residual < HANDED_OVER and k + 1 >= LEAST_WINDOWS:
             return residual
     raise UnstableError(f"forces are out of balance by {residual:.2g} of the weight after {LONGEST_SETTLING:g} s")

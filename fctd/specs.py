@@ -131,6 +131,7 @@ class ComponentSpec(Table):
     youngs_modulus: units.PositiveStress = 206.8e9
     poisson_ratio: units.PoissonRatio = 0.3
     density: units.PositiveDensity = 7850.0
+    yield_strength: units.PositiveStress = 931e6  # of S-135, the strongest grade of API 5DP
     axial_stiffness: units.PositiveAxialStiffness | None = None  # EA
     bending_stiffness: units.PositiveBendingStiffness | None = None  # EI
     torsional_stiffness: units.PositiveBendingStiffness | None = None  # GJ

@@ -9,6 +9,7 @@ import csv
 import io
 import re
 from collections.abc import Callable, Mapping, Sequence
+from itertools import islice
 from os import PathLike
 from pathlib import Path
 from typing import Final, Literal
@@ -32,6 +33,9 @@ _UNITS: Final[dict[StationKey, tuple[str, str]]] = {
 _UNIT_ENDS_HEADER: Final = re.compile(r"(?:\(\s*|_)(?P<unit>[a-z]+)\s*\)?$")
 _LARGEST_FILE: Final = 32  # MiB: 100,000 stations with 40 other columns
 _SAME: Final = 1e-9  # m and deg: rows closer than this are one station written twice
+# Four times the deepest well drilled, and a station every half metre of it: beyond these the file holds something else.
+DEEPEST: Final = 50_000.0  # [m] measured depth
+MOST_STATIONS: Final = 100_000
 
 
 def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] | None = None) -> NDArray[np.float64]:
@@ -56,6 +60,10 @@ def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.fl
 
     for row, column in np.argwhere(~np.isfinite(stations)).tolist():
         raise refuse(row, column, "a finite number")
+    if len(stations) > MOST_STATIONS:
+        raise InputError(f"at most {MOST_STATIONS} stations")
+    for row in np.flatnonzero(stations[:, 0] > DEEPEST).tolist():
+        raise refuse(row, 0, f"a measured depth of at most {DEEPEST / 1e3:g} km")
     for row in np.flatnonzero((stations[:, 1] < 0.0) | (stations[:, 1] > 180.0)).tolist():
         raise refuse(row, 1, "an inclination from 0 to 180 deg")
     # Unwrapped azimuths pass, -999.25 and the other nulls of well logs do not.
@@ -78,7 +86,9 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """Line number in the file and stripped cells of every row that is not blank."""
     try:
         reader = csv.reader(io.StringIO(read_text(path, _LARGEST_FILE)))
-        rows = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
+        # One line more than can be used is enough to refuse a survey that is too long.
+        found = islice(filter(any, reader), MOST_STATIONS + 2)
+        rows = [(reader.line_num, [cell.strip() for cell in cells]) for cells in found]
     except OSError as error:
         raise InputError(f"a survey file that can be read ({error.strerror})") from error
     except InputError:

@@ -8,6 +8,7 @@ import pandas as pd
 from fctd.case import Case, naming_file
 from fctd.equilibrium import Equilibrium, Solver
 from fctd.errors import InputError
+from fctd.notes import codes_of
 from fctd.operations import SteadyRates, rates_of_all
 from fctd.units import FRICTION, bare
 
@@ -29,8 +30,9 @@ def torque_drag(
     operation : kind or kinds; bit_depths [m] : rising; friction : kinetic factor or factors for every interval
     in turn, None for the case's own.  speed [m/s], rpm : as of ``equilibrium``, for the kinds that have them.
     Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, hookload_N,
-    surface_torque_N_m, weight_indicator_N, drive_torque_N_m, total_contact_force_N, status, iterations.  A row
-    without an answer (status) has NaN for its loads.  Raises InputError for what cannot be used.
+    surface_torque_N_m, weight_indicator_N, drive_torque_N_m, total_contact_force_N, status, iterations, notes
+    (codes of ``notes.MEANINGS``, or none).  A row without an answer (status) has NaN for its loads.  Raises InputError
+    for what cannot be used.
     """
     with naming_file(case):
         depths = _check_depths(bit_depths)
@@ -75,6 +77,7 @@ def _row(solver: Solver, kind: str, rates: SteadyRates, depth: float) -> dict[st
         "total_contact_force_N": _answer(point, point.total_contact_force),
         "status": point.status,
         "iterations": point.iterations,
+        "notes": codes_of(point.notes),
     }
 
 

@@ -90,15 +90,19 @@ class Number(Expects):
     """Pydantic annotation for a bare number within bounds; says what it expects when it refuses."""
 
     noun: str = "a number"
+    unit: str = ""
     above: float | None = None
     at_least: float | None = None
     at_most: float | None = None
 
     @property
     def bounded(self) -> str:
-        """The noun with its bounds: "a length above 0"."""
+        """The noun with its bounds: "a length above 0", "a speed above 0 and at most 10 m/s"."""
         bounds = {"above": self.above, "at least": self.at_least, "at most": self.at_most}
-        words = " and ".join(f"{word} {limit:g}" for word, limit in bounds.items() if limit is not None)
+        unit = f" {self.unit}" if self.unit else ""
+        words = " and ".join(
+            f"{word} {limit:g}{unit if limit else ''}" for word, limit in bounds.items() if limit is not None
+        )
         return f"{self.noun} {words}".strip()
 
     @property
@@ -154,6 +158,7 @@ class Quantity(Number):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "noun", self.dimension.noun)
+        object.__setattr__(self, "unit", self.dimension.unit)
 
     @property
     def expected(self) -> str:
@@ -187,13 +192,16 @@ FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0)  #
 Friction = Annotated[float, FRICTION]
 PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
 Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
-Rpm = Annotated[float, Number(noun="a bare number of rev/min", at_least=0.0)]
-PositiveRpm = Annotated[float, Number(noun="a bare number of rev/min", above=0.0)]
+# Hoists run at 1 to 3 m/s and top drives at up to 300 rev/min: beyond these the input is in the wrong unit.
+FASTEST: Final = 10.0  # [m/s]
+MOST_RPM: Final = 1000.0
+Rpm = Annotated[float, Number(noun="a bare number of rev/min", at_least=0.0, at_most=MOST_RPM)]
+PositiveRpm = Annotated[float, Number(noun="a bare number of rev/min", above=0.0, at_most=MOST_RPM)]
 Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
 PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
 Time = Annotated[float, Quantity(dimension=TIME, at_least=0.0)]
 PositiveTime = Annotated[float, Quantity(dimension=TIME, above=0.0)]
-PositiveSpeed = Annotated[float, Quantity(dimension=SPEED, above=0.0)]
+PositiveSpeed = Annotated[float, Quantity(dimension=SPEED, above=0.0, at_most=FASTEST)]
 Force = Annotated[float, Quantity(dimension=FORCE, at_least=0.0)]
 Torque = Annotated[float, Quantity(dimension=TORQUE)]
 PositiveOrZeroTorque = Annotated[float, Quantity(dimension=TORQUE, at_least=0.0)]

@@ -23,7 +23,7 @@ SAME_LENGTH = 1e-6
 # Straight hole needs no short cylinders, but neighbours in the table should stay neighbours in space [m].
 LONGEST_CYLINDER = 30.0
 # More would not fit into memory, or take longer to lay out than to run.
-MOST_CYLINDERS = 2_000_000
+MOST_CYLINDERS = 1_000_000
 # No point of a string is further from the origin [m]; squares of far larger numbers overflow.
 FARTHEST = 1e7
 # Below this inclination the high side is north [rad].
@@ -134,9 +134,7 @@ class Wellbore:
 
     def _nearest(self, points: Array) -> NDArray[np.int64]:
         """Piece nearest to each point, from samples of the axis at most half a metre apart."""
-        counts = np.maximum(np.ceil(np.diff(self.md) / 0.5).astype(int), 1)
-        parts = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(self.md, self.md[1:], counts, strict=False)]
-        md = np.append(np.concatenate(parts), self.md[-1])
+        md = _divided(self.md, np.maximum(np.ceil(np.diff(self.md) / 0.5), 1))
         _, i = cKDTree(self.at(md)[0]).query(points)
         starts = self.pieces[:, contact.START_MD]
         found = np.searchsorted(starts, md[i], side="right") - 1
@@ -181,7 +179,7 @@ def build_wellbore(case: Case) -> Wellbore:
     """
     hole = case.wellbore
     stations = survey.to_radians(hole.read_stations())
-    intervals = np.array([[i.to_md, 0.5 * i.diameter, _stiffness(hole, i), i.friction] for i in hole.intervals])
+    intervals = _intervals(hole)
     ends = intervals[intervals[:, 0] < stations[-1, 0], 0]
     courses = _courses(stations) if hole.survey_method == "minimum_curvature" else None
     if hole.geometry == "arcs":
@@ -237,8 +235,20 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
             key="wellbore.chord_tolerance" if hole.cylinder_length is None else "wellbore.cylinder_length",
             value=f"{counts.sum():.3g} cylinders",
         )
-    parts = [np.linspace(a, b, int(n), endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)]
-    return np.append(np.concatenate(parts), breaks[-1])
+    return _divided(breaks, counts)
+
+
+def _divided(breaks: Array, counts: Array) -> Array:
+    """Ends of the parts when every stretch between breaks (k + 1,) is cut into ``counts`` (k,) equal ones."""
+    parts = counts.astype(np.int64)
+    within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    ends = within * np.repeat(np.diff(breaks) / parts, parts) + np.repeat(breaks[:-1], parts)
+    return np.append(ends, breaks[-1])
+
+
+def _intervals(hole: WellboreSpec) -> Array:
+    """The intervals (k, 4): to_md, radius [m], stiffness, friction."""
+    return np.array([[i.to_md, 0.5 * i.diameter, _stiffness(hole, i), i.friction] for i in hole.intervals])
 
 
 def _stiffness(hole: WellboreSpec, interval: IntervalSpec) -> float:
@@ -249,12 +259,9 @@ def _stiffness(hole: WellboreSpec, interval: IntervalSpec) -> float:
 
 def _wall_columns(hole: WellboreSpec, pieces: Array, middle: Array) -> None:
     """Fill hole radius, stiffness and friction from the interval that holds the middle of each piece."""
-    to_md = np.array([i.to_md for i in hole.intervals])
-    for row, k in zip(pieces, np.searchsorted(to_md, middle), strict=True):
-        interval = hole.intervals[min(int(k), len(hole.intervals) - 1)]
-        row[contact.HOLE_RADIUS] = 0.5 * interval.diameter
-        row[contact.STIFFNESS] = _stiffness(hole, interval)
-        row[contact.FACTOR] = interval.friction
+    intervals = _intervals(hole)
+    k = np.minimum(np.searchsorted(intervals[:, 0], middle), len(intervals) - 1)
+    pieces[:, [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR]] = intervals[k, 1:]
 
 
 def _cylinders(hole: WellboreSpec, md: Array, points: Array) -> Array:

@@ -35,7 +35,7 @@ segment_length = "40 m"
 """
 CHART_COLUMNS = [
     "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
-    "drive_torque_N_m", "total_contact_force_N", "status", "iterations",
+    "drive_torque_N_m", "total_contact_force_N", "status", "iterations", "notes",
 ]  # fmt: skip
 # A pound-force and a foot in SI, exact by definition (NIST SP 811, appendix B.8).
 LBF, FOOT = 4.4482216152605, 0.3048

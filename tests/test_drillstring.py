@@ -289,14 +289,32 @@ def test_a_trip_feeds_one_component_and_no_more_than_there_is(components: list, 
     ("sections", "pattern"),
     [
         ({"record": {"profile_at": [5000]}}, r"record\.profile_at\[0\].*5000 m.*1000 to 1000 m"),
-        ({"record": {"interval": 1e-9}}, r"record\.interval.*at most"),
-        ({"wellbore": {"stiffness": 1e15}}, r"solver\.step.*stable step.*at most"),
+        ({"record": {"interval": 1e-9}}, r"record\.interval.*at most 200000 records"),
+        ({"record": {"profile_at": [1000.0] * 100_000}}, r"record\.profile_at.*100000 depths.*at most \d+ profiles"),
+        ({"wellbore": {"stiffness": 1e20}}, r"solver\.step.*at most 4\.2e\+10 steps of 20 segments"),
+        ({"solver": {"step": 1e-12}}, r"solver\.step.*1e-12 s for 60 s.*at most 4\.2e\+10 steps"),
         ({"wellbore": {"cylinder_length": 1e-6, "overlap": 0}}, r"wellbore\.cylinder_length.*cylinders"),
     ],
 )
 def test_what_would_run_for_hours_is_refused(sections: dict, pattern: str) -> None:
     with pytest.raises(InputError, match=pattern):
         prepare(make_case(operations=[rotation(1000, 60)], **sections))
+
+
+@pytest.mark.parametrize(
+    "operation", [rotation(1000, 1e-10), trip(1000, 1000 - 1e-9), trip(1000, 1000 - 1e-12, speed=10.0)]
+)
+def test_an_operation_that_is_over_before_it_begins_is_refused(operation: dict) -> None:
+    with pytest.raises(InputError, match=r"operations\[0\].* s\": expected an operation that lasts at least 1 ms"):
+        prepare(make_case(operations=[operation]))
+
+
+def test_cost_counts_the_steps_of_every_segment() -> None:
+    """A step that twenty segments may take so often is refused to five thousand."""
+    schedule, solver = [rotation(1000, 3600)], {"step": 2e-6}
+    prepare(make_case(operations=schedule, solver=solver))
+    with pytest.raises(InputError, match=r"solver\.step.*at most 2e\+08 steps of 5000 segments"):
+        prepare(make_case(components=[pipe(1000, 5000)], operations=schedule, solver=solver))
 
 
 def test_mud_must_be_lighter_than_the_string() -> None:

@@ -253,7 +253,7 @@ def test_rates_are_the_callers_then_the_cases_then_the_defaults() -> None:
         ({"bit_depth": 1301.0}, 'bit_depth = "1301 m": expected a depth below string.top_md, 0 m, within survey'),
         ({"bit_depth": 0.0}, 'bit_depth = "0 m": expected a depth below'),
         ({"bit_depth": math.nan}, "expected a depth below"),
-        ({"speed": 0.0}, "speed = 0.0: expected a speed above 0 for trip_out"),
+        ({"speed": 0.0}, "speed = 0.0: expected a speed above 0 and at most 10 m/s for trip_out"),
         ({"speed": -1.0}, "speed = -1.0: expected a speed above 0"),
         ({"operation": "rotate_off_bottom", "speed": 0.1}, "expected a speed of 0 for rotate_off_bottom"),
         ({"operation": "rotate_off_bottom", "rpm": 0}, "rpm = 0: expected rev/min above 0"),
@@ -262,6 +262,11 @@ def test_rates_are_the_callers_then_the_cases_then_the_defaults() -> None:
         ({"bit_depth": None}, "bit_depth = null: expected a number of metres"),
         ({"speed": "0.2 m/s"}, 'speed = "0.2 m/s": expected a number of metres per second'),
         ({"rpm": "60"}, 'rpm = "60": expected a number of revolutions per minute'),
+        (
+            {"operation": "trip_in", "rpm": 1e4},
+            "rpm = 10000.0: expected rev/min at least 0 and at most 1000 for trip_in",
+        ),
+        ({"operation": "trip_in", "speed": 1e5}, "speed = 100000.0: expected a speed above 0 and at most 10 m/s"),
     ],
 )
 def test_bad_input_is_answered(call: dict[str, Any], expected: str) -> None:

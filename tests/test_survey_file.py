@@ -154,6 +154,13 @@ def test_an_empty_file(write: Write) -> None:
     assert "the file is empty" in str(refusal(write("", "")))
 
 
+def test_more_stations_than_any_well_has(tmp_path: Path) -> None:
+    """Refused before the memory is full: the file is not read to its end."""
+    path = tmp_path / "survey.csv"
+    path.write_text("md_m,inc_deg,azi_deg\n" + "".join(f"{0.01 * k:.2f},0,0\n" for k in range(100_002)) + "no number\n")
+    assert refusal(path).expected == "at most 100000 stations"
+
+
 def test_a_missing_file(tmp_path: Path) -> None:
     assert "expected a survey file that can be read (No such file" in str(refusal(tmp_path / "none.csv"))
 

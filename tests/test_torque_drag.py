@@ -11,7 +11,7 @@ from tests.cases import make_case, pipe
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
 COLUMNS = [
     "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
-    "drive_torque_N_m", "total_contact_force_N", "status", "iterations",
+    "drive_torque_N_m", "total_contact_force_N", "status", "iterations", "notes",
 ]  # fmt: skip
 
 

@@ -1,5 +1,7 @@
 """The hole: exact arcs, cylinders that converge to them, overlap without gaps, owners and queries."""
 
+import time
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -332,6 +334,25 @@ def test_contact_angle_convention() -> None:
 def test_overlap_longer_than_a_cylinder_is_refused() -> None:
     with pytest.raises(InputError, match=r"wellbore\.overlap.*3 m.*at most the length of a cylinder"):
         hole_of([[0, 0, 0], [100, 5, 0]], cylinder_length=2.0, overlap=3.0)
+
+
+@pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
+def test_the_deepest_well_takes_little_time_and_memory(geometry: str) -> None:
+    """50 km in 200,000 cylinders, the last interval without end; a search from anywhere in a fraction of a second."""
+    tracemalloc.start()
+    began = time.process_time()
+    hole = hole_of(
+        [[0, 0, 0], [1000, 0, 0], *([float(md), 60.0, md / 500 % 360] for md in range(2000, 50_001, 500))],
+        intervals=[{"to_md": 1e300, "diameter": 0.2, "friction": 0.2}], geometry=geometry,
+        **({} if geometry == "arcs" else {"cylinder_length": 0.25}),
+    )  # fmt: skip
+    points = hole.at(np.linspace(0.0, 50_000.0, 1000))[0]
+    md = find_contacts(hole, points, 0.05).md
+    seconds, (_, peak) = time.process_time() - began, tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    np.testing.assert_allclose(md, np.linspace(0.0, 50_000.0, 1000), atol=0.01)
+    assert peak < 300e6
+    assert seconds < 10
 
 
 def test_stations_that_no_arc_joins_are_refused() -> None:

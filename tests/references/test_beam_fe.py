@@ -15,7 +15,7 @@ from references.planar_hole import PlanarHole
 
 
 def section(EA, EI, shear):
-    return Section(1.0, 0.0, 1e-4, 1e-4, EA, 1.0, EI, shear, 0.02, 0.01, 0.02)
+    return Section(1.0, 0.0, 1e-4, 1e-4, EA, 1.0, EI, shear, 0.02, 0.01, 0.02, 931e6)
 
 
 def beam(elements, *, EA=1e4, EI=1.0, shear=4e3, **around):

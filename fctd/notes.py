@@ -1,0 +1,166 @@
+"""Notes on a result: what a reader should know before using its numbers, and what to do about it.
+
+A note does not change a status: the numbers are those of the model, in a state that the model does not describe well
+or that no string would survive.
+"""
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.drillstring import String
+from fctd.profile import Loads, at_contacts, von_mises
+
+Array = NDArray[np.float64]
+
+# The wall of the model is a spring.  Steel and rock give way by a millimetre or two; a contact point that is deeper in
+# the wall than a quarter of the clearance moves the string's shape and its buckling limits (∝ 1/√clearance) by a tenth.
+# 10 mm are 100 kN on one point of the default wall, ten times what wears casing; below 2 mm the share of a stabiliser's
+# small clearance means nothing.
+SHARE_OF_CLEARANCE, LEAST_PENETRATION, MOST_PENETRATION = 0.25, 0.002, 0.010
+# Shares of the work by which the energy ledger of a run is off: of the first the reader hears, beyond the second the
+# run is not called completed.
+DOUBTFUL, INACCURATE = 0.01, 0.10
+
+
+class Meaning(NamedTuple):
+    """What a code says of any string, and what to do about it."""
+
+    headline: str
+    remedy: str
+
+
+MEANINGS: Final = {
+    "penetration": Meaning(
+        "the string is pressed deep into the wall", "check friction factor, bends and the wall's stiffness"
+    ),
+    "yield": Meaning(
+        "the steel is stressed beyond its yield strength", "check friction factor, bends and yield_strength"
+    ),
+    "tensile_capacity": Meaning(
+        "the hook load is more than the uppermost pipe bears", "check friction factor, bends and yield_strength"
+    ),
+    "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
+    "ringing": Meaning("the string rings on the joints of the hole's cylinders", "arcs have no joints"),
+}
+
+
+@dataclass(frozen=True)
+class Note:
+    """One thing to know: a code of ``MEANINGS``, a sentence with the numbers, and what to do.
+
+    place : measured depth [m] where it is worst, None where it has none.  excess : what was found over its bound.
+    """
+
+    code: str
+    text: str
+    remedy: str
+    place: float | None = None
+    excess: float = 1.0
+
+    def __str__(self) -> str:
+        return f"{self.text}: {self.remedy}"
+
+
+def _note(code: str, text: str, excess: float, place: float | None = None) -> Note:
+    return Note(code, text, MEANINGS[code].remedy, place, excess)
+
+
+def codes_of(notes: Iterable[Note]) -> str:
+    """The codes in one cell of a table; "none" without any, as an empty cell is read back as a missing value."""
+    return ", ".join(note.code for note in notes) or "none"
+
+
+def as_metadata(notes: Iterable[Note]) -> list[dict[str, Any]]:
+    """Notes as files keep them."""
+    return [asdict(note) for note in notes]
+
+
+def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:
+    """What the codes in cells of a table mean, by code."""
+    used = {code for cell in set(cells) for code in cell.split(", ")}
+    return {code: meaning._asdict() for code, meaning in MEANINGS.items() if code in used}
+
+
+def string_notes(
+    string: String, loads: Loads, hookload: float, walls: Array, radius: Array, *, in_hole: bool = True
+) -> tuple[Note, ...]:
+    """Notes on a string: how deep it is in the wall, its stress, and what hangs on its top.
+
+    hookload [N]; walls (n, 7) : as of Wellbore.walls; radius (n,) : of the contact points [m]; in_hole : whether
+    there is a wall.
+    """
+    found = [_penetration(walls, radius) if in_hole else None, _stress(string, loads, walls), _pull(string, hookload)]
+    return tuple(note for note in found if note is not None)
+
+
+def _penetration(walls: Array, radius: Array) -> Note | None:
+    clearance = walls[:, 3] - radius
+    penetration = np.sqrt((walls[:, :3] ** 2).sum(axis=1)) - clearance
+    if not penetration.max() > LEAST_PENETRATION:
+        return None
+    excess = penetration / np.clip(SHARE_OF_CLEARANCE * clearance, LEAST_PENETRATION, MOST_PENETRATION)
+    k = int(excess.argmax())
+    if not excess[k] > 1:
+        return None
+    text = (
+        f"a contact point at {walls[k, 6]:.0f} m is {1e3 * penetration[k]:.3g} mm deep in the wall, "
+        f"where the clearance is {1e3 * clearance[k]:.3g} mm"
+    )
+    return _note("penetration", text, float(excess[k]), float(walls[k, 6]))
+
+
+def _stress(string: String, loads: Loads, walls: Array) -> Note | None:
+    # The largest loads taken together are a bound that no row of a healthy chart exceeds.
+    tension = max(float(np.abs(loads.tension).max()), abs(loads.bit_tension))
+    torque = max(float(np.abs(loads.torque).max()), abs(loads.bit_torque))
+    bending = float(loads.bending.max())
+    most = max(float(von_mises(tension, torque, bending, s.outer, s.inner)) / s.yield_strength for s in string.sections)
+    if not most > 1:
+        return None
+
+    def of(name: str) -> Array:
+        values = string.of(name)
+        return np.append(values[0], values)
+
+    stress = von_mises(*at_contacts(string, loads), of("outer"), of("inner"))
+    strength = of("yield_strength")
+    k = int((stress / strength).argmax())
+    if not stress[k] > strength[k]:
+        return None
+    place = float(walls[k - 1, 6]) if k else string.top_md
+    text = f"the stress at {place:.0f} m is {stress[k] / 1e6:.0f} MPa, the yield strength {strength[k] / 1e6:.0f} MPa"
+    return _note("yield", text, float(stress[k] / strength[k]), place)
+
+
+def _pull(string: String, hookload: float) -> Note | None:
+    top = string.sections[string.component[0]]
+    capacity = top.yield_strength * np.pi * (top.outer**2 - top.inner**2)
+    if not hookload > capacity:
+        return None
+    text = f"the hook load is {hookload / 1e3:.0f} kN, the uppermost pipe yields at {capacity / 1e3:.0f} kN"
+    return _note("tensile_capacity", text, float(hookload / capacity), string.top_md)
+
+
+def ledger_off(error: float) -> Note | None:
+    """A note where the energy ledger is off by ``error`` of the work and more than ``DOUBTFUL``; NaN counts as off."""
+    if error < DOUBTFUL:
+        return None
+    return _note("ledger", f"the energy ledger is off by {100 * error:.2g} %", error / DOUBTFUL)
+
+
+def rings(swing: float, frequency: float, depth: float, bound: float) -> Note | None:
+    """A note where the joints of cylinders swing the hook load by more than a bound.
+
+    swing, bound [N]; frequency [Hz]; depth of the bit [m].
+    """
+    if not swing > bound:
+        return None
+    text = (
+        f"the string slides over the joints of the hole's cylinders in time with its own {frequency:.2f} Hz: near "
+        f"{depth:.0f} m about ±{swing / 1e3:.2g} kN of hook load are not the well's"
+    )
+    return _note("ringing", text, swing / bound)

@@ -1,0 +1,244 @@
+"""Notes: each bound from both sides, nothing on sound strings, and the same words in row, screen and files."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+
+from fctd import Case, equilibrium, notes, simulate, torque_drag
+from fctd.equilibrium import Equilibrium
+from fctd.units import conversion
+from tests.cases import make_case, pipe, rotation, trip
+from tests.test_cli import run
+
+
+def bend(quarters: int) -> list[list[float]]:
+    """Stations of a hole that bends by 8°/30 m: from vertical to level, then so many quarters of a circle."""
+    turns = [[937.5 + 337.5 * k, 90.0, 90.0 * k] for k in range(quarters + 1)]
+    return [[0, 0, 0], [600, 0, 0], *turns, [turns[-1][0] + 300, 90, turns[-1][2]]]
+
+
+CASING = {"name": "casing", "outer_diameter": 0.2445, "inner_diameter": 0.2224, "segment_length": 12.0}
+
+
+def casing(quarters: int = 2, friction: float = 0.5, **more: Any) -> Case:
+    """9⅝ in casing in 12¼ in hole."""
+    stations = bend(quarters)
+    intervals = [{"to_md": stations[-1][0], "diameter": 0.3112, "friction": friction}]
+    return make_case(stations, [CASING | more], wellbore={"intervals": intervals}, mud={"density": 1200})
+
+
+def found(point: Equilibrium) -> dict[str, notes.Note]:
+    return {note.code: note for note in point.notes}
+
+
+def deepest(point: Equilibrium) -> tuple[float, float]:
+    """Largest penetration [m] and the clearance there."""
+    profile = point.profile.iloc[1:]
+    clearance = profile["clearance_m"].to_numpy()
+    penetration = np.hypot(profile["offset_high_m"], profile["offset_right_m"]).to_numpy() - clearance
+    return float(penetration.max()), float(clearance[penetration.argmax()])
+
+
+def test_pulling_casing_round_a_bend_without_end_is_no_plain_answer() -> None:
+    """μ 0.5 in 540° of bend: a balance of 11 MN, deep in the wall, beyond yield and beyond what the top bears."""
+    point = equilibrium(casing(5, yield_strength="110 ksi"), "trip_out", 2875.0)
+    assert point.status == "converged"
+    assert point.hookload > 1e7
+    codes = found(point)
+    assert list(codes) == ["penetration", "yield", "tensile_capacity"]
+    assert notes.codes_of(point.notes) == "penetration, yield, tensile_capacity"
+    penetration, _ = deepest(point)
+    assert f"{1e3 * penetration:.3g} mm deep in the wall" in codes["penetration"].text
+    assert 600 < (codes["penetration"].place or 0) < 800
+    assert "the yield strength 758 MPa" in codes["yield"].text
+    assert f"the hook load is {point.hookload / 1e3:.0f} kN" in codes["tensile_capacity"].text
+    assert all(note.remedy == notes.MEANINGS[note.code].remedy for note in point.notes)
+    assert equilibrium(casing(5, 0.1), "trip_out", 2875.0).notes == ()
+
+
+def test_a_string_deeper_in_the_wall_than_the_hole_is_wide_has_diverged() -> None:
+    """A quarter more of the bend: 200 mm, where 311 mm of hole hold 245 mm of pipe."""
+    point = equilibrium(casing(6, 0.53), "trip_out", 3200.0)
+    assert (point.status, point.notes) == ("diverged", ())
+    assert "has left the hole" in point.message
+
+
+@pytest.mark.parametrize("kind", ["trip_out", "rotate_off_bottom"])
+def test_stress_is_that_of_the_profile(kind: str) -> None:
+    """A yield strength just above its largest is silent, one just below is not, and says where."""
+    profile = equilibrium(casing(), kind, 1750.0).profile
+    worst = profile.loc[profile["von_mises_Pa"].idxmax()]
+    above, below = (
+        found(equilibrium(casing(yield_strength=share * worst["von_mises_Pa"]), kind, 1750.0))
+        for share in (1.001, 0.999)
+    )
+    assert "yield" not in above
+    assert below["yield"].place == worst["md_m"]
+    assert below["yield"].excess == pytest.approx(1 / 0.999)
+
+
+def test_stress_is_set_against_the_steel_where_it_is() -> None:
+    """A weak pipe far down, less stressed than the strong one above it."""
+
+    def string(weak: float) -> Case:
+        parts = [pipe(300, 10, yield_strength=weak), pipe(None, None, segment_length=30.0)]
+        return make_case(components=parts)
+
+    profile = equilibrium(string(931e6), "trip_out", 1000.0).profile
+    stress = profile["von_mises_Pa"][profile["md_m"] > 705].max()
+    assert stress < 0.5 * profile["von_mises_Pa"].max()
+    assert equilibrium(string(1.01 * stress), "trip_out", 1000.0).notes == ()
+    (note,) = equilibrium(string(0.99 * stress), "trip_out", 1000.0).notes
+    assert note.code == "yield"
+    assert 700 < (note.place or 0) < 735
+
+
+def test_hook_load_against_the_uppermost_pipe() -> None:
+    """Buoyed weight of 1000 m over the steel's area, both by hand: 7850·g·1000 Pa."""
+    stress = 7850 * 9.80665 * 1000
+    assert (
+        equilibrium(make_case(components=[pipe(1000, 40, yield_strength=1.02 * stress)]), "trip_out", 1000.0).notes
+        == ()
+    )
+    weak = make_case(components=[pipe(1000, 40, yield_strength=0.98 * stress)])
+    assert list(found(equilibrium(weak, "trip_out", 1000.0))) == ["yield", "tensile_capacity"]
+
+
+@pytest.mark.parametrize(("hole", "limit"), [(0.311, 10e-3), (0.15, 2.875e-3), (0.13, 2e-3)])
+def test_penetration_is_set_against_the_clearance(hole: float, limit: float) -> None:
+    """10 mm in a wide hole, a quarter of the clearance in a narrow one, but 2 mm at least: a wall of any stiffness."""
+
+    def pressed(stiffness: float) -> Equilibrium:
+        stations = [[0, 0, 0], [300, 0, 0], [600, 60, 0], [900, 60, 0]]
+        wall = {"intervals": [{"to_md": 900, "diameter": hole, "friction": 0.2}], "stiffness": stiffness}
+        return equilibrium(
+            make_case(stations, [pipe(None, None, segment_length=20.0)], wellbore=wall), "trip_out", 850.0
+        )
+
+    stiffness = 1e6
+    for _ in range(6):  # the load on the deepest point hardly depends on the stiffness
+        stiffness *= deepest(pressed(stiffness))[0] / limit
+    held, given = pressed(1.05 * stiffness), pressed(stiffness / 1.05)
+    assert deepest(held)[0] < limit < deepest(given)[0]
+    assert (held.notes, list(found(given))) == ((), ["penetration"])
+
+
+def test_without_a_wall_there_is_nothing_to_be_deep_in() -> None:
+    case = make_case([[0, 0, 0], [900, 60, 0]], [pipe(None, None, segment_length=20.0)], contact={"enabled": False})
+    assert equilibrium(case, "trip_out", 800.0).notes == ()
+
+
+def test_a_chart_has_the_codes_of_every_row() -> None:
+    chart = torque_drag(casing(yield_strength=140e6), ["trip_out", "rotate_off_bottom"], [1000.0, 1400.0, 1800.0])
+    assert chart["notes"].tolist() == ["none", "yield", "yield, tensile_capacity", "none", "none", "yield"]
+    assert list(notes.meanings_of(chart["notes"])) == ["yield", "tensile_capacity"]
+    assert notes.meanings_of(["none"]) == {}
+
+
+SOFT = {"stiffness": 5e5, "intervals": [{"to_md": 1000, "diameter": 0.2159, "friction": 0.2}]}
+
+
+def test_a_run_keeps_the_worst_of_each_note(tmp_path: Path) -> None:
+    """Tripping pipe into a soft bend, with weak steel: the notes of the run are in its message and in its files."""
+    stations = [[0, 0, 0], [500, 0, 0], [650, 30, 0], [1000, 30, 0]]
+    parts = [pipe(None, None, segment_length=20.0, yield_strength=45e6)]
+    result = simulate(make_case(stations, parts, [trip(640, 700, speed=1.0)], wellbore=SOFT, mud={"density": 1000}))
+    assert result.status == "completed"
+    codes = {note.code: note for note in result.notes}
+    assert {"penetration", "yield"} <= codes.keys()
+    assert len(codes) == len(result.notes)
+    # The deepest point was so at a joint of cylinders, ten metres before the end.
+    assert "with the bit at 687 m" in codes["penetration"].text
+    assert "with the bit at 700 m" in codes["yield"].text
+    for note in result.notes:
+        assert str(note) in result.message
+    result.save(tmp_path)
+    kept = json.loads(pq.read_schema(tmp_path / "profile.parquet").metadata[b"notes"])
+    assert [notes.Note(**note) for note in kept] == list(result.notes)
+
+
+def test_a_ledger_that_is_off_is_said_and_beyond_a_tenth_is_no_result() -> None:
+    """A rotation that begins within three steps: the step does not resolve it."""
+    result = simulate(make_case(operations=[rotation(1000, 0.01)]))
+    assert result.run["energy_error"] > 0.1
+    assert result.status == "inaccurate"
+    assert result.message == str(result.notes[0])
+    assert result.notes[0].code == "ledger"
+    assert len(result.history) > 0
+    slower = simulate(make_case(operations=[trip(900, 899.9, ramp=0.2)]))
+    assert slower.status == "completed", slower.run["energy_error"]
+
+
+@pytest.mark.parametrize(
+    ("error", "noted"), [(0.0099, False), (0.0101, True), (0.5, True), (float("nan"), True), (float("inf"), True)]
+)
+def test_the_ledger_is_doubted_beyond_one_per_cent(error: float, noted: bool) -> None:
+    assert (notes.ledger_off(error) is not None) == noted
+
+
+CASE = """
+name = "turn"
+[wellbore]
+stations = [[0, 0, 0], [600, 0, 0], [937.5, 90, 0], [1275, 90, 90], [1612.5, 90, 180], [1900, 90, 180]]
+[[wellbore.intervals]]
+to_md = "1900 m"
+diameter = "12.25 in"
+friction = 0.5
+[[string.components]]
+name = "casing"
+outer_diameter = "9.625 in"
+inner_diameter = "8.755 in"
+segment_length = "12 m"
+yield_strength = "130 MPa"
+[[operations]]
+kind = "rotate_off_bottom"
+at_md = "1700 m"
+duration = "2 ms"
+rpm = 60
+"""
+
+
+def test_the_screen_has_a_line_for_every_note_and_stretch_of_depths(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, out = tmp_path / "turn.toml", tmp_path / "chart.csv"
+    case.write_text(CASE)
+    asked = ("--operation", "trip_out", "--depths", "500:1800:100", "--quiet")
+    assert run(monkeypatch, "chart", case, *asked, "--out", out) == 0
+    errors = capsys.readouterr().err
+    table = pd.read_csv(out)
+    with_yield = table["notes"].str.contains("yield")
+    first = table["bit_depth_m"][with_yield].min()
+    assert first > 600
+    (line,) = [line for line in errors.splitlines() if "note yield" in line]
+    headline, remedy = notes.MEANINGS["yield"]
+    where = f"{first:g} to 1800 m ({with_yield.sum()} of 14)"
+    assert line == f"trip_out, friction 0.5: note yield at {where}: {headline}: {remedy}"
+    assert json.loads((tmp_path / "chart.csv.json").read_text())["notes"]["yield"]["headline"] == headline
+
+    asked = ("--operation", "trip_out", "--bit-depth", "1800")
+    assert run(monkeypatch, "equilibrium", case, *asked, "--out", tmp_path / "p.parquet") == 0
+    lines = [line for line in capsys.readouterr().err.splitlines() if line.startswith("note: ")]
+    kept = json.loads(pq.read_schema(tmp_path / "p.parquet").metadata[b"notes"])
+    assert lines == [f"note: {note['text']}: {note['remedy']}" for note in kept]
+    assert len(lines) == 2
+
+    assert run(monkeypatch, "simulate", case, "--out", tmp_path / "run", "--quiet") == 1
+    errors = capsys.readouterr().err
+    assert errors.count("energy ledger") == 1
+    assert errors.startswith("inaccurate: the energy ledger is off by")
+    assert "\nnote: the stress at" in errors
+    assert pq.read_schema(tmp_path / "run" / "history.parquet").metadata[b"status"] == b"inaccurate"
+
+
+def test_a_note_is_what_it_says() -> None:
+    note = notes.Note("yield", "text", "remedy", 3.0)
+    assert str(note) == "text: remedy"
+    assert replace(note, place=None).place is None
+    assert conversion("ksi", "Pa") * 135 == pytest.approx(931e6, rel=1e-3)  # the default: S-135
