@@ -211,19 +211,19 @@ def push_in_hole(S, n, friction_impulse, laws, dt):
                 store_motion(S, j, u, v, w, a, b, c)
 
 
-@kernel
+@inlined
 def push_with_coulomb(S, n, laws, dt):
     """Update velocity and spin of every body in a hole with law ``coulomb`` (stages 4 and 5)."""
     push_in_hole(S, n, coulomb_impulse, laws, dt)
 
 
-@kernel
+@inlined
 def push_with_paper(S, n, laws, dt):
     """Update velocity and spin of every body in a hole with law ``paper`` (stages 4 and 5)."""
     push_in_hole(S, n, paper_impulse, laws, dt)
 
 
-@kernel
+@inlined
 def push_freely(S, n, laws, dt):
     """Update velocity and spin of every body where there is no wall."""
     for j in range(1, n + 1):
@@ -232,7 +232,7 @@ def push_freely(S, n, laws, dt):
         store_motion(S, j, u, v, w, a, b, c)
 
 
-@kernel
+@inlined
 def move_bodies(S, n, dt):
     """Update position, orientation, axis and spin of every body, given its velocity and spin.
 
@@ -258,7 +258,7 @@ def move_bodies(S, n, dt):
         store_axis(S, j, w, x, y, z, a, b, c)
 
 
-@kernel
+@inlined
 def update_motion(S, n, laws, dt):
     """Update velocities, positions and orientations, given joint loads and walls."""
     if laws.geometry == OPEN:

@@ -10,10 +10,12 @@ from typing import Any
 
 from numba import njit
 
+from fctd.compile_cache import KeptCode
+
 # Products and sums may be contracted into one instruction, which rounds once.
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}, "forceinline": False}
 # Expanded wherever they are called: LLVM cannot pack a loop with calls.
-INLINED: dict[str, Any] = OPTIONS | {"forceinline": True}
+INLINED: Any = OPTIONS | {"forceinline": True}
 
 
 def kernel(function: Callable[..., Any]) -> Any:
@@ -28,4 +30,7 @@ def inlined(function: Callable[..., Any]) -> Any:
 
 def entry(function: Callable[..., Any]) -> Any:
     """Compile a function that Python calls, and keep it on disk."""
-    return njit(**OPTIONS, cache=True)(function)
+    compiled: Any = njit(**OPTIONS)(function)
+    if hasattr(compiled, "_cache"):  # a plain function has none (NUMBA_DISABLE_JIT)
+        compiled._cache = KeptCode(function)
+    return compiled

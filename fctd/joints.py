@@ -15,7 +15,7 @@ no work, and the torque about each body's own axis is k_t τ whatever the bend.
 import math
 
 from fctd.dual import reciprocal, root
-from fctd.jit import inlined, kernel
+from fctd.jit import inlined
 from fctd.rotations import angle_over_sine, twist_angle
 from fctd.state import (
     ARM_BOTTOM,
@@ -170,7 +170,7 @@ def relative_motion(S, j, px, py, pz, qx, qy, qz):
     )  # fmt: skip
 
 
-@kernel
+@inlined
 def update_joint_loads(S, n, damping_time, dt):
     """Update joint loads, their sums and the energy lost, given positions, orientations and velocities.
 
@@ -201,7 +201,7 @@ def update_joint_loads(S, n, damping_time, dt):
         S[LOST_JOINT + j] += dt * power
 
 
-@kernel
+@inlined
 def strain_energy(S, j):
     """Strain energy of joint j [J]: the potential that ``joint_loads`` differentiates."""
     ax, ay, az = axis(S, j - 1)
