@@ -10,6 +10,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 from rich.table import Table
 
 from fctd.case import Case
+from fctd.cli_compile import compile_command, telling
 from fctd.cli_options import (
     BAD_INPUT,
     FAILED,
@@ -127,6 +128,7 @@ def _summarise(result: SimulationResult) -> None:
 app.command("equilibrium")(equilibrium_command)
 app.command("chart")(chart_command)
 app.command("refine")(refine_command)
+app.command("compile")(compile_command)
 
 
 def main() -> None:
@@ -137,7 +139,8 @@ def main() -> None:
 def run(commands: typer.Typer) -> None:
     """Run a command line: one line for bad input or a file that cannot be written, no traceback."""
     try:
-        commands()
+        with telling():
+            commands()
     except InputError as error:
         messages.print(str(error), style="bold", highlight=False, markup=False, soft_wrap=True)
         sys.exit(BAD_INPUT)

@@ -34,10 +34,11 @@ class CompileCacheWarning(RuntimeWarning):
 
 
 class Store:
-    """The folder with compiled code; None where code is kept in memory only."""
+    """The folder with compiled code, None where code is kept in memory only; lasting : whether it outlives this run."""
 
     def __init__(self, folder: Path | None, trouble: str = "") -> None:
         self.folder = folder
+        self.lasting = not trouble
         self._trouble = trouble  # said when the first function is compiled
 
     def read(self, name: str) -> bytes | None:
@@ -84,7 +85,7 @@ class Store:
                 with suppress(OSError):
                     os.unlink(scratch)
             _warn(f"compiled code cannot be kept in {self.folder} ({error.strerror}): it is kept for this run only")
-            self.folder = None
+            self.folder, self.lasting = None, False
 
 
 def open_store() -> Store:
