@@ -26,7 +26,6 @@ from numba.core.serialize import dumps
 from numba.core.sigutils import normalize_signature
 
 HASH_SIZE = hashlib.sha256().digest_size
-ADVICE = "let XDG_CACHE_HOME name a folder of your own"
 
 
 class CompileCacheWarning(RuntimeWarning):
@@ -81,11 +80,12 @@ class Store:
                 file.write(_hash(name, data) + data)
             os.replace(scratch, self.folder / name)
         except OSError as error:
-            if scratch is not None:
-                with suppress(OSError):
-                    os.unlink(scratch)
             _warn(f"compiled code cannot be kept in {self.folder} ({error.strerror}): it is kept for this run only")
             self.folder, self.lasting = None, False
+        finally:
+            if scratch is not None:
+                with suppress(OSError):  # none where it has become the file
+                    os.unlink(scratch)
 
 
 def open_store() -> Store:
@@ -107,7 +107,8 @@ def open_store() -> Store:
         wrong = f"compiled code is not kept, since there is no cache folder ({error})"
     except RuntimeError:
         wrong = "compiled code is not kept, since there is no home folder"
-    trouble = f"{wrong}: every run compiles anew; {ADVICE}"
+    name = "NUMBA_CACHE_DIR" if os.environ.get("NUMBA_CACHE_DIR") else "XDG_CACHE_HOME"
+    trouble = f"{wrong}: every run compiles anew; let {name} name a folder of your own"
     try:
         scratch = tempfile.TemporaryDirectory(prefix="fctd-")
     except OSError:

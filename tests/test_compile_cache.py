@@ -179,7 +179,7 @@ def test_another_users_folder_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_a_folder_that_cannot_be_written_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "access", lambda *_: False)
-    refused(monkeypatch, tmp_path, "cannot be written: every run compiles anew; let XDG_CACHE_HOME name")
+    refused(monkeypatch, tmp_path, "cannot be written: every run compiles anew; let NUMBA_CACHE_DIR name")
 
 
 class Nowhere:
