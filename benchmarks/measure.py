@@ -52,9 +52,9 @@ class Worker:
 def environment(root: Path) -> dict[str, str]:
     """That of a process that measures the sources in ``root``: one thread, and compiled code of its own.
 
-    One thread, as times are those of one core, by the clock of one thread.  What numba makes of a kernel hangs on what
-    was compiled before it: from the cache that the tests have filled the joints' loads take 9 to 13 % longer than from
-    an empty one.  In a cache of their own all sources are compiled in the same order.
+    One thread, as times are those of one core, by the clock of one thread.  What numba made of a release's
+    kernel may hang on what was compiled before it, in release 0.1.0 by 9 to 13 % in the joints' loads: in a cache of
+    their own all sources are compiled in the same order.
     """
     single = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
     try:

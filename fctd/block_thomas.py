@@ -1,9 +1,10 @@
 """Linear equations whose matrix is block tridiagonal, as of a chain of bodies: block Thomas elimination."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy.linalg import solve_banded
+
+from fctd.jit import entry
 
 Array = NDArray[np.float64]
 SIZE = 6
@@ -11,7 +12,7 @@ SIZE = 6
 WORST_PIVOTS = 1e-13
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def eliminate(D, A, U, R, n, W):
     """Solve the system of n blocks in rows 1..n in place; returns False when a block is near singular.
 
@@ -68,7 +69,7 @@ def eliminate(D, A, U, R, n, W):
     return sound
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def negative_pivots(D, A, U, n):
     """Number of negative eigenvalues of the symmetric part of the matrix, by the signs of its pivots.
 

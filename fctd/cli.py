@@ -10,6 +10,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 from rich.table import Table
 
 from fctd.case import Case
+from fctd.cli_compile import compile_command, telling
 from fctd.cli_options import (
     BAD_INPUT,
     FAILED,
@@ -138,6 +139,7 @@ def _summarise(result: SimulationResult) -> None:
 app.command("equilibrium")(equilibrium_command)
 app.command("chart")(chart_command)
 app.command("refine")(refine_command)
+app.command("compile")(compile_command)
 
 
 def main() -> None:
@@ -149,7 +151,7 @@ def run(commands: typer.Typer) -> None:
     """Run a command line: one line for bad input or a file that cannot be written, no traceback."""
     degrade_output()
     try:
-        with as_interrupts():
+        with as_interrupts(), telling():
             commands()
     except (InputError, OSError) as error:  # OSError: a disk that is full, a terminal that has gone meanwhile
         with suppress(OSError):

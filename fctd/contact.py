@@ -13,9 +13,9 @@ piece, or in an overlap, goes back to the table.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from fctd.dual import reciprocal, root
+from fctd.jit import entry, inlined, kernel
 from fctd.joints import cross
 from fctd.rotations import arctan_ratio
 from fctd.state import (
@@ -64,7 +64,7 @@ HALF_COS, HALF_SINE = 18, 19
 COLUMNS = 20
 
 
-@njit(forceinline=True)
+@inlined
 def distance_along(C, i, x, y, z):
     """λ|AB| of Eqs 5 and 14: distance of T past A along the axis of piece i [m]."""
     return (
@@ -74,7 +74,7 @@ def distance_along(C, i, x, y, z):
     )
 
 
-@njit(forceinline=True)
+@inlined
 def cylinder_owner(C, i, x, y, z):
     """Stage 2 for cylinders: walk from piece i to the first one whose far end T has not passed."""
     while i > 0 and distance_along(C, i - 1, x, y, z) <= C[i - 1, LENGTH]:
@@ -84,7 +84,7 @@ def cylinder_owner(C, i, x, y, z):
     return i
 
 
-@njit(forceinline=True)
+@inlined
 def arc_owner(C, i, x, y, z):
     """Stage 2 for arcs: walk from piece i to the one between whose end planes T lies."""
     while i > 0 and distance_along(C, i, x, y, z) < 0:
@@ -94,7 +94,7 @@ def arc_owner(C, i, x, y, z):
     return i
 
 
-@njit(forceinline=True)
+@inlined
 def axis_offset(C, i, x, y, z):
     """PT (Eqs 13–14): vector from the axis of cylinder i to T, and the distance along it [m]."""
     s = distance_along(C, i, x, y, z)
@@ -106,7 +106,7 @@ def axis_offset(C, i, x, y, z):
     )
 
 
-@njit(forceinline=True)
+@inlined
 def cylinder_wall(C, i, x, y, z):
     """Stage 3 for cylinders: PT [m], hole radius [m], wall stiffness, friction factor, depth [m] at T.
 
@@ -131,7 +131,7 @@ def cylinder_wall(C, i, x, y, z):
     return px, py, pz, hole, stiffness, friction, md
 
 
-@njit(forceinline=True)
+@inlined
 def arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz):
     """PT of a circular arc from its closest point, all in one formula that stays exact as κ → 0.
 
@@ -171,7 +171,7 @@ class Arc(NamedTuple):
     half_sine: float
 
 
-@njit(forceinline=True)
+@inlined
 def read_arc(C, i):
     """Row i of a table of arcs."""
     return Arc(
@@ -180,7 +180,7 @@ def read_arc(C, i):
     )  # fmt: skip
 
 
-@njit(forceinline=True)
+@inlined
 def wall_of_arc(arc, x, y, z):
     """Stage 3 for arcs: PT [m], hole radius [m], wall stiffness, friction factor, depth [m] at T."""
     dx, dy, dz = x - arc.x, y - arc.y, z - arc.z
@@ -202,13 +202,13 @@ def wall_of_arc(arc, x, y, z):
     return px, py, pz, hole, stiffness, friction, arc.md + s
 
 
-@njit(forceinline=True)
+@inlined
 def arc_wall(C, i, x, y, z):
     """``wall_of_arc`` for row i of the table."""
     return wall_of_arc(read_arc(C, i), x, y, z)
 
 
-@njit(forceinline=True)
+@inlined
 def cylinder_direction(C, i, x, y, z):
     """Unit vector along cylinder i; in an overlap between its own direction and the next one's."""
     tx, ty, tz = C[i, DIRECTION] + 0 * x, C[i, DIRECTION + 1] + 0 * x, C[i, DIRECTION + 2] + 0 * x
@@ -223,7 +223,7 @@ def cylinder_direction(C, i, x, y, z):
     return tx, ty, tz
 
 
-@njit(forceinline=True)
+@inlined
 def arc_direction(C, i, x, y, z):
     """Unit vector along arc i at its point nearest to (x, y, z)."""
     dx, dy, dz = x - C[i, START], y - C[i, START + 1], z - C[i, START + 2]
@@ -236,14 +236,14 @@ def arc_direction(C, i, x, y, z):
     return cosine * tx + sine * nx, cosine * ty + sine * ny, cosine * tz + sine * nz
 
 
-@njit(forceinline=True)
+@inlined
 def store_wall(S, j, px, py, pz, hole, stiffness, friction):
     """Write the wall beside contact point j."""
     S[PX + j], S[PY + j], S[PZ + j], S[HOLE + j] = px, py, pz, hole
     S[K_WALL + j], S[FRICTION + j] = stiffness * S[TRIBUTARY + j], friction
 
 
-@njit(forceinline=True)
+@inlined
 def contact_point(S, j):
     """T (§4.1): the contact point on the axis of body j [m], global."""
     x, y, z = position(S, j)
@@ -252,14 +252,14 @@ def contact_point(S, j):
     return x + arm * ax, y + arm * ay, z + arm * az
 
 
-@njit(forceinline=True)
+@inlined
 def store_slack(S, j, start, end):
     """Write how far point j is inside its piece, given distances past the start and along the end of it [m]."""
     start, end = start - S[MARGIN_TOP + j], S[MARGIN_END + j] - end
     S[SLACK + j] = start if start < end else end
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@kernel
 def follow_cylinders(S, n):
     """Update PT of every point from the cylinder it remembers, and how far inside it the point is."""
     for j in range(1, n + 1):
@@ -271,7 +271,7 @@ def follow_cylinders(S, n):
         store_slack(S, j, s, s)
 
 
-@njit(error_model="numpy")
+@kernel
 def refresh_cylinders(S, owner, n, C):
     """Look up in the table every point that is near an end of its cylinder or in an overlap."""
     for j in range(1, n + 1):
@@ -289,7 +289,7 @@ def refresh_cylinders(S, owner, n, C):
         S[MARGIN_END + j] = C[i, ALONE_TO] if distance_along(C, i, x, y, z) < C[i, ALONE_TO] else -np.inf
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@kernel
 def follow_arcs(S, n):
     """Update PT of every point from the arc it remembers, and how far inside it the point is."""
     for j in range(1, n + 1):
@@ -306,7 +306,7 @@ def follow_arcs(S, n):
         store_slack(S, j, u, u * S[END_COS + j] + v * S[END_SIN + j])
 
 
-@njit(error_model="numpy")
+@kernel
 def refresh_arcs(S, owner, n, C):
     """Look up in the table every point that has left its arc, or is in one whose wall changes along it."""
     last = C.shape[0] - 1
@@ -332,7 +332,7 @@ def refresh_arcs(S, owner, n, C):
         S[MARGIN_END + j] = -np.inf if changes else end
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def update_walls(S, owner, n, packed, C, geometry):
     """Update owners and the wall beside every contact point, given positions (stages 2 and 3).
 

@@ -9,9 +9,9 @@ time raises the residual by orders of magnitude and is brought back by the next 
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from fctd.block_thomas import eliminate
+from fctd.jit import entry, kernel
 from fctd.rotations import rotation_columns, turned
 from fctd.state import ARM_CONTACT, J_AXIAL, J_TRANSVERSE, MASS, TINY
 from fctd.tangent import assemble
@@ -38,7 +38,7 @@ class Pace(NamedTuple):
     moment: float
 
 
-@njit(error_model="numpy")
+@kernel
 def imbalance(R, n, pace):
     """Largest force and moment out of balance over what is allowed: converged at 1, NaN when not finite."""
     worst = 0.0
@@ -51,7 +51,7 @@ def imbalance(R, n, pace):
     return worst
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def hold_back(S, n, tau, D):
     """Add the masses over τ² to the diagonal blocks."""
     k = 1 / (tau * tau)
@@ -63,7 +63,7 @@ def hold_back(S, n, tau, D):
         D[j, 5, 5] += k * S[J_AXIAL + j]
 
 
-@njit(error_model="numpy")
+@kernel
 def allowed_share(S, n, P, X, pace):
     """Share of the step X (n + 1, 6) that moves no contact point sideways and turns no body too far."""
     share = 1.0
@@ -77,7 +77,7 @@ def allowed_share(S, n, P, X, pace):
     return share
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def take_step(P, n, X, share):
     """Move the bodies by a share of the step X (n + 1, 6)."""
     for j in range(1, n + 1):
@@ -89,7 +89,7 @@ def take_step(P, n, X, share):
         P[j, 7] += share * X[j, 5]
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, tau):
     """Iterate from pose P towards balance; returns status, iterations and the last pseudo-time.
 

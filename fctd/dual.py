@@ -5,16 +5,12 @@ from packing.  A complex step of 1e-30 needs none of it: the first-order rule is
 these are the plain operations.
 """
 
-from typing import Any
-
 import numpy as np
 from numba import types
 from numba.extending import overload
 
+from fctd.jit import INLINED
 from fctd.state import TINY
-
-# As of the kernels that use them; inlined by LLVM, which cannot pack a loop with calls.
-INLINED: Any = {"forceinline": True, "error_model": "numpy"}
 
 
 def root(x):

@@ -6,10 +6,9 @@ settling damping by the implicit factor 1/(1 + c dt/m), wall friction by a clamp
 dissipating impulse by the velocity after it, which is what moves the body.
 """
 
-from numba import njit
-
 from fctd.contact import update_walls
 from fctd.friction import approach, coulomb_impulse, normal_impulse, paper_impulse, wall_normal
+from fctd.jit import entry, inlined, kernel
 from fctd.joints import update_joint_loads
 from fctd.rotations import rotation_columns, turned
 from fctd.state import (
@@ -75,7 +74,7 @@ from fctd.topdrive import move_top_drive, planned_speeds, read_top_drive
 NEARLY = 1 - 1e-6
 
 
-@njit(forceinline=True)
+@inlined
 def store_axis(S, j, w, x, y, z, a, b, c):
     """Write axis and global spin of body j, given its orientation and its spin in its own frame."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
@@ -85,7 +84,7 @@ def store_axis(S, j, w, x, y, z, a, b, c):
     S[GZ + j] = a * xz + b * yz + c * zz
 
 
-@njit(error_model="numpy", fastmath={"contract"}, cache=True)
+@entry
 def update_axes(S, n):
     """Update axis and global spin of every body, given orientation and body-frame spin."""
     for j in range(1, n + 1):
@@ -94,7 +93,7 @@ def update_axes(S, n):
         store_axis(S, j, w, x, y, z, a, b, c)
 
 
-@njit(forceinline=True)
+@inlined
 def free_motion(S, j, dt):
     """Velocity and spin of body j in its own frame after springs and weight, before mud and wall.
 
@@ -124,7 +123,7 @@ def free_motion(S, j, dt):
     return u, v, w, a, b, c
 
 
-@njit(forceinline=True)
+@inlined
 def mud_factors(S, j, settling, dt):
     """Factors that mud (and artificial settling) damping leaves of lateral, axial and spin velocity."""
     slow = 1 + dt * settling
@@ -136,7 +135,7 @@ def mud_factors(S, j, settling, dt):
     return k * axial * rotational, k * lateral * rotational, k * lateral * axial
 
 
-@njit(forceinline=True)
+@inlined
 def brake(S, j, u, v, w, a, b, c, settling, dt):
     """Apply mud and settling damping to body j; returns its velocity and spin."""
     lateral, axial, rotational = mud_factors(S, j, settling, dt)
@@ -147,7 +146,7 @@ def brake(S, j, u, v, w, a, b, c, settling, dt):
     return u * lateral, v * lateral, w * axial, a * swing, b * swing, c * rotational
 
 
-@njit(forceinline=True)
+@inlined
 def touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt):
     """Apply the wall's normal and friction impulses and the mud to body j; returns its velocity and spin."""
     penetration, nx, ny, nz = wall_normal(S, j)
@@ -166,7 +165,7 @@ def touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt):
     return u, v, w, a, b, c
 
 
-@njit(forceinline=True)
+@inlined
 def store_motion(S, j, u, v, w, a, b, c):
     """Write velocity and spin of body j, both given in its own frame."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(*quaternion(S, j))
@@ -176,7 +175,7 @@ def store_motion(S, j, u, v, w, a, b, c):
     S[WX + j], S[WY + j], S[WZ + j] = a, b, c
 
 
-@njit(forceinline=True)
+@inlined
 def may_touch(S, first):
     """Whether any body of the packed operation that begins with column ``first`` may touch the wall."""
     found = False
@@ -190,7 +189,7 @@ def may_touch(S, first):
     return found
 
 
-@njit(forceinline=True)
+@inlined
 def push_in_hole(S, n, friction_impulse, laws, dt):
     """Update velocity and spin of every body in a hole; n is whole packed operations.
 
@@ -212,19 +211,19 @@ def push_in_hole(S, n, friction_impulse, laws, dt):
                 store_motion(S, j, u, v, w, a, b, c)
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@inlined
 def push_with_coulomb(S, n, laws, dt):
     """Update velocity and spin of every body in a hole with law ``coulomb`` (stages 4 and 5)."""
     push_in_hole(S, n, coulomb_impulse, laws, dt)
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@inlined
 def push_with_paper(S, n, laws, dt):
     """Update velocity and spin of every body in a hole with law ``paper`` (stages 4 and 5)."""
     push_in_hole(S, n, paper_impulse, laws, dt)
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@inlined
 def push_freely(S, n, laws, dt):
     """Update velocity and spin of every body where there is no wall."""
     for j in range(1, n + 1):
@@ -233,7 +232,7 @@ def push_freely(S, n, laws, dt):
         store_motion(S, j, u, v, w, a, b, c)
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@inlined
 def move_bodies(S, n, dt):
     """Update position, orientation, axis and spin of every body, given its velocity and spin.
 
@@ -259,7 +258,7 @@ def move_bodies(S, n, dt):
         store_axis(S, j, w, x, y, z, a, b, c)
 
 
-@njit(error_model="numpy")
+@inlined
 def update_motion(S, n, laws, dt):
     """Update velocities, positions and orientations, given joint loads and walls."""
     if laws.geometry == OPEN:
@@ -271,7 +270,7 @@ def update_motion(S, n, laws, dt):
     move_bodies(S, n, dt)
 
 
-@njit(forceinline=True)
+@inlined
 def update_loads(S, top, packed, laws, motion, pipe, dt):
     """Update joint loads and the top drive's readings, given axes; returns its feed [m/s] and rotation [rad/s]."""
     update_joint_loads(S, packed, laws.joint_damping, dt)
@@ -280,20 +279,20 @@ def update_loads(S, top, packed, laws, motion, pipe, dt):
     return feed, rate
 
 
-@njit(forceinline=True)
+@inlined
 def update_positions(S, top, packed, laws, pipe, feed, rate, dt):
     """Update the motion of bodies and top drive, given loads and walls."""
     update_motion(S, packed, laws, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)
 
 
-@njit(forceinline=True)
+@inlined
 def whole_operations(n):
     """Columns of ``n`` bodies rounded up to whole packed operations."""
     return (n + LANES - 1) // LANES * LANES
 
 
-@njit(error_model="numpy")
+@kernel
 def step(S, top, owner, n, C, laws, motion, pipe, dt):
     """Advance the string by one step: the algorithm of §4 and Fig. 7 in order."""
     packed = whole_operations(n)
@@ -302,7 +301,7 @@ def step(S, top, owner, n, C, laws, motion, pipe, dt):
     update_positions(S, top, packed, laws, pipe, feed, rate, dt)
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def advance(S, top, owner, n, C, laws, motion, pipe, dt, steps):
     """Advance by ``steps`` steps of ``dt`` [s]; the one compiled entry of a run, allocating nothing."""
     update_axes(S, whole_operations(n))

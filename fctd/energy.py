@@ -4,9 +4,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from fctd import state
+from fctd.jit import entry
 from fctd.joints import strain_energy
 from fctd.state import (
     HOLE,
@@ -32,7 +32,7 @@ class Energy(NamedTuple):
     contact: float
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def _energies(S, n):
     kinetic = gravity = strain = contact = 0.0
     for j in range(1, n + 1):

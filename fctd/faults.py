@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from numba import njit
 
+from fctd.jit import entry
 from fctd.state import HOLE, RADIUS, VX, WZ, axis, position, quaternion, radial
 
 
@@ -12,7 +12,7 @@ class UnstableError(Exception):
     """The run left what the model can describe; its text says how."""
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def _worst(S, n):
     """Whether all is finite, and the worst of three measures of bodies 1..n with the body it is found at.
 

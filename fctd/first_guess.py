@@ -6,9 +6,9 @@ would save a tenth of the iterations and make every row of a chart depend on the
 """
 
 import numpy as np
-from numba import njit
 
 from fctd.contact import CURVATURE, DIRECTION, FACTOR, HOLE_RADIUS, NORMAL, START, START_MD, STIFFNESS
+from fctd.jit import entry, inlined, kernel
 from fctd.joints import cross
 from fctd.state import (
     ARCS,
@@ -32,7 +32,7 @@ TENSION, TORQUE, OFFSET, MD = 0, 1, 2, 5
 NODE = 6
 
 
-@njit(error_model="numpy")
+@kernel
 def piece_at(C, i, md):
     """Index of the piece that holds a measured depth, walking from piece i."""
     while i > 0 and md < C[i, START_MD]:
@@ -42,7 +42,7 @@ def piece_at(C, i, md):
     return i
 
 
-@njit(error_model="numpy")
+@kernel
 def axis_at(C, geometry, i, md):
     """Point of the hole axis [m] and unit tangent at a measured depth in piece i: six scalars."""
     s = md - C[i, START_MD]
@@ -61,7 +61,7 @@ def axis_at(C, geometry, i, md):
     )  # fmt: skip
 
 
-@njit(forceinline=True)
+@inlined
 def sliding_shares(laws, radius):
     """Shares of the friction factor that act along the string, downwards, and around it: each −1 to 1."""
     if laws.friction == COULOMB:
@@ -71,7 +71,7 @@ def sliding_shares(laws, radius):
     return np.sign(laws.speed), np.sign(laws.spin)
 
 
-@njit(error_model="numpy")
+@kernel
 def soft_string(S, n, C, laws, top_md, bit_tension, G):
     """Fill G (n + 1, NODE) with tension, torque and offset of a soft string, node by node from the bit up."""
     md = top_md
@@ -121,7 +121,7 @@ def soft_string(S, n, C, laws, top_md, bit_tension, G):
     G[0, TENSION], G[0, TORQUE] = tension, torque
 
 
-@njit(error_model="numpy")
+@kernel
 def lay_chain(S, n, C, geometry, G, seed, P):
     """Fill P (n + 1, POSE): each body from the node above to its own, stretched by the tension, twist-free.
 
@@ -174,7 +174,7 @@ def lay_chain(S, n, C, geometry, G, seed, P):
         x, y, z, ax, ay, az = nx, ny, nz, bx, by, bz
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def guess(S, n, C, laws, top_md, bit_tension, seed, G, P):
     """Fill nodes G (n + 1, NODE) and pose P (n + 1, POSE) with a first guess of the steady string."""
     soft_string(S, n, C, laws, top_md, bit_tension, G)

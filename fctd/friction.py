@@ -1,8 +1,8 @@
 """Stages 3 to 5 at one contact point: the wall's normal impulse and the two laws of friction (§4.3–4.5)."""
 
 import numpy as np
-from numba import njit
 
+from fctd.jit import inlined
 from fctd.rotations import rotation_columns
 from fctd.state import (
     ARM_CONTACT,
@@ -22,7 +22,7 @@ from fctd.state import (
 ON_AXIS = 1e-150  # far above the root of the smallest number, far below any offset that matters [m]
 
 
-@njit(forceinline=True)
+@inlined
 def wall_normal(S, j):
     """Penetration [m] (Eq. 11, settled sign) and the normal towards the wall in the frame of body j."""
     px, py, pz = radial(S, j)
@@ -39,13 +39,13 @@ def wall_normal(S, j):
     )
 
 
-@njit(forceinline=True)
+@inlined
 def approach(S, j, u, v, w, a, b, nx, ny, nz):
     """Speed of contact point j towards the wall [m/s]; velocity, spin and normal in the frame of the body."""
     return u * nx + v * ny + w * nz + S[ARM_CONTACT + j] * (b * nx - a * ny)
 
 
-@njit(forceinline=True)
+@inlined
 def normal_impulse(S, j, u, v, w, a, b, nx, ny, nz, penetration, damping, dt):
     """Impulse of the wall's normal force on body j (Eq. 12 with damping) and the damper's part of it [N s].
 
@@ -63,14 +63,14 @@ def normal_impulse(S, j, u, v, w, a, b, nx, ny, nz, penetration, damping, dt):
     return impulse, impulse - elastic
 
 
-@njit(forceinline=True)
+@inlined
 def along_wall(sx, sy, sz, nx, ny, nz):
     """The part of a velocity that slides along the wall of normal n."""
     into = sx * nx + sy * ny + sz * nz
     return sx - into * nx, sy - into * ny, sz - into * nz
 
 
-@njit(forceinline=True)
+@inlined
 def coulomb_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     """Law ``coulomb``: one impulse against the sliding velocity at the wall side of the string.
 
@@ -97,7 +97,7 @@ def coulomb_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     )  # fmt: skip
 
 
-@njit(forceinline=True)
+@inlined
 def paper_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     """Law ``paper`` (Eqs 15–16): axial drag μF_n and a couple r μ F_n about the axis, each in full.
 

@@ -14,9 +14,8 @@ no work, and the torque about each body's own axis is k_t τ whatever the bend.
 
 import math
 
-from numba import njit
-
 from fctd.dual import reciprocal, root
+from fctd.jit import inlined
 from fctd.rotations import angle_over_sine, twist_angle
 from fctd.state import (
     ARM_BOTTOM,
@@ -47,13 +46,13 @@ from fctd.state import (
 )
 
 
-@njit(forceinline=True)
+@inlined
 def cross(ax, ay, az, bx, by, bz):
     """a × b."""
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
 
 
-@njit(forceinline=True)
+@inlined
 def halfway(ax, ay, az, bx, by, bz):
     """The sum s of two unit axes and 1/|s|².
 
@@ -62,7 +61,7 @@ def halfway(ax, ay, az, bx, by, bz):
     return ax + bx, ay + by, az + bz, reciprocal(2 + 2 * (ax * bx + ay * by + az * bz) + TINY)
 
 
-@njit(forceinline=True)
+@inlined
 def joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt):
     """Loads of one joint's springs.
 
@@ -95,7 +94,7 @@ def joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt):
     )  # fmt: skip
 
 
-@njit(forceinline=True)
+@inlined
 def joint_damping(ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz, ca, cs, cb, ct):
     """Damping of one joint, on relative motion only.
 
@@ -116,7 +115,7 @@ def joint_damping(ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz, ca, cs, cb, ct
     return fx, fy, fz, mx, my, mz, power
 
 
-@njit(forceinline=True)
+@inlined
 def gap(ex, ey, ez, ax, ay, az, bx, by, bz, bottom, top):
     """Gap from the hinge point of the upper body to that of the lower [m].
 
@@ -125,7 +124,7 @@ def gap(ex, ey, ez, ax, ay, az, bx, by, bz, bottom, top):
     return ex - top * bx - bottom * ax, ey - top * by - bottom * ay, ez - top * bz - bottom * az
 
 
-@njit(forceinline=True)
+@inlined
 def arms_to_gap(ax, ay, az, bx, by, bz, dx, dy, dz, bottom, top):
     """Vectors from the centre of the upper and of the lower body to the middle of the gap [m]; see ``gap``."""
     return (
@@ -134,7 +133,7 @@ def arms_to_gap(ax, ay, az, bx, by, bz, dx, dy, dz, bottom, top):
     )  # fmt: skip
 
 
-@njit(forceinline=True)
+@inlined
 def hinge_gap(S, j):
     """Gap at joint j from the hinge point of body j - 1 to that of body j [m], global."""
     x0, y0, z0 = position(S, j - 1)
@@ -145,7 +144,7 @@ def hinge_gap(S, j):
     return gap(x1 - x0, y1 - y0, z1 - z0, ax, ay, az, bx, by, bz, bottom, top)
 
 
-@njit(forceinline=True)
+@inlined
 def joint_twist(S, j):
     """Twist of body j against body j - 1 [rad], whole turns included."""
     aw, ax, ay, az = quaternion(S, j - 1)
@@ -153,7 +152,7 @@ def joint_twist(S, j):
     return twist_angle(aw, ax, ay, az, bw, bx, by, bz) + S[TURNS + j]
 
 
-@njit(forceinline=True)
+@inlined
 def relative_motion(S, j, px, py, pz, qx, qy, qz):
     """Velocity [m/s] and spin [rad/s] of body j relative to body j - 1 in the middle of joint j's gap, global.
 
@@ -171,7 +170,7 @@ def relative_motion(S, j, px, py, pz, qx, qy, qz):
     )  # fmt: skip
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@inlined
 def update_joint_loads(S, n, damping_time, dt):
     """Update joint loads, their sums and the energy lost, given positions, orientations and velocities.
 
@@ -202,7 +201,7 @@ def update_joint_loads(S, n, damping_time, dt):
         S[LOST_JOINT + j] += dt * power
 
 
-@njit(error_model="numpy")
+@inlined
 def strain_energy(S, j):
     """Strain energy of joint j [J]: the potential that ``joint_loads`` differentiates."""
     ax, ay, az = axis(S, j - 1)

@@ -1,7 +1,6 @@
 """Stages 2 and 3 of the contact algorithm for free points, which have no copy of their piece (see contact.py)."""
 
 import numpy as np
-from numba import njit
 
 from fctd.contact import (
     ALONE_FROM,
@@ -18,19 +17,20 @@ from fctd.contact import (
     read_arc,
     wall_of_arc,
 )
+from fctd.jit import entry, inlined, kernel
 from fctd.state import ARCS, LANES
 
 # Points of one arc that are worked on together; one or two are not worth a packed operation.
 TOGETHER, FEW = 64, 2
 
 
-@njit(forceinline=True)
+@inlined
 def write_wall(out, j, wall):
     """Write the wall beside free point j."""
     out[j, 0], out[j, 1], out[j, 2], out[j, 3], out[j, 4], out[j, 5], out[j, 6] = wall
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@kernel
 def look_up_cylinder(C, points, j, owner, out):
     """Wall beside point j by a walk along the table: not inlined, since its roots would slow the loop."""
     x, y, z = points[j, 0], points[j, 1], points[j, 2]
@@ -38,7 +38,7 @@ def look_up_cylinder(C, points, j, owner, out):
     write_wall(out, j, cylinder_wall(C, owner[j], x, y, z))
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@kernel
 def query_cylinders(C, points, owner, out):
     """``query_walls`` in a hole of cylinders."""
     for j in range(points.shape[0]):
@@ -54,7 +54,7 @@ def query_cylinders(C, points, owner, out):
             look_up_cylinder(C, points, j, owner, out)
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@kernel
 def walls_of_arc(arc, W, count):
     """Walls beside ``count`` points of one arc; W : 3 rows of ``TOGETHER`` coordinates, then 7 of walls."""
     for k in range(count):
@@ -64,7 +64,7 @@ def walls_of_arc(arc, W, count):
         W[9 * TOGETHER + k] = md
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@kernel
 def query_arcs(C, points, owner, out):
     """``query_walls`` in a hole of arcs: neighbours in the list that lie in one arc are packed."""
     W = np.zeros(10 * TOGETHER)
@@ -90,7 +90,7 @@ def query_arcs(C, points, owner, out):
         first += count
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def query_walls(C, geometry, points, owner, out):
     """Walls beside free points.  points : (n, 3) [m]; owner : (n,) first guess in, owner out.
 

@@ -5,15 +5,15 @@ inside a loop and may be differentiated by a complex step.
 """
 
 import numpy as np
-from numba import njit
 
 from fctd.dual import reciprocal, root
+from fctd.jit import inlined
 
 # In place of 0 in the denominator of a tangent, small beside rounding; the eighth power of 1/WHOLE_TURN is a number.
 WHOLE_TURN = 1e-30
 
 
-@njit(forceinline=True)
+@inlined
 def rotation_columns(w, x, y, z):
     """Global components of the body's x, y and z unit vectors (nine scalars, column by column)."""
     xx, yy, zz = 2 * x * x, 2 * y * y, 2 * z * z
@@ -26,7 +26,7 @@ def rotation_columns(w, x, y, z):
     )  # fmt: skip
 
 
-@njit(forceinline=True)
+@inlined
 def turned(w, x, y, z, a, b, c):
     """Quaternion after a further rotation by the body-frame vector (a, b, c) [rad], renormalised.
 
@@ -47,7 +47,7 @@ def turned(w, x, y, z, a, b, c):
     return k * nw, k * nx, k * ny, k * nz
 
 
-@njit(forceinline=True)
+@inlined
 def arctan_ratio(v):
     """atan(u)/u from v = u²: Padé approximant [9/8], 1e-10 relative for u = tan(½), 2e-7 for u = 1."""
     p = 3828825 + v * (6831825 + v * (3738735 + v * (638055 + v * 16384)))
@@ -55,7 +55,7 @@ def arctan_ratio(v):
     return p * reciprocal(q)
 
 
-@njit(forceinline=True)
+@inlined
 def half_twist(aw, ax, ay, az, bw, bx, by, bz):
     """Cosine and sine of half the twist of body b against body a about their common direction.
 
@@ -65,7 +65,7 @@ def half_twist(aw, ax, ay, az, bw, bx, by, bz):
     return aw * bw + ax * bx + ay * by + az * bz, aw * bz - az * bw - ax * by + ay * bx
 
 
-@njit(forceinline=True)
+@inlined
 def twist_angle(aw, ax, ay, az, bw, bx, by, bz):
     """Twist of body b against body a about their common direction [rad], within a whole turn; see ``half_twist``.
 
@@ -78,7 +78,7 @@ def twist_angle(aw, ax, ay, az, bw, bx, by, bz):
     return 4 * u * arctan_ratio(u * u)
 
 
-@njit(forceinline=True)
+@inlined
 def angle_over_sine(c):
     """β / sin β from c = cos β: ₂F₁(1, 1; 3/2; p) with p = sin²(β/2), 1e-10 relative at 0.5 rad."""
     p = 0.5 - 0.5 * c

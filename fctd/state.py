@@ -13,9 +13,9 @@ the rest of a 60-segment string.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from fctd.errors import InputError
+from fctd.jit import inlined
 
 MAX_SEGMENTS = 10_000
 # Columns handled at once: a cache line, and a multiple of every vector width in use.
@@ -145,49 +145,49 @@ def row(S: np.ndarray, offset: int, segments: int) -> np.ndarray:
     return S[offset + 1 : offset + 1 + segments]
 
 
-@njit(forceinline=True)
+@inlined
 def position(S, j):
     """Centre of mass of body j [m], global."""
     return S[X + j], S[Y + j], S[Z + j]
 
 
-@njit(forceinline=True)
+@inlined
 def velocity(S, j):
     """Velocity of the centre of mass of body j [m/s], global."""
     return S[VX + j], S[VY + j], S[VZ + j]
 
 
-@njit(forceinline=True)
+@inlined
 def quaternion(S, j):
     """Orientation of body j, body to global, scalar first."""
     return S[QW + j], S[QX + j], S[QY + j], S[QZ + j]
 
 
-@njit(forceinline=True)
+@inlined
 def spin(S, j):
     """Spin of body j in its own frame [rad/s]."""
     return S[WX + j], S[WY + j], S[WZ + j]
 
 
-@njit(forceinline=True)
+@inlined
 def axis(S, j):
     """Unit vector along body j towards the bit, global."""
     return S[AX + j], S[AY + j], S[AZ + j]
 
 
-@njit(forceinline=True)
+@inlined
 def global_spin(S, j):
     """Spin of body j [rad/s], global."""
     return S[GX + j], S[GY + j], S[GZ + j]
 
 
-@njit(forceinline=True)
+@inlined
 def joint_force(S, j):
     """Force of joint j on body j [N], global; body j - 1 feels the opposite."""
     return S[FX + j], S[FY + j], S[FZ + j]
 
 
-@njit(forceinline=True)
+@inlined
 def radial(S, j):
     """Vector PT from the hole axis to contact point j [m], global."""
     return S[PX + j], S[PY + j], S[PZ + j]

@@ -10,7 +10,6 @@ physics (Squire & Trapp 1998).
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from fctd.contact import (
     arc_direction,
@@ -22,6 +21,7 @@ from fctd.contact import (
 )
 from fctd.dual import reciprocal, root
 from fctd.friction import along_wall
+from fctd.jit import entry, inlined, kernel
 from fctd.joints import arms_to_gap, cross, gap, joint_loads
 from fctd.rotations import rotation_columns, twist_angle
 from fctd.state import (
@@ -71,7 +71,7 @@ class Steady(NamedTuple):
     bit_torque: float
 
 
-@njit(forceinline=True)
+@inlined
 def stepped(w, x, y, z, a, b):
     """Quaternion after an infinitesimal tilt (a, b) in its own frame."""
     return (
@@ -82,7 +82,7 @@ def stepped(w, x, y, z, a, b):
     )
 
 
-@njit(forceinline=True)
+@inlined
 def times(aw, ax, ay, az, bw, bx, by, bz):
     """Product of two quaternions."""
     return (
@@ -93,14 +93,14 @@ def times(aw, ax, ay, az, bw, bx, by, bz):
     )
 
 
-@njit(forceinline=True, cache=True)
+@inlined
 def in_frame(w, x, y, z, gx, gy, gz):
     """A global vector in the frame of a body."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
     return xx * gx + xy * gy + xz * gz, yx * gx + yy * gy + yz * gz, zx * gx + zy * gy + zz * gz
 
 
-@njit(forceinline=True)
+@inlined
 def pair_loads(ex, ey, ez, aw, ax, ay, az, bw, bx, by, bz, kw, kx, ky, kz, spin, bottom, top, ka, ks, kb, kt):
     """Loads of a joint on its two bodies.
 
@@ -124,7 +124,7 @@ def pair_loads(ex, ey, ez, aw, ax, ay, az, bw, bx, by, bz, kw, kx, ky, kz, spin,
     return fx, fy, fz, pa, pb, pc, ma, mb, mc
 
 
-@njit(error_model="numpy")
+@kernel
 def wall_loads(C, i, laws, x, y, z, w, qx, qy, qz, arm, radius, tributary):
     """Loads of the wall on a body with its centre at (x, y, z) and its frame q.
 
@@ -171,7 +171,7 @@ def wall_loads(C, i, laws, x, y, z, w, qx, qy, qz, arm, radius, tributary):
     return fx, fy, fz, ma, mb, mc, normal, -torque, radius * limit
 
 
-@njit(forceinline=True)
+@inlined
 def move_lower(L, k, column, j, D, U):
     """Add derivative k of a joint's loads as one by an unknown of the lower body."""
     for i in range(3):
@@ -181,7 +181,7 @@ def move_lower(L, k, column, j, D, U):
         U[j, 3 + i, column] -= L[24 + 8 * i + k]
 
 
-@njit(forceinline=True)
+@inlined
 def move_upper(L, k, column, sign, j, D, A):
     """Add derivative k of a joint's loads, times ``sign``, as one by an unknown of the upper body."""
     for i in range(3):
@@ -191,7 +191,7 @@ def move_upper(L, k, column, sign, j, D, A):
         A[j, 3 + i, column] -= sign * L[48 + 8 * i + k]
 
 
-@njit(error_model="numpy", fastmath={"contract"})
+@kernel
 def differentiate_joint(S, j, P, kinks, L):
     """Fill L (18 × 8, flat): the nine loads of joint j differentiated by eight unknowns, and nine rows of the loads.
 
@@ -220,7 +220,7 @@ def differentiate_joint(S, j, P, kinks, L):
         L[120 + k], L[128 + k], L[136 + k] = ma.real, mb.real, mc.real
 
 
-@njit(error_model="numpy")
+@kernel
 def add_joint(S, j, P, kinks, R, D, A, U, L):
     """Add joint j to the forces out of balance R and to the blocks of the tangent −∂R/∂(unknowns).
 
@@ -242,7 +242,7 @@ def add_joint(S, j, P, kinks, R, D, A, U, L):
         R[j - 1, 3 + i] += L[96 + 8 * i]
 
 
-@njit(error_model="numpy")
+@kernel
 def add_wall(S, j, P, C, owner, laws, R, D):
     """Add the wall beside contact point j to the forces out of balance and to the tangent."""
     x, y, z = P[j, 0], P[j, 1], P[j, 2]
@@ -271,7 +271,7 @@ def add_wall(S, j, P, C, owner, laws, R, D):
                 R[j, i] += loads[i].real
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """Fill R (n + 1, 6) with forces [N] and moments [N m] out of balance and D, A, U with the tangent −∂R.
 
@@ -313,14 +313,14 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
     D[n, 4, 4] += arm * fc
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """Fill D, A, U with the tangent of springs, weight and wall alone: symmetric, positive when stable."""
     bare = Steady(laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque)
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def read_loads(S, n, P, kinks, C, owner, laws, joints, contacts):
     """Fill the loads of a steady string.
 

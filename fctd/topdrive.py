@@ -3,8 +3,7 @@
 import math
 from typing import NamedTuple
 
-from numba import njit
-
+from fctd.jit import inlined
 from fctd.joints import hinge_gap, joint_loads, strain_energy
 from fctd.rotations import half_twist, turned
 from fctd.state import (
@@ -90,14 +89,14 @@ TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range
 TOP_SIZE = 6
 
 
-@njit(forceinline=True)
+@inlined
 def ramp(at, start, duration, first, last):
     """Smooth step from ``first`` to ``last``: no jump of acceleration to set the string ringing."""
     u = min(max((at - start) / duration, 0.0), 1.0)
     return first + (last - first) * u * u * (3 - 2 * u)
 
 
-@njit(error_model="numpy")
+@inlined
 def set_long_segment(S, length, pipe):
     """Update the long segment (body 1 and joint 1) to its length [m].
 
@@ -122,7 +121,7 @@ def set_long_segment(S, length, pipe):
     S[K_TWIST + 1] = pipe.GJ / length
 
 
-@njit(error_model="numpy")
+@inlined
 def long_segment_energy(S):
     """Kinetic, gravity and strain energy that depend on the long segment's length [J]."""
     vx, vy, vz = velocity(S, 1)
@@ -132,7 +131,7 @@ def long_segment_energy(S):
     return kinetic - S[WEIGHT + 1] * S[Z + 1] + strain_energy(S, 1)
 
 
-@njit(error_model="numpy")
+@inlined
 def spring_tension(S):
     """What the springs of joint 1 pull along the top drive's axis [N]: its tension less that of its damper."""
     ax, ay, az = axis(S, 0)
@@ -142,7 +141,7 @@ def spring_tension(S):
     return -(loads[0] * ax + loads[1] * ay + loads[2] * az)
 
 
-@njit(error_model="numpy")
+@inlined
 def planned_speeds(top, motion, dt):
     """Feed [m/s] and rotation [rad/s] of the top drive during this step, taken at its middle."""
     now = top[TOP_TIME] + 0.5 * dt
@@ -151,7 +150,7 @@ def planned_speeds(top, motion, dt):
     return feed, rate
 
 
-@njit(error_model="numpy")
+@inlined
 def read_top_drive(S, top, pipe, fed, turned_by, dt):
     """Update the sums of hook load and torque, work and fed energy, given the loads of joint 1.
 
@@ -194,7 +193,7 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
         S[QW], S[QX], S[QY], S[QZ] = -w, -x, -y, -z
 
 
-@njit(error_model="numpy")
+@inlined
 def move_top_drive(S, top, pipe, feed, rate, dt):
     """Move the top drive with the bodies: clock, feed [m/s], rotation [rad/s] and the pipe's speed in the clamp."""
     top[TOP_TIME] += dt

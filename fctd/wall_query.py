@@ -7,12 +7,12 @@ microseconds whatever the method does.
 from typing import Protocol
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from fctd import state
 from fctd.contact import contact_point, store_wall
 from fctd.dynamics import update_axes, update_loads, update_positions, whole_operations
+from fctd.jit import entry
 from fctd.state import Laws
 from fctd.topdrive import Motion, PerMetre
 from fctd.wellbore import Contacts, Wellbore
@@ -35,13 +35,13 @@ class WallQuery(Protocol):
         """
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def _points(S, n, points):
     for j in range(1, n + 1):
         points[j - 1] = contact_point(S, j)
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def _store(S, n, radii, penetration, normal, md, wall):
     """Write queried walls; hole radius, stiffness and friction come from ``wall`` (Wellbore.wall_along)."""
     last = wall.shape[0] - 1
@@ -66,7 +66,7 @@ def _store(S, n, radii, penetration, normal, md, wall):
             store_wall(S, j, 0.0, 0.0, 0.0, radii[k] + OUT_OF_REACH, 0.0, 0.0)
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def _before(S, top, n, laws, motion, pipe, dt, points):
     """The step up to the query: loads, and the points (n, 3) to ask about; returns feed and rotation."""
     feed, rate = update_loads(S, top, whole_operations(n), laws, motion, pipe, dt)
@@ -74,7 +74,7 @@ def _before(S, top, n, laws, motion, pipe, dt, points):
     return feed, rate
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md, wall):
     """The step after the query: walls, motion, top drive."""
     _store(S, n, radii, penetration, normal, md, wall)

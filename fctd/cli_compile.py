@@ -1,0 +1,105 @@
+"""``fctd compile``, and what every command says of compiling."""
+
+import time
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, TextIO
+
+import typer
+from numba.core import event
+
+from fctd.case import Case
+from fctd.cli_options import FAILED, Quiet, messages, screen
+from fctd.compile_cache import STORE, CompileCacheWarning, KeptCode
+from fctd.equilibrium import equilibrium
+from fctd.simulate import simulate
+
+# The smallest case that calls every function: a string hung in a straight hole.
+SMALL: dict[str, Any] = {
+    "name": "compile",
+    "wellbore": {
+        "stations": [[0, 0, 0], [100, 0, 0]],
+        "intervals": [{"to_md": 100.0, "diameter": 0.2, "friction": 0.2}],
+    },
+    "string": {
+        "components": [
+            {"name": "pipe", "length": 100.0, "outer_diameter": 0.1, "inner_diameter": 0.05, "segments": 2},
+        ]
+    },
+    "operations": [{"kind": "rotate_off_bottom", "at_md": 90.0, "duration": 0.1, "rpm": 60.0, "ramp_time": 0.1}],
+}
+
+
+def compile_command(quiet: Quiet = False) -> None:
+    """Compile the engine now, which otherwise the first run of a command does."""
+    began, names = time.perf_counter(), set[str]()
+
+    def progress(name: str) -> None:
+        names.add(name)
+        if not quiet:
+            messages.print(f"  {name}", highlight=False, markup=False)
+
+    with listening(progress):
+        compile_all()
+    if not STORE.lasting:
+        messages.print("compiled code could not be kept", style="bold")
+        raise typer.Exit(FAILED)
+    taken = f"{len(names)} functions in {time.perf_counter() - began:.0f} s" if names else "nothing to do"
+    screen.print(f"Compiled: {taken}, kept in {STORE.folder}", soft_wrap=True, highlight=False, markup=False)
+
+
+def compile_all() -> None:
+    """Compile, and keep, every function that a run or a steady string calls."""
+    case = Case.model_validate(SMALL)
+    simulate(case)
+    equilibrium(case, operation="trip_out", bit_depth=90.0)
+
+
+@contextmanager
+def listening(tell: Callable[[str], object]) -> Iterator[None]:
+    """Inside, call ``tell`` with the name of every function of the cache that begins to be compiled."""
+    with event.install_listener("numba:compile", _Listener(tell)):
+        yield
+
+
+class _Listener(event.Listener):
+    def __init__(self, tell: Callable[[str], object]) -> None:
+        self._tell = tell
+
+    def on_start(self, event: event.Event) -> None:
+        function = event.data["dispatcher"]
+        if isinstance(function._cache, KeptCode):
+            self._tell(function.py_func.__name__)
+
+    def on_end(self, event: event.Event) -> None:
+        pass
+
+
+@contextmanager
+def telling() -> Iterator[None]:
+    """Inside, say on standard error why the first run waits, and plainly what is wrong with the compile cache."""
+    said: list[str] = []
+
+    def first(name: str) -> None:
+        if not said and messages.is_terminal:
+            messages.print("compiling, once for this version: about half a minute", highlight=False)
+        said.append(name)
+
+    others = warnings.showwarning
+
+    def show(
+        message: Warning | str, category: type[Warning], filename: str, lineno: int,
+        file: TextIO | None = None, line: str | None = None,
+    ) -> None:  # fmt: skip
+        if issubclass(category, CompileCacheWarning):
+            messages.print(f"warning: {message}", soft_wrap=True, highlight=False, markup=False)
+        else:
+            others(message, category, filename, lineno, file, line)
+
+    warnings.showwarning = show
+    try:
+        with listening(first):
+            yield
+    finally:
+        warnings.showwarning = others

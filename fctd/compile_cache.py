@@ -1,0 +1,198 @@
+"""Compiled code kept on disk: where, whose it is, and whether what is read is what was written.
+
+Whoever reads compiled code runs it.  The folder and its files therefore have to be this user's alone, and every file
+begins with a hash of its name and contents: numba's own cache has none, and a damaged file ends the program there.
+"""
+
+import atexit
+import hashlib
+import os
+import pickle
+import shutil
+import stat
+import sys
+import tempfile
+import warnings
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import llvmlite
+import numba
+from numba.core.caching import _Cache
+from numba.core.compiler import CompileResult
+from numba.core.serialize import dumps
+from numba.core.sigutils import normalize_signature
+
+HASH_SIZE = hashlib.sha256().digest_size
+
+
+class CompileCacheWarning(RuntimeWarning):
+    """Compiled code was not kept, or was not what it should be and has been compiled anew."""
+
+
+class Store:
+    """The folder with compiled code, None where code is kept in memory only; lasting : whether it outlives this run."""
+
+    def __init__(self, folder: Path | None, trouble: str = "") -> None:
+        self.folder = folder
+        self.lasting = not trouble
+        self._trouble = trouble  # said when the first function is compiled
+
+    def read(self, name: str) -> bytes | None:
+        """What was written under a name; None where nothing was, or not this."""
+        if self._trouble:
+            _warn(self._trouble)
+            self._trouble = ""
+        if self.folder is None:
+            return None
+        path = self.folder / name
+        try:
+            with path.open("rb") as file:
+                stranger = _stranger(os.fstat(file.fileno()))
+                data = file.read()
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            wrong = f"cannot be read ({error.strerror})"
+        else:
+            if stranger:
+                wrong = stranger
+            elif data[:HASH_SIZE] == _hash(name, data[HASH_SIZE:]):
+                return data[HASH_SIZE:]
+            else:
+                wrong = "is damaged"
+        _warn(f"compiled code in {path} {wrong}: it is compiled anew and replaced")
+        with suppress(OSError):
+            if path.is_dir():  # a file is replaced, a folder cannot be
+                shutil.rmtree(path)
+        return None
+
+    def write(self, name: str, data: bytes) -> None:
+        """Keep data under a name, wholly or not at all; from the first failure on, keep nothing."""
+        if self.folder is None:
+            return
+        scratch = None
+        try:
+            handle, scratch = tempfile.mkstemp(prefix=".", dir=self.folder)  # readable by this user alone
+            with open(handle, "wb") as file:
+                file.write(_hash(name, data) + data)
+            os.replace(scratch, self.folder / name)
+        except OSError as error:
+            _warn(f"compiled code cannot be kept in {self.folder} ({error.strerror}): it is kept for this run only")
+            self.folder, self.lasting = None, False
+        finally:
+            if scratch is not None:
+                with suppress(OSError):  # none where it has become the file
+                    os.unlink(scratch)
+
+
+def open_store() -> Store:
+    """The folder for exactly these sources, or the one that NUMBA_CACHE_DIR names; another for this run where that
+    cannot be used.
+
+    numba does not notice an edit in a function that a cached function calls, so the folder carries a hash of all
+    sources.
+    """
+    try:
+        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+        folder = Path(os.environ.get("NUMBA_CACHE_DIR") or base / "fctd" / _hash_of_sources()).absolute()
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        wrong = _stranger(folder.stat())
+        if not wrong and os.access(folder, os.W_OK | os.X_OK):
+            return Store(folder)
+        wrong = f"compiled code is not kept, since {folder} {wrong or 'cannot be written'}"
+    except OSError as error:
+        wrong = f"compiled code is not kept, since there is no cache folder ({error})"
+    except RuntimeError:
+        wrong = "compiled code is not kept, since there is no home folder"
+    name = "NUMBA_CACHE_DIR" if os.environ.get("NUMBA_CACHE_DIR") else "XDG_CACHE_HOME"
+    trouble = f"{wrong}: every run compiles anew; let {name} name a folder of your own"
+    try:
+        scratch = tempfile.TemporaryDirectory(prefix="fctd-")
+    except OSError:
+        return Store(None, trouble)
+    atexit.register(scratch.cleanup)
+    return Store(Path(scratch.name), trouble)
+
+
+class KeptCode(_Cache):
+    """The compiled forms of one function, as numba's dispatcher asks for them."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._label = f"{function.__module__}.{function.__qualname__}"
+        source = Path(function.__code__.co_filename).read_bytes()
+        # What decides whether code may be used again, beside argument types and processor.
+        self._versions = (numba.__version__, llvmlite.__version__, sys.version, hashlib.sha256(source).hexdigest())
+        self._enabled = True
+
+    @property
+    def cache_path(self) -> str:
+        """The folder, empty where there is none."""
+        return str(STORE.folder or "")
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The compiled form for argument types; None where it has to be compiled."""
+        target_context.refresh()
+        if not self._enabled:
+            return None
+        data = STORE.read(self._name(sig, target_context.codegen()))
+        return None if data is None else CompileResult._rebuild(target_context, *pickle.loads(data))
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep a compiled form."""
+        if self._enabled:
+            if data.lifted or data.library.has_dynamic_globals:
+                raise ValueError(f"{self._label} holds what only this process has and cannot be kept")
+            STORE.write(self._name(sig, data.codegen), dumps(data._reduce()))
+
+    def _name(self, sig: Any, codegen: Any) -> str:
+        types, _ = normalize_signature(sig)
+        key = repr((self._versions, types, codegen.magic_tuple()))
+        return f"{self._label}-{hashlib.sha256(key.encode()).hexdigest()[:16]}"
+
+    def enable(self) -> None:
+        """Read and write from now on."""
+        self._enabled = True
+
+    def disable(self) -> None:
+        """Neither read nor write from now on."""
+        self._enabled = False
+
+    def flush(self) -> None:
+        """Forget what is kept of this function."""
+        for path in STORE.folder.glob(f"{self._label}-*") if STORE.folder else ():
+            path.unlink()
+
+
+def _stranger(info: os.stat_result) -> str:
+    """What lets another user put code here; empty where none can."""
+    if os.name == "posix" and info.st_uid != os.geteuid():
+        return "belongs to another user"
+    if os.name == "posix" and info.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        return "may be written by other users"
+    return ""
+
+
+def _hash(name: str, data: bytes) -> bytes:
+    """Hash by which damage shows, and a file under another's name."""
+    return hashlib.sha256(name.encode() + b"\0" + data).digest()
+
+
+def _hash_of_sources() -> str:
+    digest, package = hashlib.sha256(), Path(__file__).parent
+    for source in sorted(package.rglob("*.py")):
+        digest.update(str(source.relative_to(package)).encode() + source.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _warn(text: str) -> None:
+    warnings.warn(text, CompileCacheWarning, stacklevel=2)
+
+
+STORE = open_store()
+if STORE.folder is not None:
+    # For functions outside the engine, which numba keeps itself; it has read the environment when it was imported.
+    os.environ["NUMBA_CACHE_DIR"] = str(STORE.folder)
+    setattr(numba.config, "CACHE_DIR", str(STORE.folder))  # noqa: B010 (made at run time)

@@ -1,0 +1,92 @@
+"""Numbers do not hang on what was compiled before: fresh caches, filled in different orders, give the same bits."""
+
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+CASE = """
+name = "order"
+[wellbore]
+stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]
+overlap = "0.2 m"
+[[wellbore.intervals]]
+to_md = "900 m"
+diameter = "8.5 in"
+friction = 0.2
+[string]
+[[string.components]]
+name = "pipe"
+length = "800 m"
+outer_diameter = "5 in"
+inner_diameter = "4.276 in"
+segments = 32
+[[operations]]
+kind = "rotate_off_bottom"
+at_md = "800 m"
+duration = "20 s"
+rpm = 120
+ramp_time = "2 s"
+"""
+TABLES = ("history", "profile", "energy")
+
+
+def simulate(folder: Path) -> None:
+    """Run the case; its tables go to ``folder``."""
+    run(folder, "simulate", "--out", folder)
+
+
+def equilibrium(folder: Path) -> None:
+    """Balance the string; its profile goes to ``folder``."""
+    run(folder, "equilibrium", "--operation", "trip_out", "--bit-depth", "800 m", "--out", folder / "balance.csv")
+
+
+def run(folder: Path, command: str, *options: str | Path) -> None:
+    """One command in a process of its own, with a compile cache beside ``folder``."""
+    folder.mkdir(exist_ok=True)
+    (folder / "case.toml").write_text(CASE)
+    environment = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
+    environment["XDG_CACHE_HOME"] = str(folder.parent / f"{folder.name.split('-')[0]}-cache")
+    done = subprocess.run(
+        [sys.executable, "-m", "fctd", command, str(folder / "case.toml"), *map(str, options)],
+        env=environment, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+
+
+def bits(file: Path) -> dict[str, bytes]:
+    """Every column of a table, bit by bit."""
+    return {name: column.to_numpy().tobytes() for name, column in pd.read_parquet(file).select_dtypes("number").items()}
+
+
+@pytest.mark.slow
+def test_numbers_do_not_hang_on_what_was_compiled_before(tmp_path: Path) -> None:
+    one, other, again = tmp_path / "one", tmp_path / "other", tmp_path / "other-again"
+
+    def simulated_first() -> None:
+        simulate(one)
+        equilibrium(one)
+
+    def balanced_first() -> None:
+        equilibrium(other)
+        simulate(other)
+
+    with ThreadPoolExecutor() as pool:
+        for done in [pool.submit(simulated_first), pool.submit(balanced_first)]:
+            done.result()
+    # The two large functions compiled anew, beside kept code of those that they call.
+    for name in ("fctd.dynamics.advance-*", "fctd.continuation.converge-*"):
+        (kept,) = (tmp_path / "other-cache").rglob(name)
+        kept.unlink()
+    simulate(again)
+    equilibrium(again)
+
+    assert pd.read_parquet(one / "history.parquet")["contact_count"].max() > 3
+    for name in TABLES:
+        assert bits(one / f"{name}.parquet") == bits(other / f"{name}.parquet") == bits(again / f"{name}.parquet")
+    texts = {(folder / "balance.csv").read_text() for folder in (one, other, again)}
+    assert len(texts) == 1
