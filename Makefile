@@ -38,7 +38,7 @@ lint: $(STAMP)
 $(STAMP): requirements.lock pyproject.toml
 	@[ -n "$(PYTHON)" ] || { echo "error: no python3 found; Python 3.11 to 3.14 is needed" >&2; exit 1; }
 	@$(PYTHON) -c 'import sys; v = sys.version_info; \
-	sys.exit(0 if (3, 11) <= v < (3, 15) else f"error: Python 3.11 to 3.14 is needed; $(PYTHON) is {v[0]}.{v[1]} (make PYTHON=... names another)")'
+	sys.exit(None if (3, 11) <= v < (3, 15) else "error: Python 3.11 to 3.14 is needed; $(PYTHON) is %d.%d (make PYTHON=... names another)" % v[:2])'
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --only-binary=:all: -r requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .

@@ -32,6 +32,10 @@ def list_command() -> None:
             options = ", ".join(f"{key}={field.default}" for key, field in described.Options.model_fields.items())
             table.add_row(name, described.distribution, version or "not installed", described.does, options or "–")
         screen.print(table)
+    missing = [described.distribution for described, version in methods.values() if version is None]
+    missing += [described.distribution for described, version in others.values() if version is None]
+    for distribution in dict.fromkeys(missing):
+        screen.print(f"Package {base.absent(distribution)}.")
 
 
 @app.command("simulate")

@@ -89,7 +89,8 @@ class _Surroundings:
         self.weight = 0.5 * (np.append(weight, 0.0) + np.append(0.0, weight))
         self.axis = run.S[[state.AX, state.AY, state.AZ]].copy()  # of the top drive
         # The held end starts as the first segment moves; pipe that is fed does so over its whole length.
-        self.feed = float(run.S[[state.VX + 1, state.VY + 1, state.VZ + 1]] @ self.axis) if run.string.long_segment else 0.0
+        first = run.S[[state.VX + 1, state.VY + 1, state.VZ + 1]]
+        self.feed = float(first @ self.axis) if run.string.long_segment else 0.0
         self.dt, self.rate = 0.0, float(run.S[state.WZ + 1])
         self.gained = (0.0, 0.0)  # of feed and rate over the step
 

@@ -32,8 +32,8 @@ SLIDING, LEAST_SHARE = 1e-2, 0.98
 class Bodies(Protocol):
     """What another engine does with the bodies.
 
-    lean : why its friction may not oppose the sliding.  Poses (n, 13) : centre of mass [m], quaternion (body to global, scalar first), velocity [m/s], spin [rad/s],
-    all global.
+    lean : why its friction may not oppose the sliding.  Poses (n, 13) : centre of mass [m], quaternion (body to
+    global, scalar first), velocity [m/s], spin [rad/s], all global.
     """
 
     lean: str
@@ -69,8 +69,8 @@ def tube_of(run: Run, options: FreeBodyOptions) -> Tube | None:
     wrong, _ = tube.error_bound(float(curvature_at(run.hole, tube.md).max()))
     if wrong > MOST_WRONG * clearance:
         raise InputError(
-            f"triangles that miss the wall by at most {MOST_WRONG:g} of the clearance of {1e3 * clearance:.3g} mm: more "
-            "facets, a smaller ring_spacing or chord_tolerance",
+            f"triangles that miss the wall by at most {MOST_WRONG:g} of the clearance of {1e3 * clearance:.3g} mm: "
+            "more facets, a smaller ring_spacing or chord_tolerance",
             key="facets, ring_spacing, chord_tolerance",
             value=f"{1e3 * wrong:.3g} mm",
         )
@@ -192,7 +192,9 @@ class FreeBodies:
         against, limit = self._slid
         if limit == 0 or against > LEAST_SHARE * limit:
             return ""
-        return f"friction against the sliding is {against / limit:.1%} of μN, 100 % by Coulomb's law: {self._bodies.lean}"
+        return (
+            f"friction against the sliding is {against / limit:.1%} of μN, 100 % by Coulomb's law: {self._bodies.lean}"
+        )
 
     def close(self) -> None:
         """See ``Stepper.close``."""

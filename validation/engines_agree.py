@@ -368,11 +368,11 @@ def notes(missing: list[str]) -> list[str]:
         "shows it: in a straight hole that heads 15° off the axes it leans 32°, as those masses say, and not at all "
         "along an axis. Turned so that its z is across the plane of the hole Bullet agrees; in a hole that turns no "
         "axes do for all of it, and the rest of the lean is what is left there. Tried and not taken: bodies in maximal "
-        "coordinates, whose friction follows the sliding but whose second direction holds a μN of its own. The note of a row "
-        "says how much of μN stands against the sliding, measured on its own contacts, where that is below 98 %.",
+        "coordinates, whose friction follows the sliding but whose second direction holds a μN of its own. The note of "
+        "a row says how much of μN stands against the sliding, measured on its own contacts, where it is below 98 %.",
         "The S-shaped well was added after the engines had been set, with nothing changed since. In arcs the tube of "
-        "Bullet and MuJoCo has rings by a chord tolerance of 2 mm; with rings at the ends of the arcs alone, as before, "
-        "it cut through the bends and the string left it within 0.2 s.",
+        "Bullet and MuJoCo has rings by a chord tolerance of 2 mm; with rings at the ends of the arcs alone, as "
+        "before, it cut through the bends and the string left it within 0.2 s.",
         "MuJoCo's default cone is a pyramid along fixed directions and pulls aside by as much; its fair one is "
         "elliptic. Its friction is a soft constraint, and a wall as stiff as the case's chatters.",
         "Bullet, MuJoCo and PyElastica turn spinning bodies by an explicit gyroscopic moment, which feeds them energy: "

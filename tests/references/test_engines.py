@@ -13,7 +13,7 @@ import pytest
 from fctd import Case, InputError, state, topdrive
 from fctd.energy import Energy, energy_of
 from fctd.run import Run, prepare
-from references import engines
+from references import base, engines
 from references.best_step import best_step, ladder
 from references.engine_checks import axial_period, drift, energy_error
 from references.engine_fctd import Fctd
@@ -21,12 +21,35 @@ from references.engine_run import begin_run, run_window
 from references.engines import EngineRun, Window
 from references.friction_law import lean_of_two_directions, sliding
 from validation.cases import load
+from validation.study import left_out
 
 from ..cases import make_case, pipe, rotation
 
 STATIONS = [[0, 0, 0], [100, 0, 0], [400, 60, 30], [600, 60, 30]]
 WINDOW = Window(5.0, 1.0)
 CONTACT = ("bullet", "mujoco", "elastica")
+
+
+def needs(name: str) -> None:
+    """Skip, by name, a test of an engine whose package is missing."""
+    if engines.installed_version(name) is None:
+        pytest.skip(f"package {base.absent(engines.engine_class(name).distribution)}")
+
+
+@pytest.fixture(autouse=True)
+def installed(request: pytest.FixtureRequest) -> None:
+    """A test's parameter ``name`` is an engine."""
+    callspec = getattr(request.node, "callspec", None)
+    if callspec is not None and "name" in callspec.params:
+        needs(callspec.params["name"])
+
+
+BULLET = pytest.mark.usefixtures("bullet")
+
+
+@pytest.fixture
+def bullet() -> None:
+    needs("bullet")
 
 
 def turning(stations: Any = STATIONS, **sections: Any) -> Case:
@@ -86,6 +109,7 @@ def test_a_well_that_turns_below_an_inclined_top(
         assert mean(run, column) == pytest.approx(mean(own, column), rel=bound)
 
 
+@BULLET
 @pytest.mark.parametrize("geometry", GEOMETRIES)
 def test_bullet_says_why_its_torque_is_low_where_the_hole_turns(
     geometry: str, s_shape: Callable[[str, str], EngineRun]
@@ -107,10 +131,11 @@ def test_bullet_says_why_its_torque_is_low_where_the_hole_turns(
 @pytest.mark.parametrize("name", ["bullet", "mujoco"])
 @pytest.mark.parametrize("options", [{"chord_tolerance": "20 mm"}, {"facets": 4}])
 def test_triangles_that_cut_through_the_room_of_the_string_are_refused(name: str, options: dict[str, Any]) -> None:
-    with pytest.raises(InputError, match="miss the wall by at most 0.5 of the clearance of 23.8 mm"):
+    with pytest.raises(InputError, match=r"miss the wall by at most 0\.5 of the clearance of 23\.8 mm"):
         engines.build(name, **options).run(load("s_shape"), Window(0.0, 0.1))
 
 
+@BULLET
 def test_more_triangles_than_bullet_takes_are_refused() -> None:
     with pytest.raises(InputError, match="174762 triangles"):
         engines.build("bullet", facets=600).run(load("s_shape", wellbore__geometry="cylinders"), Window(0.0, 0.1))
@@ -143,6 +168,7 @@ def test_friction_obeys_coulomb_wherever_the_hole_heads(name: str, least: float)
     assert abs(np.degrees(found.lean)) < 0.1
 
 
+@BULLET
 @pytest.mark.parametrize("azimuth", [15.0, 60.0])
 def test_bullet_friction_leans_as_two_fixed_directions_do(azimuth: float) -> None:
     """Why Bullet is given the hole along its own x."""
@@ -330,6 +356,7 @@ def test_what_an_engine_cannot_represent_is_an_input_error(name: str, sections: 
     assert error.value.key == key
 
 
+@BULLET
 def test_two_frictions_are_refused_by_engines_with_one() -> None:
     intervals = [
         {"to_md": 300, "diameter": 0.2159, "friction": f} | ({"to_md": 600} if f > 0.2 else {}) for f in (0.2, 0.3)
@@ -357,3 +384,13 @@ def test_a_missing_package_is_named(name: str, module: str, monkeypatch: pytest.
     with pytest.raises(InputError, match="not installed") as error:
         engines.build(name)
     assert error.value.key == "engine"
+
+
+def test_pybullet_is_to_be_had_in_two_ways_where_it_has_no_wheels(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pybullet", None)
+    monkeypatch.setattr(base, "NO_PYBULLET", sys.version_info[:2])
+    with pytest.raises(InputError, match=r"run on Python 3\.11, or build it by 'make bullet'"):
+        engines.build("bullet")
+    (note,) = left_out(["Bullet"])
+    assert "make bullet" in note
+    assert "make bullet" not in left_out(["MuJoCo"])[0]
