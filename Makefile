@@ -3,18 +3,20 @@
 # make bench       what everything costs on this machine, kept in .benchmarks for --benchmark-compare, and the kernels
 #                  beside the last release
 # make lint        style, types, and who may import whom
+# make bullet      build pybullet from source, which has no wheel for Python 3.12 and later: a C++ compiler and about six
+#                  minutes of one core
 # make clean       remove results, report and caches; the environment in .venv stays
 #
-# Needs Python 3.11 or newer and make; `make -C CHECKOUT ...` works from any folder.
+# Needs Python 3.11 to 3.14 (tested on 3.11) and make; `make -C CHECKOUT ...` works from any folder.
 
 BIN := .venv/bin
 # Touched after a full installation, so that setting up happens once for each state of these two files.
 STAMP := .venv/installed
 FLAGS := $(if $(filter-out 0,$(QUICK)),--quick)
 # The first of these that runs at all; a name may be there and still not start.
-PYTHON ?= $(shell for p in python3.11 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
+PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
-.PHONY: reproduce test bench lint clean
+.PHONY: reproduce test bench lint bullet clean
 
 reproduce: $(STAMP)
 	@status=0; $(BIN)/python -m validation --reproduce $(FLAGS) || status=$$?; \
@@ -34,13 +36,17 @@ lint: $(STAMP)
 	$(BIN)/lint-imports
 
 $(STAMP): requirements.lock pyproject.toml
-	@[ -n "$(PYTHON)" ] || { echo "error: no python3 found; Python 3.11 or newer is needed" >&2; exit 1; }
+	@[ -n "$(PYTHON)" ] || { echo "error: no python3 found; Python 3.11 to 3.14 is needed" >&2; exit 1; }
 	@$(PYTHON) -c 'import sys; v = sys.version_info; \
-	sys.exit(f"error: Python 3.11 or newer is needed; $(PYTHON) is {v[0]}.{v[1]} (make PYTHON=... names another)" if v < (3, 11) else 0)'
+	sys.exit(None if (3, 11) <= v < (3, 15) else "error: Python 3.11 to 3.14 is needed; $(PYTHON) is %d.%d (make PYTHON=... names another)" % v[:2])'
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --only-binary=:all: -r requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
 	@touch $@
+
+bullet: $(STAMP)
+	$(BIN)/python -m pip install --disable-pip-version-check --no-deps --no-build-isolation --use-pep517 \
+	--no-binary=pybullet "$$(sed -n 's/^\(pybullet==[^ ;]*\).*/\1/p' requirements.lock)"
 
 clean:
 	rm -rf validation/results reports/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks

@@ -52,7 +52,7 @@ def note_cost(benchmark: BenchmarkFixture, points: int) -> None:
 def bench_query_from_python(benchmark: BenchmarkFixture, name: str) -> None:
     """One call for all points."""
     if base.installed_version(name) is None:
-        pytest.skip(f"{base.method_class(name).distribution} is not installed")
+        pytest.skip(base.absent(base.method_class(name).distribution))
     method, points = base.build(name, chain()), points_beside(POINTS)
     radii = np.full(POINTS, RADIUS)
     describe(benchmark, "query from Python", points=POINTS, pieces=method.pieces)

@@ -17,7 +17,7 @@ OWN, OTHERS = 300, 15
 def bench_swapped_step(benchmark: BenchmarkFixture, name: str) -> None:
     """60 segments turning; ``no contact`` asks and finds nothing, the hole taken away."""
     if name != "no contact" and base.installed_version(name) is None:
-        pytest.skip(f"{base.method_class(name).distribution} is not installed")
+        pytest.skip(base.absent(base.method_class(name).distribution))
     start, motion = moving(chain(), LEAD)
     own = name == "no contact" or base.method_class(name).distribution == "fctd"
     run = asking(without_wall(start), NoWall()) if name == "no contact" else asking(start, base.build(name, start.case))

@@ -32,6 +32,10 @@ def list_command() -> None:
             options = ", ".join(f"{key}={field.default}" for key, field in described.Options.model_fields.items())
             table.add_row(name, described.distribution, version or "not installed", described.does, options or "–")
         screen.print(table)
+    missing = [described.distribution for described, version in methods.values() if version is None]
+    missing += [described.distribution for described, version in others.values() if version is None]
+    for distribution in dict.fromkeys(missing):
+        screen.print(f"Package {base.absent(distribution)}.")
 
 
 @app.command("simulate")
@@ -71,6 +75,8 @@ def engine_command(
     run = engines.build(engine, **_chosen(options)).run(case, engines.Window(start, duration))
     last = run.history.iloc[-1]
     screen.print(f"{engine}: {run.status}", f"({run.message})" if run.message else "")
+    if run.note:
+        screen.print(run.note)
     screen.print(f"hook load {last['hookload_N'] / 1e3:.2f} kN, torque {last['surface_torque_N_m'] / 1e3:.3f} kN·m")
     for row in run.checks.itertuples():
         screen.print(f"  {'passed' if row.passed else 'FAILED'}  {row.check}: {row.value:.3g} (at most {row.bound:g})")

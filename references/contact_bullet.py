@@ -36,12 +36,6 @@ class Bullet(OnTube):
     def __init__(self, case: Case, options: TubeOptions) -> None:
         self._bullet = bullet = need("pybullet", type(self))
         self.tube = build_tube(case, options)
-        if self.tube.triangles > MOST_TRIANGLES:
-            raise InputError(
-                f"at most the {MOST_TRIANGLES} triangles that bullet takes",
-                key="facets",
-                value=f"{self.tube.triangles} triangles",
-            )
         self._client = client = bullet.connect(bullet.DIRECT)
         weakref.finalize(self, bullet.disconnect, client)
         self._wall = wall_of(bullet, client, np.asarray(self.tube.mesh.vertices), self.tube)
@@ -74,7 +68,16 @@ class Bullet(OnTube):
 
 
 def wall_of(bullet: Any, client: int, vertices: Array, tube: Tube) -> int:
-    """A fixed body of the tube's triangles, its vertices (n, 3) in Bullet's own units and axes."""
+    """A fixed body of the tube's triangles, its vertices (n, 3) in Bullet's own units and axes.
+
+    Raises InputError for more triangles than Bullet takes.
+    """
+    if tube.triangles > MOST_TRIANGLES:
+        raise InputError(
+            f"at most the {MOST_TRIANGLES} triangles that bullet takes",
+            key="facets",
+            value=f"{tube.triangles} triangles",
+        )
     shape = bullet.createCollisionShape(
         bullet.GEOM_MESH,
         vertices=vertices.tolist(),

@@ -58,6 +58,8 @@ class BulletOptions(FreeBodyOptions):
 class _Bodies:
     """The bodies in a client of pybullet, lengths in ``unit``, vectors along its own axes."""
 
+    lean = "Bullet solves it along two fixed directions and leans along a hole that turns, which takes from the torque"
+
     def __init__(self, bullet: Any, run: Run, tube: Tube | None, options: BulletOptions) -> None:
         self._bullet, self._scale, self._dt = bullet, 1.0 / options.unit, 0.0
         own = options.axes or ("string" if options.settings == "fair" else "global")

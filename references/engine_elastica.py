@@ -27,8 +27,6 @@ Array = NDArray[np.float64]
 # Share of the stable step that is taken, by the ladder of best_step.py: PyElastica's gyroscopic moments are explicit
 # and feed a spinning rod, at twice this share a sixth of the work within ten seconds.
 STEP_SHARE = 0.13
-# Largest inclination at the top, where the held element's own friction would be nobody's [rad].
-VERTICAL = np.radians(1.0)
 
 
 @njit(error_model="numpy", cache=True)
@@ -89,8 +87,10 @@ class _Surroundings:
         # A long segment hangs half by its lower end, like any other element by its two nodes.
         weight = run.string.of("weight") * _lengths(run)
         self.weight = 0.5 * (np.append(weight, 0.0) + np.append(0.0, weight))
+        self.axis = run.S[[state.AX, state.AY, state.AZ]].copy()  # of the top drive
         # The held end starts as the first segment moves; pipe that is fed does so over its whole length.
-        self.feed = float(run.S[state.VZ + 1]) if run.string.long_segment else 0.0
+        first = run.S[[state.VX + 1, state.VY + 1, state.VZ + 1]]
+        self.feed = float(first @ self.axis) if run.string.long_segment else 0.0
         self.dt, self.rate = 0.0, float(run.S[state.WZ + 1])
         self.gained = (0.0, 0.0)  # of feed and rate over the step
 
@@ -108,10 +108,13 @@ class _Surroundings:
             )  # fmt: skip
         rod.external_forces[2] += self.weight
         tension = rod.internal_stress[2]
-        # PyElastica's stress acts over its stretch.  The held node and element are the top drive's to carry and move.
-        hookload = float(tension[0] / rod.dilatation[0] + self.weight[0] - rod.mass[0] * self.gained[0] / dt)
+        # PyElastica's stress acts over its stretch.  The held node and element are the top drive's to carry and move,
+        # with the friction of the node below, which turns that element.
+        pull = rod.director_collection[:, :, 0].T @ rod.internal_stress[:, 0] / rod.dilatation[0]
+        hanging = float(self.axis @ pull + self.axis[2] * self.weight[0])
+        hookload = hanging - float(rod.mass[0]) * self.gained[0] / dt
         inertia = rod.mass_second_moment_of_inertia[2, 2, 0]
-        torque = float(inertia * self.gained[1] / dt - rod.internal_couple[2, 0])
+        torque = float(inertia * self.gained[1] / dt - rod.internal_couple[2, 0] - rod.external_torques[2, 0])
         run.top[topdrive.SUM_HOOKLOAD] += dt * hookload
         run.top[topdrive.SUM_TOP_TORQUE] += dt * torque
         run.top[topdrive.TOP_WORK] += dt * (torque * self.rate - hookload * self.feed)
@@ -150,7 +153,7 @@ class _Stepper:
 
     def hold(self, rod: Any) -> None:
         """Keep the upper end where the top drive has it: velocity of the first node, spin of the first element."""
-        rod.velocity_collection[:, 0] = 0.0, 0.0, self._around.feed
+        rod.velocity_collection[:, 0] = self._around.feed * self._around.axis
         rod.omega_collection[:, 0] = 0.0, 0.0, self._around.rate
 
     def sync(self) -> None:
@@ -195,6 +198,10 @@ class _Stepper:
             contact = 0.5 * float((stiffness * np.maximum(depth, 0.0) ** 2).sum())
         gravity = -float(self._around.weight @ rod.position_collection[2])
         return Energy(float(moving + turning), gravity, float(stretch + bend), contact)
+
+    def note(self) -> str:
+        """See ``Stepper.note``."""
+        return ""
 
     def close(self) -> None:
         """Nothing is held beyond memory."""
@@ -308,15 +315,15 @@ def _simulator(elastica: ModuleType, stepper: _Stepper) -> Any:
     return simulator
 
 
-def _check_top(run: Run) -> None:
-    """Raise InputError where the first element, which the top drive holds, is not vertical: it would touch the wall."""
-    top = run.case.string.top_md
-    tilt = run.hole.inclination(np.linspace(top, top + run.string.length[0], 20)).max()
-    if tilt > VERTICAL:
+def _check_contact_points(run: Run) -> None:
+    """Raise InputError for a segment that touches at its middle: a rod is asked at its nodes."""
+    middle = np.flatnonzero(run.string.mid_contact())
+    if len(middle):
+        k = int(run.string.component[middle[0]])
         raise InputError(
-            "a hole within 1 deg of vertical along the top segment with elastica",
-            key="string.top_md",
-            value=f"{np.degrees(tilt):.3g} deg",
+            "a component as long as the segments beside it with elastica, which touches at their ends alone",
+            key=f"string.components[{k}].length",
+            value=f"{run.string.length[middle[0]]:g} m",
         )
 
 
@@ -346,5 +353,5 @@ class Elastica(InWindows):
         """See ``StringEngine.begin``."""
         check_coulomb(run.case, self.name)
         check_no_mud(run.case, self.name)
-        _check_top(run)
+        _check_contact_points(run)
         return _Stepper(self._elastica, run, self.options.step, self.options.rotary)

@@ -24,6 +24,10 @@ class _Stepper:
     def energy(self) -> Energy:
         return energy_of(self._run.S, self._run.segments)
 
+    def note(self) -> str:
+        """Its loads need none."""
+        return ""
+
     def close(self) -> None:
         """Nothing is held."""
 

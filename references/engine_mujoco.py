@@ -45,6 +45,8 @@ class MuJoCoOptions(FreeBodyOptions):
 class _Bodies:
     """The bodies in a model of MuJoCo."""
 
+    lean = "MuJoCo's friction is a soft constraint, and its default cone a pyramid whose corners pull aside"
+
     def __init__(self, mujoco: Any, run: Run, tube: Tube | None, options: MuJoCoOptions) -> None:
         self._mujoco, poses = mujoco, poses_of(run)
         self._model = mujoco.MjModel.from_xml_string(_model(run, tube, options))

@@ -87,6 +87,10 @@ class _Stepper:
         spring = 0.5 * float((self._twist * self._angles() ** 2).sum())
         return Energy(float(self._data.energy[1]), float(self._data.energy[0]) - spring, spring, 0.0)
 
+    def note(self) -> str:
+        """See ``Stepper.note``."""
+        return ""
+
     def close(self) -> None:
         """Nothing is held beyond memory."""
 

@@ -86,10 +86,10 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     result = recorder.result("", "", wall, 0.0)
     ledger = _ledger(result.energy, held)
     checks = engine_checks.examine(run, window.start, result.history, result.profile, ledger, broken)
-    failed = checks.loc[~checks["passed"], "check"].to_list()
+    failed = [f"{row.check} ({row.value:.3g}, at most {row.bound:g})" for row in checks.itertuples() if not row.passed]
     message = "; ".join([*([broken] if broken else []), *failed])
     return EngineRun(
-        result.history, result.profile, "invalid" if failed else "valid", message, ledger, checks,
+        result.history, result.profile, "invalid" if failed else "valid", message, stepper.note(), ledger, checks,
         stepper.step, run.steps, wall,
     )  # fmt: skip
 

@@ -39,14 +39,16 @@ class Window(NamedTuple):
 class EngineRun(NamedTuple):
     """What came of a window.
 
-    status : ``valid``, or ``invalid`` when a check failed; message says which.  history, profile, energy : tables as
-    of ``fctd.SimulationResult``.  checks : a row per check of engine_checks.  step [s], steps; wall_s : time spent.
+    status : ``valid``, or ``invalid`` when a check failed; message says which, and what broke off the run.  note : what
+    a reader of its loads must know.  history, profile, energy : tables as of ``fctd.SimulationResult``.  checks : a row
+    per check of engine_checks.  step [s], steps; wall_s : time spent.
     """
 
     history: pd.DataFrame
     profile: pd.DataFrame
     status: str
     message: str
+    note: str
     energy: pd.DataFrame
     checks: pd.DataFrame
     step: float
@@ -67,6 +69,9 @@ class Stepper(Protocol):
 
     def energy(self) -> Energy:
         """What the string holds at present, after ``sync``."""
+
+    def note(self) -> str:
+        """What a reader of the loads must know, or nothing."""
 
     def close(self) -> None:
         """Give back what the engine holds."""

@@ -13,21 +13,30 @@ from numpy.typing import NDArray
 from fctd import state, units
 from fctd.dynamics import update_axes, update_loads, whole_operations
 from fctd.energy import Energy, energy_of
+from fctd.errors import InputError
 from fctd.rotations import rotation_columns
 from fctd.run import Run
 from fctd.topdrive import Motion, move_top_drive
+from fctd.wellbore import LONGEST_CYLINDER
 from references.engines import StepOptions
-from references.tube_mesh import Tube, TubeOptions, build_tube
+from references.tube_mesh import Tube, TubeOptions, build_tube, curvature_at
 
 Array = NDArray[np.float64]
+
+# Error of the triangles over the clearance of the string, at most: beyond it the string lies in the wrong hole.
+MOST_WRONG = 0.5
+# A contact point faster than this slides [m/s]; friction against that, over μN, below which the loads need a note.
+SLIDING, LEAST_SHARE = 1e-2, 0.98
 
 
 class Bodies(Protocol):
     """What another engine does with the bodies.
 
-    Poses (n, 13) : centre of mass [m], quaternion (body to global, scalar first), velocity [m/s], spin [rad/s],
-    all global.
+    lean : why its friction may not oppose the sliding.  Poses (n, 13) : centre of mass [m], quaternion (body to
+    global, scalar first), velocity [m/s], spin [rad/s], all global.
     """
+
+    lean: str
 
     def step(self, poses: Array, wrenches: Array, dt: float) -> Array:
         """Poses after a step of dt [s] under wrenches (n, 6): force [N], moment [N m] about the centres of mass."""
@@ -40,19 +49,32 @@ class Bodies(Protocol):
         """Give back what the engine holds."""
 
 
-class FreeBodyOptions(StepOptions):
-    """Step, and the tube: its facets, and the largest distance of rings [m], which stand at least where pieces end."""
+class FreeBodyOptions(StepOptions, TubeOptions):
+    """Step, and the tube: cylinders as they are, arcs by chords within the tolerance [m] of a case's cylinders."""
 
-    facets: int = TubeOptions.model_fields["facets"].default
-    ring_spacing: units.PositiveLength | None = None
+    ring_spacing: units.PositiveLength = LONGEST_CYLINDER
+    chord_tolerance: units.PositiveLength | None = 2e-3
 
 
 def tube_of(run: Run, options: FreeBodyOptions) -> Tube | None:
-    """The hole of a run as triangles, None where contact is off."""
+    """The hole of a run as triangles, None where contact is off; axes and walls of the run have to be up to date.
+
+    Raises InputError for triangles that miss the wall by more than the string has room.
+    """
     if not run.case.contact.enabled:
         return None
-    spacing = options.ring_spacing or run.hole.total_depth
-    return build_tube(run.case, TubeOptions(facets=options.facets, ring_spacing=spacing))
+    tube = build_tube(run.case, options)
+    n = run.segments
+    clearance = float((state.row(run.S, state.HOLE, n) - state.row(run.S, state.RADIUS, n)).min())
+    wrong, _ = tube.error_bound(float(curvature_at(run.hole, tube.md).max()))
+    if wrong > MOST_WRONG * clearance:
+        raise InputError(
+            f"triangles that miss the wall by at most {MOST_WRONG:g} of the clearance of {1e3 * clearance:.3g} mm: "
+            "more facets, a smaller ring_spacing or chord_tolerance",
+            key="facets, ring_spacing, chord_tolerance",
+            value=f"{1e3 * wrong:.3g} mm",
+        )
+    return tube
 
 
 @njit(error_model="numpy", cache=True)
@@ -91,8 +113,11 @@ def _store(S, top, n, pipe, feed, rate, dt, poses):  # type: ignore[no-untyped-d
 
 
 @njit(error_model="numpy", cache=True)
-def _sum_contacts(S, body, contacts, before, poses, dt):  # type: ignore[no-untyped-def]
-    """Update sums and losses from contacts (c, 7) of the step from poses ``before`` to ``poses``."""
+def _sum_contacts(S, body, contacts, before, poses, dt, slid):  # type: ignore[no-untyped-def]
+    """Update sums and losses from contacts (c, 7) of the step from poses ``before`` to ``poses``.
+
+    slid (2,) [N s] : impulses of friction against the sliding, and of μN, of the points that slide.
+    """
     for k in range(len(body)):
         j = body[k]
         c, p, q = contacts[k], before[j - 1], poses[j - 1]
@@ -102,8 +127,18 @@ def _sum_contacts(S, body, contacts, before, poses, dt):  # type: ignore[no-unty
         mx, my, mz = ry * fz - rz * fy, rz * fx - rx * fz, rx * fy - ry * fx
         # What the impulses of a step take is their product with the velocity after them, as in the engine's ledger.
         power = fx * q[7] + fy * q[8] + fz * q[9] + mx * q[10] + my * q[11] + mz * q[12]
+        limit = S[state.FRICTION + j] * normal
+        vx, vy, vz = q[7] + q[11] * rz - q[12] * ry, q[8] + q[12] * rx - q[10] * rz, q[9] + q[10] * ry - q[11] * rx
+        # A point that bounces moves along the normal too, which is what of the lever stands across the axis.
+        arm = rx * ax + ry * ay + rz * az
+        nx, ny, nz = rx - arm * ax, ry - arm * ay, rz - arm * az
+        into = (vx * nx + vy * ny + vz * nz) / np.sqrt(nx * nx + ny * ny + nz * nz)
+        speed = np.sqrt(max(vx * vx + vy * vy + vz * vz - into * into, 0.0))
+        if speed > SLIDING:
+            slid[0] -= dt * power / speed
+            slid[1] += dt * limit
         S[state.SUM_NORMAL + j] += dt * normal
-        S[state.SUM_R_MU_N + j] += dt * S[state.RADIUS + j] * S[state.FRICTION + j] * normal
+        S[state.SUM_R_MU_N + j] += dt * S[state.RADIUS + j] * limit
         S[state.SUM_FRICTION_TORQUE + j] -= dt * (mx * ax + my * ay + mz * az)
         S[state.LOST_FRICTION + j] -= dt * power
 
@@ -129,6 +164,7 @@ class FreeBodies:
         self.watch = run.laws.geometry != state.OPEN
         self._wrenches = np.empty((run.segments, 6))
         self._poses = poses_of(run)
+        self._slid = np.zeros(2)
 
     def advance(self, motion: Motion, duration: float) -> None:
         """See ``Stepper.advance``."""
@@ -140,7 +176,7 @@ class FreeBodies:
             before = self._poses
             self._poses = bodies.step(before, self._wrenches, dt)
             if self.watch:
-                _sum_contacts(run.S, *bodies.contacts(), before, self._poses, dt)
+                _sum_contacts(run.S, *bodies.contacts(), before, self._poses, dt, self._slid)
             _store(run.S, run.top, n, run.pipe, feed, rate, dt, self._poses)
         run.steps += steps
 
@@ -150,6 +186,15 @@ class FreeBodies:
     def energy(self) -> Energy:
         """See ``Stepper.energy``."""
         return energy_of(self._run.S, self._run.segments)
+
+    def note(self) -> str:
+        """See ``Stepper.note``: by how much friction misses Coulomb's law, where it does."""
+        against, limit = self._slid
+        if limit == 0 or against > LEAST_SHARE * limit:
+            return ""
+        return (
+            f"friction against the sliding is {against / limit:.1%} of μN, 100 % by Coulomb's law: {self._bodies.lean}"
+        )
 
     def close(self) -> None:
         """See ``Stepper.close``."""

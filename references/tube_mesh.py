@@ -24,10 +24,11 @@ MOST_TRIANGLES = 20_000_000
 
 
 class TubeOptions(Table):
-    """Facets around the hole, and the largest distance between rings [m]."""
+    """Facets around the hole; the largest distance between rings [m]; how far facets may cut through a bend [m]."""
 
     facets: Annotated[int, units.Whole(at_least=3)] = 48
     ring_spacing: units.PositiveLength = 2.0
+    chord_tolerance: units.PositiveLength | None = None
 
 
 @dataclass(frozen=True)
@@ -35,12 +36,11 @@ class Tube:
     """A mesh of a hole and the axis it was built on.
 
     mesh : trimesh.Trimesh, faces in order of depth, 2 · facets between two rings.
-    md (k,) [m], centres (k, 3) [m] : the rings.  radius : largest hole radius [m].
+    options : what it was built with.  md (k,) [m], centres (k, 3) [m] : the rings.  radius : largest hole radius [m].
     """
 
     mesh: Any
-    facets: int
-    ring_spacing: float
+    options: TubeOptions
     md: Array
     centres: Array
     radius: float
@@ -50,15 +50,20 @@ class Tube:
         return cKDTree(self.centres)
 
     @property
+    def facets(self) -> int:
+        """Facets around the hole."""
+        return self.options.facets
+
+    @property
     def triangles(self) -> int:
         """Number of triangles."""
         return len(self.mesh.faces)
 
     def error_bound(self, curvature: float) -> tuple[float, float]:
         """Sagitta of facet and of ring spacing [m]; half the angle of a facet and of a ring spacing [rad]."""
-        half = np.pi / self.facets
-        sagitta = self.radius * (1 - np.cos(half)) + curvature * self.ring_spacing**2 / 8
-        return float(sagitta), float(np.hypot(half, 0.5 * curvature * self.ring_spacing))
+        half, spacing = np.pi / self.facets, float(_spacing(self.options, curvature))
+        sagitta = self.radius * (1 - np.cos(half)) + curvature * spacing**2 / 8
+        return float(sagitta), float(np.hypot(half, 0.5 * curvature * spacing))
 
     def md_of(self, faces: NDArray[np.int64], points: Array) -> Array:
         """Measured depths (n,) [m] of points (n, 3) beside faces (n,)."""
@@ -117,11 +122,11 @@ def build_tube(case: Case, options: TubeOptions) -> Tube:
     trimesh = import_or_tell("trimesh", "trimesh", "a triangle mesh")
     hole = build_wellbore(case)
     reach = hole.total_depth - hole.md[0]
-    if options.ring_spacing > reach:
+    if options.ring_spacing > reach and "ring_spacing" in options.model_fields_set:
         raise InputError(
             f"at most the length of the hole, {reach:g} m", key="ring_spacing", value=f"{options.ring_spacing:g} m"
         )
-    md = _ring_depths(hole, options.ring_spacing)
+    md = _ring_depths(hole, options)
     if 2.0 * options.facets * len(md) > MOST_TRIANGLES:
         raise InputError(
             f"at most {MOST_TRIANGLES:.0g} triangles",
@@ -135,7 +140,7 @@ def build_tube(case: Case, options: TubeOptions) -> Tube:
     spokes = np.cos(angle)[:, None] * across[:, None] + np.sin(angle)[:, None] * aside[:, None]
     vertices = (centres[:, None] + radius[:, None, None] * spokes).reshape(-1, 3)
     mesh = trimesh.Trimesh(vertices, _faces(len(md), options.facets), process=False, validate=False)
-    tube = Tube(mesh, options.facets, options.ring_spacing, md, centres, float(radius.max()))
+    tube = Tube(mesh, options, md, centres, float(radius.max()))
     check_tube(tube)
     return tube
 
@@ -161,7 +166,24 @@ def check_tube(tube: Tube) -> None:
         )
 
 
-def _ring_depths(hole: Wellbore, spacing: float) -> Array:
+def curvature_at(hole: Wellbore, md: Array) -> Array:
+    """Curvatures (n,) [1/m] of the pieces of a hole at measured depths (n,) [m]; 0 in cylinders and run-outs."""
+    if hole.courses is None:
+        return np.zeros_like(md)
+    course = np.searchsorted(hole.courses.md, md, side="right") - 1
+    inside = (md >= hole.md[0]) & (md <= hole.md[-1])
+    return np.asarray(np.where(inside, hole.courses.curvature[course], 0.0))
+
+
+def _spacing(options: TubeOptions, curvature: Array | float) -> Array:
+    """Largest distance of rings [m] in bends of these curvatures [1/m]: a chord ℓ misses its arc by κℓ²/8."""
+    if options.chord_tolerance is None:
+        return np.full_like(curvature, options.ring_spacing)
+    chord = np.sqrt(8 * options.chord_tolerance / np.maximum(curvature, 1e-12))
+    return np.asarray(np.minimum(options.ring_spacing, chord))
+
+
+def _ring_depths(hole: Wellbore, options: TubeOptions) -> Array:
     """Measured depths of the rings: ends of the pieces, changes of size, and enough between them."""
     knots = hole.wall_along()[:, 0]
     inside = knots[(knots > hole.md[0]) & (knots < hole.md[-1])]
@@ -169,6 +191,8 @@ def _ring_depths(hole: Wellbore, spacing: float) -> Array:
     # Depths a rounding error apart would make triangles without area.
     breaks = breaks[np.concatenate([[True], np.diff(breaks) > 1e-6])]
     breaks = np.concatenate([[breaks[0] - RUN_OUT], breaks, [breaks[-1] + RUN_OUT]])
+    # A piece is a straight cylinder or an arc that may go on for hundreds of metres.
+    spacing = _spacing(options, curvature_at(hole, 0.5 * (breaks[1:] + breaks[:-1])))
     counts = np.maximum(np.ceil(np.diff(breaks) / spacing - 1e-9).astype(int), 1)
     parts = [np.linspace(a, b, k, endpoint=False) for a, b, k in zip(breaks, breaks[1:], counts, strict=False)]
     return np.append(np.concatenate(parts), breaks[-1])

@@ -11,6 +11,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
+from references.base import absent
+
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "validation" / "results"
 
@@ -95,8 +97,12 @@ class Outcome:
 
 
 def left_out(missing: Sequence[str]) -> list[str]:
-    """The note on what is not installed; none where all of it is."""
-    return [f"Not installed, and left out: {', '.join(missing)}."] if missing else []
+    """The note on what is not installed and how to have it; none where all of it is."""
+    if not missing:
+        return []
+    bullet = any(name.lower().startswith("bullet") for name in missing)
+    ways = f" Package {absent('pybullet')}." if bullet else ""
+    return [f"Not installed, and left out: {', '.join(missing)}.{ways}"]
 
 
 def log_slope(x: ArrayLike, y: ArrayLike) -> float:

@@ -6,6 +6,8 @@ import pytest
 from fctd.errors import InputError
 from fctd.wellbore import build_wellbore, find_contacts
 from references import base
+from references.tube_mesh import curvature_at
+from validation.cases import load
 
 from .wells import HOLE, RADIUS, REGIONS, bent_case, beside_the_wall
 
@@ -26,7 +28,7 @@ def method(request: pytest.FixtureRequest) -> base.ContactMethod:
     """A method built for the case; skipped by name where its package is missing."""
     key, (name, options) = request.param
     if base.installed_version(name) is None:
-        pytest.skip(f"package {base.method_class(name).distribution} is not installed")
+        pytest.skip(f"package {base.absent(base.method_class(name).distribution)}")
     if key not in BUILT:
         BUILT[key] = base.build(name, CASE, **options)
     return BUILT[key]
@@ -66,6 +68,29 @@ def test_the_exact_tube_within_the_geometric_error(method: base.ContactMethod, r
     assert np.allclose(np.linalg.norm(hits.normal[known], axis=1), 1, atol=1e-9)
     shift = curvature(region) * offset.max() * 3.0 + 1e-3
     assert np.abs(hits.md - exact.md)[known].max() <= shift
+
+
+@pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
+@pytest.mark.parametrize("name", base.METHODS)
+def test_bends_of_hundreds_of_metres_between_two_stations(name: str, geometry: str) -> None:
+    """A course is one arc or many cylinders; a mesh has rings enough within either."""
+    if base.installed_version(name) is None:
+        pytest.skip(f"package {base.absent(base.method_class(name).distribution)}")
+    case, exact = load("s_shape", wellbore__geometry=geometry), build_wellbore(load("s_shape"))
+    rng, n = np.random.default_rng(3), 200
+    md, angle = rng.uniform(1, 519, n), rng.uniform(0, 2 * np.pi, n)
+    radius = 0.084
+    points = exact.off_axis(md, angle, HOLE - radius + rng.uniform(-0.01, 0.01, n))
+    truth = find_contacts(exact, points, radius)
+    method = base.build(name, case)
+    depth, _ = method.error_bound(float(curvature_at(exact, md).max()))
+    # Meshes of cylinders have the errors of both.
+    depth += case.wellbore.chord_tolerance if geometry == "cylinders" and name in MESHES else 1e-6
+    hits = method.query(points, np.full(n, radius))
+    known = np.isfinite(hits.penetration)
+    assert known[truth.penetration > depth].all()
+    assert known.sum() > 80
+    assert np.abs(hits.penetration - truth.penetration)[known].max() <= depth
 
 
 def test_contacts_only_say_nothing_of_a_clear_point(method: base.ContactMethod) -> None:
@@ -167,7 +192,7 @@ def test_every_name_of_the_registry_is_the_class_it_says(name: str) -> None:
 )
 def test_bad_options_are_told(name: str, options: dict, expected: str) -> None:
     if name in base.METHODS and base.installed_version(name) is None:
-        pytest.skip(f"package {base.method_class(name).distribution} is not installed")
+        pytest.skip(f"package {base.absent(base.method_class(name).distribution)}")
     with pytest.raises(InputError) as told:
         base.build(name, CASE, **options)
     assert expected in str(told.value)

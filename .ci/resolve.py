@@ -1,0 +1,88 @@
+"""Does requirements.lock hold all that each supported Python needs, as wheels?  Nothing is installed.
+
+``python .ci/resolve.py`` does nothing while the lock is the one that the file ``resolved`` records; otherwise it
+resolves the lock for every Python and writes the record, which is committed with the lock.
+"""
+
+import hashlib
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from packaging.markers import Environment, default_environment
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+LOCK = Path(__file__).parents[1] / "requirements.lock"
+RECORD = Path(__file__).with_name("resolved")
+PYTHONS = ("3.11", "3.12", "3.13", "3.14")
+
+
+def environment(python: str) -> Environment:
+    """Markers' environment of this machine with another Python."""
+    here = default_environment()
+    here["python_version"], here["python_full_version"], here["implementation_version"] = python, *2 * (f"{python}.0",)
+    return here
+
+
+def wanted(lock: str, python: str) -> list[Requirement]:
+    """Requirements of a lock that hold for a Python; pip itself would judge their markers by the Python it runs on."""
+    lines = (line.partition("#")[0].strip() for line in lock.splitlines())
+    found = [Requirement(line) for line in lines if line]
+    return [each for each in found if each.marker is None or each.marker.evaluate(environment(python))]
+
+
+def unmet(packages: list[dict[str, Any]], locked: list[Requirement], python: str) -> list[str]:
+    """What packages, as in pip's report, need on a Python and the lock does not hold."""
+    pins = {canonicalize_name(each.name): each for each in locked}
+    missing = []
+    for package in packages:
+        for text in package["metadata"].get("requires_dist", []):
+            need = Requirement(text)
+            if need.marker is not None and not need.marker.evaluate({**environment(python), "extra": ""}):
+                continue
+            pin = pins.get(canonicalize_name(need.name))
+            if pin is None or not need.specifier.contains(next(iter(pin.specifier)).version, prereleases=True):
+                missing.append(f"{package['metadata']['name']} needs {need}, the lock has {pin or 'none'}")
+    return missing
+
+
+def resolve(lock: str, python: str) -> list[str]:
+    """What keeps a lock from being installed on a Python, in words."""
+    locked = wanted(lock, python)
+    with tempfile.TemporaryDirectory() as scratch:
+        report = Path(scratch, "report.json")
+        command = [
+            sys.executable, "-m", "pip", "install", "--dry-run", "--quiet", "--disable-pip-version-check", "--no-deps",
+            "--ignore-installed", "--only-binary=:all:", "--python-version", python, "--target", scratch,
+            "--report", str(report), *(f"{each.name}{each.specifier}" for each in locked),
+        ]  # fmt: skip
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            return [line for line in done.stderr.splitlines() if line.startswith("ERROR")] or [done.stderr.strip()]
+        return unmet(json.loads(report.read_text())["install"], locked, python)
+
+
+def main() -> int:
+    """Exit code: 0 when the lock resolves, 1 when it does not."""
+    now = hashlib.sha256(LOCK.read_bytes() + ",".join(PYTHONS).encode()).hexdigest()
+    if RECORD.is_file() and RECORD.read_text().strip() == now:
+        print(f"{LOCK.name}: resolved before for Python {', '.join(PYTHONS)}")
+        return 0
+    failures = []
+    for python in PYTHONS:
+        found = resolve(LOCK.read_text(), python)
+        print(f"{LOCK.name}: Python {python}: {'; '.join(found) or 'resolves'}", flush=True)
+        failures += found
+    if failures:
+        return 1
+    RECORD.write_text(now + "\n")
+    print(f"commit {RECORD.parent.name}/{RECORD.name}: the lock is not resolved again until it changes")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

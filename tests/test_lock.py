@@ -1,0 +1,93 @@
+"""Set-up: the lock beside what the project asks for, its check over Pythons, and the message for the wrong one."""
+
+import importlib.util
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+ROOT = Path(__file__).parents[1]
+LOCK = (ROOT / "requirements.lock").read_text()
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+
+
+@pytest.fixture(scope="module")
+def resolve() -> ModuleType:
+    """The script that CI runs."""
+    spec = importlib.util.spec_from_file_location("resolve", ROOT / ".ci" / "resolve.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_every_python_has_all_packages_but_pybullet(resolve: ModuleType) -> None:
+    """The lock has the markers of pyproject.toml; requires-python and the check name the same Pythons."""
+    asked = [*PROJECT["dependencies"], *(text for extra in PROJECT["optional-dependencies"].values() for text in extra)]
+    names = {canonicalize_name(Requirement(text).name) for text in asked}
+    for python in resolve.PYTHONS:
+        locked = {canonicalize_name(each.name) for each in resolve.wanted(LOCK, python)}
+        assert names - locked == (set() if python == "3.11" else {"pybullet"})
+    specifier = Requirement(f"fctd{PROJECT['requires-python']}").specifier
+    assert tuple(f"3.{minor}" for minor in range(9, 18) if f"3.{minor}.0" in specifier) == resolve.PYTHONS
+
+
+def test_what_a_package_needs_on_another_python_has_to_be_in_the_lock(resolve: ModuleType) -> None:
+    locked = resolve.wanted("old==1.0\nnewer==2.0  # via old\n", "3.13")
+    needs = ["newer>=1", "absent; python_version >= '3.13'", "extra; extra == 'test'", "old>1; python_version < '3.12'"]
+    packages = [{"metadata": {"name": "old", "requires_dist": needs}}, {"metadata": {"name": "newer"}}]
+    (found,) = resolve.unmet(packages, locked, "3.13")
+    assert found.startswith("old needs absent")
+    assert resolve.unmet(packages, locked, "3.12") == []
+    (found,) = resolve.unmet(packages, locked, "3.11")
+    assert found.startswith("old needs old>1")
+    assert found.endswith("the lock has old==1.0")
+
+
+def test_a_lock_that_does_not_resolve_is_exit_code_1_and_leaves_no_record(
+    resolve: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked: list[str] = []
+
+    def answer(lock: str, python: str) -> list[str]:
+        asked.append(python)
+        return ["ERROR: no wheel"] if lock == "a==1" and python == "3.14" else []
+
+    monkeypatch.setattr(resolve, "LOCK", tmp_path / "requirements.lock")
+    monkeypatch.setattr(resolve, "RECORD", tmp_path / "resolved")
+    monkeypatch.setattr(resolve, "resolve", answer)
+    resolve.LOCK.write_text("a==1")
+    assert resolve.main() == 1
+    assert "Python 3.14: ERROR: no wheel" in capsys.readouterr().out
+    assert not resolve.RECORD.exists()
+    resolve.LOCK.write_text("a==2")
+    assert [resolve.main(), resolve.main()] == [0, 0]
+    assert len(asked) == 8  # the second time it was recorded
+    resolve.LOCK.write_text("a==3")
+    assert resolve.main() == 0
+    assert len(asked) == 12
+
+
+@pytest.mark.parametrize("version", [(3, 10), (3, 15)])
+def test_set_up_with_another_python_is_one_clear_message(version: tuple[int, int], tmp_path: Path) -> None:
+    if shutil.which("make") is None:
+        pytest.skip("make is not installed")
+    for name in ("Makefile", "requirements.lock", "pyproject.toml"):
+        shutil.copy(ROOT / name, tmp_path)
+    python = tmp_path / "python"
+    program = f"import sys; sys.version_info = {version}; exec(sys.argv[1])"
+    python.write_text(f"#!/bin/sh\nexec {sys.executable} -c '{program}' \"$2\"\n")
+    python.chmod(0o755)
+    command = ["make", f"PYTHON={python}", ".venv/installed"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert "error: Python 3.11 to 3.14 is needed" in done.stderr
+    assert f"is {version[0]}.{version[1]} (make PYTHON=... names another)" in done.stderr
+    assert not (tmp_path / ".venv").exists()
