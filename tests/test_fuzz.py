@@ -13,15 +13,15 @@ from fctd.drillstring import lay_out
 from fctd.equilibrium import Solver
 from fctd.operations import steady_rates
 from tests.fuzz import mechanics
-from tests.fuzz.campaign import MAKERS, SIMULATED, judge, make, write
+from tests.fuzz.campaign import PLAUSIBLE, SIMULATED, judge, make, write
 from tests.fuzz.wells import well
 
 SEED = 14
 
 
-@pytest.mark.parametrize("start", range(0, 400, 50))
+@pytest.mark.parametrize("start", range(0, 300, 50))
 def test_files_are_refused_or_answered(start: int) -> None:
-    """Of fifty items forty are loaded, and ten are plausible wells that are solved six times each."""
+    """Of fifty items two are plausible wells that are solved six times each."""
     tally: Counter[str] = Counter()
     offences = []
     for index in range(start, start + 50):
@@ -31,9 +31,8 @@ def test_files_are_refused_or_answered(start: int) -> None:
     assert offences == []
     assert tally["load: accepted"] + tally["load: refused"] == 50
     # Neither are all files alike, nor are the wells such that hardly any has an answer.
-    assert min(tally["load: accepted"] - 10, tally["load: refused"]) >= 5
-    answered = sum(tally[f"plausible: {status}"] for status in mechanics.ANSWERED)
-    assert answered >= 50
+    assert min(tally["load: accepted"] - 2, tally["load: refused"]) >= 8
+    assert sum(tally[f"plausible: {status}"] for status in mechanics.ANSWERED) >= 8
 
 
 def test_a_short_run_of_a_plausible_well() -> None:
@@ -42,7 +41,7 @@ def test_a_short_run_of_a_plausible_well() -> None:
     assert outcome.tally["run: completed"] == 1
 
 
-@pytest.mark.parametrize("index", range(len(MAKERS)))
+@pytest.mark.parametrize("index", [0, 1, PLAUSIBLE - 1])
 def test_seed_and_index_make_one_item(index: int) -> None:
     assert make(3, index) == make(3, index)
     assert make(3, index) != make(4, index)

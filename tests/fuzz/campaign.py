@@ -4,26 +4,26 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 
-from fctd import Case, Equilibrium, InputError, equilibrium, load_case, simulate, torque_drag
+from fctd import Case, Equilibrium, InputError, build_wellbore, equilibrium, load_case, simulate, torque_drag
 from fctd.case import KINDS, parse_override
 from fctd.equilibrium import Solver
 from fctd.operations import steady_rates
+from fctd.run import prepare
 from tests.fuzz import mechanics
 from tests.fuzz.items import Item
 from tests.fuzz.mutants import mutant
 from tests.fuzz.surveys import survey
 from tests.fuzz.wells import well
 
-# Of five items four are loaded, and solved once if they load; the fifth is a plausible well, solved for every kind
-# of operation.  Every thousandth is simulated too.
-MAKERS: tuple[Callable[[Random], Item], ...] = (mutant, survey, mutant, survey, well)
-SIMULATED = 1000
+# Case files and survey files by turns; they are solved once if they load.  Every 25th item is a plausible well, solved
+# for every kind of operation, so that 20,000 loads go with 5,000 plausible solves; every thousandth is simulated too.
+PLAUSIBLE, SIMULATED = 25, 1000
 SLOWEST_LOAD = 5.0  # [s]
 
 
@@ -60,9 +60,9 @@ class Outcome:
 def make(seed: int, index: int) -> Item:
     """The item of a seed and an index, always the same."""
     rng = Random(f"{seed}:{index}")
-    if index % SIMULATED == SIMULATED - 1:
-        return well(rng, simulated=True)
-    return MAKERS[index % len(MAKERS)](rng)
+    if index % PLAUSIBLE == PLAUSIBLE - 1:
+        return well(rng, simulated=index % SIMULATED == SIMULATED - 1)
+    return survey(rng) if index % 2 else mutant(rng)
 
 
 def write(item: Item, folder: Path) -> Path:
@@ -102,6 +102,11 @@ def _solve(case: Case, item: Item, rng: Random, outcome: Outcome) -> None:
             point = equilibrium(case, kind, depth)
             outcome.tally[f"solve: {point.status}"] += 1
             outcome.offences += [f"{kind} at {depth:g} m: {text}" for text in mechanics.finite(point)]
+        with outcome.watching("hole"):
+            outcome.offences += [f"hole: {text}" for text in mechanics.axis(build_wellbore(case))]
+        with outcome.watching("prepare"):
+            prepare(case)
+            outcome.tally["prepare: done"] += 1
         return
     top, deepest = case.depths
     depth = rng.choice([deepest, round(rng.uniform(0.3, 1.0) * (deepest - top) + top, 2)])

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 
-from fctd import Case, Equilibrium, SimulationResult, Wellbore
+from fctd import Case, Equilibrium, SimulationResult, Wellbore, find_contacts
 from fctd.case import DRILLING
 from fctd.drillstring import String, lay_out
 from fctd.equilibrium import ANSWERED, SOUND
@@ -102,6 +102,28 @@ def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
         yield f"a surface torque of {point.surface_torque:.6g} N*m where {taken:.6g} N*m are taken"
     if rates.spin and point.surface_torque < -slack:
         yield f"a surface torque of {point.surface_torque:.6g} N*m while turning"
+
+
+def axis(hole: Wellbore) -> Iterator[str]:
+    """What is amiss with the axis of any hole: where it leads, and how the contact query finds points on it."""
+    md = np.linspace(0.0, hole.total_depth, 40)
+    points, tangents = hole.at(md)
+    if not np.isfinite(points).all() or np.abs(np.linalg.norm(tangents, axis=1) - 1).max() > 1e-9:
+        yield "an axis that is not finite"
+        return
+    if (np.linalg.norm(np.diff(points, axis=0), axis=1) > np.diff(md) * (1 + 1e-9)).any():
+        yield "an axis longer than its measured depth"
+    found, wall = find_contacts(hole, points, 0.0), hole.wall_along()
+    near = 1e-6 + 1e-9 * hole.total_depth
+    if hole.courses is None:
+        # A chord is shorter than its arc; where two cylinders overlap the wall is a blend of both.
+        chords = np.diff(hole.points, axis=0)
+        near += (np.diff(hole.md) - np.linalg.norm(chords, axis=1)).max()
+        near += hole.shoe * np.linalg.norm(np.diff(hole.directions, axis=0), axis=1).max()
+    off = np.abs(found.penetration + np.interp(md, wall[:, 0], wall[:, 1])).max()
+    along = np.abs(found.md - md).max()
+    if not (off < near and along < near):
+        yield f"a point of the axis found {off:.3g} m beside it and {along:.3g} m along it"
 
 
 def ordered(points: Mapping[str, Equilibrium]) -> Iterator[str]:

@@ -73,29 +73,31 @@ UNITS = [
     "",
 ]
 
+FACTORS = [-1, 0, 1e-12, 1e-3, 0.1, 0.3, 0.5, 0.9, 1.1, 2, 5, 10, 100, 1e4, 1e12]
+
 
 def mutant(rng: Random) -> Item:
-    """A case file with one to three things done to it; a third of them have overrides beside them."""
+    """A case file with one to three things done to it; one in seven has overrides beside them."""
     text = rng.choice(BASES)
     survey = re.search(r'^survey = "(.*?)"', text, re.MULTILINE)
     files = {survey[1]: SURVEYS.get(survey[1], STAND_IN)} if survey else {}
     how = rng.random()
-    if how < 0.6:
+    if how < 0.75:
         content = _changed_data(rng, text).encode()
-    elif how < 0.8:
+    elif how < 0.9:
         content = _changed_lines(rng, text).encode()
     else:
         content = changed_bytes(rng, text.encode())
-    overrides = [_override(rng) for _ in range(rng.randint(1, 3))] if rng.random() < 0.33 else []
+    overrides = [_override(rng) for _ in range(rng.randint(1, 3))] if rng.random() < 0.15 else []
     return Item(content, files, tuple(overrides))
 
 
 def _changed_data(rng: Random, text: str) -> str:
     """The case with values replaced, deleted, renamed, repeated, multiplied, or keys set that were not there."""
     raw = tomllib.loads(text)
-    for _ in range(rng.choice([1, 1, 2, 3])):
+    for _ in range(rng.choice([1, 2, 3])):
         table, key = rng.choice(places(raw))
-        how = rng.choice(["delete", "rename", "move", "multiply", "repeat", "set", "set", "replace", "replace"])
+        how = rng.choice(["delete", "rename", "move", "repeat", "set", "replace", *["scale"] * 8])
         if how == "delete":
             del table[key]
         elif how == "rename" and isinstance(table, dict):
@@ -105,10 +107,12 @@ def _changed_data(rng: Random, text: str) -> str:
         elif how == "move":
             other, place = rng.choice(places(raw))
             table[key] = copy.deepcopy(other[place])
-        elif how == "multiply" and isinstance(table[key], int | float):
-            table[key] *= rng.choice([-1, 1e-12, 1e-3, 1e3, 1e6, 1e12])
-        elif how == "multiply" and isinstance(table[key], str):
-            table[key] = table[key].split(" ")[0] + rng.choice([" ", "", "e3 ", "e-6 "]) + rng.choice(UNITS)
+        elif how == "scale" and isinstance(table[key], int | float):
+            table[key] *= rng.choice(FACTORS)
+        elif how == "scale" and isinstance(table[key], str):
+            table[key] = _scaled(rng, table[key])
+        elif how == "scale":
+            continue  # a table or a list has no size
         elif how == "repeat" and isinstance(table, list):
             table[key:key] = [copy.deepcopy(table[key]) for _ in range(rng.choice([1, 3, 300]))]
         elif how == "set":
@@ -116,6 +120,17 @@ def _changed_data(rng: Random, text: str) -> str:
         else:
             table[key] = copy.deepcopy(rng.choice(EXTREMES))
     return write_case(raw)
+
+
+def _scaled(rng: Random, text: str) -> str:
+    """A quantity times a factor, or in another unit."""
+    number, _, unit = text.partition(" ")
+    if rng.random() < 0.2:
+        return f"{number}{rng.choice([' ', '', 'e3 ', 'e-6 '])}{rng.choice(UNITS)}"
+    try:
+        return f"{float(number) * rng.choice(FACTORS):g} {unit}"
+    except ValueError:
+        return text.upper()
 
 
 def _set_key(raw: dict[str, Any], rng: Random) -> None:
@@ -184,4 +199,4 @@ def _override(rng: Random) -> str:
     if rng.random() < 0.2:
         key = rng.choice(ODD_KEYS)
     written = rng.choice([toml, json.dumps, str])(value) if value is not None else ""
-    return rng.choice(["{}={}", "{} = {}", "{}={}", "{}{}"]).format(key, written)
+    return rng.choice(["{}={}", "{} = {}", "{}={}", "{}  ={}", "{}{}"]).format(key, written)

@@ -24,6 +24,13 @@ name = "pipe"
 outer_diameter = "5 in"
 inner_diameter = "4.276 in"
 segment_length = "30 m"
+{operation}
+"""
+OPERATION = """[[operations]]
+kind = "rotate_off_bottom"
+at_md = "400 m"
+duration = "1 min"
+rpm = 60
 """
 FOOT, DEGREE = 1 / 0.3048, math.radians(1)
 # Header, which value of a station stands below it, and what that is multiplied by.
@@ -86,7 +93,7 @@ def survey(rng: Random) -> Item:
     if not sound:
         for _ in range(rng.choice([1, 1, 2, 4])):
             _spoil(rng, table)
-        separator = rng.choice([",", ",", ",", ";", "\t", "|", " ", ", ", ",,"])
+        separator = rng.choice([*[","] * 12, ";", "\t", "|", " ", ", ", ",,"])
     end = rng.choice(["\n", "\n", "\r\n", "\r", "\n\n"])
     content = end.join(separator.join(map(quote.format, row)) for row in table).encode()
     if not sound and rng.random() < 0.3:
@@ -135,5 +142,8 @@ def _case(rng: Random, layout: list[Column], sound: bool) -> str:
     method = "minimum_curvature" if geometry == "arcs" else rng.choice(["minimum_curvature", "average_angle"])
     return CASE.format(
         columns="" if usual else f"columns = {toml(columns)}",
-        method=method, geometry=geometry, to_md=rng.choice(["40 km", "1 km"]),
-    )  # fmt: skip
+        method=method,
+        geometry=geometry,
+        to_md=rng.choice(["40 km", "1 km"]),
+        operation=rng.choice(["", OPERATION]),
+    )
