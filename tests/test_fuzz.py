@@ -13,6 +13,7 @@ from fctd.drillstring import lay_out
 from fctd.equilibrium import Solver
 from fctd.operations import steady_rates
 from tests.fuzz import mechanics
+from tests.fuzz.__main__ import campaign, show
 from tests.fuzz.campaign import PLAUSIBLE, SIMULATED, judge, make, write
 from tests.fuzz.wells import well
 
@@ -107,3 +108,17 @@ def test_what_is_no_input_error_is_an_offence(monkeypatch: pytest.MonkeyPatch, t
 
     monkeypatch.setattr("tests.fuzz.campaign.load_case", fails)
     assert judge(make(SEED, 0), Random(0)).offences[0].startswith("load: KeyError: 'hookload_N'")
+
+
+def test_the_program_counts_and_writes(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Exit code 1 goes with an offence; an item that is shown is written as it was fed in."""
+    assert campaign(SEED, range(2, 4)) == 0
+    assert "2 items of seed 14" in capsys.readouterr().out
+    assert show(SEED, 3, tmp_path) == 0
+    assert (tmp_path / "well.toml").read_bytes() == make(SEED, 3).content
+    monkeypatch.setattr("tests.fuzz.campaign.SLOWEST_LOAD", -1.0)
+    assert campaign(SEED, range(2, 4)) == 1
+    assert f"{SEED}:2 load: " in capsys.readouterr().out
+    assert show(SEED, 3, tmp_path) == 1

@@ -42,7 +42,7 @@ def main() -> int:
 
 def outcome_of(seed: int, index: int) -> Outcome:
     """What becomes of the item of a seed and an index."""
-    faulthandler.dump_traceback_later(LONGEST, exit=True)
+    faulthandler.dump_traceback_later(LONGEST, exit=True, file=sys.__stderr__)
     outcome = judge(make(seed, index), Random(f"{seed}:{index}:solve"))
     faulthandler.cancel_dump_traceback_later()
     return outcome

@@ -31,7 +31,8 @@ SLOWEST_LOAD = 5.0  # [s]
 class Outcome:
     """What became of one item, or of many.
 
-    tally : how often each thing happened; offences : what may not happen; load_s, solve_s : the longest [s].
+    tally : how often each thing happened; offences : what may not happen; load_s, solve_s : what they took of the
+    processor, which others may be using as well [s].
     """
 
     tally: Counter[str] = field(default_factory=Counter)
@@ -79,18 +80,18 @@ def judge(item: Item, rng: Random) -> Outcome:
     outcome = Outcome()
     with tempfile.TemporaryDirectory(prefix="fctd-fuzz-") as folder:
         path = write(item, Path(folder))
-        began = time.perf_counter()
+        began = time.process_time()
         case = None
         with outcome.watching("load"):
             case = load_case(path, dict(map(parse_override, item.overrides)))
             outcome.tally["load: accepted"] += 1
-        outcome.load_s = time.perf_counter() - began
+        outcome.load_s = time.process_time() - began
         if outcome.load_s > SLOWEST_LOAD:
             outcome.offences.append(f"load: {outcome.load_s:.3g} s")
-        began = time.perf_counter()
+        began = time.process_time()
         if case is not None:
             _solve(case, item, rng, outcome)
-        outcome.solve_s = time.perf_counter() - began
+        outcome.solve_s = time.process_time() - began
     return outcome
 
 
