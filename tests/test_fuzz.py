@@ -95,6 +95,12 @@ def test_the_checks_see_a_string_of_the_wrong_length(
     assert any("a string of" in text for text in mechanics.balance(case, hole, point))
 
 
+def test_the_checks_see_a_balance_not_found(answer: tuple[Case, Wellbore, Equilibrium]) -> None:
+    case, _, point = answer
+    assert list(mechanics.steadiness(case, point)) == []
+    assert len(list(mechanics.steadiness(case, replace(point, status="max_iterations")))) == 1
+
+
 def test_the_checks_see_hook_loads_out_of_order(answer: tuple[Case, Wellbore, Equilibrium]) -> None:
     _, _, point = answer
     assert list(mechanics.ordered({"trip_in": point, "trip_out": point})) == []

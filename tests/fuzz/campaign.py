@@ -117,7 +117,7 @@ def _solve(case: Case, item: Item, rng: Random, outcome: Outcome) -> None:
         for kind in KINDS:
             point = points[kind] = solver.solve(kind, steady_rates(case, kind), depth)
             outcome.tally[f"plausible: {point.status}"] += 1
-            found = list(mechanics.finite(point))
+            found = [*mechanics.finite(point), *mechanics.steadiness(case, point)]
             if point.answered and not found:
                 found = list(mechanics.balance(case, solver.hole, point))
             outcome.offences += [f"{kind} at {depth:g} m, {point.status}: {text}" for text in found]

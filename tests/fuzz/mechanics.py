@@ -43,6 +43,13 @@ def finite_profile(profile: pd.DataFrame) -> Iterator[str]:
             yield f"{name} is {column[bad].iloc[0]} in row {int(np.argmax(bad))} of the profile"
 
 
+def steadiness(case: Case, point: Equilibrium) -> Iterator[str]:
+    """A plausible string that nowhere buckles and has no bent housing keeps its balance, and the solver finds it."""
+    bent = point.status == "unstable" and any(component.bend for component in case.string.components)
+    if point.status not in SOUND and not bent and (point.profile["buckling"] == "none").all():
+        yield f"no steady balance, though it nowhere buckles ({point.message})"
+
+
 def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
     """What is amiss with a plausible answer.
 
