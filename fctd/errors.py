@@ -1,7 +1,7 @@
 """Bad input: one exception for every module, the dotted keys it names, and tables that raise it.
 
 A bad value is answered in one line, for example
-`paper_well.toml: wellbore.intervals[0].diameter = "-2 mm": expected a length above 0`.
+`paper_well.toml: string.components[0].length = "-2 m": expected a length above 0`.
 """
 
 from __future__ import annotations

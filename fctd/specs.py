@@ -33,7 +33,7 @@ class IntervalSpec(Table):
     """A stretch of hole of one size, from the end of the one above to `to_md` [m]."""
 
     to_md: units.PositiveLength
-    diameter: units.PositiveLength
+    diameter: units.Diameter
     friction: units.Friction
     name: str | None = None
     stiffness: units.PositiveStiffness | None = None
@@ -122,9 +122,9 @@ class ComponentSpec(Table):
 
     name: str = Field(description="a name in quotes")
     length: units.PositiveLength | None = None
-    outer_diameter: units.PositiveLength
-    inner_diameter: units.Length
-    contact_diameter: units.PositiveLength = Field(default_factory=lambda given: given["outer_diameter"])
+    outer_diameter: units.Diameter
+    inner_diameter: units.Bore
+    contact_diameter: units.Diameter = Field(default_factory=lambda given: given["outer_diameter"])
     segments: units.Count | None = None
     segment_length: units.PositiveLength | None = None
     linear_mass: units.PositiveLinearMass | None = None

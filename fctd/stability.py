@@ -59,5 +59,7 @@ def stable_step(frequency: float, damping_time: float, spin: float) -> float:
     frequency : stiffest mode [rad/s]; damping_time [s]; spin : fastest rotation of the run [rad/s].
     A mode is stable while ω²h² + 2ηω²h ≤ 4.
     """
-    step = np.sqrt(damping_time**2 + 4 / frequency**2) - damping_time
+    # √(η² + 4/ω²) − η without the difference, in which a stiff string's step is lost.
+    softness = 4 / frequency**2
+    step = softness / (np.sqrt(damping_time**2 + softness) + damping_time)
     return float(min(step, TURN_A_STEP / spin) if spin > 0 else step)

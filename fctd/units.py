@@ -199,6 +199,9 @@ Rpm = Annotated[float, Number(noun="a bare number of rev/min", at_least=0.0, at_
 PositiveRpm = Annotated[float, Number(noun="a bare number of rev/min", above=0.0, at_most=MOST_RPM)]
 Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
 PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
+WIDEST: Final = 5.0  # [m]: no well is wider; 8.5 means inches
+Bore = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0, at_most=WIDEST)]
+Diameter = Annotated[float, Quantity(dimension=LENGTH, above=0.0, at_most=WIDEST)]
 Time = Annotated[float, Quantity(dimension=TIME, at_least=0.0)]
 PositiveTime = Annotated[float, Quantity(dimension=TIME, above=0.0)]
 PositiveSpeed = Annotated[float, Quantity(dimension=SPEED, above=0.0, at_most=FASTEST)]

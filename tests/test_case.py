@@ -254,8 +254,8 @@ def test_combined_rule(case_file: Path, overrides: dict[str, Any], key: str, val
 
 def test_the_message_of_the_documentation(case_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(case_file.parent)
-    error = refusal(Path("well.toml"), {"wellbore.intervals[0].diameter": "-2 mm"})
-    assert str(error) == 'well.toml: wellbore.intervals[0].diameter = "-2 mm": expected a length above 0'
+    error = refusal(Path("well.toml"), {"string.components[0].length": "-2 m"})
+    assert str(error) == 'well.toml: string.components[0].length = "-2 m": expected a length above 0'
 
 
 def test_several_problems_stand_on_lines_of_their_own(case_file: Path) -> None:

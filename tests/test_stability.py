@@ -1,0 +1,23 @@
+"""The largest stable step."""
+
+import pytest
+
+from fctd import InputError
+from fctd.run import prepare
+from fctd.stability import stable_step
+from tests.cases import make_case, pipe, rotation
+
+
+@pytest.mark.parametrize("frequency", [1e3, 1e7, 1e12, 1e150])
+@pytest.mark.parametrize("damping", [0.0, 1e-5])
+def test_a_step_at_the_limit_is_at_the_limit(frequency: float, damping: float) -> None:
+    """ω²h² + 2ηω²h = 4, each term divided by 4 and written so that ω² does not overflow."""
+    step = stable_step(frequency, damping, 0.0)
+    assert (0.5 * frequency * step) ** 2 + 0.5 * damping * frequency * (frequency * step) == pytest.approx(1.0)
+
+
+def test_a_string_too_stiff_to_step_is_refused() -> None:
+    """Twenty segments in a fifth of a nanometre: what is left out of a run, never a division by zero."""
+    case = make_case(components=[pipe(2e-10, 20), pipe(None, 40)], operations=[rotation(900.0, 10.0)])
+    with pytest.raises(InputError, match="that need at most"):
+        prepare(case)
