@@ -185,6 +185,7 @@ def test_the_least_factor_counts_both_ends() -> None:
     assert _least(1.0, 2.0, above, factor) == 3.0
     assert _least(1.0, 2.0, above, factor[::-1].copy()) == 2.0
     assert _least(9.0, 10.0, above, factor) == 1.0
+    assert _least(9.0, 10.0, above, factor[::-1].copy()) == 5.0
 
 
 def test_waves_are_those_of_each_pipe_in_its_hole() -> None:

@@ -239,3 +239,21 @@ def test_a_string_settles_against_its_own_weight_and_length() -> None:
     by_hand = 9.80665 * 7850 * np.pi / 4 * (100 * (0.15**2 - 0.07**2) + 900 * (0.127**2 - 0.07**2))
     assert weight == pytest.approx(by_hand)
     assert laws == run.laws._replace(friction_scale=0.0, settling=pytest.approx(12 * np.sqrt(9.80665 / 1000)))
+
+
+@pytest.mark.parametrize(
+    ("sections", "message"),
+    [
+        (
+            {"operations": [trip(900, 950), {"kind": "drill_sliding", "from_md": 950, "to_md": 960, "speed": 0.01}]},
+            r"operations\[1\]\.kind = \"drill_sliding\": expected an operation off bottom",
+        ),
+        (
+            {"components": [pipe(100, 4), pipe(900, 9, bend=0.02)], "operations": [rotation(1000, 1)]},
+            r"string\.components\[1\]\.bend = \"0\.02 rad\": expected no bend",
+        ),
+    ],
+)
+def test_what_only_the_steady_solver_knows_is_refused(sections: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        prepare(make_case(**sections))

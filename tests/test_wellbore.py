@@ -269,6 +269,17 @@ def test_below_the_last_interval_the_hole_stays_as_it_is(geometry: str) -> None:
     np.testing.assert_allclose(walls[:, 3:6], [[0.16, 1e7, 0.1], *[[0.10795, 5e6, 0.3]] * 3])
 
 
+def test_arcs_without_a_shoe_change_at_once() -> None:
+    intervals = [{"to_md": 500, "diameter": 0.32, "friction": 0.1}, {"to_md": 1000, "diameter": 0.22, "friction": 0.3}]
+    hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry="arcs", overlap=0.0)
+    walls = hole.walls(hole.at(np.array([499.99, 500.01]))[0])
+    np.testing.assert_allclose(walls[:, [3, 5]], [[0.16, 0.1], [0.11, 0.3]])
+
+
+def test_cylinders_of_straight_hole_are_no_longer_than_thirty_metres() -> None:
+    np.testing.assert_allclose(np.diff(hole_of([[0, 0, 0], [1000, 0, 0]]).md), 1000 / 34)
+
+
 def test_the_wall_along_the_hole_by_hand() -> None:
     """A row at each interval's end and one at the end of the shoe that leads into the next."""
     intervals = [
