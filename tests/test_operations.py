@@ -5,8 +5,19 @@ from typing import Any
 import numpy as np
 import pytest
 
+from fctd.case import KINDS
 from fctd.errors import InputError
-from fctd.operations import DEFAULT_RATES, MAY_TURN, MOVES, depth_range, rates_of_all, schedule, sensors, steady_rates
+from fctd.operations import (
+    DEFAULT_RATES,
+    MAY_TURN,
+    MOVES,
+    OPERATION_NAMES,
+    depth_range,
+    rates_of_all,
+    schedule,
+    sensors,
+    steady_rates,
+)
 from tests.cases import make_case, rotation, trip
 
 TURN = 2 * np.pi  # 60 rev/min [rad/s]
@@ -69,6 +80,10 @@ def test_the_dead_line_reads_more_when_hoisting(kind: str, power: int) -> None:
     indicator, torque = sensors(make_case(rig=rig), kind, 5e5, 1e3)
     assert indicator == pytest.approx(7e5 * 0.9**power)
     assert torque == 1300.0
+
+
+def test_every_kind_has_rates_and_a_name() -> None:
+    assert set(DEFAULT_RATES) == set(OPERATION_NAMES) == set(KINDS)
 
 
 def test_documented_rates() -> None:

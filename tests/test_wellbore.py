@@ -269,6 +269,15 @@ def test_below_the_last_interval_the_hole_stays_as_it_is(geometry: str) -> None:
     np.testing.assert_allclose(walls[:, 3:6], [[0.16, 1e7, 0.1], *[[0.10795, 5e6, 0.3]] * 3])
 
 
+def test_arcs_lead_through_every_size_of_hole() -> None:
+    sizes = [(400, 0.32, 0.1), (600, 0.28, 0.2), (1000, 0.22, 0.3)]
+    intervals = [{"to_md": to_md, "diameter": diameter, "friction": friction} for to_md, diameter, friction in sizes]
+    hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry="arcs", overlap=0.2)
+    walls = hole.walls(hole.at(np.array([399.9, 400.1, 400.3, 599.9, 600.05, 600.3]))[0])
+    np.testing.assert_allclose(walls[:, 3], [0.16, 0.15, 0.14, 0.14, 0.1325, 0.11], atol=1e-9)
+    np.testing.assert_allclose(walls[:, 5], [0.1, 0.15, 0.2, 0.2, 0.225, 0.3], atol=1e-9)
+
+
 def test_arcs_without_a_shoe_change_at_once() -> None:
     intervals = [{"to_md": 500, "diameter": 0.32, "friction": 0.1}, {"to_md": 1000, "diameter": 0.22, "friction": 0.3}]
     hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry="arcs", overlap=0.0)
