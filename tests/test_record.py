@@ -137,7 +137,9 @@ def test_a_profile_has_the_means_of_its_interval(long: bool) -> None:
     # The trip makes the uppermost segment the one that is fed.
     assert recorder.run.string.long_segment
     S, top, n = recorder.run.S, recorder.run.top, recorder.run.segments
-    top[topdrive.TOP_TIME] = 2.0
+    top[[topdrive.TOP_TIME, topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 1.0, 77.0, 7.0
+    recorder.record(0)  # an interval before
+    top[topdrive.TOP_TIME] = 3.0
     for offset in (state.SUM_TENSION, state.SUM_TORQUE, state.SUM_NORMAL):
         state.row(S, offset, n)[:] = offset + np.arange(n)
     top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 400.0, 40.0
