@@ -175,6 +175,8 @@ def test_a_walk_begins_where_the_component_does() -> None:
     factor = np.where(ABOVE < 100.0, 1.0, 2.0)
     assert _walk(80.0, 160.0, 10.0, ABOVE, factor) == [(20.0, 2), (60.0, 3)]
     assert _walk(995.0, 1030.0, 10.0, ABOVE, factor) == [(35.0, 2)]
+    # A stretch of 10 m holds no segment of 20 m.
+    assert _walk(0.0, 200.0, 10.0, ABOVE, np.where(np.abs(ABOVE - 105.0) <= 5.0, 8.0, 1.0)) == [(200.0, 20)]
 
 
 def test_the_least_factor_counts_both_ends() -> None:
@@ -183,6 +185,7 @@ def test_the_least_factor_counts_both_ends() -> None:
     assert _least(1.0, 2.0, above, factor) == 3.0
     assert _least(1.0, 2.0, above, factor[::-1].copy()) == 2.0
     assert _least(9.0, 10.0, above, factor) == 1.0
+    assert _least(9.0, 10.0, above, factor[::-1].copy()) == 5.0
 
 
 def test_waves_are_those_of_each_pipe_in_its_hole() -> None:

@@ -5,7 +5,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fctd.operations import DEFAULT_RATES, MAY_TURN, MOVES, depth_range, rates_of_all, schedule, sensors
+from fctd.case import KINDS
+from fctd.errors import InputError
+from fctd.operations import (
+    DEFAULT_RATES,
+    MAY_TURN,
+    MOVES,
+    OPERATION_NAMES,
+    depth_range,
+    rates_of_all,
+    schedule,
+    sensors,
+    steady_rates,
+)
 from tests.cases import make_case, rotation, trip
 
 TURN = 2 * np.pi  # 60 rev/min [rad/s]
@@ -70,6 +82,10 @@ def test_the_dead_line_reads_more_when_hoisting(kind: str, power: int) -> None:
     assert torque == 1300.0
 
 
+def test_every_kind_has_rates_and_a_name() -> None:
+    assert set(DEFAULT_RATES) == set(OPERATION_NAMES) == set(KINDS)
+
+
 def test_documented_rates() -> None:
     assert {kind: DEFAULT_RATES[kind] for kind in DEFAULT_RATES} == {
         "trip_in": (0.3, 0.0), "trip_out": (0.3, 0.0), "rotate_off_bottom": (0.0, 60.0), "back_ream": (0.1, 60.0),
@@ -81,3 +97,30 @@ def test_documented_rates() -> None:
     found = {kind: (rate.speed, rate.spin) for kind, rate in rates.items()}
     half = pytest.approx(0.5 * TURN)
     assert found == {"trip_in": (0.7, half), "rotate_off_bottom": (0.0, half), "back_ream": (-0.7, half)}
+
+
+def test_rates_near_nothing() -> None:
+    case = make_case()
+    for kind in ("rotate_off_bottom", "back_ream", "drill_rotating", "trip_in"):
+        assert steady_rates(case, kind, rpm=0.5).spin == pytest.approx(0.5 * np.pi / 30)
+    assert steady_rates(case, "trip_out", speed=1e-4, rpm=0.0) == (-1e-4, 0.0)
+    assert steady_rates(case, "rotate_off_bottom", speed=0.0).speed == 0.0
+    assert steady_rates(case, "drill_sliding", rpm=0.0).spin == 0.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "rates", "expected"),
+    [
+        ("rotate_off_bottom", {"rpm": 0.0}, "rev/min above 0"),
+        ("back_ream", {"rpm": 0.0}, "rev/min above 0"),
+        ("trip_in", {"rpm": -0.5}, "rev/min at least 0"),
+        ("drill_sliding", {"rpm": 0.5}, "rev/min of 0"),
+        ("trip_in", {"speed": 0.0}, "a speed above 0"),
+        ("rotate_off_bottom", {"speed": 0.5}, "a speed of 0"),
+        ("trip_in", {"speed": np.inf}, "a speed above 0"),
+        ("trip_in", {"rpm": np.nan}, "rev/min at least 0"),
+    ],
+)
+def test_rates_that_are_not_of_their_kind(kind: str, rates: dict[str, float], expected: str) -> None:
+    with pytest.raises(InputError, match=f"{next(iter(rates))} = .*{expected} for {kind}"):
+        steady_rates(make_case(), kind, **rates)

@@ -10,7 +10,7 @@ from fctd import state, topdrive
 from fctd.record import Recorder, _work
 from fctd.run import forget_start, prepare
 from fctd.topdrive import Motion
-from tests.cases import make_case, pipe, trip
+from tests.cases import make_case, pipe, rotation, trip
 
 RIG = {"block_weight": 1e4, "sheave_efficiency": 0.5, "torque_offset": 50.0}
 
@@ -120,10 +120,14 @@ def test_a_profile_is_kept_where_the_bit_passes_its_depth() -> None:
         top[topdrive.TOP_TIME] += 1.0
         recorder.record(0)
         kept.append(sorted(recorder.profiles))
+    recorder.run.case = make_case(operations=[trip(1000, 990), rotation(990, 5)])
+    top[topdrive.TOP_TIME] += 1.0
+    recorder.record(1)
     # The first at once, two in one step, one within a millimetre, and the last not at all.
     assert kept == [[1.0], [1.0], [1.0, 3.0], [1.0, 3.0], [1.0, 3.0, 5.0], [1.0, 3.0, 5.0]]
     assert recorder.wanted == [990.0]
     result = recorder.result("completed", "", 1.0, 0.0)
+    assert list(result.profile["operation"].unique()) == ["trip_out", "rotate_off_bottom"]
     assert list(result.profile["bit_depth_m"].unique()) == pytest.approx([999.0, 994.0, 992.0005, 991.0])
 
 
@@ -133,7 +137,9 @@ def test_a_profile_has_the_means_of_its_interval(long: bool) -> None:
     # The trip makes the uppermost segment the one that is fed.
     assert recorder.run.string.long_segment
     S, top, n = recorder.run.S, recorder.run.top, recorder.run.segments
-    top[topdrive.TOP_TIME] = 2.0
+    top[[topdrive.TOP_TIME, topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 1.0, 77.0, 7.0
+    recorder.record(0)  # an interval before
+    top[topdrive.TOP_TIME] = 3.0
     for offset in (state.SUM_TENSION, state.SUM_TORQUE, state.SUM_NORMAL):
         state.row(S, offset, n)[:] = offset + np.arange(n)
     top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 400.0, 40.0

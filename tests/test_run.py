@@ -13,7 +13,7 @@ from fctd import Case, InputError, equilibrium, simulate, state, topdrive
 from fctd.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.layouts import graded, uniform, with_components
 from fctd.operations import Stretch, depth_range, schedule
-from fctd.run import Run, contact_points, prepare
+from fctd.run import Run, _relaxing, contact_points, prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]
@@ -231,3 +231,29 @@ def test_a_run_knows_the_pieces_its_points_lie_in() -> None:
     np.testing.assert_allclose(np.linalg.norm(np.diff(points, axis=0), axis=1), run.string.length[1:], atol=1e-9)
     walls = run.hole.walls(points)
     np.testing.assert_allclose(np.linalg.norm(walls[:, :3], axis=1), 0.0, atol=5e-3)
+
+
+def test_a_string_settles_against_its_own_weight_and_length() -> None:
+    run, _ = prepare(make_case(components=[pipe(100, 10, outer=0.15), pipe(None, 18)], operations=[rotation(1000, 1)]))
+    laws, weight = _relaxing(run)
+    by_hand = 9.80665 * 7850 * np.pi / 4 * (100 * (0.15**2 - 0.07**2) + 900 * (0.127**2 - 0.07**2))
+    assert weight == pytest.approx(by_hand)
+    assert laws == run.laws._replace(friction_scale=0.0, settling=pytest.approx(12 * np.sqrt(9.80665 / 1000)))
+
+
+@pytest.mark.parametrize(
+    ("sections", "message"),
+    [
+        (
+            {"operations": [trip(900, 950), {"kind": "drill_sliding", "from_md": 950, "to_md": 960, "speed": 0.01}]},
+            r"operations\[1\]\.kind = \"drill_sliding\": expected an operation off bottom",
+        ),
+        (
+            {"components": [pipe(100, 4), pipe(900, 9, bend=0.02)], "operations": [rotation(1000, 1)]},
+            r"string\.components\[1\]\.bend = \"0\.02 rad\": expected no bend",
+        ),
+    ],
+)
+def test_what_only_the_steady_solver_knows_is_refused(sections: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        prepare(make_case(**sections))

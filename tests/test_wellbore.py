@@ -291,6 +291,26 @@ def test_below_the_last_interval_the_hole_stays_as_it_is(geometry: str) -> None:
     np.testing.assert_allclose(walls[:, 3:6], [[0.16, 1e7, 0.1], *[[0.10795, 5e6, 0.3]] * 3])
 
 
+def test_arcs_lead_through_every_size_of_hole() -> None:
+    sizes = [(400, 0.32, 0.1), (600, 0.28, 0.2), (1000, 0.22, 0.3)]
+    intervals = [{"to_md": to_md, "diameter": diameter, "friction": friction} for to_md, diameter, friction in sizes]
+    hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry="arcs", overlap=0.2)
+    walls = hole.walls(hole.at(np.array([399.9, 400.1, 400.3, 599.9, 600.05, 600.3]))[0])
+    np.testing.assert_allclose(walls[:, 3], [0.16, 0.15, 0.14, 0.14, 0.1325, 0.11], atol=1e-9)
+    np.testing.assert_allclose(walls[:, 5], [0.1, 0.15, 0.2, 0.2, 0.225, 0.3], atol=1e-9)
+
+
+def test_arcs_without_a_shoe_change_at_once() -> None:
+    intervals = [{"to_md": 500, "diameter": 0.32, "friction": 0.1}, {"to_md": 1000, "diameter": 0.22, "friction": 0.3}]
+    hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry="arcs", overlap=0.0)
+    walls = hole.walls(hole.at(np.array([499.99, 500.01]))[0])
+    np.testing.assert_allclose(walls[:, [3, 5]], [[0.16, 0.1], [0.11, 0.3]])
+
+
+def test_cylinders_of_straight_hole_are_no_longer_than_thirty_metres() -> None:
+    np.testing.assert_allclose(np.diff(hole_of([[0, 0, 0], [1000, 0, 0]]).md), 1000 / 34)
+
+
 def test_the_wall_along_the_hole_by_hand() -> None:
     """A row at each interval's end and one at the end of the shoe that leads into the next."""
     intervals = [
@@ -306,6 +326,10 @@ def test_the_wall_along_the_hole_by_hand() -> None:
         [500.3, 0.11, 1e7, 0.3],
     ]
     np.testing.assert_allclose(hole.wall_along(), expected)
+    intervals[1]["to_md"] = 700
+    hole = hole_of([[0, 0, 0], [1000, 0, 0]], intervals=intervals, overlap=0.2)
+    np.testing.assert_allclose(hole.wall_along()[:, 0], [500, 500.2, 700, 700.2])
+    np.testing.assert_allclose(hole.wall_along()[:, 1], [0.16, 0.15, 0.15, 0.11])
     alone = hole_of([[0, 0, 0], [1000, 0, 0]])
     np.testing.assert_allclose(alone.wall_along(), [[1000, 0.10795, 1e7, 0.2]])
     alone.wall_along()[:] = 0.0
