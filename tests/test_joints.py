@@ -12,19 +12,29 @@ from fctd import joints, state
 from tests.bodies import FORCE, GLOBAL_SPIN, ON_LOWER, ON_UPPER, PLACE, VELOCITY, at, place, put
 
 STIFFNESS = {state.K_AXIAL: 4e7, state.K_SHEAR: 9e6, state.K_BEND: 4e4, state.K_TWIST: 3e4}
+ABOVE, BELOW = 5.0, 4.0  # from the centres of the upper and of the lower body to their joint [m]
 small = st.floats(-1, 1)
 vector = st.tuples(small, small, small)
 
 
+def between_centres(upper: Rotation, lower: Rotation, gap: np.ndarray) -> np.ndarray:
+    """From the centre of the upper to that of the lower body [m]."""
+    return ABOVE * upper.apply([0, 0, 1]) + gap + BELOW * lower.apply([0, 0, 1])
+
+
 def pair(upper: Rotation, lower: Rotation, gap: np.ndarray) -> np.ndarray:
-    """Two bodies of 10 m whose hinge points are ``gap`` apart; the upper one is column 1, joint is 2."""
+    """Two bodies whose hinge points are ``gap`` apart, all arms different; the upper one is column 1, joint is 2."""
     S = state.new_state(2)
     place(S, 1, upper, np.zeros(3))
-    offset = 5 * upper.apply([0, 0, 1]) + gap + 5 * lower.apply([0, 0, 1])
-    place(S, 2, lower, offset)
+    place(S, 2, lower, between_centres(upper, lower, gap))
     for row, value in STIFFNESS.items():
         S[row + 2] = value
-    S[state.ARM_TOP + 1 : state.ARM_TOP + 3] = S[state.ARM_BOTTOM + 1 : state.ARM_BOTTOM + 3] = 5.0
+    S[state.ARM_TOP + 1], S[state.ARM_BOTTOM + 1], S[state.ARM_TOP + 2], S[state.ARM_BOTTOM + 2] = (
+        3.0,
+        ABOVE,
+        BELOW,
+        6.0,
+    )
     return S
 
 
@@ -84,16 +94,13 @@ def test_a_closed_path_does_no_work() -> None:
         lower = Rotation.from_rotvec([0.3 * math.sin(a), 0.25 * math.cos(b), 0.4 * math.sin(a)])
         return upper, lower, np.array([2e-3 * math.sin(a), 1e-3 * math.cos(b), 1e-3 * math.sin(b)])
 
-    def between(upper: Rotation, lower: Rotation, gap: np.ndarray) -> np.ndarray:
-        return 5 * upper.apply([0, 0, 1]) + gap + 5 * lower.apply([0, 0, 1])
-
     def power(t: float) -> tuple[float, float]:
         h = 1e-6
         (u0, l0, _), (u1, l1, _) = before, after = pose(t - h), pose(t + h)
         force, on_upper, on_lower = loads(pair(*pose(t)))
         spin_upper = (u1 * u0.inv()).as_rotvec() / (2 * h)
         spin_lower = (l1 * l0.inv()).as_rotvec() / (2 * h)
-        stretched = (between(*after) - between(*before)) / (2 * h)
+        stretched = (between_centres(*after) - between_centres(*before)) / (2 * h)
         parts = force @ stretched, on_upper @ spin_upper, on_lower @ spin_lower
         return sum(parts), sum(abs(p) for p in parts)
 
@@ -156,7 +163,7 @@ def test_each_damper_is_its_stiffness_by_the_damping_time(motion: str, rows: tup
     S, way = pair(upper, upper, np.zeros(3)), upper.apply([0, 0, 1] if motion in ("pulled", "turned") else [1, 0, 0])
     # Bending about the middle of the gap: the centres move with it.
     if motion == "bent":
-        put(S, 2, VELOCITY, np.cross(0.3 * way, 5 * upper.apply([0, 0, 1])))
+        put(S, 2, VELOCITY, np.cross(0.3 * way, BELOW * upper.apply([0, 0, 1])))
     put(S, 2, rows, 0.3 * way)
     time, dt = 1e-3, 0.5
     joints.update_joint_loads(S, 2, time, dt)
