@@ -24,9 +24,10 @@ from fctd.errors import InputError
 from fctd.input_file import check_regular
 from fctd.notes import Note, as_metadata
 from fctd.whole_file import check_file, left_overs, whole_file
-from fctd.whole_folder import LOOKS, PAUSE, check_folder, repair, whole_folder
+from fctd.whole_folder import PAUSE, check_folder, repair, whole_folder
 
 TABLES = ("history", "profile", "energy")
+LOOKS = 20  # at a folder that another process may just be replacing
 
 
 @dataclass(frozen=True)

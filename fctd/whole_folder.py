@@ -22,7 +22,7 @@ Own = Callable[[Path], Collection[str]]
 
 
 # How often a folder is looked for that another process swaps, and how long in between [s].
-LOOKS, PAUSE = 20, 0.05
+LOOKS, PAUSE = 100, 0.01
 
 
 @contextmanager
