@@ -11,11 +11,13 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import pytest
 from numba.core.dispatcher import Dispatcher
+from rich.console import Console
 
 import fctd
 from fctd import compile_cache, jit
@@ -23,11 +25,11 @@ from fctd.cli_compile import compile_command, listening, telling
 from fctd.compile_cache import CompileCacheWarning, Store, open_store
 
 
-def twice(x):  # type: ignore[no-untyped-def]
+def twice(x):
     return 2 * x
 
 
-def thrice(x):  # type: ignore[no-untyped-def]
+def thrice(x):
     return 3 * x
 
 
@@ -270,6 +272,17 @@ def test_listening_names_what_is_compiled(folder: Path) -> None:
         hits(twice, 3.0)
         hits(thrice, 4.5)
     assert names == ["thrice"]
+
+
+def test_a_first_run_says_once_why_it_waits(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = StringIO()
+    monkeypatch.setattr("fctd.cli_compile.messages", Console(file=seen, force_terminal=True))
+    with telling():
+        assert hits(twice, 3.0) == 1
+        assert seen.getvalue() == ""
+        hits(thrice, 4.5)
+        hits(lambda x: x, 1.5)
+    assert seen.getvalue().count("compiling, once for this version") == 1
 
 
 def test_a_command_says_plainly_what_is_wrong_with_the_cache(capsys: pytest.CaptureFixture[str]) -> None:
