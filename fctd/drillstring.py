@@ -21,6 +21,8 @@ LONG_SEGMENT_TILT = np.radians(1.0)
 SHORTEST_LONG_SEGMENT = 10.0
 # A layout is the string it stands for when no length is off by more [m].
 SAME_LENGTH = 1e-6
+# The stiffness of a joint goes with the third power of 1/length: this one leaves numbers that can be computed with [m].
+SHORTEST_SEGMENT = 1e-6
 
 
 class Section(NamedTuple):
@@ -254,8 +256,15 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
 def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> None:
     """Raise InputError when the string is wider than the hole it passes, or its long segment is not upright.
 
-    deepest : greatest bit depth of the run [m].
+    So it does for a segment too short to compute with.  deepest : greatest bit depth of the run [m].
     """
+    shortest = int(np.argmin(string.length))
+    if string.length[shortest] < SHORTEST_SEGMENT:
+        raise InputError(
+            f"segments of at least {SHORTEST_SEGMENT:g} m",
+            key=f"string.components[{int(string.component[shortest])}]",
+            value=f"{string.length[shortest]:.3g} m of it in one segment",
+        )
     grown = string.lengthened(deepest - string.bit_depth) if string.long_segment else string
     bottom = grown.top_md + np.cumsum(grown.length)
     top = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]])

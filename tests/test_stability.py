@@ -17,7 +17,15 @@ def test_a_step_at_the_limit_is_at_the_limit(frequency: float, damping: float) -
 
 
 def test_a_string_too_stiff_to_step_is_refused() -> None:
-    """Twenty segments in a fifth of a nanometre: what is left out of a run, never a division by zero."""
-    case = make_case(components=[pipe(2e-10, 20), pipe(None, 40)], operations=[rotation(900.0, 10.0)])
+    """Twenty segments in a fifth of a millimetre: a run of more steps than anybody waits for."""
+    case = make_case(components=[pipe(2e-4, 20), pipe(None, 40)], operations=[rotation(900.0, 10.0)])
     with pytest.raises(InputError, match="that need at most"):
+        prepare(case)
+
+
+@pytest.mark.parametrize(("length", "depth"), [(2e-10, 900.0), (10.0, 1e-300)])
+def test_segments_too_short_to_compute_with_are_refused(length: float, depth: float) -> None:
+    """A step of 0 s, and stiffnesses that no float holds."""
+    case = make_case(components=[pipe(length, 20), pipe(None, 40)], operations=[rotation(depth, 10.0)])
+    with pytest.raises(InputError, match="segments of at least 1e-06 m"):
         prepare(case)
