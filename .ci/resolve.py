@@ -28,23 +28,28 @@ def environment(python: str) -> Environment:
     return here
 
 
+def pins(lock: str) -> list[str]:
+    """The lines of a lock without its comments."""
+    lines = (line.partition("#")[0].strip() for line in lock.splitlines())
+    return [line for line in lines if line]
+
+
 def wanted(lock: str, python: str) -> list[Requirement]:
     """Requirements of a lock that hold for a Python; pip itself would judge their markers by the Python it runs on."""
-    lines = (line.partition("#")[0].strip() for line in lock.splitlines())
-    found = [Requirement(line) for line in lines if line]
+    found = [Requirement(line) for line in pins(lock)]
     return [each for each in found if each.marker is None or each.marker.evaluate(environment(python))]
 
 
 def unmet(packages: list[dict[str, Any]], locked: list[Requirement], python: str) -> list[str]:
     """What packages, as in pip's report, need on a Python and the lock does not hold."""
-    pins = {canonicalize_name(each.name): each for each in locked}
+    by_name = {canonicalize_name(each.name): each for each in locked}
     missing = []
     for package in packages:
         for text in package["metadata"].get("requires_dist", []):
             need = Requirement(text)
             if need.marker is not None and not need.marker.evaluate({**environment(python), "extra": ""}):
                 continue
-            pin = pins.get(canonicalize_name(need.name))
+            pin = by_name.get(canonicalize_name(need.name))
             if pin is None or not need.specifier.contains(next(iter(pin.specifier)).version, prereleases=True):
                 missing.append(f"{package['metadata']['name']} needs {need}, the lock has {pin or 'none'}")
     return missing
@@ -68,13 +73,14 @@ def resolve(lock: str, python: str) -> list[str]:
 
 def main() -> int:
     """Exit code: 0 when the lock resolves, 1 when it does not."""
-    now = hashlib.sha256(LOCK.read_bytes() + ",".join(PYTHONS).encode()).hexdigest()
+    lock = LOCK.read_text()
+    now = hashlib.sha256("\n".join([*PYTHONS, *pins(lock)]).encode()).hexdigest()
     if RECORD.is_file() and RECORD.read_text().strip() == now:
         print(f"{LOCK.name}: resolved before for Python {', '.join(PYTHONS)}")
         return 0
     failures = []
     for python in PYTHONS:
-        found = resolve(LOCK.read_text(), python)
+        found = resolve(lock, python)
         print(f"{LOCK.name}: Python {python}: {'; '.join(found) or 'resolves'}", flush=True)
         failures += found
     if failures:

@@ -5,8 +5,9 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from benchmarks.records import COMPILED, describe, time_steps
 from benchmarks.strings import LEAD, chain, hanging
-from references import base, engines
+from references import engines
 from references.free_bodies import FreeBodies
+from references.packages import absent
 from references.workloads import moving
 
 # Steps a round.
@@ -26,7 +27,7 @@ ENTRIES = [
 def bench_engine(benchmark: BenchmarkFixture, name: str, state: str) -> None:
     """60 segments of the curved chain turning, or hanging in the open; readings for our checks are off."""
     if engines.installed_version(name) is None:
-        pytest.skip(base.absent(engines.engine_class(name).distribution))
+        pytest.skip(absent(engines.engine_class(name).distribution))
     case = hanging() if state == "contact-free" else chain()
     run, motion = moving(case, 0.0 if name == "mujoco_chain" else LEAD)
     stepper = engines.build(name).begin(run)

@@ -15,6 +15,7 @@ from benchmarks.records import describe
 from benchmarks.strings import CASES, chain
 from references import base, engines
 from references.footprint import footprint
+from references.packages import absent
 
 PEAK = "import resource; peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024\n"
 RUN = """
@@ -62,7 +63,7 @@ def bench_run_memory(benchmark: BenchmarkFixture, segments: int) -> None:
 def bench_method_memory(benchmark: BenchmarkFixture, name: str) -> None:
     """A contact method for the hole of the curved chain."""
     if base.installed_version(name) is None:
-        pytest.skip(base.absent(base.method_class(name).distribution))
+        pytest.skip(absent(base.method_class(name).distribution))
     describe(benchmark, "memory", method=name)
     growth, seconds = benchmark.pedantic(footprint, args=(name, chain()), rounds=1)
     benchmark.extra_info |= {"growth_MB": growth, "build_s": seconds}
@@ -72,7 +73,7 @@ def bench_method_memory(benchmark: BenchmarkFixture, name: str) -> None:
 def bench_engine_memory(benchmark: BenchmarkFixture, name: str) -> None:
     """An engine with the curved chain in it, 60 segments, after a step."""
     if engines.installed_version(name) is None:
-        pytest.skip(base.absent(engines.engine_class(name).distribution))
+        pytest.skip(absent(engines.engine_class(name).distribution))
     describe(benchmark, "memory", engine=name)
     answer = "{'growth_MB': growth}"
     benchmark.extra_info |= benchmark.pedantic(process, args=(ENGINE.format(name=name), answer), rounds=1)

@@ -16,6 +16,7 @@ from benchmarks.strings import LEAD, chain
 from fctd import build_wellbore, find_contacts
 from fctd.query import query_walls
 from references import base
+from references.packages import absent
 from references.workloads import find_walls, moving
 
 POINTS, RADIUS = 240, 0.051
@@ -52,7 +53,7 @@ def note_cost(benchmark: BenchmarkFixture, points: int) -> None:
 def bench_query_from_python(benchmark: BenchmarkFixture, name: str) -> None:
     """One call for all points."""
     if base.installed_version(name) is None:
-        pytest.skip(base.absent(base.method_class(name).distribution))
+        pytest.skip(absent(base.method_class(name).distribution))
     method, points = base.build(name, chain()), points_beside(POINTS)
     radii = np.full(POINTS, RADIUS)
     describe(benchmark, "query from Python", points=POINTS, pieces=method.pieces)

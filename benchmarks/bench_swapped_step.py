@@ -7,6 +7,7 @@ from benchmarks.records import describe, time_steps
 from benchmarks.strings import LEAD, chain
 from fctd.energy import energy_of
 from references import base
+from references.packages import absent
 from references.workloads import NoWall, asking, energy_error, moving, without_wall
 
 # Steps a round: our own methods cost some hundred nanoseconds a point, libraries some ten microseconds or more.
@@ -17,7 +18,7 @@ OWN, OTHERS = 300, 15
 def bench_swapped_step(benchmark: BenchmarkFixture, name: str) -> None:
     """60 segments turning; ``no contact`` asks and finds nothing, the hole taken away."""
     if name != "no contact" and base.installed_version(name) is None:
-        pytest.skip(base.absent(base.method_class(name).distribution))
+        pytest.skip(absent(base.method_class(name).distribution))
     start, motion = moving(chain(), LEAD)
     own = name == "no contact" or base.method_class(name).distribution == "fctd"
     run = asking(without_wall(start), NoWall()) if name == "no contact" else asking(start, base.build(name, start.case))

@@ -10,6 +10,7 @@ from fctd.cli import run, simulate_file
 from fctd.cli_options import CaseFile, Csv, Friction, Out, Overrides, Quiet, screen
 from fctd.errors import InputError
 from references import base, engines
+from references.packages import absent
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -35,7 +36,7 @@ def list_command() -> None:
     missing = [described.distribution for described, version in methods.values() if version is None]
     missing += [described.distribution for described, version in others.values() if version is None]
     for distribution in dict.fromkeys(missing):
-        screen.print(f"Package {base.absent(distribution)}.")
+        screen.print(f"Package {absent(distribution)}.")
 
 
 @app.command("simulate")

@@ -5,7 +5,6 @@ loop and the studies can swap them; what can be set is in the method's own ``Opt
 """
 
 import importlib
-import sys
 from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, ClassVar, Protocol
@@ -17,6 +16,7 @@ from pydantic import ValidationError
 from fctd.case import Case
 from fctd.errors import InputError, Table, explain, nearest
 from fctd.wellbore import Contacts
+from references.packages import absent
 
 Array = NDArray[np.float64]
 
@@ -30,10 +30,6 @@ METHODS: dict[str, str] = {
     "mujoco": "references.contact_mujoco:MuJoCo",
     "trimesh": "references.contact_trimesh:TriMesh",
 }
-
-
-# The first Python that pybullet has no wheels for.
-NO_PYBULLET = (3, 12)
 
 
 class ContactMethod(Protocol):
@@ -110,15 +106,6 @@ def import_or_tell(module: str, distribution: str, wanted_for: str, key: str = "
         if error.name is None or error.name.partition(".")[0] != module.partition(".")[0]:
             raise
         raise InputError(f"package {absent(distribution)}", key=key, value=wanted_for) from None
-
-
-def absent(distribution: str) -> str:
-    """That a package is not installed, and how to have it."""
-    if distribution == "pybullet" and sys.version_info >= NO_PYBULLET:
-        how = "it has no wheels for Python 3.12 and later: run on Python 3.11, or build it by 'make bullet'"
-    else:
-        how = "it is part of the extra 'suite'"
-    return f"{distribution}, which is not installed ({how})"
 
 
 def installed_version(name: str) -> str | None:

@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 
 # Error of the triangles over the clearance of the string, at most: beyond it the string lies in the wrong hole.
 MOST_WRONG = 0.5
+# How far facets cut through an arc [m]: about as little as across a hole.  A string handed over on the arc is pressed
+# into them by that much; 2 mm of a wall of 1e7 N/m hold a tenth of what the curved chain turns over in half a second.
+CHORD = 5e-4
 # A contact point faster than this slides [m/s]; friction against that, over μN, below which the loads need a note.
 SLIDING, LEAST_SHARE = 1e-2, 0.98
 
@@ -50,10 +53,10 @@ class Bodies(Protocol):
 
 
 class FreeBodyOptions(StepOptions, TubeOptions):
-    """Step, and the tube: cylinders as they are, arcs by chords within the tolerance [m] of a case's cylinders."""
+    """Step, and the tube: cylinders as they are, arcs by chords within the tolerance [m]."""
 
     ring_spacing: units.PositiveLength = LONGEST_CYLINDER
-    chord_tolerance: units.PositiveLength | None = 2e-3
+    chord_tolerance: units.PositiveLength | None = CHORD
 
 
 def tube_of(run: Run, options: FreeBodyOptions) -> Tube | None:

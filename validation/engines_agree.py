@@ -371,7 +371,7 @@ def notes(missing: list[str]) -> list[str]:
         "coordinates, whose friction follows the sliding but whose second direction holds a μN of its own. The note of "
         "a row says how much of μN stands against the sliding, measured on its own contacts, where it is below 98 %.",
         "The S-shaped well was added after the engines had been set, with nothing changed since. In arcs the tube of "
-        "Bullet and MuJoCo has rings by a chord tolerance of 2 mm; with rings at the ends of the arcs alone, as "
+        "Bullet and MuJoCo has rings by a chord tolerance of 0.5 mm; with rings at the ends of the arcs alone, as "
         "before, it cut through the bends and the string left it within 0.2 s.",
         "MuJoCo's default cone is a pyramid along fixed directions and pulls aside by as much; its fair one is "
         "elliptic. Its friction is a soft constraint, and a wall as stiff as the case's chatters.",

@@ -6,6 +6,7 @@ import pytest
 from fctd.errors import InputError
 from fctd.wellbore import build_wellbore, find_contacts
 from references import base
+from references.packages import absent
 from references.tube_mesh import curvature_at
 from validation.cases import load
 
@@ -28,7 +29,7 @@ def method(request: pytest.FixtureRequest) -> base.ContactMethod:
     """A method built for the case; skipped by name where its package is missing."""
     key, (name, options) = request.param
     if base.installed_version(name) is None:
-        pytest.skip(f"package {base.absent(base.method_class(name).distribution)}")
+        pytest.skip(f"package {absent(base.method_class(name).distribution)}")
     if key not in BUILT:
         BUILT[key] = base.build(name, CASE, **options)
     return BUILT[key]
@@ -75,7 +76,7 @@ def test_the_exact_tube_within_the_geometric_error(method: base.ContactMethod, r
 def test_bends_of_hundreds_of_metres_between_two_stations(name: str, geometry: str) -> None:
     """A course is one arc or many cylinders; a mesh has rings enough within either."""
     if base.installed_version(name) is None:
-        pytest.skip(f"package {base.absent(base.method_class(name).distribution)}")
+        pytest.skip(f"package {absent(base.method_class(name).distribution)}")
     case, exact = load("s_shape", wellbore__geometry=geometry), build_wellbore(load("s_shape"))
     rng, n = np.random.default_rng(3), 200
     md, angle = rng.uniform(1, 519, n), rng.uniform(0, 2 * np.pi, n)
@@ -192,7 +193,7 @@ def test_every_name_of_the_registry_is_the_class_it_says(name: str) -> None:
 )
 def test_bad_options_are_told(name: str, options: dict, expected: str) -> None:
     if name in base.METHODS and base.installed_version(name) is None:
-        pytest.skip(f"package {base.absent(base.method_class(name).distribution)}")
+        pytest.skip(f"package {absent(base.method_class(name).distribution)}")
     with pytest.raises(InputError) as told:
         base.build(name, CASE, **options)
     assert expected in str(told.value)

@@ -13,13 +13,14 @@ import pytest
 from fctd import Case, InputError, state, topdrive
 from fctd.energy import Energy, energy_of
 from fctd.run import Run, prepare
-from references import base, engines
+from references import engines, packages
 from references.best_step import best_step, ladder
 from references.engine_checks import axial_period, drift, energy_error
 from references.engine_fctd import Fctd
 from references.engine_run import begin_run, run_window
 from references.engines import EngineRun, Window
 from references.friction_law import lean_of_two_directions, sliding
+from references.packages import absent
 from validation.cases import load
 from validation.study import left_out
 
@@ -33,7 +34,7 @@ CONTACT = ("bullet", "mujoco", "elastica")
 def needs(name: str) -> None:
     """Skip, by name, a test of an engine whose package is missing."""
     if engines.installed_version(name) is None:
-        pytest.skip(f"package {base.absent(engines.engine_class(name).distribution)}")
+        pytest.skip(f"package {absent(engines.engine_class(name).distribution)}")
 
 
 @pytest.fixture(autouse=True)
@@ -388,7 +389,7 @@ def test_a_missing_package_is_named(name: str, module: str, monkeypatch: pytest.
 
 def test_pybullet_is_to_be_had_in_two_ways_where_it_has_no_wheels(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pybullet", None)
-    monkeypatch.setattr(base, "NO_PYBULLET", sys.version_info[:2])
+    monkeypatch.setattr(packages, "NO_PYBULLET", sys.version_info[:2])
     with pytest.raises(InputError, match=r"run on Python 3\.11, or build it by 'make bullet'"):
         engines.build("bullet")
     (note,) = left_out(["Bullet"])
