@@ -64,7 +64,7 @@ def test_a_command_without_results_ends_without_files(
     command: str, number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
-    def settle(*_: object) -> None:
+    def settle(*_: object, **more: object) -> None:
         os.kill(os.getpid(), number)
 
     options = {
