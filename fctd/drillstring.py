@@ -289,6 +289,8 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
             )
 
 
+# Absurd masses and stiffnesses overflow here; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
+@np.errstate(divide="ignore", over="ignore", invalid="ignore")
 def fill(S: Array, string: String, case: Case) -> PerMetre:
     """Write the string into a fresh buffer; returns the pipe fed at the top."""
     n, length = string.segments, string.length

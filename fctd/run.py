@@ -189,13 +189,27 @@ def _check_dynamic(case: Case) -> None:
 
 
 def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float) -> float:
-    """Largest stable step of the run [s]; the top segment is stiffest where it is shortest."""
+    """Largest stable step of the run [s]; the top segment is stiffest where it is shortest.
+
+    Raises InputError for masses and stiffnesses that are out of all proportion.
+    """
     spin = max(rad_per_s(o.rpm) for o in case.operations)
     probe = S.copy()
     if string.long_segment:
         topdrive.set_long_segment(probe, string.length[0] + shrinks, pipe)
     wall = hole.stiffest_wall if case.contact.enabled else 0.0
-    return stable_step(stiffest_mode(probe, string.segments, wall), case.solver.joint_damping, spin)
+    try:
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+            frequency = stiffest_mode(probe, string.segments, wall)
+    except np.linalg.LinAlgError:
+        frequency = np.inf
+    if not 0 < frequency < np.inf:
+        raise InputError(
+            "masses and stiffnesses with which a stable step can be computed",
+            key="string.components",
+            value=f"a stiffest mode of {frequency:g} rad/s",
+        )
+    return stable_step(frequency, case.solver.joint_damping, spin)
 
 
 def contact_points(S: Array, n: int) -> Array:

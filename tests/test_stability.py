@@ -2,7 +2,7 @@
 
 import pytest
 
-from fctd import InputError
+from fctd import InputError, equilibrium
 from fctd.run import prepare
 from fctd.stability import stable_step
 from tests.cases import make_case, pipe, rotation
@@ -29,3 +29,14 @@ def test_segments_too_short_to_compute_with_are_refused(length: float, depth: fl
     case = make_case(components=[pipe(length, 20), pipe(None, 40)], operations=[rotation(depth, 10.0)])
     with pytest.raises(InputError, match="segments of at least 1e-06 m"):
         prepare(case)
+
+
+@pytest.mark.parametrize(
+    ("absurd", "status"), [({"density": 5e-324}, "converged"), ({"youngs_modulus": 1e300}, "not_finite")]
+)
+def test_masses_and_stiffnesses_out_of_proportion_are_refused(absurd: dict[str, float], status: str) -> None:
+    """A weightless string can lie still, but not be stepped."""
+    case = make_case(components=[pipe(1000, 20, **absurd)], operations=[rotation(900.0, 10.0)])
+    with pytest.raises(InputError, match=r"stable step can be computed|that need at most"):
+        prepare(case)
+    assert equilibrium(case, "rotate_off_bottom", 900.0).status == status
