@@ -27,7 +27,9 @@ FOREIGN = {"notes.txt": "mine", "sub/deep.txt": "also mine", "energy.csv.bak": "
 def result(value: float) -> SimulationResult:
     """A result all of whose tables hold one value."""
     frame = pd.DataFrame({"value": [value]})
-    return SimulationResult(make_case(), "completed", "", frame, frame, frame, {"segments": 1}, identity=f"run {value:g}")
+    return SimulationResult(
+        make_case(), "completed", "", frame, frame, frame, {"segments": 1}, identity=f"run {value:g}"
+    )
 
 
 def earlier(folder: Path) -> None:

@@ -139,7 +139,7 @@ RULES: list[tuple[str, Any, str]] = [
     ("operations[0].speed", None, "a speed such as '0.5 m/s'"),
     ("operations[0].speed", "11 m/s", "a speed above 0 and at most 10 m/s"),
     ("operations[0].rpm", -1, "a bare number of rev/min at least 0 and at most 1000"),
-    ("operations[1].rpm", 1001, "a bare number of rev/min above 0 and at most 1000"),
+    ("operations[1].rpm", 10001, "a bare number of rev/min above 0 and at most 10000"),
     ("operations[0].rpm", "60 rpm", "a bare number of rev/min"),
     ("operations[0].ramp_time", 0, "a time above 0"),
     ("operations[0].duration", "9 s", "of trip_in"),

@@ -263,8 +263,8 @@ def test_rates_are_the_callers_then_the_cases_then_the_defaults() -> None:
         ({"speed": "0.2 m/s"}, 'speed = "0.2 m/s": expected a number of metres per second'),
         ({"rpm": "60"}, 'rpm = "60": expected a number of revolutions per minute'),
         (
-            {"operation": "trip_in", "rpm": 1e4},
-            "rpm = 10000.0: expected rev/min at least 0 and at most 1000 for trip_in",
+            {"operation": "trip_in", "rpm": 1e5},
+            "rpm = 100000.0: expected rev/min at least 0 and at most 10000 for trip_in",
         ),
         ({"operation": "trip_in", "speed": 1e5}, "speed = 100000.0: expected a speed above 0 and at most 10 m/s"),
     ],

@@ -32,7 +32,17 @@ def test_a_result_is_a_table_per_file_with_its_case(csv: bool, tmp_path: Path) -
         if csv:
             pd.testing.assert_frame_equal(pd.read_csv(tmp_path / f"{name}.csv"), frame)
         kept = pq.read_schema(tmp_path / f"{name}.parquet").metadata
-        assert set(kept) == {b"pandas", b"case", b"status", b"message", b"run", b"versions", b"notes", b"identity", b"csv"}
+        assert set(kept) == {
+            b"pandas",
+            b"case",
+            b"status",
+            b"message",
+            b"run",
+            b"versions",
+            b"notes",
+            b"identity",
+            b"csv",
+        }
         assert type(case).model_validate_json(kept[b"case"]) == case
         assert (kept[b"status"], kept[b"message"]) == (b"completed", b"a word")  # texts as they are
         assert json.loads(kept[b"run"]) == {"steps": 7, "step_s": 0.5}
