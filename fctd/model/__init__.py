@@ -1,0 +1,1 @@
+"""What a case describes: survey, wellbore, drill string and operations, ready for the mechanics."""

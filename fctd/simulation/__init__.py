@@ -1,0 +1,1 @@
+"""The string in time: settle, step through the schedule, record."""

@@ -1,0 +1,1 @@
+"""The string at rest in its motion: root finding, charts, and the choice of segments."""

@@ -1,0 +1,1 @@
+"""The soft string: integrated, in closed form, and as torsion springs with dry friction."""

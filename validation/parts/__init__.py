@@ -1,0 +1,1 @@
+"""What several studies share, or one study is too long to hold."""
