@@ -9,9 +9,9 @@ import typer
 
 from benchmarks import history, instructions, measure, tables
 from benchmarks.gate import gate
-from fctd.cli import run
-from fctd.cli_options import FAILED, messages, screen
-from fctd.errors import InputError
+from fctd.case.errors import InputError
+from fctd.cli.main import run
+from fctd.cli.options import FAILED, messages, screen
 
 PROCESSES = 6  # of a record
 

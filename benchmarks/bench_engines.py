@@ -6,9 +6,9 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from benchmarks.records import COMPILED, describe, time_steps
 from benchmarks.strings import LEAD, chain, hanging
 from references import engines
-from references.free_bodies import FreeBodies
+from references.engines.free_bodies import FreeBodies
 from references.packages import absent
-from references.workloads import moving
+from references.timing.workloads import moving
 
 # Steps a round.
 STEPS = {"fctd": COMPILED // 60, "bullet": 10, "mujoco": 10, "mujoco_chain": 10, "elastica": 200}

@@ -5,8 +5,8 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from benchmarks.records import COMPILED, describe
 from benchmarks.strings import LEAD, chain
-from fctd.joints import update_joint_loads
-from references.workloads import moving
+from fctd.mechanics.joints import update_joint_loads
+from references.timing.workloads import moving
 
 JOINTS = 64
 

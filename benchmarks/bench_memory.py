@@ -13,15 +13,15 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from benchmarks.records import describe
 from benchmarks.strings import CASES, chain
-from references import base, engines
-from references.footprint import footprint
+from references import contact, engines
 from references.packages import absent
+from references.timing.footprint import footprint
 
 PEAK = "import resource; peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024\n"
 RUN = """
 import json
 from benchmarks.strings import chain
-from fctd.run import prepare
+from fctd.simulation.run import prepare
 run, stretches = prepare(chain({segments}))
 run.advance(stretches[0].motion, run.step)
 arrays = [run.S, run.top, run.owner, run.hole.pieces]
@@ -30,8 +30,8 @@ ENGINE = """
 import json
 from benchmarks.strings import chain
 from references import engines
-from references.footprint import resident
-from references.workloads import moving
+from references.timing.footprint import resident
+from references.timing.workloads import moving
 start, motion = moving(chain(), 1.0)
 engine = engines.build("{name}")
 before = resident()
@@ -59,11 +59,11 @@ def bench_run_memory(benchmark: BenchmarkFixture, segments: int) -> None:
     benchmark.extra_info |= benchmark.pedantic(process, args=(RUN.format(segments=segments), answer), rounds=1)
 
 
-@pytest.mark.parametrize("name", base.METHODS)
+@pytest.mark.parametrize("name", contact.METHODS)
 def bench_method_memory(benchmark: BenchmarkFixture, name: str) -> None:
     """A contact method for the hole of the curved chain."""
-    if base.installed_version(name) is None:
-        pytest.skip(absent(base.method_class(name).distribution))
+    if contact.installed_version(name) is None:
+        pytest.skip(absent(contact.method_class(name).distribution))
     describe(benchmark, "memory", method=name)
     growth, seconds = benchmark.pedantic(footprint, args=(name, chain()), rounds=1)
     benchmark.extra_info |= {"growth_MB": growth, "build_s": seconds}

@@ -12,12 +12,13 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from benchmarks.records import describe
 from benchmarks.strings import OPEN, trip
-from fctd import Case, simulate, topdrive
-from fctd.run import Run
-from fctd.topdrive import Motion
-from references import base, engines
-from references.free_bodies import FreeBodies
-from references.workloads import asking, copy_of, moving
+from fctd import Case, simulate
+from fctd.mechanics import topdrive
+from fctd.mechanics.topdrive import Motion
+from fctd.simulation.run import Run
+from references import contact, engines
+from references.engines.free_bodies import FreeBodies
+from references.timing.workloads import asking, copy_of, moving
 
 WINDOW = 0.1  # [s]
 # How the others are run: contact methods in FCTD's loop, engines whole.
@@ -68,14 +69,14 @@ def bench_fctd(benchmark: BenchmarkFixture, name: str) -> None:
 @pytest.mark.parametrize(("name", "engine"), ENTRIES)
 def bench_others(benchmark: BenchmarkFixture, name: str, engine: str) -> None:
     """A window; its hook load is held against FCTD's over the same time."""
-    registry = base if engine in SWAPPED else engines
+    registry = contact if engine in SWAPPED else engines
     if registry.installed_version(engine) is None:
         pytest.skip(f"the package of {engine} is not installed")
     start, motion, whole = halfway(name)
     own = copy_of(start)
     truth = hookload_over(lambda span: own.advance(motion, span), own, WINDOW)
     if engine in SWAPPED:
-        run = asking(start, base.build(engine, start.case))
+        run = asking(start, contact.build(engine, start.case))
         stepper: Any = engines.build("fctd").begin(run)
     else:
         run = copy_of(start)

@@ -14,10 +14,10 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from benchmarks.records import describe
 from benchmarks.strings import LEAD, chain
 from fctd import build_wellbore, find_contacts
-from fctd.query import query_walls
-from references import base
+from fctd.mechanics.query import query_walls
+from references import contact
 from references.packages import absent
-from references.workloads import find_walls, moving
+from references.timing.workloads import find_walls, moving
 
 POINTS, RADIUS = 240, 0.051
 # Points are within this of touching [m].
@@ -49,12 +49,12 @@ def note_cost(benchmark: BenchmarkFixture, points: int) -> None:
         benchmark.extra_info["ns_per_point"] = 1e9 * benchmark.stats.stats.median / points
 
 
-@pytest.mark.parametrize("name", base.METHODS)
+@pytest.mark.parametrize("name", contact.METHODS)
 def bench_query_from_python(benchmark: BenchmarkFixture, name: str) -> None:
     """One call for all points."""
-    if base.installed_version(name) is None:
-        pytest.skip(absent(base.method_class(name).distribution))
-    method, points = base.build(name, chain()), points_beside(POINTS)
+    if contact.installed_version(name) is None:
+        pytest.skip(absent(contact.method_class(name).distribution))
+    method, points = contact.build(name, chain()), points_beside(POINTS)
     radii = np.full(POINTS, RADIUS)
     describe(benchmark, "query from Python", points=POINTS, pieces=method.pieces)
     benchmark.extra_info |= errors(method.query(points, radii).penetration, points)

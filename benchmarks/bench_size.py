@@ -5,8 +5,8 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from benchmarks.records import COMPILED, describe, time_steps
 from benchmarks.strings import LEAD, chain
-from fctd.energy import energy_of
-from references.workloads import energy_error, fallen, moving, touching
+from fctd.mechanics.energy import energy_of
+from references.timing.workloads import energy_error, fallen, moving, touching
 
 
 @pytest.mark.parametrize("segments", [10, 30, 100, 300, 1000, 3000, 10_000])

@@ -6,9 +6,9 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from benchmarks.records import describe
 from benchmarks.strings import BIT, trip
 from fctd import torque_drag
-from fctd.case import KINDS
-from fctd.equilibrium import Solver
-from fctd.operations import steady_rates
+from fctd.case.load import KINDS
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import Solver
 
 ON_BOTTOM = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
 LONGER = {

@@ -7,8 +7,8 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from benchmarks.records import COMPILED, describe, time_steps
 from benchmarks.strings import LEAD, chain, hanging
-from fctd.energy import energy_of
-from references.workloads import energy_error, moving, touching
+from fctd.mechanics.energy import energy_of
+from references.timing.workloads import energy_error, moving, touching
 
 KINDS: dict[str, dict[str, Any]] = {
     "cylinders": {},

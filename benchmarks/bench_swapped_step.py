@@ -5,23 +5,27 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from benchmarks.records import describe, time_steps
 from benchmarks.strings import LEAD, chain
-from fctd.energy import energy_of
-from references import base
+from fctd.mechanics.energy import energy_of
+from references import contact
 from references.packages import absent
-from references.workloads import NoWall, asking, energy_error, moving, without_wall
+from references.timing.workloads import NoWall, asking, energy_error, moving, without_wall
 
 # Steps a round: our own methods cost some hundred nanoseconds a point, libraries some ten microseconds or more.
 OWN, OTHERS = 300, 15
 
 
-@pytest.mark.parametrize("name", ["no contact", *base.METHODS])
+@pytest.mark.parametrize("name", ["no contact", *contact.METHODS])
 def bench_swapped_step(benchmark: BenchmarkFixture, name: str) -> None:
     """60 segments turning; ``no contact`` asks and finds nothing, the hole taken away."""
-    if name != "no contact" and base.installed_version(name) is None:
-        pytest.skip(absent(base.method_class(name).distribution))
+    if name != "no contact" and contact.installed_version(name) is None:
+        pytest.skip(absent(contact.method_class(name).distribution))
     start, motion = moving(chain(), LEAD)
-    own = name == "no contact" or base.method_class(name).distribution == "fctd"
-    run = asking(without_wall(start), NoWall()) if name == "no contact" else asking(start, base.build(name, start.case))
+    own = name == "no contact" or contact.method_class(name).distribution == "fctd"
+    run = (
+        asking(without_wall(start), NoWall())
+        if name == "no contact"
+        else asking(start, contact.build(name, start.case))
+    )
     before = energy_of(run.S, run.segments)
     describe(benchmark, "step, contact method swapped", method=name)
     time_steps(benchmark, lambda span: run.advance(motion, span), run, run.step, OWN if own else OTHERS, rounds=9)

@@ -13,8 +13,8 @@ from pydantic import AwareDatetime, BaseModel, ConfigDict, Field, ValidationErro
 from benchmarks.measure import ROOT, Costs, ratios
 from benchmarks.subjects import REFERENCE
 from benchmarks.worker import digest, reference_digest
-from fctd.errors import MISSING, InputError
-from references.timing import cpu_name, machine
+from fctd.case.errors import MISSING, InputError
+from references.timing.stopwatch import cpu_name, machine
 
 # What turns the sources into machine code.
 COMPILER = ("python", "numba", "llvmlite")

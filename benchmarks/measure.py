@@ -13,7 +13,7 @@ import numpy as np
 
 from benchmarks.subjects import ARCS, CYLINDERS, FCL, FREE, REFERENCE
 from benchmarks.worker import PROTOCOL, digest, reference_digest
-from fctd.errors import InputError
+from fctd.case.errors import InputError
 
 ROOT = Path(__file__).parents[1]
 ROUNDS = 8  # of a process; its processes differ by more than its rounds

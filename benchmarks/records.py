@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from fctd import state, topdrive
-from fctd.faults import UnstableError
-from fctd.run import Run
-from references.timing import machine
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.faults import UnstableError
+from fctd.simulation.run import Run
+from references.timing.stopwatch import machine
 
 # Segment-steps a round of compiled code; the number is fixed so that rounds of two sessions can be compared.
 COMPILED = 200_000

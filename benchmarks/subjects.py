@@ -14,15 +14,15 @@ from numba import njit
 
 from benchmarks import reference_kernel
 from fctd import load_case
-from fctd.equilibrium import Solver
-from fctd.errors import InputError
-from fctd.joints import update_joint_loads
-from fctd.operations import steady_rates
-from fctd.query import query_walls
-from fctd.run import Run, contact_points, forget_start, prepare, settle
-from fctd.state import OPEN, RADIUS, copy_state, row
-from fctd.topdrive import Motion
-from references import base
+from fctd.case.errors import InputError
+from fctd.mechanics.joints import update_joint_loads
+from fctd.mechanics.query import query_walls
+from fctd.mechanics.state import OPEN, RADIUS, copy_state, row
+from fctd.mechanics.topdrive import Motion
+from fctd.model.operations import steady_rates
+from fctd.simulation.run import Run, contact_points, forget_start, prepare, settle
+from fctd.steady.equilibrium import Solver
+from references import contact
 
 CASE = Path(__file__).parents[1] / "validation" / "cases" / "curved_chain.toml"
 REFERENCE, FREE, CYLINDERS, ARCS = "reference", "step, contact-free", "step, cylinders", "step, arcs"
@@ -82,7 +82,7 @@ def subjects() -> dict[str, Subject]:
         "steady depth": _steady(bent, 2),
     }
     try:
-        wall = base.build("fcl", bent.case)
+        wall = contact.build("fcl", bent.case)
     except InputError:
         return found
     points, radii = contact_points(bent.S, SEGMENTS), row(bent.S, RADIUS, SEGMENTS).copy()

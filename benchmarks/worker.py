@@ -14,7 +14,7 @@ from typing import Any
 
 from benchmarks import reference_kernel
 from benchmarks.subjects import Subject, subjects
-from references.timing import turn
+from references.timing.stopwatch import turn
 
 PROTOCOL = 1
 # A round takes the shortest of so many calls of each subject: what disturbs a call only ever adds.

@@ -9,17 +9,17 @@
 Units are SI; x is north, y east, z down.
 """
 
-from fctd.interrupts import ends_program
+from fctd.cli.interrupts import ends_program
 
 with ends_program():
-    from fctd.case import Case, load_case
-    from fctd.equilibrium import Equilibrium, equilibrium
-    from fctd.errors import InputError
-    from fctd.refine import Refinement, refine
-    from fctd.results import SimulationResult, open_result
-    from fctd.simulate import simulate
-    from fctd.torque_drag import torque_drag
-    from fctd.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
+    from fctd.case.errors import InputError
+    from fctd.case.load import Case, load_case
+    from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
+    from fctd.results.tables import SimulationResult, open_result
+    from fctd.simulation.simulate import simulate
+    from fctd.steady.equilibrium import Equilibrium, equilibrium
+    from fctd.steady.refine import Refinement, refine
+    from fctd.steady.torque_drag import torque_drag
 
 __all__ = [
     "Case",

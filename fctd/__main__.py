@@ -1,9 +1,9 @@
 """``python -m fctd``, also the command ``fctd``."""
 
-from fctd.interrupts import ends_program
+from fctd.cli.interrupts import ends_program
 
 with ends_program():
-    from fctd.cli import main
+    from fctd.cli.main import main
 
 if __name__ == "__main__":
     main()

@@ -18,12 +18,12 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.typing import RcKeyType
 from numpy.typing import NDArray
 
-from fctd.equilibrium import Equilibrium
-from fctd.operations import OPERATION_NAMES
-from fctd.text import printable
-from fctd.torque_drag import own_friction
-from fctd.unit_systems import System, shown
-from fctd.whole_file import whole_file
+from fctd.case.text import printable
+from fctd.model.operations import OPERATION_NAMES
+from fctd.results.unit_systems import System, shown
+from fctd.results.whole_file import whole_file
+from fctd.steady.equilibrium import Equilibrium
+from fctd.steady.torque_drag import own_friction
 
 RC: dict[RcKeyType, Any] = {
     "font.family": "sans-serif",

@@ -5,11 +5,12 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
-from fctd.case import Case, load_case, parse_override
-from fctd.cli import run, simulate_file
-from fctd.cli_options import CaseFile, Csv, Friction, Out, Overrides, Quiet, screen
-from fctd.errors import InputError
-from references import base, engines
+from fctd.case.errors import InputError
+from fctd.case.load import Case, load_case, parse_override
+from fctd.cli.main import run, simulate_file
+from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, screen
+from references import contact, engines
+from references.contact import ContactMethod, build
 from references.packages import absent
 
 app = typer.Typer(
@@ -23,7 +24,7 @@ app = typer.Typer(
 @app.command("list")
 def list_command() -> None:
     """Name the contact methods and the string engines: version, what they do, whether they are installed."""
-    methods = {name: (base.method_class(name), base.installed_version(name)) for name in base.METHODS}
+    methods = {name: (contact.method_class(name), contact.installed_version(name)) for name in contact.METHODS}
     others = {name: (engines.engine_class(name), engines.installed_version(name)) for name in engines.ENGINES}
     for title, found in (("contact method", methods), ("string engine", others)):
         table = Table()
@@ -54,8 +55,8 @@ def simulate_command(
 ) -> None:
     """Run a case with another contact method in the engine's loop; friction, force law and step stay the same."""
 
-    def method(case: Case) -> base.ContactMethod:
-        return base.build(contact, case, **_chosen(options))
+    def method(case: Case) -> ContactMethod:
+        return build(contact, case, **_chosen(options))
 
     simulate_file(case_file, out, overrides, friction, csv, quiet, method)
 

@@ -2,9 +2,9 @@
 
 import typer
 
-from fctd.text import degrade_output, printable_lines
-from validation import runner, study
-from validation.registry import STUDIES
+from fctd.case.text import degrade_output, printable_lines
+from validation.harness import runner, study
+from validation.harness.registry import STUDIES
 
 OUT = study.ROOT / "reports" / "out"
 

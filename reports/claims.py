@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from reports import words
-from validation import record
-from validation.record import Record
+from validation.harness import store
+from validation.harness.store import Record
 
 LEDGER = "claims"
 
@@ -77,10 +77,10 @@ def read_claims(folder: Path) -> Claims:
     if not (folder / "verdict.json").exists():
         return Claims()
     try:
-        run = record.read(folder)
+        run = store.read(folder)
         if run.status != "finished":
             return Claims(run)
-        tables = record.read_tables(folder, run)
+        tables = store.read_tables(folder, run)
         rows = [_row(cells) for cells in tables["ledger"].to_dict("records")]
         return Claims(run, rows, tables["misprints"].to_dict("records"))
     except (OSError, ValueError, TypeError, LookupError) as error:

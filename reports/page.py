@@ -12,12 +12,12 @@ import jinja2
 import matplotlib as mpl
 import pandas as pd
 
-from fctd.text import printable_lines
+from fctd.case.text import printable_lines
 from reports import figures, words
 from reports.claims import LEDGER, read_claims
 from reports.figures import style
-from validation import record
-from validation.record import Record
+from validation.harness import store
+from validation.harness.store import Record
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -100,8 +100,8 @@ def _section(folder: Path, out: Path) -> Section:
     if not (folder / "verdict.json").exists():
         return section
     try:
-        section.record = found = record.read(folder)
-        tables = record.read_tables(folder, found)
+        section.record = found = store.read(folder)
+        tables = store.read_tables(folder, found)
     except (OSError, ValueError, TypeError, LookupError) as error:
         section.problems.append(f"the result cannot be read: {type(error).__name__}: {error}")
         return section

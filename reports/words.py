@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from fctd.operations import OPERATION_NAMES
+from fctd.model.operations import OPERATION_NAMES
 
 # Endings of column names, longest first, so that ``_kN_m`` is not taken for metres.
 UNITS = {

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from fctd import state
+from fctd.mechanics import state
 
 Array = NDArray[np.float64]
 PLACE, VELOCITY, AXIS = (state.X, state.Y, state.Z), (state.VX, state.VY, state.VZ), (state.AX, state.AY, state.AZ)

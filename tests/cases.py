@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from fctd.case import Case
+from fctd.case.load import Case
 
 
 def make_case(

@@ -15,9 +15,9 @@ from pathlib import Path
 import pandas as pd
 import pyarrow.parquet as pq
 
-from fctd import results
-from fctd.results import SimulationResult, own_files
-from fctd.whole_folder import repair
+from fctd.results import tables
+from fctd.results.tables import SimulationResult, own_files
+from fctd.results.whole_folder import repair
 from tests.cases import make_case
 
 STEPS = [(os, "mkdir"), (os, "rename"), (os, "replace"), (os, "unlink"), (os, "rmdir"), (pq, "write_table")]
@@ -67,7 +67,7 @@ def killed(action: Callable[[], object], step: int) -> bool:
 
 def main(base: Path) -> None:
     """See above."""
-    results.versions = lambda: {}  # asks git
+    tables.versions = lambda: {}  # asks git
     saving = True
     for step in count(1):
         folder = base / f"{step}" / "out"

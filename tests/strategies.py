@@ -6,7 +6,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from fctd.errors import MISSING
+from fctd.case.errors import MISSING
 
 CASE = """
 name = "test-well"

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from fctd import Case, Equilibrium, Wellbore, load_case
-from fctd.drillstring import lay_out
-from fctd.equilibrium import Solver
-from fctd.operations import steady_rates
+from fctd.model.drillstring import lay_out
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import Solver
 from tests.fuzz import mechanics
 from tests.fuzz.__main__ import campaign, show
 from tests.fuzz.campaign import PLAUSIBLE, SIMULATED, judge, make, write

@@ -17,7 +17,7 @@ def cache_folder(root: Path, **environment: str) -> str:
     """Where the package in ``root`` keeps compiled code, numba having been imported first."""
     clean = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
     done = subprocess.run(
-        [sys.executable, "-c", "import numba, fctd; print(fctd.dynamics.advance.stats.cache_path)"],
+        [sys.executable, "-c", "import numba, fctd; print(fctd.mechanics.dynamics.advance.stats.cache_path)"],
         cwd=root, env={**clean, "PYTHONPATH": str(root), **environment}, capture_output=True, text=True, check=True,
     )  # fmt: skip
     return done.stdout.strip()
@@ -36,7 +36,7 @@ def test_the_compile_cache_follows_the_sources(tmp_path: Path) -> None:
 
 WITHOUT_A_FOLDER = """
 import fctd, os
-fctd.compile_cache.STORE.read("function")
+fctd.mechanics.compile_cache.STORE.read("function")
 print(os.path.isdir(os.environ["NUMBA_CACHE_DIR"]))
 """
 
@@ -70,4 +70,4 @@ def test_the_engine_needs_none_of_the_suite() -> None:
 
 
 def test_versions_name_what_the_numbers_depend_on() -> None:
-    assert {"fctd", "python", "numpy", "numba"} <= fctd.results.versions().keys()
+    assert {"fctd", "python", "numpy", "numba"} <= fctd.results.tables.versions().keys()

@@ -16,8 +16,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fctd import plots
-from fctd.case import KINDS
-from fctd.equilibrium import Equilibrium, equilibrium
+from fctd.case.load import KINDS
+from fctd.steady.equilibrium import Equilibrium, equilibrium
 from tests.cases import make_case, pipe
 
 LBF, FOOT = 4.4482216152605, 0.3048

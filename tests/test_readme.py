@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from fctd import cli
+from fctd.cli import main
 from references.__main__ import app
 
 ROOT = Path(__file__).parents[1]
@@ -41,7 +41,7 @@ def test_the_command_line_examples_run(tmp_path: Path, monkeypatch: pytest.Monke
     for command in commands:
         monkeypatch.setattr("sys.argv", shlex.split(command.replace(" validation/", f" {ROOT}/validation/")))
         with pytest.raises(SystemExit) as stopped:
-            cli.main()
+            main.main()
         assert not stopped.value.code
     written = {path.name for path in tmp_path.iterdir()}
     assert written == {
@@ -70,7 +70,7 @@ def test_the_examples_of_another_contact_method_run(tmp_path: Path, monkeypatch:
     for line in command.strip().splitlines():
         monkeypatch.setattr("sys.argv", shlex.split(line.removeprefix(".venv/bin/python -m ")))
         with pytest.raises(SystemExit) as stopped:
-            cli.run(app)
+            main.run(app)
         assert not stopped.value.code
     assert (tmp_path / "out" / "history.parquet").exists()
 

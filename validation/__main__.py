@@ -5,9 +5,9 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from fctd.text import degrade_output, printable_lines
-from validation import runner, study
-from validation.registry import STUDIES
+from fctd.case.text import degrade_output, printable_lines
+from validation.harness import runner, study
+from validation.harness.registry import STUDIES
 
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 

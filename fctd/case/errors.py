@@ -19,7 +19,7 @@ from typing import Any, Final
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, model_validator
 from pydantic_core import ErrorDetails
 
-from fctd.text import printable
+from fctd.case.text import printable
 
 _LONGEST_VALUE: Final = 80  # characters of a value shown in a message
 

@@ -6,7 +6,7 @@ import os
 import stat
 from pathlib import Path
 
-from fctd.errors import InputError
+from fctd.case.errors import InputError
 
 
 def read_text(path: Path, largest: int) -> str:

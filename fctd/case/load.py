@@ -15,10 +15,10 @@ from typing import Annotated, Any, ClassVar, Final, Literal, Self
 
 from pydantic import Field, ValidationError, field_validator, model_validator
 
-from fctd import units
-from fctd.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
-from fctd.input_file import read_text
-from fctd.specs import (
+from fctd.case import units
+from fctd.case.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
+from fctd.case.input_file import read_text
+from fctd.case.specs import (
     BitSpec,
     ContactSpec,
     FileName,
@@ -29,7 +29,7 @@ from fctd.specs import (
     StringSpec,
     WellboreSpec,
 )
-from fctd.text import is_utf8
+from fctd.case.text import is_utf8
 
 LARGEST_FILE: Final = 4  # MiB: 100,000 stations written out; the TOML reader takes some seconds for them
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units

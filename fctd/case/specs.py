@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, StrictBool, ValidationInfo, field_validator, model_validator
 
-from fctd import units
-from fctd.errors import MISSING, InputError, Table, exclusive, known_keys
-from fctd.survey_file import StationKey, check_stations, read_stations
-from fctd.text import is_utf8
+from fctd.case import units
+from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
+from fctd.case.survey_file import StationKey, check_stations, read_stations
+from fctd.case.text import is_utf8
 
 
 def _as_path(raw: object) -> object:

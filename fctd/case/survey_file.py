@@ -17,9 +17,9 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.errors import InputError, show
-from fctd.input_file import read_text
-from fctd.units import conversion
+from fctd.case.errors import InputError, show
+from fctd.case.input_file import read_text
+from fctd.case.units import conversion
 
 StationKey = Literal["md", "inc", "azi"]
 Where = Callable[[int, int], tuple[str, object]]

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 from pydantic_core import CoreSchema, core_schema
 
-from fctd.errors import Expects, InputError
+from fctd.case.errors import Expects, InputError
 
 if TYPE_CHECKING:
     from pint import UnitRegistry

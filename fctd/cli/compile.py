@@ -9,11 +9,11 @@ from typing import Any, TextIO
 import typer
 from numba.core import event
 
-from fctd.case import Case
-from fctd.cli_options import FAILED, Quiet, messages, screen
-from fctd.compile_cache import STORE, CompileCacheWarning, KeptCode
-from fctd.equilibrium import equilibrium
-from fctd.simulate import simulate
+from fctd.case.load import Case
+from fctd.cli.options import FAILED, Quiet, messages, screen
+from fctd.mechanics.compile_cache import STORE, CompileCacheWarning, KeptCode
+from fctd.simulation.simulate import simulate
+from fctd.steady.equilibrium import equilibrium
 
 # The smallest case that calls every function: a string hung in a straight hole.
 SMALL: dict[str, Any] = {

@@ -9,9 +9,12 @@ import typer
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
-from fctd.case import Case
-from fctd.cli_compile import compile_command, telling
-from fctd.cli_options import (
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.text import degrade_output, file_name, printable
+from fctd.cli.compile import compile_command, telling
+from fctd.cli.interrupts import as_interrupts
+from fctd.cli.options import (
     BAD_INPUT,
     FAILED,
     INTERRUPTED,
@@ -29,15 +32,12 @@ from fctd.cli_options import (
     screen,
     spare_files,
 )
-from fctd.cli_refine import refine_command
-from fctd.cli_steady import chart_command, equilibrium_command
-from fctd.errors import InputError
-from fctd.interrupts import as_interrupts
-from fctd.results import SimulationResult, check_result_folder, own_files, result_files
-from fctd.run import LONGEST_SETTLING
-from fctd.simulate import simulate
-from fctd.text import degrade_output, file_name, printable
-from fctd.wall_query import WallQuery
+from fctd.cli.refine import refine_command
+from fctd.cli.steady import chart_command, equilibrium_command
+from fctd.results.tables import SimulationResult, check_result_folder, own_files, result_files
+from fctd.simulation.external_contact import WallQuery
+from fctd.simulation.run import LONGEST_SETTLING
+from fctd.simulation.simulate import simulate
 
 app = typer.Typer(
     no_args_is_help=True,

@@ -8,14 +8,14 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
-from fctd.case import Case, load_case, parse_override
-from fctd.errors import InputError
-from fctd.notes import Note
-from fctd.results import own_files, table_files
-from fctd.text import printable, printable_lines
-from fctd.units import Dimension, Quantity
-from fctd.whole_file import check_file
-from fctd.whole_folder import repair
+from fctd.case.errors import InputError
+from fctd.case.load import Case, load_case, parse_override
+from fctd.case.text import printable, printable_lines
+from fctd.case.units import Dimension, Quantity
+from fctd.results.notes import Note
+from fctd.results.tables import own_files, table_files
+from fctd.results.whole_file import check_file
+from fctd.results.whole_folder import repair
 
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 

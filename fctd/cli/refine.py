@@ -8,8 +8,10 @@ import typer
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from fctd.case import parse_override
-from fctd.cli_options import (
+from fctd.case.load import parse_override
+from fctd.case.text import printable
+from fctd.case.units import LENGTH
+from fctd.cli.options import (
     FAILED,
     CaseFile,
     Friction,
@@ -25,12 +27,10 @@ from fctd.cli_options import (
     screen,
     spare_sources,
 )
-from fctd.cli_steady import KIND_HELP, Rpm, Speed, Units, read_drive
-from fctd.refine import Refinement, refine
-from fctd.refined_file import survey_from, write_refined
-from fctd.text import printable
-from fctd.unit_systems import System, shown
-from fctd.units import LENGTH
+from fctd.cli.steady import KIND_HELP, Rpm, Speed, Units, read_drive
+from fctd.results.unit_systems import System, shown
+from fctd.steady.refine import Refinement, refine
+from fctd.steady.refined_file import survey_from, write_refined
 
 
 def refine_command(

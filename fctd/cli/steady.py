@@ -13,8 +13,11 @@ from rich.box import SIMPLE_HEAD
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from fctd.case import KINDS, Case, check_bit_depth, naming_file
-from fctd.cli_options import (
+from fctd.case.errors import InputError
+from fctd.case.load import KINDS, Case, check_bit_depth, naming_file
+from fctd.case.text import printable
+from fctd.case.units import LENGTH, SPEED
+from fctd.cli.options import (
     FAILED,
     CaseFile,
     Friction,
@@ -30,15 +33,12 @@ from fctd.cli_options import (
     screen,
     spare_sources,
 )
-from fctd.equilibrium import SOUND, Equilibrium, Solver, equilibrium
-from fctd.errors import InputError
-from fctd.notes import MEANINGS, as_metadata, meanings_of
-from fctd.operations import rates_of_all
-from fctd.results import versions, write_table
-from fctd.text import printable
-from fctd.torque_drag import torque_drag, with_friction
-from fctd.unit_systems import System, in_field_units, shown
-from fctd.units import LENGTH, SPEED
+from fctd.model.operations import rates_of_all
+from fctd.results.notes import MEANINGS, as_metadata, meanings_of
+from fctd.results.tables import versions, write_table
+from fctd.results.unit_systems import System, in_field_units, shown
+from fctd.steady.equilibrium import SOUND, Equilibrium, Solver, equilibrium
+from fctd.steady.torque_drag import torque_drag, with_friction
 
 TABLES, PICTURES = (".csv", ".parquet"), (".png", ".svg")
 MOST_DEPTHS = 10_000  # more is a slip in the step

@@ -181,7 +181,7 @@ def _hash(name: str, data: bytes) -> bytes:
 
 
 def _hash_of_sources() -> str:
-    digest, package = hashlib.sha256(), Path(__file__).parent
+    digest, package = hashlib.sha256(), Path(__file__).parents[1]
     for source in sorted(package.rglob("*.py")):
         digest.update(str(source.relative_to(package)).encode() + source.read_bytes())
     return digest.hexdigest()[:16]

@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.dual import reciprocal, root
-from fctd.jit import entry, inlined, kernel
-from fctd.joints import cross
-from fctd.rotations import arctan_ratio
-from fctd.state import (
+from fctd.mechanics.dual import reciprocal, root
+from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.joints import cross
+from fctd.mechanics.rotations import arctan_ratio
+from fctd.mechanics.state import (
     ARCS,
     ARM_CONTACT,
     CURVE,

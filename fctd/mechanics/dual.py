@@ -9,8 +9,8 @@ import numpy as np
 from numba import types
 from numba.extending import overload
 
-from fctd.jit import INLINED
-from fctd.state import TINY
+from fctd.mechanics.jit import INLINED
+from fctd.mechanics.state import TINY
 
 
 def root(x):

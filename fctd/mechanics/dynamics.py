@@ -6,12 +6,12 @@ settling damping by the implicit factor 1/(1 + c dt/m), wall friction by a clamp
 dissipating impulse by the velocity after it, which is what moves the body.
 """
 
-from fctd.contact import update_walls
-from fctd.friction import approach, coulomb_impulse, normal_impulse, paper_impulse, wall_normal
-from fctd.jit import entry, inlined, kernel
-from fctd.joints import update_joint_loads
-from fctd.rotations import rotation_columns, turned
-from fctd.state import (
+from fctd.mechanics.contact import update_walls
+from fctd.mechanics.friction import approach, coulomb_impulse, normal_impulse, paper_impulse, wall_normal
+from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.joints import update_joint_loads
+from fctd.mechanics.rotations import rotation_columns, turned
+from fctd.mechanics.state import (
     ARM_CONTACT,
     AX,
     AY,
@@ -68,7 +68,7 @@ from fctd.state import (
     spin,
     velocity,
 )
-from fctd.topdrive import move_top_drive, planned_speeds, read_top_drive
+from fctd.mechanics.topdrive import move_top_drive, planned_speeds, read_top_drive
 
 # Share of the room beside the string that certainly does not touch, far more than rounding takes from 1.
 NEARLY = 1 - 1e-6

@@ -5,22 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd import state
-from fctd.jit import entry
-from fctd.joints import strain_energy
-from fctd.state import (
-    HOLE,
-    J_AXIAL,
-    J_TRANSVERSE,
-    K_WALL,
-    MASS,
-    RADIUS,
-    WEIGHT,
-    Z,
-    radial,
-    spin,
-    velocity,
-)
+from fctd.mechanics import state
+from fctd.mechanics.jit import entry
+from fctd.mechanics.joints import strain_energy
+from fctd.mechanics.state import HOLE, J_AXIAL, J_TRANSVERSE, K_WALL, MASS, RADIUS, WEIGHT, Z, radial, spin, velocity
 
 
 class Energy(NamedTuple):

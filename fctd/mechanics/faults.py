@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from fctd.jit import entry
-from fctd.state import HOLE, RADIUS, VX, WZ, axis, position, quaternion, radial
+from fctd.mechanics.jit import entry
+from fctd.mechanics.state import HOLE, RADIUS, VX, WZ, axis, position, quaternion, radial
 
 
 class UnstableError(Exception):

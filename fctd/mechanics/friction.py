@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from fctd.jit import inlined
-from fctd.rotations import rotation_columns
-from fctd.state import (
+from fctd.mechanics.jit import inlined
+from fctd.mechanics.rotations import rotation_columns
+from fctd.mechanics.state import (
     ARM_CONTACT,
     HOLE,
     INVERSE_JA,

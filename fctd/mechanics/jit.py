@@ -10,7 +10,7 @@ from typing import Any
 
 from numba import njit
 
-from fctd.compile_cache import KeptCode
+from fctd.mechanics.compile_cache import KeptCode
 
 # Products and sums may be contracted into one instruction, which rounds once.
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}, "forceinline": False}

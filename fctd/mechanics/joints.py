@@ -14,10 +14,10 @@ no work, and the torque about each body's own axis is k_t τ whatever the bend.
 
 import math
 
-from fctd.dual import reciprocal, root
-from fctd.jit import inlined
-from fctd.rotations import angle_over_sine, twist_angle
-from fctd.state import (
+from fctd.mechanics.dual import reciprocal, root
+from fctd.mechanics.jit import inlined
+from fctd.mechanics.rotations import angle_over_sine, twist_angle
+from fctd.mechanics.state import (
     ARM_BOTTOM,
     ARM_TOP,
     FX,

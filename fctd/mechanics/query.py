@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fctd.contact import (
+from fctd.mechanics.contact import (
     ALONE_FROM,
     ALONE_TO,
     FACTOR,
@@ -17,8 +17,8 @@ from fctd.contact import (
     read_arc,
     wall_of_arc,
 )
-from fctd.jit import entry, inlined, kernel
-from fctd.state import ARCS, LANES
+from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.state import ARCS, LANES
 
 # Points of one arc that are worked on together; one or two are not worth a packed operation.
 TOGETHER, FEW = 64, 2

@@ -6,8 +6,8 @@ inside a loop and may be differentiated by a complex step.
 
 import numpy as np
 
-from fctd.dual import reciprocal, root
-from fctd.jit import inlined
+from fctd.mechanics.dual import reciprocal, root
+from fctd.mechanics.jit import inlined
 
 # In place of 0 in the denominator of a tangent, small beside rounding; the eighth power of 1/WHOLE_TURN is a number.
 WHOLE_TURN = 1e-30

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd import state
+from fctd.mechanics import state
 
 Array = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.errors import InputError
-from fctd.jit import inlined
+from fctd.case.errors import InputError
+from fctd.mechanics.jit import inlined
 
 MAX_SEGMENTS = 10_000
 # Columns handled at once: a cache line, and a multiple of every vector width in use.

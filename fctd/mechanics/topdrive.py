@@ -3,10 +3,10 @@
 import math
 from typing import NamedTuple
 
-from fctd.jit import inlined
-from fctd.joints import hinge_gap, joint_loads, strain_energy
-from fctd.rotations import half_twist, turned
-from fctd.state import (
+from fctd.mechanics.jit import inlined
+from fctd.mechanics.joints import hinge_gap, joint_loads, strain_energy
+from fctd.mechanics.rotations import half_twist, turned
+from fctd.mechanics.state import (
     ARM_TOP,
     GX,
     GY,

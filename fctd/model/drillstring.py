@@ -6,12 +6,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd import state
-from fctd.case import Case
-from fctd.errors import InputError
-from fctd.specs import ComponentSpec
-from fctd.topdrive import GRAVITY, PerMetre, set_long_segment
-from fctd.wellbore import Wellbore
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.specs import ComponentSpec
+from fctd.mechanics import state
+from fctd.mechanics.topdrive import GRAVITY, PerMetre, set_long_segment
+from fctd.model.wellbore import Wellbore
 
 Array = NDArray[np.float64]
 

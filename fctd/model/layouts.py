@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd import survey
-from fctd.case import Case
-from fctd.drillstring import section_of
-from fctd.specs import ComponentSpec
+from fctd.case.load import Case
+from fctd.case.specs import ComponentSpec
+from fctd.model import survey
+from fctd.model.drillstring import section_of
 
 Array = NDArray[np.float64]
 Components = tuple[ComponentSpec, ...]

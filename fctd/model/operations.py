@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.case import KINDS, Case, Operation
-from fctd.errors import InputError, nearest
-from fctd.topdrive import Motion
-from fctd.units import FASTEST, MOST_RPM, bare
+from fctd.case.errors import InputError, nearest
+from fctd.case.load import KINDS, Case, Operation
+from fctd.case.units import FASTEST, MOST_RPM, bare
+from fctd.mechanics.topdrive import Motion
 
 # A shorter operation is over before the first step, and has no load to record [s].
 SHORTEST = 1e-3

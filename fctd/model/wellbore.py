@@ -7,12 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from fctd import contact, survey
-from fctd.case import Case
-from fctd.errors import InputError
-from fctd.query import query_walls
-from fctd.specs import IntervalSpec, WellboreSpec
-from fctd.state import ARCS, CYLINDERS
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.specs import IntervalSpec, WellboreSpec
+from fctd.mechanics import contact
+from fctd.mechanics.query import query_walls
+from fctd.mechanics.state import ARCS, CYLINDERS
+from fctd.model import survey
 
 Array = NDArray[np.float64]
 

@@ -11,8 +11,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.drillstring import String
-from fctd.profile import Loads, at_contacts, von_mises
+from fctd.model.drillstring import String
+from fctd.results.profile import Loads, at_contacts, von_mises
 
 Array = NDArray[np.float64]
 

@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd.drillstring import String
-from fctd.topdrive import GRAVITY
-from fctd.wellbore import Wellbore, hole_frame
+from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.drillstring import String
+from fctd.model.wellbore import Wellbore, hole_frame
 
 Array = NDArray[np.float64]
 Load = float | Array

@@ -19,12 +19,12 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from fctd.case import Case
-from fctd.errors import InputError
-from fctd.input_file import check_regular
-from fctd.notes import Note, as_metadata
-from fctd.whole_file import check_file, left_overs, whole_file
-from fctd.whole_folder import PAUSE, check_folder, repair, whole_folder
+from fctd.case.errors import InputError
+from fctd.case.input_file import check_regular
+from fctd.case.load import Case
+from fctd.results.notes import Note, as_metadata
+from fctd.results.whole_file import check_file, left_overs, whole_file
+from fctd.results.whole_folder import PAUSE, check_folder, repair, whole_folder
 
 TABLES = ("history", "profile", "energy")
 LOOKS = 20  # at a folder that another process may just be replacing

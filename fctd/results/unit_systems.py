@@ -7,7 +7,7 @@ from typing import Final, Literal, NamedTuple
 
 import pandas as pd
 
-from fctd.units import conversion
+from fctd.case.units import conversion
 
 System = Literal["si", "field"]
 

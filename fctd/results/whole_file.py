@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from fctd.errors import InputError
+from fctd.case.errors import InputError
 
 
 @contextmanager

@@ -14,8 +14,8 @@ from contextlib import contextmanager, suppress
 from itertools import count
 from pathlib import Path
 
-from fctd.errors import InputError
-from fctd.whole_file import check_new, left_by_dead
+from fctd.case.errors import InputError
+from fctd.results.whole_file import check_new, left_by_dead
 
 Own = Callable[[Path], Collection[str]]
 """Names of the files in a folder that a new folder replaces; all others are the user's and stay."""

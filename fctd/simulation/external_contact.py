@@ -9,13 +9,13 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd import state
-from fctd.contact import contact_point, store_wall
-from fctd.dynamics import update_axes, update_loads, update_positions, whole_operations
-from fctd.jit import entry
-from fctd.state import Laws
-from fctd.topdrive import Motion, PerMetre
-from fctd.wellbore import Contacts, Wellbore
+from fctd.mechanics import state
+from fctd.mechanics.contact import contact_point, store_wall
+from fctd.mechanics.dynamics import update_axes, update_loads, update_positions, whole_operations
+from fctd.mechanics.jit import entry
+from fctd.mechanics.state import Laws
+from fctd.mechanics.topdrive import Motion, PerMetre
+from fctd.model.wellbore import Contacts, Wellbore
 
 Array = NDArray[np.float64]
 

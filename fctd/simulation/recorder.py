@@ -7,13 +7,13 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd import state, topdrive
-from fctd.energy import energy_of, penetration
-from fctd.notes import Note, string_notes
-from fctd.operations import sensors
-from fctd.profile import Loads, profile_table
-from fctd.results import SimulationResult
-from fctd.run import Run, contact_points
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.energy import energy_of, penetration
+from fctd.model.operations import sensors
+from fctd.results.notes import Note, string_notes
+from fctd.results.profile import Loads, profile_table
+from fctd.results.tables import SimulationResult
+from fctd.simulation.run import Run, contact_points
 
 Array = NDArray[np.float64]
 

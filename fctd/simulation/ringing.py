@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh_tridiagonal
 
-from fctd import contact, state, topdrive
-from fctd.drillstring import String
-from fctd.operations import Stretch
-from fctd.run import Run
-from fctd.wellbore import Wellbore
+from fctd.mechanics import contact, state, topdrive
+from fctd.model.drillstring import String
+from fctd.model.operations import Stretch
+from fctd.model.wellbore import Wellbore
+from fctd.simulation.run import Run
 
 Array = NDArray[np.float64]
 

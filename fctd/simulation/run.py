@@ -7,18 +7,18 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd import dynamics, state, topdrive
-from fctd.case import DRILLING, Case, naming_file
-from fctd.contact import update_walls
-from fctd.drillstring import String, check_fit, fill, lay_out
-from fctd.errors import InputError
-from fctd.faults import UnstableError, check
-from fctd.operations import Stretch, depth_range, rad_per_s, schedule
-from fctd.rotations import quaternion_from_axis
-from fctd.stability import SHARES, stable_step, stiffest_mode
-from fctd.topdrive import Motion, PerMetre
-from fctd.wall_query import QueriedWall, WallQuery
-from fctd.wellbore import Wellbore, build_wellbore
+from fctd.case.errors import InputError
+from fctd.case.load import DRILLING, Case, naming_file
+from fctd.mechanics import dynamics, state, topdrive
+from fctd.mechanics.contact import update_walls
+from fctd.mechanics.faults import UnstableError, check
+from fctd.mechanics.rotations import quaternion_from_axis
+from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
+from fctd.mechanics.topdrive import Motion, PerMetre
+from fctd.model.drillstring import String, check_fit, fill, lay_out
+from fctd.model.operations import Stretch, depth_range, rad_per_s, schedule
+from fctd.model.wellbore import Wellbore, build_wellbore
+from fctd.simulation.external_contact import QueriedWall, WallQuery
 
 Array = NDArray[np.float64]
 # The string is settled when no force is out of balance by more than this share of its weight.

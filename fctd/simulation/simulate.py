@@ -6,17 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from fctd import notes, topdrive
-from fctd.case import Case
-from fctd.drillstring import SAME_LENGTH
-from fctd.faults import UnstableError
-from fctd.operations import Stretch
-from fctd.record import Recorder
-from fctd.results import SimulationResult
-from fctd.ringing import expected_ringing
-from fctd.run import Run, Settling, forget_start, prepare, settle
-from fctd.topdrive import Motion
-from fctd.wall_query import WallQuery
+from fctd.case.load import Case
+from fctd.mechanics import topdrive
+from fctd.mechanics.faults import UnstableError
+from fctd.mechanics.topdrive import Motion
+from fctd.model.drillstring import SAME_LENGTH
+from fctd.model.operations import Stretch
+from fctd.results import notes
+from fctd.results.tables import SimulationResult
+from fctd.simulation.external_contact import WallQuery
+from fctd.simulation.recorder import Recorder
+from fctd.simulation.ringing import expected_ringing
+from fctd.simulation.run import Run, Settling, forget_start, prepare, settle
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]

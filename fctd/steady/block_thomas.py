@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_banded
 
-from fctd.jit import entry
+from fctd.mechanics.jit import entry
 
 Array = NDArray[np.float64]
 SIZE = 6

@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.block_thomas import eliminate
-from fctd.jit import entry, kernel
-from fctd.rotations import rotation_columns, turned
-from fctd.state import ARM_CONTACT, J_AXIAL, J_TRANSVERSE, MASS, TINY
-from fctd.tangent import assemble
+from fctd.mechanics.jit import entry, kernel
+from fctd.mechanics.rotations import rotation_columns, turned
+from fctd.mechanics.state import ARM_CONTACT, J_AXIAL, J_TRANSVERSE, MASS, TINY
+from fctd.steady.block_thomas import eliminate
+from fctd.steady.tangent import assemble
 
 CONVERGED, MAX_ITERATIONS, NOT_FINITE, UNSOUND = range(4)
 

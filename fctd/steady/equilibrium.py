@@ -11,19 +11,20 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd import state, tangent
-from fctd.block_thomas import SIZE, negative_pivots, solve_with_pivoting
-from fctd.case import DRILLING, Case, check_bit_depth, naming_file
-from fctd.contact import START_MD
-from fctd.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, converge, hold_back, take_step
-from fctd.drillstring import String, check_fit, fill, lay_out
-from fctd.first_guess import MD, NODE, guess
-from fctd.notes import Note, string_notes
-from fctd.operations import SteadyRates, sensors, steady_rates
-from fctd.profile import Loads, profile_table
-from fctd.tangent import POSE, Steady, assemble, frictionless_tangent, read_loads
-from fctd.units import bare
-from fctd.wellbore import Wellbore, build_wellbore, hole_frame
+from fctd.case.load import DRILLING, Case, check_bit_depth, naming_file
+from fctd.case.units import bare
+from fctd.mechanics import state
+from fctd.mechanics.contact import START_MD
+from fctd.model.drillstring import String, check_fit, fill, lay_out
+from fctd.model.operations import SteadyRates, sensors, steady_rates
+from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
+from fctd.results.notes import Note, string_notes
+from fctd.results.profile import Loads, profile_table
+from fctd.steady import tangent
+from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
+from fctd.steady.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, converge, hold_back, take_step
+from fctd.steady.first_guess import MD, NODE, guess
+from fctd.steady.tangent import POSE, Steady, assemble, frictionless_tangent, read_loads
 
 Array = NDArray[np.float64]
 

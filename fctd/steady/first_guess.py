@@ -7,10 +7,10 @@ would save a tenth of the iterations and make every row of a chart depend on the
 
 import numpy as np
 
-from fctd.contact import CURVATURE, DIRECTION, FACTOR, HOLE_RADIUS, NORMAL, START, START_MD, STIFFNESS
-from fctd.jit import entry, inlined, kernel
-from fctd.joints import cross
-from fctd.state import (
+from fctd.mechanics.contact import CURVATURE, DIRECTION, FACTOR, HOLE_RADIUS, NORMAL, START, START_MD, STIFFNESS
+from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.joints import cross
+from fctd.mechanics.state import (
     ARCS,
     ARM_BOTTOM,
     ARM_TOP,

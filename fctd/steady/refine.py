@@ -18,14 +18,14 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd import layouts, survey
-from fctd.case import Case, check_bit_depth, naming_file
-from fctd.drillstring import lay_out
-from fctd.equilibrium import SOUND, Equilibrium, Solver
-from fctd.errors import InputError
-from fctd.operations import SteadyRates, rates_of_all
-from fctd.state import MAX_SEGMENTS
-from fctd.units import bare
+from fctd.case.errors import InputError
+from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.units import bare
+from fctd.mechanics.state import MAX_SEGMENTS
+from fctd.model import layouts, survey
+from fctd.model.drillstring import lay_out
+from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.steady.equilibrium import SOUND, Equilibrium, Solver
 
 Array = NDArray[np.float64]
 # Called before every level with what is about to be solved.

@@ -8,13 +8,13 @@ from typing import Any
 
 import tomlkit
 
-from fctd.case import LARGEST_FILE, Case, apply_override, load_case
-from fctd.errors import InputError, look_up, split_key
-from fctd.input_file import read_text
-from fctd.refine import Refinement
-from fctd.specs import ComponentSpec
-from fctd.text import is_utf8
-from fctd.whole_file import whole_file
+from fctd.case.errors import InputError, look_up, split_key
+from fctd.case.input_file import read_text
+from fctd.case.load import LARGEST_FILE, Case, apply_override, load_case
+from fctd.case.specs import ComponentSpec
+from fctd.case.text import is_utf8
+from fctd.results.whole_file import whole_file
+from fctd.steady.refine import Refinement
 
 # What a cut decides of a component, and what it moves; all else stays as the user wrote it.
 CUT = ("length", "segments", "segment_length")

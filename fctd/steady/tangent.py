@@ -11,20 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.contact import (
-    arc_direction,
-    arc_owner,
-    arc_wall,
-    cylinder_direction,
-    cylinder_owner,
-    cylinder_wall,
-)
-from fctd.dual import reciprocal, root
-from fctd.friction import along_wall
-from fctd.jit import entry, inlined, kernel
-from fctd.joints import arms_to_gap, cross, gap, joint_loads
-from fctd.rotations import rotation_columns, twist_angle
-from fctd.state import (
+from fctd.mechanics.contact import arc_direction, arc_owner, arc_wall, cylinder_direction, cylinder_owner, cylinder_wall
+from fctd.mechanics.dual import reciprocal, root
+from fctd.mechanics.friction import along_wall
+from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.joints import arms_to_gap, cross, gap, joint_loads
+from fctd.mechanics.rotations import rotation_columns, twist_angle
+from fctd.mechanics.state import (
     ARCS,
     ARM_BOTTOM,
     ARM_CONTACT,

@@ -5,12 +5,12 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pandas as pd
 
-from fctd.case import Case, naming_file
-from fctd.equilibrium import Equilibrium, Solver
-from fctd.errors import InputError
-from fctd.notes import codes_of
-from fctd.operations import SteadyRates, rates_of_all
-from fctd.units import FRICTION, bare
+from fctd.case.errors import InputError
+from fctd.case.load import Case, naming_file
+from fctd.case.units import FRICTION, bare
+from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.results.notes import codes_of
+from fctd.steady.equilibrium import Equilibrium, Solver
 
 # Called after every row with the number of rows done and of all.
 Progress = Callable[[int, int], None]

@@ -7,13 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case import Case
-from fctd.drillstring import Section, lay_out, section_of
-from fctd.errors import InputError
-from fctd.operations import schedule
-from fctd.topdrive import Motion
-from references.beam_fe import Beam, Surroundings, fallen, statics
-from references.planar_hole import PlanarHole
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.mechanics.topdrive import Motion
+from fctd.model.drillstring import Section, lay_out, section_of
+from fctd.model.operations import schedule
+from references.beams.elements import Beam, Surroundings, fallen, statics
+from references.beams.planar_hole import PlanarHole
 
 Array = NDArray[np.float64]
 

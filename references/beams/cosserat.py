@@ -10,8 +10,8 @@ import elastica
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.drillstring import Section
-from fctd.wellbore import Wellbore
+from fctd.model.drillstring import Section
+from fctd.model.wellbore import Wellbore
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
-from references.beam_fe import Beam, ConvergenceError, WallLoad, newton, statics
+from references.beams.elements import Beam, ConvergenceError, WallLoad, newton, statics
 
 Array = NDArray[np.float64]
 

@@ -18,8 +18,8 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 from skfem import Basis, ElementLineP2, ElementVector, MeshLine
 
-from fctd.drillstring import Section
-from references.planar_hole import PlanarHole
+from fctd.model.drillstring import Section
+from references.beams.planar_hole import PlanarHole
 
 Array = NDArray[np.float64]
 

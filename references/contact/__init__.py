@@ -13,22 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from fctd.case import Case
-from fctd.errors import InputError, Table, explain, nearest
-from fctd.wellbore import Contacts
+from fctd.case.errors import InputError, Table, explain, nearest
+from fctd.case.load import Case
+from fctd.model.wellbore import Contacts
 from references.packages import absent
 
 Array = NDArray[np.float64]
 
 METHODS: dict[str, str] = {
-    "cylinders": "references.contact_own:Cylinders",
-    "arcs": "references.contact_own:Arcs",
-    "for_loop": "references.contact_own:ForLoop",
-    "fcl": "references.contact_fcl:Fcl",
-    "coal": "references.contact_coal:Coal",
-    "bullet": "references.contact_bullet:Bullet",
-    "mujoco": "references.contact_mujoco:MuJoCo",
-    "trimesh": "references.contact_trimesh:TriMesh",
+    "cylinders": "references.contact.own:Cylinders",
+    "arcs": "references.contact.own:Arcs",
+    "for_loop": "references.contact.own:ForLoop",
+    "fcl": "references.contact.fcl:Fcl",
+    "coal": "references.contact.coal:Coal",
+    "bullet": "references.contact.bullet:Bullet",
+    "mujoco": "references.contact.mujoco:MuJoCo",
+    "trimesh": "references.contact.trimesh:TriMesh",
 }
 
 
@@ -50,7 +50,7 @@ class ContactMethod(Protocol):
         """Build what the method needs for the hole of ``case``; InputError for what cannot be built."""
 
     def query(self, points: Array, radii: Array) -> Contacts:
-        """Contacts of points (n, 3) [m] with contact radii (n,) [m]; see ``fctd.wellbore.Contacts``."""
+        """Contacts of points (n, 3) [m] with contact radii (n,) [m]; see ``fctd.model.wellbore.Contacts``."""
 
     @property
     def pieces(self) -> int:

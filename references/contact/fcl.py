@@ -10,11 +10,11 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case import Case
-from fctd.errors import Table
-from fctd.wellbore import Contacts
-from references.base import need
-from references.tube_mesh import OnTube, Tube, TubeOptions, build_tube
+from fctd.case.errors import Table
+from fctd.case.load import Case
+from fctd.model.wellbore import Contacts
+from references.contact import need
+from references.contact.tube_mesh import OnTube, Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 

@@ -4,9 +4,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd.contact import DIRECTION, LENGTH, START, contact_point, cylinder_wall, distance_along, store_wall
-from fctd.dynamics import update_axes, update_loads, update_positions, whole_operations
-from fctd.state import RADIUS
+from fctd.mechanics.contact import DIRECTION, LENGTH, START, contact_point, cylinder_wall, distance_along, store_wall
+from fctd.mechanics.dynamics import update_axes, update_loads, update_positions, whole_operations
+from fctd.mechanics.state import RADIUS
 
 
 @njit(error_model="numpy")

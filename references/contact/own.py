@@ -7,13 +7,14 @@ from numba import njit
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from fctd import contact, units
-from fctd.case import Case
-from fctd.errors import Table, explain
-from fctd.specs import WellboreSpec
-from fctd.state import ARCS
-from fctd.wellbore import Contacts, Wellbore, build_wellbore
-from references.for_loop import for_loop_owner
+from fctd.case import units
+from fctd.case.errors import Table, explain
+from fctd.case.load import Case
+from fctd.case.specs import WellboreSpec
+from fctd.mechanics import contact
+from fctd.mechanics.state import ARCS
+from fctd.model.wellbore import Contacts, Wellbore, build_wellbore
+from references.contact.for_loop import for_loop_owner
 
 Array = NDArray[np.float64]
 

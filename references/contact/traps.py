@@ -9,11 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case import Case
-from fctd.wellbore import build_wellbore, find_contacts
-from references import contact_bullet, contact_coal, contact_fcl, contact_mujoco
-from references.base import method_class, need
-from references.tube_mesh import Tube, TubeOptions, build_tube
+from fctd.case.load import Case
+from fctd.model.wellbore import build_wellbore, find_contacts
+from references.contact import bullet as bullet_method
+from references.contact import coal as coal_method
+from references.contact import fcl as fcl_method
+from references.contact import method_class, need
+from references.contact import mujoco as mujoco_method
+from references.contact.tube_mesh import Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
@@ -60,7 +63,7 @@ def scene(count: int = 150) -> Scene:
 
 def fcl_capsule(fcl: Any, at: Scene) -> float:
     """Largest error [m] of the depth of a 2 m capsule along the hole; the bend itself accounts for 2 mm."""
-    wall = contact_fcl.wall_of(fcl, at.tube)
+    wall = fcl_method.wall_of(fcl, at.tube)
     capsule = fcl.CollisionObject(fcl.Capsule(RADIUS, 2.0), fcl.Transform())
     request, worst = fcl.CollisionRequest(num_max_contacts=1000, enable_contact=True), 0.0
     for point, depth, normal, tangent in zip(at.points, at.depth, at.normal, at.tangent, strict=True):
@@ -74,7 +77,7 @@ def fcl_capsule(fcl: Any, at: Scene) -> float:
 
 def fcl_first_contact(fcl: Any, at: Scene) -> float:
     """Largest error [mm] of the depth when only one contact is asked for, which is the default."""
-    wall, worst = contact_fcl.wall_of(fcl, at.tube), 0.0
+    wall, worst = fcl_method.wall_of(fcl, at.tube), 0.0
     sphere = fcl.CollisionObject(fcl.Sphere(RADIUS), fcl.Transform())
     for point, depth in zip(at.points, at.depth, strict=True):
         sphere.setTranslation(point)
@@ -86,7 +89,7 @@ def fcl_first_contact(fcl: Any, at: Scene) -> float:
 
 def fcl_penetrating_distance(fcl: Any, at: Scene) -> float:
     """Share [%] of penetrating spheres that are given a distance that is not negative."""
-    wall = contact_fcl.wall_of(fcl, at.tube)
+    wall = fcl_method.wall_of(fcl, at.tube)
     sphere, wrong = fcl.CollisionObject(fcl.Sphere(RADIUS), fcl.Transform()), 0
     for point in at.points:
         sphere.setTranslation(point)
@@ -96,7 +99,7 @@ def fcl_penetrating_distance(fcl: Any, at: Scene) -> float:
 
 def coal_penetrating_distance(coal: Any, at: Scene) -> float:
     """Largest error [mm] of the distance of a penetrating sphere."""
-    model = contact_coal.wall_of(coal, at.tube, coal.BVHModelOBBRSS())
+    model = coal_method.wall_of(coal, at.tube, coal.BVHModelOBBRSS())
     sphere, there, worst = coal.Sphere(RADIUS), coal.Transform3s(), 0.0
     for point, depth in zip(at.points, at.depth, strict=True):
         there.setTranslation(point)
@@ -111,7 +114,7 @@ def bullet_offset_sphere(bullet: Any, at: Scene) -> float:
     """Share [%] of touching spheres that are missed when the sphere stands 5 m off its body's origin."""
     client = bullet.connect(bullet.DIRECT)
     try:
-        wall = contact_bullet.wall_of(bullet, client, np.asarray(at.tube.mesh.vertices), at.tube)
+        wall = bullet_method.wall_of(bullet, client, np.asarray(at.tube.mesh.vertices), at.tube)
         ball = bullet.createCollisionShape(
             bullet.GEOM_SPHERE, radius=RADIUS, collisionFramePosition=[0, 0, 5], physicsClientId=client
         )
@@ -130,7 +133,7 @@ def mujoco_fixed_sphere(mujoco: Any, at: Scene) -> float:
         f'<body mocap="true" pos="{x!r} {y!r} {z!r}"><geom size="{RADIUS}"/></body>' for x, y, z in at.points.tolist()
     )
     model = mujoco.MjModel.from_xml_string(
-        f'<mujoco><size memory="64M"/><worldbody>{bodies}</worldbody>{contact_mujoco.wall_of(at.tube)}</mujoco>'
+        f'<mujoco><size memory="64M"/><worldbody>{bodies}</worldbody>{mujoco_method.wall_of(at.tube)}</mujoco>'
     )
     data = mujoco.MjData(model)
     mujoco.mj_fwdPosition(model, data)

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from fctd import units
-from fctd.case import Case
-from fctd.errors import InputError, Table
-from fctd.wellbore import RUN_OUT, Contacts, Wellbore, build_wellbore
-from references.base import import_or_tell
+from fctd.case import units
+from fctd.case.errors import InputError, Table
+from fctd.case.load import Case
+from fctd.model.wellbore import RUN_OUT, Contacts, Wellbore, build_wellbore
+from references.contact import import_or_tell
 
 Array = NDArray[np.float64]
 

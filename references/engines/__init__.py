@@ -8,20 +8,20 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 
 import pandas as pd
 
-from fctd import units
-from fctd.case import Case
-from fctd.energy import Energy
-from fctd.errors import InputError, Table
-from fctd.run import Run
-from fctd.topdrive import Motion
-from references.base import import_or_tell, options_of, registered, version_of
+from fctd.case import units
+from fctd.case.errors import InputError, Table
+from fctd.case.load import Case
+from fctd.mechanics.energy import Energy
+from fctd.mechanics.topdrive import Motion
+from fctd.simulation.run import Run
+from references.contact import import_or_tell, options_of, registered, version_of
 
 ENGINES: dict[str, str] = {
-    "fctd": "references.engine_fctd:Fctd",
-    "bullet": "references.engine_bullet:Bullet",
-    "mujoco": "references.engine_mujoco:MuJoCo",
-    "mujoco_chain": "references.engine_mujoco_chain:MuJoCoChain",
-    "elastica": "references.engine_elastica:Elastica",
+    "fctd": "references.engines.own:Fctd",
+    "bullet": "references.engines.bullet:Bullet",
+    "mujoco": "references.engines.mujoco:MuJoCo",
+    "mujoco_chain": "references.engines.mujoco_chain:MuJoCoChain",
+    "elastica": "references.engines.elastica:Elastica",
 }
 
 

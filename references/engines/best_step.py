@@ -8,11 +8,11 @@ from typing import Any
 
 import pandas as pd
 
-from fctd.case import Case
+from fctd.case.load import Case
 from references import engines
-from references.engine_checks import energy_error
-from references.engine_run import late
 from references.engines import Window
+from references.engines.checks import energy_error
+from references.engines.run import late
 
 CLOSE = 0.01
 LOADS = ("hookload_N", "surface_torque_N_m")

@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 from scipy.linalg import eigh_tridiagonal
 
-from fctd import state
-from fctd.energy import penetration
-from fctd.record import LOSSES
-from fctd.run import Run, contact_points
+from fctd.mechanics import state
+from fctd.mechanics.energy import penetration
+from fctd.simulation.recorder import LOSSES
+from fctd.simulation.run import Run, contact_points
 
 # Largest depth in the wall over the clearance there; the stiffest wall of a case is pressed in by less than 2 %.
 DEEPEST = 0.2

@@ -13,14 +13,14 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from fctd import state, topdrive
-from fctd.energy import Energy
-from fctd.errors import InputError, Table
-from fctd.query import query_walls
-from fctd.run import Run
-from fctd.topdrive import Motion, planned_speeds
-from references.engine_run import InWindows
+from fctd.case.errors import InputError, Table
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.energy import Energy
+from fctd.mechanics.query import query_walls
+from fctd.mechanics.topdrive import Motion, planned_speeds
+from fctd.simulation.run import Run
 from references.engines import StepOptions, check_coulomb, check_no_mud, need
+from references.engines.run import InWindows
 
 Array = NDArray[np.float64]
 

@@ -10,16 +10,17 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd import state, units
-from fctd.dynamics import update_axes, update_loads, whole_operations
-from fctd.energy import Energy, energy_of
-from fctd.errors import InputError
-from fctd.rotations import rotation_columns
-from fctd.run import Run
-from fctd.topdrive import Motion, move_top_drive
-from fctd.wellbore import LONGEST_CYLINDER
+from fctd.case import units
+from fctd.case.errors import InputError
+from fctd.mechanics import state
+from fctd.mechanics.dynamics import update_axes, update_loads, whole_operations
+from fctd.mechanics.energy import Energy, energy_of
+from fctd.mechanics.rotations import rotation_columns
+from fctd.mechanics.topdrive import Motion, move_top_drive
+from fctd.model.wellbore import LONGEST_CYLINDER
+from fctd.simulation.run import Run
+from references.contact.tube_mesh import Tube, TubeOptions, build_tube, curvature_at
 from references.engines import StepOptions
-from references.tube_mesh import Tube, TubeOptions, build_tube, curvature_at
 
 Array = NDArray[np.float64]
 

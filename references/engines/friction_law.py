@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fctd import state
-from fctd.case import Case
-from fctd.run import prepare
+from fctd.case.load import Case
+from fctd.mechanics import state
+from fctd.simulation.run import prepare
 from references import engines
-from references.engine_run import late
 from references.engines import Window
+from references.engines.run import late
 
 SEGMENTS, LENGTH, FACTOR, CONTACT_RADIUS = 4, 100.0, 0.2, 0.051
 LEAD = 6.0  # [s]

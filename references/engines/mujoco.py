@@ -12,14 +12,15 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd import state, units
-from fctd.errors import Table
-from fctd.run import Run
-from references.contact_mujoco import MEETS_STRING, wall_of
-from references.engine_run import InWindows
+from fctd.case import units
+from fctd.case.errors import Table
+from fctd.mechanics import state
+from fctd.simulation.run import Run
+from references.contact.mujoco import MEETS_STRING, wall_of
+from references.contact.tube_mesh import Tube
 from references.engines import check_coulomb, check_no_mud, need
-from references.free_bodies import FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
-from references.tube_mesh import Tube
+from references.engines.free_bodies import FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
+from references.engines.run import InWindows
 
 Array = NDArray[np.float64]
 

@@ -9,13 +9,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from fctd import state, topdrive
-from fctd.energy import Energy
-from fctd.errors import InputError, Table
-from fctd.run import Run
-from fctd.topdrive import Motion, planned_speeds
-from references.engine_run import InWindows
+from fctd.case.errors import InputError, Table
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.energy import Energy
+from fctd.mechanics.topdrive import Motion, planned_speeds
+from fctd.simulation.run import Run
 from references.engines import StepOptions, check_no_mud, need
+from references.engines.run import InWindows
 
 # Share of the step at which the twist of the chain would be unstable.
 SHARE = 0.5

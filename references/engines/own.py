@@ -2,12 +2,12 @@
 
 from typing import ClassVar
 
-from fctd.energy import Energy, energy_of
-from fctd.errors import Table
-from fctd.run import Run
-from fctd.topdrive import Motion
-from references.engine_run import InWindows
+from fctd.case.errors import Table
+from fctd.mechanics.energy import Energy, energy_of
+from fctd.mechanics.topdrive import Motion
+from fctd.simulation.run import Run
 from references.engines import StepOptions
+from references.engines.run import InWindows
 
 
 class _Stepper:

@@ -7,16 +7,16 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
-from fctd import state, topdrive
-from fctd.case import Case, naming_file
-from fctd.energy import Energy
-from fctd.errors import InputError
-from fctd.faults import UnstableError
-from fctd.operations import Stretch
-from fctd.record import LOSSES, Recorder
-from fctd.run import Run, forget_start, prepare, settle
-from references import engine_checks
+from fctd.case.errors import InputError
+from fctd.case.load import Case, naming_file
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.energy import Energy
+from fctd.mechanics.faults import UnstableError
+from fctd.model.operations import Stretch
+from fctd.simulation.recorder import LOSSES, Recorder
+from fctd.simulation.run import Run, forget_start, prepare, settle
 from references.engines import EngineRun, Stepper, Window
+from references.engines.checks import examine
 
 
 def legs(
@@ -85,7 +85,7 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     wall = time.perf_counter() - began
     result = recorder.result("", "", wall, 0.0)
     ledger = _ledger(result.energy, held)
-    checks = engine_checks.examine(run, window.start, result.history, result.profile, ledger, broken)
+    checks = examine(run, window.start, result.history, result.profile, ledger, broken)
     failed = [f"{row.check} ({row.value:.3g}, at most {row.bound:g})" for row in checks.itertuples() if not row.passed]
     message = "; ".join([*([broken] if broken else []), *failed])
     return EngineRun(

@@ -7,7 +7,7 @@ written in millimetres.  ``naive`` : lengths by s and nothing else.
 
 from typing import Any, NamedTuple
 
-from fctd.case import Case
+from fctd.case.load import Case
 
 SCALE = 1e-3
 

@@ -22,8 +22,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from fctd.errors import InputError
-from references.sliding import Friction
+from fctd.case.errors import InputError
+from references.soft_string.sliding import Friction
 
 # Below this part of its terms the load across the hole is rounding, and has no side.
 NO_SIDE = 1e-9

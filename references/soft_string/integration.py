@@ -27,11 +27,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from fctd import survey
-from fctd.case import Case
-from fctd.drillstring import lay_out
-from fctd.errors import InputError
-from references.sliding import Friction, loads_at_bit, motion_of, split_friction
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.model import survey
+from fctd.model.drillstring import lay_out
+from references.soft_string.sliding import Friction, loads_at_bit, motion_of, split_friction
 
 Array = NDArray[np.float64]
 # Tangent and its derivative (…, 3) at measured depths (…) [m] of a course between stations.

@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.case import DRILLING, Case
-from fctd.errors import InputError, nearest
-from fctd.operations import rad_per_s
+from fctd.case.errors import InputError, nearest
+from fctd.case.load import DRILLING, Case
+from fctd.model.operations import rad_per_s
 
 # Which way friction pulls at the string: down the hole (+1), up (−1), or not at all along it.
 DRAG_SIGN = {

@@ -10,9 +10,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case import Case
-from fctd.drillstring import lay_out
-from references.soft_string import soft_string
+from fctd.case.load import Case
+from fctd.model.drillstring import lay_out
+from references.soft_string.integration import soft_string
 
 Array = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ import time
 from pathlib import Path
 from typing import Any
 
-from fctd.case import Case
-from fctd.errors import InputError
-from references.base import build
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from references.contact import build
 
 
 def footprint(name: str, case: Case, **options: Any) -> tuple[float, float]:
@@ -20,8 +20,8 @@ def footprint(name: str, case: Case, **options: Any) -> tuple[float, float]:
     build(name, case, **options)  # what is wrong with it is told here
     request = json.dumps({"name": name, "case": case.model_dump(mode="json"), "options": options})
     done = subprocess.run(
-        [sys.executable, "-m", "references.footprint"],
-        input=request, capture_output=True, text=True, check=True, cwd=Path(__file__).parents[1],
+        [sys.executable, "-m", "references.timing.footprint"],
+        input=request, capture_output=True, text=True, check=True, cwd=Path(__file__).parents[2],
     )  # fmt: skip
     memory, seconds = json.loads(done.stdout.splitlines()[-1])
     return float(memory), float(seconds)

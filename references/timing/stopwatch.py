@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from fctd.results import versions
+from fctd.results.tables import versions
 from references import engines
-from references.base import METHODS, installed_version, method_class
+from references.contact import METHODS, installed_version, method_class
 from references.engines import ENGINES, engine_class
 
 Action = Callable[[], object]

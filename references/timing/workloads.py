@@ -13,20 +13,19 @@ import pandas as pd
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd import state, topdrive
-from fctd.case import Case
-from fctd.contact import update_walls
-from fctd.dynamics import whole_operations
-from fctd.energy import Energy, penetration
-from fctd.query import query_walls
-from fctd.record import LOSSES
-from fctd.run import STILL, Run, contact_points, forget_start, prepare
-from fctd.topdrive import Motion
-from fctd.wall_query import QueriedWall
-from fctd.wellbore import Contacts
-from references import engine_checks
-from references.engine_run import begin_run, legs
-from references.engines import Window
+from fctd.case.load import Case
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.contact import update_walls
+from fctd.mechanics.dynamics import whole_operations
+from fctd.mechanics.energy import Energy, penetration
+from fctd.mechanics.query import query_walls
+from fctd.mechanics.topdrive import Motion
+from fctd.model.wellbore import Contacts
+from fctd.simulation.external_contact import QueriedWall
+from fctd.simulation.recorder import LOSSES
+from fctd.simulation.run import STILL, Run, contact_points, forget_start, prepare
+from references.engines import Window, checks
+from references.engines.run import begin_run, legs
 
 Array = NDArray[np.float64]
 
@@ -96,7 +95,7 @@ def energy_error(run: Run, before: Energy, now: Energy) -> float:
     work, fed = float(run.top[topdrive.TOP_WORK]), float(run.top[topdrive.FED_ENERGY])
     left = sum(entries.values()) + sum(lost.values()) - work - fed
     entries |= lost | {"top_drive_work_J": work, "fed_pipe_J": fed, "residual_J": left}
-    return engine_checks.energy_error(pd.DataFrame([entries]))
+    return checks.energy_error(pd.DataFrame([entries]))
 
 
 @njit(error_model="numpy", cache=True)

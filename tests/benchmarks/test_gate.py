@@ -12,7 +12,7 @@ from benchmarks.gate import Outcome, gate
 from benchmarks.history import Kernel, Record
 from benchmarks.release import NoSourcesError
 from benchmarks.verdict import decide
-from fctd.errors import InputError
+from fctd.case.errors import InputError
 from tests.benchmarks.test_history import a_record
 
 FILE = Path("record.json")

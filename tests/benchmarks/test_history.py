@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks import history
 from benchmarks.history import Kernel, Record
-from fctd.errors import InputError
+from fctd.case.errors import InputError
 
 VERSIONS = {"python": "3.11.7", "numba": "0.68.1", "llvmlite": "0.50.0", "numpy": "2.4.6"}
 

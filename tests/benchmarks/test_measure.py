@@ -6,7 +6,7 @@ import pytest
 
 from benchmarks import measure, worker
 from benchmarks.subjects import ARCS, CYLINDERS, FCL, FREE, REFERENCE, Subject
-from fctd.errors import InputError
+from fctd.case.errors import InputError
 
 
 def test_the_machine_and_the_process_fall_out_of_a_round() -> None:

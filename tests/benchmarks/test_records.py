@@ -8,8 +8,8 @@ pytest.importorskip("pytest_benchmark")
 
 from benchmarks import conftest, records
 from benchmarks.strings import chain, hanging, trip
-from fctd.run import UnstableError
-from references.workloads import moving
+from fctd.simulation.run import UnstableError
+from references.timing.workloads import moving
 
 
 def test_the_hook_load_of_a_turning_chain_is_its_vertical_weight():

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from fctd import load_case
-from fctd.errors import InputError
-from fctd.input_file import read_text
-from fctd.survey_file import read_stations
+from fctd.case.errors import InputError
+from fctd.case.input_file import read_text
+from fctd.case.survey_file import read_stations
 
 NO_FILE = "expected a regular file (this is a pipe or a device"
 

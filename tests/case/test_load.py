@@ -13,9 +13,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fctd import units
-from fctd.case import Case, RotateOffBottom, TripOut, load_case, parse_override
-from fctd.errors import MISSING, InputError
+from fctd.case import units
+from fctd.case.errors import MISSING, InputError
+from fctd.case.load import Case, RotateOffBottom, TripOut, load_case, parse_override
 from tests.strategies import CASE, COMBINED, RULES, cases, corrupted_cases, write_case
 
 

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.errors import MISSING, InputError
-from fctd.survey_file import StationKey, check_stations, read_stations
+from fctd.case.errors import MISSING, InputError
+from fctd.case.survey_file import StationKey, check_stations, read_stations
 
-DATA = Path(os.environ.get("FCTD_DATA", Path(__file__).parents[1] / ".." / "shared" / "data"))
+DATA = Path(os.environ.get("FCTD_DATA", Path(__file__).parents[2] / ".." / "shared" / "data"))
 
 Write = Callable[..., Path]
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.text import degrade_output, file_name, printable, printable_lines
+from fctd.case.text import degrade_output, file_name, printable, printable_lines
 
 ANYTHING = st.text(st.characters(categories=["L", "M", "N", "P", "S", "Z", "C"]), max_size=300)  # surrogates as well
 

@@ -10,12 +10,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-from fctd import cli, cli_refine, cli_steady, open_result
-from fctd.interrupts import as_interrupts
 from tests.test_cli import CASE, run
 
-ROOT = Path(__file__).parents[1]
+from fctd import open_result
+from fctd.cli import main, refine, steady
+from fctd.cli.interrupts import as_interrupts
+
+ROOT = Path(__file__).parents[2]
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 KILL = (signal.SIGTERM, signal.SIGHUP)
 
@@ -49,7 +50,7 @@ def sending(real: Callable[..., object], number: int, after: int) -> Callable[..
 def test_a_run_keeps_what_it_has(
     number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(cli, "simulate", sending(cli.simulate, number, 2))
+    monkeypatch.setattr(main, "simulate", sending(main.simulate, number, 2))
     out = tmp_path / "out"
     assert run(monkeypatch, "simulate", case_file, "--out", out, "--set", "record.interval=1 s", "--quiet") == 130
     result = open_result(out)
@@ -73,8 +74,8 @@ def test_a_command_without_results_ends_without_files(
         "refine": ("refine", case_file, "--out", tmp_path / "fine.toml"),
     }
     monkeypatch.setattr(sys.modules["fctd.simulate"], "settle", settle)
-    monkeypatch.setattr(cli_steady, "torque_drag", sending(cli_steady.torque_drag, number, 2))
-    monkeypatch.setattr(cli_refine, "refine", sending(cli_refine.refine, number, 1))
+    monkeypatch.setattr(steady, "torque_drag", sending(steady.torque_drag, number, 2))
+    monkeypatch.setattr(refine, "refine", sending(refine.refine, number, 1))
     assert run(monkeypatch, *options[command]) == 130
     assert "Traceback" not in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
@@ -85,15 +86,15 @@ def test_the_second_signal_does_not_cost_the_results(
     number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A terminal that closes sends SIGHUP from the system and from the shell."""
-    save = cli.SimulationResult.save
+    save = main.SimulationResult.save
 
     def again(*arguments: object, **more: object) -> object:
         for each in KILL:
             os.kill(os.getpid(), each)
         return save(*arguments, **more)
 
-    monkeypatch.setattr(cli, "simulate", sending(cli.simulate, number, 1))
-    monkeypatch.setattr(cli.SimulationResult, "save", again)
+    monkeypatch.setattr(main, "simulate", sending(main.simulate, number, 1))
+    monkeypatch.setattr(main.SimulationResult, "save", again)
     assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
     assert open_result(tmp_path / "out").status == "interrupted"
 

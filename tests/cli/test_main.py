@@ -10,8 +10,9 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from fctd import cli, open_result
-from fctd.interrupts import ends_program
+from fctd import open_result
+from fctd.cli import main
+from fctd.cli.interrupts import ends_program
 
 CASE = """
 name = "small"
@@ -49,7 +50,7 @@ def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
     """Exit code of ``fctd ARGUMENTS``."""
     monkeypatch.setattr("sys.argv", ["fctd", *map(str, arguments)])
     with pytest.raises(SystemExit) as stopped:
-        cli.main()
+        main.main()
     return int(stopped.value.code or 0)
 
 
@@ -154,7 +155,7 @@ def test_a_disk_that_is_full_costs_the_file_and_not_the_answer(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("fctd.results.pq.write_table", full)
+    monkeypatch.setattr("fctd.results.tables.pq.write_table", full)
     out = tmp_path / "out"
     assert run(monkeypatch, "simulate", case_file, "--out", out, "--quiet") == 2
     captured = capsys.readouterr()
@@ -218,7 +219,7 @@ def test_a_folder_that_cannot_be_replaced_is_refused_before(
     out: str, expected: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(case_file.parent)
-    monkeypatch.setattr(cli, "simulate", lambda *_, **__: pytest.fail("the case was computed"))
+    monkeypatch.setattr(main, "simulate", lambda *_, **__: pytest.fail("the case was computed"))
     (case_file.parent / "taken").mkdir()
     os.mkfifo(case_file.parent / "taken" / "profile.parquet")
     assert run(monkeypatch, "simulate", case_file.name, "--out", out, "--quiet") == 2
@@ -231,7 +232,7 @@ def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypat
     def stopped(case: object, **more: object) -> object:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(cli, "simulate", stopped)
+    monkeypatch.setattr(main, "simulate", stopped)
     assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
 
@@ -239,7 +240,7 @@ def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypat
 @pytest.mark.parametrize("package", ["numba", "typer"])
 def test_interrupted_while_it_is_imported(package: str, tmp_path: Path) -> None:
     (tmp_path / f"{package}.py").write_text("raise KeyboardInterrupt\n")
-    environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{Path(__file__).parents[1]}"}
+    environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{Path(__file__).parents[2]}"}
     done = subprocess.run([sys.executable, "-m", "fctd"], env=environment, capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 import fctd
-from fctd.cli_options import read_share
-from fctd.errors import InputError
-from tests.test_cli import run
+from fctd.case.errors import InputError
+from fctd.cli.options import read_share
+from tests.cli.test_main import run
 
 CASE = """
 name = "tiny"  # mine
@@ -97,7 +97,7 @@ def test_the_file_is_written_also_when_nobody_reads_the_screen(
         raise SystemExit(1)
 
     case_file.write_text(CASE, encoding="utf-8-sig")  # as some editors write
-    monkeypatch.setattr("fctd.cli_options.screen.print", closed)
+    monkeypatch.setattr("fctd.cli.options.screen.print", closed)
     out = tmp_path / "fine.toml"
     assert run(monkeypatch, "refine", case_file, "--tolerance", "20%", "--out", out, "--quiet") == 1
     assert fctd.load_case(out).name == "tiny"

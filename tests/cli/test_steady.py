@@ -13,10 +13,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import fctd
-from fctd.case import KINDS
-from fctd.cli_steady import MOST_DEPTHS, read_depths, stretches
-from fctd.errors import InputError
-from tests.test_cli import run
+from fctd.case.errors import InputError
+from fctd.case.load import KINDS
+from fctd.cli.steady import MOST_DEPTHS, read_depths, stretches
+from tests.cli.test_main import run
 
 CASE = """
 name = "tiny"
@@ -328,7 +328,7 @@ def test_files_are_written_also_when_nobody_reads_the_screen(
     def closed(*_: object, **__: object) -> None:
         raise SystemExit(1)
 
-    monkeypatch.setattr("fctd.cli_options.screen.print", closed)
+    monkeypatch.setattr("fctd.cli.options.screen.print", closed)
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "out.csv")}
     assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 1
     assert len(pd.read_csv(tmp_path / "out.csv")) > 0
@@ -385,7 +385,7 @@ def test_a_target_that_cannot_be_written_is_refused_before(
     os.mkfifo(tmp_path / "taken.csv.json")
     (tmp_path / "device.csv").symlink_to("/dev/null")
     for compute in ("torque_drag", "equilibrium"):
-        monkeypatch.setattr(f"fctd.cli_steady.{compute}", lambda *_, **__: pytest.fail("the case was computed"))
+        monkeypatch.setattr(f"fctd.cli.steady.{compute}", lambda *_, **__: pytest.fail("the case was computed"))
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / name)}
     assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 2
     message = capsys.readouterr().err

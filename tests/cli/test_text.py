@@ -12,13 +12,13 @@ import pyarrow.parquet as pq
 import pytest
 from hypothesis import given
 from rich.table import Table
-
-from fctd import cli
-from fctd.case import Case
-from fctd.text import printable_lines
-from references.__main__ import app as references_app
 from tests.test_cli import CASE
 from tests.test_text import ANYTHING
+
+from fctd.case.load import Case
+from fctd.case.text import printable_lines
+from fctd.cli import main
+from references.__main__ import app as references_app
 
 # A name as TOML writes it, and as it is shown: markup, emoji code, formula, CSI, OSC, C1, a line's end, an override.
 WILD = r"[/x] [bold]y :x: $\\frac{ \u001b[31m \u001b]0;t\u0007 \u009b1m \n \u202e"
@@ -53,7 +53,7 @@ def fctd(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
     """Exit code of ``fctd ARGUMENTS``."""
     monkeypatch.setattr("sys.argv", ["fctd", *map(str, arguments)])
     with pytest.raises(SystemExit) as stopped:
-        cli.main()
+        main.main()
     return int(stopped.value.code or 0)
 
 
@@ -66,7 +66,7 @@ def check_plain(*printed: str) -> None:
 @given(ANYTHING)
 def test_any_text_reaches_the_terminal_as_it_stands(text: str) -> None:
     with redirect_stdout(io.StringIO()) as out:
-        cli.screen.print(text, soft_wrap=True)
+        main.screen.print(text, soft_wrap=True)
     assert out.getvalue() == printable_lines(text) + "\n"
 
 
@@ -76,7 +76,7 @@ def test_a_table_holds_any_text(text: str) -> None:
     table.add_column(text)
     table.add_row(text)
     with redirect_stdout(io.StringIO()) as out:
-        cli.screen.print(table)
+        main.screen.print(table)
     check_plain(out.getvalue())
 
 
@@ -84,7 +84,7 @@ def test_a_table_holds_any_text(text: str) -> None:
 def test_a_name_is_printed_as_it_stands(
     command: str, wild: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(cli.screen, "_width", 200)
+    monkeypatch.setattr(main.screen, "_width", 200)
     arguments = [*COMMANDS[command], wild]
     assert fctd(monkeypatch, *arguments) == 0
     out, err = capsys.readouterr()
@@ -96,10 +96,10 @@ def test_a_name_is_printed_as_it_stands(
 def test_a_name_beside_a_progress_bar(
     command: str, wild: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(cli.messages, "_width", 200)
+    monkeypatch.setattr(main.messages, "_width", 200)
     monkeypatch.setenv("TTY_COMPATIBLE", "1")  # a terminal, for rich
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setattr(cli.messages, "is_interactive", True)
+    monkeypatch.setattr(main.messages, "is_interactive", True)
     assert fctd(monkeypatch, *COMMANDS[command], wild) == 0
     err = capsys.readouterr().err
     assert SHOWN in err
@@ -208,7 +208,7 @@ def test_the_list_of_references_in_ascii(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(sys, "stdout", out)
     monkeypatch.setattr("sys.argv", ["references", "list"])
     with pytest.raises(SystemExit) as stopped:
-        cli.run(references_app)
+        main.run(references_app)
     assert not stopped.value.code
     assert b"cylinders" in out.buffer.getvalue()
 
@@ -294,7 +294,7 @@ def test_refine_of_a_case_whose_name_is_no_utf8(
 def test_refine_refuses_at_once_a_survey_that_toml_cannot_name(
     odd: str, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("fctd.cli_refine.refine", None)  # nothing is computed
+    monkeypatch.setattr("fctd.cli.refine.refine", None)  # nothing is computed
     assert fctd(monkeypatch, *COMMANDS["refine"], odd, "--out", "r.toml") == 2
     err = capsys.readouterr().err
     assert "--out" in err

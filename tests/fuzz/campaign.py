@@ -11,10 +11,10 @@ from pathlib import Path
 from random import Random
 
 from fctd import Case, Equilibrium, InputError, build_wellbore, equilibrium, load_case, simulate, torque_drag
-from fctd.case import KINDS, parse_override
-from fctd.equilibrium import Solver
-from fctd.operations import steady_rates
-from fctd.run import prepare
+from fctd.case.load import KINDS, parse_override
+from fctd.model.operations import steady_rates
+from fctd.simulation.run import prepare
+from fctd.steady.equilibrium import Solver
 from tests.fuzz import mechanics
 from tests.fuzz.items import Item
 from tests.fuzz.mutants import mutant

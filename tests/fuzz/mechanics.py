@@ -7,10 +7,10 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, Equilibrium, SimulationResult, Wellbore, find_contacts
-from fctd.case import DRILLING
-from fctd.drillstring import String, lay_out
-from fctd.equilibrium import ANSWERED, SOUND
-from fctd.operations import steady_rates
+from fctd.case.load import DRILLING
+from fctd.model.drillstring import String, lay_out
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import ANSWERED, SOUND
 
 STATUSES = (*ANSWERED, "max_iterations", "diverged", "not_finite")
 RUN_STATUSES = ("completed", "unstable", "unsettled", "interrupted")

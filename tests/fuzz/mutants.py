@@ -9,7 +9,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from fctd.errors import InputError, set_key
+from fctd.case.errors import InputError, set_key
 from tests.fuzz.items import Item
 from tests.strategies import CASE, COMBINED, RULES, WRONG_VALUES, places, toml, write_case
 

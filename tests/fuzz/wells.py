@@ -3,7 +3,7 @@
 from random import Random
 from typing import Any, NamedTuple
 
-from fctd.case import KINDS
+from fctd.case.load import KINDS
 from tests.fuzz.items import Item
 from tests.fuzz.paths import path
 from tests.strategies import write_case

@@ -20,9 +20,9 @@ from numba.core.dispatcher import Dispatcher
 from rich.console import Console
 
 import fctd
-from fctd import compile_cache, jit
-from fctd.cli_compile import compile_command, listening, telling
-from fctd.compile_cache import CompileCacheWarning, Store, open_store
+from fctd.cli.compile import compile_command, listening, telling
+from fctd.mechanics import compile_cache, jit
+from fctd.mechanics.compile_cache import CompileCacheWarning, Store, open_store
 
 
 def twice(x):
@@ -203,7 +203,7 @@ def test_without_any_folder_code_is_kept_in_memory(tmp_path: Path, monkeypatch: 
 
 def dispatchers() -> dict[str, Any]:
     """Every compiled function of the engine."""
-    modules = [import_module(f"fctd.{module.name}") for module in pkgutil.iter_modules(fctd.__path__)]
+    modules = [import_module(module.name) for module in pkgutil.walk_packages(fctd.__path__, "fctd.")]
     return {
         f"{value.py_func.__module__}.{name}": value
         for module in modules
@@ -248,7 +248,7 @@ assert not several, several
 
 def test_compile_reaches_every_function_with_every_signature() -> None:
     done = subprocess.run(
-        [sys.executable, "-c", EVERY_SIGNATURE], cwd=Path(__file__).parents[1], capture_output=True, text=True
+        [sys.executable, "-c", EVERY_SIGNATURE], cwd=Path(__file__).parents[2], capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
 
@@ -256,8 +256,8 @@ def test_compile_reaches_every_function_with_every_signature() -> None:
 def test_the_command_says_what_it_compiled_and_where(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("fctd.cli_compile.STORE", compile_cache.STORE)
-    monkeypatch.setattr("fctd.cli_compile.compile_all", lambda: hits(thrice, 4.5))
+    monkeypatch.setattr("fctd.cli.compile.STORE", compile_cache.STORE)
+    monkeypatch.setattr("fctd.cli.compile.compile_all", lambda: hits(thrice, 4.5))
     compile_command()
     seen = capsys.readouterr()
     assert "thrice" in seen.err
@@ -276,7 +276,7 @@ def test_listening_names_what_is_compiled(folder: Path) -> None:
 
 def test_a_first_run_says_once_why_it_waits(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = StringIO()
-    monkeypatch.setattr("fctd.cli_compile.messages", Console(file=seen, force_terminal=True))
+    monkeypatch.setattr("fctd.cli.compile.messages", Console(file=seen, force_terminal=True))
     with telling():
         assert hits(twice, 3.0) == 1
         assert seen.getvalue() == ""

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from fctd import build_wellbore, contact, state
-from fctd.wellbore import Wellbore
+from fctd import build_wellbore
+from fctd.mechanics import contact, state
+from fctd.model.wellbore import Wellbore
 from tests.bodies import AXIS, PLACE, TO_WALL, Array, put
 from tests.cases import make_case
 

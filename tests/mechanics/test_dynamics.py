@@ -10,10 +10,10 @@ from numba import config, njit
 from numba.core.runtime import _nrt_python, rtsys
 from scipy.spatial.transform import Rotation
 
-from fctd import dynamics, joints, query, state, topdrive
-from fctd.contact import COLUMNS, Arc, follow_arcs, follow_cylinders
-from fctd.faults import UnstableError
-from fctd.run import Run, prepare, settle
+from fctd.mechanics import dynamics, joints, query, state, topdrive
+from fctd.mechanics.contact import COLUMNS, Arc, follow_arcs, follow_cylinders
+from fctd.mechanics.faults import UnstableError
+from fctd.simulation.run import Run, prepare, settle
 from tests.bodies import (
     AXIS,
     FORCE,

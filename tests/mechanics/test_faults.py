@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from fctd import state
-from fctd.faults import UnstableError, check
+from fctd.mechanics import state
+from fctd.mechanics.faults import UnstableError, check
 
 
 def put(row: int, value: float) -> Callable[[np.ndarray], None]:

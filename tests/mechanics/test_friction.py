@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from fctd import dynamics, friction, state
-from fctd.state import Laws
+from fctd.mechanics import dynamics, friction, state
+from fctd.mechanics.state import Laws
 from tests.bodies import SPIN, TO_WALL, VELOCITY, Array, at, place, put, set_body
 
 MASS, INERTIA = 400.0, np.array([3000.0, 3000.0, 1.5])

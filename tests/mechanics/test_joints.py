@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from fctd import joints, state
+from fctd.mechanics import joints, state
 from tests.bodies import FORCE, GLOBAL_SPIN, ON_LOWER, ON_UPPER, PLACE, VELOCITY, at, place, put
 
 STIFFNESS = {state.K_AXIAL: 4e7, state.K_SHEAR: 9e6, state.K_BEND: 4e4, state.K_TWIST: 3e4}

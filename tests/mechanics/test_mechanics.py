@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from fctd import simulate, state
-from fctd.drillstring import section_of
-from fctd.operations import rad_per_s
-from fctd.run import prepare, settle
-from references.soft_string import soft_string
+from fctd import simulate
+from fctd.mechanics import state
+from fctd.model.drillstring import section_of
+from fctd.model.operations import rad_per_s
+from fctd.simulation.run import prepare, settle
+from references.soft_string.integration import soft_string
 from tests.cases import make_case, pipe, rotation, trip
 
 HORIZONTAL = [[0, 90, 0], [2000, 90, 0]]

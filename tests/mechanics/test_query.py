@@ -5,10 +5,10 @@ import pytest
 from numba import njit
 
 from fctd import build_wellbore
-from fctd.contact import arc_owner, arc_wall, cylinder_owner, cylinder_wall
-from fctd.query import TOGETHER
-from fctd.state import ARCS
-from fctd.wellbore import Wellbore
+from fctd.mechanics.contact import arc_owner, arc_wall, cylinder_owner, cylinder_wall
+from fctd.mechanics.query import TOGETHER
+from fctd.mechanics.state import ARCS
+from fctd.model.wellbore import Wellbore
 from tests.cases import make_case
 
 BEND = [[0, 0, 0], [300, 0, 0], [600, 60, 40], [1000, 95, 130]]

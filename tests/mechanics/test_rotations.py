@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from fctd import rotations
+from fctd.mechanics import rotations
 
 angles = st.floats(-math.pi, math.pi)
 parts = st.floats(-1, 1)

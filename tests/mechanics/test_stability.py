@@ -3,8 +3,8 @@
 import pytest
 
 from fctd import InputError, equilibrium
-from fctd.run import prepare
-from fctd.stability import stable_step
+from fctd.mechanics.stability import stable_step
+from fctd.simulation.run import prepare
 from tests.cases import make_case, pipe, rotation
 
 

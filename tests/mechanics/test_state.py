@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from fctd import state
-from fctd.errors import InputError
+from fctd.case.errors import InputError
+from fctd.mechanics import state
 
 
 def test_every_row_has_its_own_place() -> None:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from fctd import state, topdrive
-from fctd.topdrive import Motion, PerMetre
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.topdrive import Motion, PerMetre
 from tests.bodies import (
     AXIS,
     FORCE,

@@ -7,12 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fctd import drillstring, state
-from fctd.drillstring import SHORTEST_LONG_SEGMENT, check_fit, lay_out, section_of, shear_coefficient
-from fctd.errors import InputError
-from fctd.run import prepare
-from fctd.state import MAX_SEGMENTS
-from fctd.wellbore import build_wellbore
+from fctd.case.errors import InputError
+from fctd.mechanics import state
+from fctd.mechanics.state import MAX_SEGMENTS
+from fctd.model import drillstring
+from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, check_fit, lay_out, section_of, shear_coefficient
+from fctd.model.wellbore import build_wellbore
+from fctd.simulation.run import prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 

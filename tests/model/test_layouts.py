@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fctd import Case
-from fctd.drillstring import lay_out
-from fctd.layouts import (
+from fctd.case.specs import ComponentSpec
+from fctd.model.drillstring import lay_out
+from fctd.model.layouts import (
     LONGEST,
     _grade,
     _least,
@@ -22,7 +23,6 @@ from fctd.layouts import (
     uniform,
     with_components,
 )
-from fctd.specs import ComponentSpec
 from tests.cases import make_case, pipe
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [2000, 60, 0]]

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fctd.case import KINDS
-from fctd.errors import InputError
-from fctd.operations import (
+from fctd.case.errors import InputError
+from fctd.case.load import KINDS
+from fctd.model.operations import (
     DEFAULT_RATES,
     MAY_TURN,
     MOVES,

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd import survey
-from fctd.survey_file import read_stations
-from validation.study import data_folder
+from fctd.case.survey_file import read_stations
+from fctd.model import survey
+from validation.harness.study import data_folder
 
 
 def test_average_angle_is_the_paper_eqs_21_to_23() -> None:

@@ -9,10 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fctd import contact, find_contacts, survey
-from fctd.errors import InputError
-from fctd.wellbore import Wellbore, build_wellbore, hole_frame
-from references.for_loop import for_loop_owners
+from fctd import find_contacts
+from fctd.case.errors import InputError
+from fctd.mechanics import contact
+from fctd.model import survey
+from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
+from references.contact.for_loop import for_loop_owners
 from tests.cases import make_case
 
 

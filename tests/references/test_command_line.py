@@ -6,9 +6,9 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from fctd.cli import run
+from fctd.cli.main import run
 from references import __main__ as command
-from references import base, engines
+from references import contact, engines
 
 CASE = Path(__file__).parents[2] / "validation" / "cases" / "curved_chain.toml"
 SHORT = ("--set", "operations[0].duration=1 s", "--set", "operations[0].ramp_time=1 s", "--quiet")
@@ -25,7 +25,7 @@ def call(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
 def test_the_list_names_every_method(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert call(monkeypatch, "list") == 0
     printed = capsys.readouterr().out
-    for name in [*base.METHODS, *engines.ENGINES]:
+    for name in [*contact.METHODS, *engines.ENGINES]:
         assert name in printed
 
 
@@ -69,7 +69,7 @@ def test_bad_input_is_one_message_and_exit_code_2(
 def test_a_missing_package_is_exit_code_2_and_stands_in_the_list(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    method = base.method_class("fcl")
+    method = contact.method_class("fcl")
     monkeypatch.setattr(method, "distribution", "no-such-package")
     assert call(monkeypatch, "list") == 0
     assert "not installed" in capsys.readouterr().out

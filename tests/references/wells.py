@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case import Case
-from fctd.wellbore import build_wellbore
+from fctd.case.load import Case
+from fctd.model.wellbore import build_wellbore
 
 from ..cases import make_case, pipe
 

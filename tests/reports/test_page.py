@@ -16,9 +16,10 @@ from typer.testing import CliRunner
 
 from reports import __main__ as command_line
 from reports import page
-from validation import claims, ledger, record, registry, study
-from validation.record import Judged, Provenance, Record
-from validation.study import Check, Context
+from validation.claims import judgement, ledger
+from validation.harness import registry, store, study
+from validation.harness.store import Judged, Provenance, Record
+from validation.harness.study import Check, Context
 
 from . import synthetic
 
@@ -52,7 +53,7 @@ def finished(name, **changes):
 def render(tmp_path):
     def call(*runs, studies=(), changes=None):
         for run, tables in runs:
-            record.write(run, tables, tmp_path / "results")
+            store.write(run, tables, tmp_path / "results")
         problems = page.render(tmp_path / "results", studies, tmp_path / "out", changes)
         return (tmp_path / "out" / "index.html").read_text(encoding="utf-8"), problems
 
@@ -288,10 +289,10 @@ def judged_claims(tmp_path, monkeypatch):
     """A stored ledger with a claim for every verdict."""
     (tmp_path / "claims.toml").write_text(LEDGER)
     for name, value in (("jumps", 0.5), ("drops", 0.75)):
-        record.write(replace(BLANK, study=name, checks=(judged(value),)), {}, tmp_path / "results")
+        store.write(replace(BLANK, study=name, checks=(judged(value),)), {}, tmp_path / "results")
         monkeypatch.setitem(registry.STUDIES, name, "no.module")
-    monkeypatch.setattr(claims, "read_ledger", lambda: ledger.read_ledger(tmp_path / "claims.toml"))
-    outcome = claims.run(Context(results=tmp_path / "results"))
+    monkeypatch.setattr(judgement, "read_ledger", lambda: ledger.read_ledger(tmp_path / "claims.toml"))
+    outcome = judgement.run(Context(results=tmp_path / "results"))
     run = replace(BLANK, study="claims", question="What holds?", tables=tuple(outcome.tables))
     return run, outcome.tables
 
@@ -373,7 +374,7 @@ def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
 def test_command_tells_when_a_figure_is_missing(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
     monkeypatch.setattr(command_line, "OUT", tmp_path / "out")
-    record.write(replace(BLANK, checks=(judged(5e-7),)), {}, tmp_path / "results")
+    store.write(replace(BLANK, checks=(judged(5e-7),)), {}, tmp_path / "results")
     assert CliRunner().invoke(command_line.app).exit_code == 1
 
 

@@ -9,12 +9,13 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-
-from fctd import Case, equilibrium, notes, simulate, torque_drag
-from fctd.equilibrium import Equilibrium
-from fctd.units import conversion
-from tests.cases import make_case, pipe, rotation, trip
 from tests.test_cli import run
+
+from fctd import Case, equilibrium, simulate, torque_drag
+from fctd.case.units import conversion
+from fctd.results import notes
+from fctd.steady.equilibrium import Equilibrium
+from tests.cases import make_case, pipe, rotation, trip
 
 
 def bend(quarters: int) -> list[list[float]]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fctd import equilibrium, simulate
-from fctd.profile import buckling_limits
+from fctd.results.profile import buckling_limits
 from tests.cases import make_case, pipe, rotation, trip
 
 LONG = [pipe(100, 4), pipe(None, 1)]

@@ -12,7 +12,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fctd import SimulationResult
-from fctd.results import versions, write_table
+from fctd.results.tables import versions, write_table
 from tests.cases import make_case, rotation
 
 TABLE = pd.DataFrame({"time_s": [1.0, 2.5], "operation": ["trip_in", "trip_in"]})

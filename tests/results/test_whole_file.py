@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from fctd.errors import InputError
-from fctd.whole_file import whole_file
+from fctd.case.errors import InputError
+from fctd.results.whole_file import whole_file
 
 
 def test_the_new_file_takes_the_place_of_the_old(tmp_path: Path) -> None:

@@ -9,14 +9,15 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from fctd import open_result, results
-from fctd import whole_folder as whole_folder_module
-from fctd.errors import InputError
-from fctd.results import TABLES, own_files
-from fctd.whole_folder import check_folder, repair, whole_folder
+from fctd import open_result
+from fctd.case.errors import InputError
+from fctd.results import tables
+from fctd.results import whole_folder as whole_folder_module
+from fctd.results.tables import TABLES, own_files
+from fctd.results.whole_folder import check_folder, repair, whole_folder
 from tests.killed_saves import FOREIGN, earlier, result
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 ENDED = 4_194_304  # no process: beyond the ids that Linux gives
 
 
@@ -247,7 +248,7 @@ def test_files_of_processes_that_were_killed_are_removed(tmp_path: Path) -> None
 
 
 def test_tables_of_two_runs_are_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(results, "PAUSE", 0.0)
+    monkeypatch.setattr(tables, "PAUSE", 0.0)
     result(1.0).save(tmp_path / "out")
     result(2.0).save(tmp_path / "other")
     (tmp_path / "other" / "energy.parquet").replace(tmp_path / "out" / "energy.parquet")
@@ -275,7 +276,7 @@ def test_a_result_that_is_replaced_while_it_is_read(tmp_path: Path, monkeypatch:
 
 @pytest.mark.parametrize("name", ["missing", "file"])
 def test_what_is_no_folder_is_no_result(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(results, "PAUSE", 0.0)
+    monkeypatch.setattr(tables, "PAUSE", 0.0)
     (tmp_path / "file").touch()
     with pytest.raises(InputError) as caught:
         open_result(tmp_path / name)
@@ -297,7 +298,7 @@ def test_a_result_is_read_as_it_was_saved(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["history", "profile", "energy"])
 @pytest.mark.parametrize("damage", ["missing", "cut", "text", "pipe"])
 def test_a_damaged_result_is_named(damage: str, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(results, "PAUSE", 0.0)
+    monkeypatch.setattr(tables, "PAUSE", 0.0)
     result(1.0).save(tmp_path / "out")
     path = tmp_path / "out" / f"{name}.parquet"
     content = path.read_bytes()
@@ -314,7 +315,7 @@ def test_a_damaged_result_is_named(damage: str, name: str, tmp_path: Path, monke
 
 
 def test_a_table_of_another_origin_is_no_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(results, "PAUSE", 0.0)
+    monkeypatch.setattr(tables, "PAUSE", 0.0)
     for name in TABLES:
         pd.DataFrame({"a": [1]}).to_parquet(tmp_path / f"{name}.parquet")
     with pytest.raises(InputError, match="the metadata that fctd simulate writes"):

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fctd import state, topdrive
-from fctd.record import Recorder, _work
-from fctd.run import forget_start, prepare
-from fctd.topdrive import Motion
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.topdrive import Motion
+from fctd.simulation.recorder import Recorder, _work
+from fctd.simulation.run import forget_start, prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 RIG = {"block_weight": 1e4, "sheave_efficiency": 0.5, "torque_offset": 50.0}

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from fctd import Case, simulate
-from fctd.ringing import SPAN, STRIDE, Ringing, cylinder_tilt, expected_ringing
-from fctd.run import prepare
-from fctd.wellbore import build_wellbore
-from references import base
+from fctd.model.wellbore import build_wellbore
+from fctd.simulation.ringing import SPAN, STRIDE, Ringing, cylinder_tilt, expected_ringing
+from fctd.simulation.run import prepare
+from references import contact
 from validation.cases import load, rotation, trip
-from validation.long_segment import chain_frequencies
+from validation.studies.long_segment import chain_frequencies
 
 
 def well_b(start: float = 1750.0, end: float = 2450.0, speed: float = 0.5, **changes: Any) -> Case:
@@ -72,7 +72,7 @@ def test_ringing_is_expected_of_cylinders_in_motion_alone() -> None:
     assert np.diff(slow).max() <= 0.01 * SPAN + 1e-9
     assert not len(ringing(load("paper_well_b", operations=rotation(2000.0, 60.0, 1.0))).bit_depth)
     case = well_b(2000.0, 2100.0)
-    assert not len(expected_ringing(*prepare(case, base.build("for_loop", case))).bit_depth)
+    assert not len(expected_ringing(*prepare(case, contact.build("for_loop", case))).bit_depth)
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])

@@ -9,11 +9,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from fctd import Case, InputError, equilibrium, simulate, state, topdrive
-from fctd.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
-from fctd.layouts import graded, uniform, with_components
-from fctd.operations import Stretch, depth_range, schedule
-from fctd.run import Run, _relaxing, contact_points, prepare
+from fctd import Case, InputError, equilibrium, simulate
+from fctd.mechanics import state, topdrive
+from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
+from fctd.model.layouts import graded, uniform, with_components
+from fctd.model.operations import Stretch, depth_range, schedule
+from fctd.simulation.run import Run, _relaxing, contact_points, prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]

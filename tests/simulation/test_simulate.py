@@ -7,9 +7,10 @@ import pandas as pd
 import pytest
 
 import fctd
-from fctd import SimulationResult, simulate, state
-from fctd.operations import schedule
-from fctd.run import prepare
+from fctd import SimulationResult, simulate
+from fctd.mechanics import state
+from fctd.model.operations import schedule
+from fctd.simulation.run import prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [400, 0, 0], [850, 90, 0], [1200, 90, 0]]
@@ -55,7 +56,7 @@ def test_mud_torque_is_the_damper_times_the_spin() -> None:
 def test_rotating_hook_load_is_the_vertical_weight() -> None:
     """Contact forces of a rotating string have no share along the hole, whatever they are."""
     case = build_case(ROTATE)
-    section = fctd.drillstring.section_of(case.string.components[0], 0.0)
+    section = fctd.model.drillstring.section_of(case.string.components[0], 0.0)
     radius = 450 / (np.pi / 2)
     assert steady(simulate(case)).hookload_N == pytest.approx(section.weight * (100 + radius), rel=3e-3)
 
@@ -66,7 +67,7 @@ def test_coulomb_rotation_climbs_the_wall_by_the_friction_angle() -> None:
     result = simulate(case)
     part = result.profile[(result.profile.md_m > 900) & (result.profile.md_m < 980)]
     np.testing.assert_allclose(part.contact_angle_deg, 180 - np.degrees(np.arctan(0.2)), atol=0.1)
-    weight = fctd.drillstring.section_of(case.string.components[0], 0.0).weight * 25
+    weight = fctd.model.drillstring.section_of(case.string.components[0], 0.0).weight * 25
     np.testing.assert_allclose(part.contact_force_N, weight / np.sqrt(1.04), rtol=5e-3)
 
 
@@ -112,7 +113,7 @@ def test_mud_resists_all_of_a_long_segment(operation: dict) -> None:
     middle = result.history[(result.history.time_s > 20) & (result.history.time_s < 35)].mean(numeric_only=True)
     depth, turning = middle.bit_depth_m, operation["kind"] == "rotate_off_bottom"
     rate = 2 * np.pi if turning else 0.2
-    weight = fctd.drillstring.section_of(case.string.components[0], 0.0).weight
+    weight = fctd.model.drillstring.section_of(case.string.components[0], 0.0).weight
     expected = (weight * depth, depth * rate) if turning else ((weight - 40 * rate) * depth, 0.0)
     assert middle.hookload_N == pytest.approx(expected[0], rel=1e-3)
     assert (middle.surface_torque_N_m, middle.mud_torque_N_m) == pytest.approx((expected[1],) * 2, rel=1e-3, abs=1e-6)
@@ -142,7 +143,7 @@ def test_fed_pipe_brings_its_strain_energy() -> None:
     """Lowering a vertical string: each metre enters with T²/2EA and, half of it lumped, with ¼ m v²."""
     case = make_case(operations=[trip(900, 960, speed=0.5)], components=[pipe(800, 16), pipe(None, 1)])
     result = simulate(case)
-    section = fctd.drillstring.section_of(case.string.components[1], 0.0)
+    section = fctd.model.drillstring.section_of(case.string.components[1], 0.0)
     long = result.history.bit_depth_m - 800
     tension = result.history.hookload_N - 0.5 * section.weight * long
     expected = 60 * ((tension**2).mean() / (2 * section.EA) + 0.25 * section.mass * 0.5**2)
@@ -206,7 +207,7 @@ def test_a_hole_that_turns_back_upwards(inclination: float, geometry: str) -> No
     """Past 90 degrees the hook carries the vertical reach, less what the leg beyond the lowest point pushes."""
     stations = [[0, 0, 0], [500, 0, 0], [1500, inclination, 0], [2300, inclination, 0]]
     case = make_case(stations, [pipe(2200, 88)], [rotation(2200, 20)], wellbore={"geometry": geometry})
-    weight = fctd.drillstring.section_of(case.string.components[0], 0.0).weight
+    weight = fctd.model.drillstring.section_of(case.string.components[0], 0.0).weight
     depth = fctd.build_wellbore(case).at(np.array([2200.0]))[0][0, 2]
     assert steady(simulate(case), 5).hookload_N == pytest.approx(weight * depth, abs=1e-3 * weight * 2200)
 
@@ -241,7 +242,7 @@ def test_an_interrupted_run_keeps_what_it_has() -> None:
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def test_slices_of_a_long_stretch_change_no_bit(geometry: str, law: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def state_after(most: int) -> tuple[np.ndarray, np.ndarray, int]:
-        monkeypatch.setattr("fctd.run.SLICE", most)
+        monkeypatch.setattr("fctd.simulation.run.SLICE", most)
         run, stretches = prepare(build_case(ROTATE, wellbore={"geometry": geometry}, contact={"friction_law": law}))
         run.advance(stretches[0].motion, 3.0)
         return run.S, run.top, run.steps
@@ -254,8 +255,8 @@ def test_slices_of_a_long_stretch_change_no_bit(geometry: str, law: str, monkeyp
 
 def test_ctrl_c_ends_a_long_record_and_keeps_what_it_has(monkeypatch: pytest.MonkeyPatch) -> None:
     """An hour between records: compiled code is left in the midst of it, and what has passed becomes its last row."""
-    monkeypatch.setattr("fctd.run.SLICE", 20_000)
-    sliced, calls = fctd.dynamics.advance, []
+    monkeypatch.setattr("fctd.simulation.run.SLICE", 20_000)
+    sliced, calls = fctd.mechanics.dynamics.advance, []
 
     def interrupted(*arguments: object) -> None:
         calls.append(arguments[-1])
@@ -263,7 +264,7 @@ def test_ctrl_c_ends_a_long_record_and_keeps_what_it_has(monkeypatch: pytest.Mon
         if arguments[6].duration == 3590.0:  # what follows the ramp
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("fctd.dynamics.advance", interrupted)
+    monkeypatch.setattr("fctd.mechanics.dynamics.advance", interrupted)
     result = simulate(build_case(rotation(1000, 3600, ramp=10), record={"interval": 3600}))
     assert max(calls) <= 20_000 / 28
     assert result.status == "interrupted"

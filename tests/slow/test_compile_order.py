@@ -79,7 +79,7 @@ def test_numbers_do_not_hang_on_what_was_compiled_before(tmp_path: Path) -> None
         for done in [pool.submit(simulated_first), pool.submit(balanced_first)]:
             done.result()
     # The two large functions compiled anew, beside kept code of those that they call.
-    for name in ("fctd.dynamics.advance-*", "fctd.continuation.converge-*"):
+    for name in ("fctd.mechanics.dynamics.advance-*", "fctd.steady.continuation.converge-*"):
         (kept,) = (tmp_path / "other-cache").rglob(name)
         kept.unlink()
     simulate(again)

@@ -6,7 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from fctd.block_thomas import SIZE, eliminate, negative_pivots, solve_with_pivoting
+from fctd.steady.block_thomas import SIZE, eliminate, negative_pivots, solve_with_pivoting
 
 Array = NDArray[np.float64]
 

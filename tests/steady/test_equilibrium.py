@@ -10,17 +10,17 @@ from hypothesis import strategies as st
 
 import fctd
 from fctd import Case, InputError, equilibrium
-from fctd.block_thomas import solve_with_pivoting
-from fctd.case import KINDS
-from fctd.continuation import hold_back, take_step
-from fctd.equilibrium import Solver
-from fctd.first_guess import MD, guess
-from fctd.operations import steady_rates
-from fctd.tangent import Steady, assemble
-from fctd.wellbore import build_wellbore, hole_frame
+from fctd.case.load import KINDS
+from fctd.model.operations import steady_rates
+from fctd.model.wellbore import build_wellbore, hole_frame
+from fctd.steady.block_thomas import solve_with_pivoting
+from fctd.steady.continuation import hold_back, take_step
+from fctd.steady.equilibrium import Solver
+from fctd.steady.first_guess import MD, guess
+from fctd.steady.tangent import Steady, assemble
 from tests.cases import make_case, pipe
-from validation import beam_in_hole
-from validation.study import Context
+from validation.harness.study import Context
+from validation.studies import beam_in_hole
 
 BUILD = [[0, 0, 0], [400, 0, 0], [800, 60, 0], [1300, 60, 0]]
 

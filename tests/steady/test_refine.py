@@ -11,13 +11,13 @@ import pytest
 
 import fctd
 from fctd import Case, Equilibrium, InputError
-from fctd.drillstring import lay_out
-from fctd.equilibrium import Solver
-from fctd.layouts import uniform, with_components
-from fctd.operations import SteadyRates, steady_rates
-from fctd.refine import SAFETY, Refinement, Status, _better, _errors, _Level, relative_difference
+from fctd.model.drillstring import lay_out
+from fctd.model.layouts import uniform, with_components
+from fctd.model.operations import SteadyRates, steady_rates
+from fctd.steady.equilibrium import Solver
+from fctd.steady.refine import SAFETY, Refinement, Status, _better, _errors, _Level, relative_difference
 from tests.cases import make_case, pipe, rotation, trip
-from validation.refine import finer
+from validation.studies.refine import finer
 
 BUILD = [[0, 0, 0], [400, 0, 0], [800, 60, 0], [1300, 60, 0]]
 
@@ -143,7 +143,7 @@ def test_cylinders_that_are_too_long_are_cut_as_well(size: dict[str, Any], first
 
 
 def test_the_string_is_allowed_what_the_cylinders_leave(monkeypatch: pytest.MonkeyPatch) -> None:
-    module, asked = sys.modules["fctd.refine"], []
+    module, asked = sys.modules["fctd.steady.refine"], []
     refine_string = module._refine_string
 
     def with_ease(case: Case, task: Any, layout: str, allowed: float) -> Any:

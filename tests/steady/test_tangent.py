@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fctd import dynamics, state
-from fctd.case import DRILLING, Case
-from fctd.contact import update_walls
-from fctd.equilibrium import Solver
-from fctd.joints import update_joint_loads
-from fctd.operations import steady_rates
-from fctd.rotations import turned
-from fctd.state import LANES, Laws
-from fctd.tangent import Steady, assemble
+from fctd.case.load import DRILLING, Case
+from fctd.mechanics import dynamics, state
+from fctd.mechanics.contact import update_walls
+from fctd.mechanics.joints import update_joint_loads
+from fctd.mechanics.rotations import turned
+from fctd.mechanics.state import LANES, Laws
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import Solver
+from fctd.steady.tangent import Steady, assemble
 from tests.cases import make_case, pipe
 
 Array = NDArray[np.float64]

@@ -10,8 +10,8 @@ import pandas as pd
 import pytest
 from rich.console import Console
 
-from validation import registry, runner, study
-from validation.study import Check, Context, Outcome, Study
+from validation.harness import registry, runner, study
+from validation.harness.study import Check, Context, Outcome, Study
 
 Register = Callable[..., None]
 

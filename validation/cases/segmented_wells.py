@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 from fctd import Case
 from validation.cases import load
-from validation.wells import BUILD, PIPE, SHARP, Stations, catenary, well
+from validation.cases.wells import BUILD, PIPE, SHARP, Stations, catenary, well
 
 # Refining the string must not stiffen the wall [N/m/m].
 WALL = {"stiffness": None, "stiffness_per_length": 1e6}

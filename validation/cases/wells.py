@@ -6,7 +6,7 @@ import numpy as np
 
 from fctd import Case
 from validation.cases import load
-from validation.study import Context
+from validation.harness.study import Context
 
 FOOT = 0.3048
 Stations = list[list[float]]

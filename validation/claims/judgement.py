@@ -4,9 +4,9 @@ from typing import Any
 
 import pandas as pd
 
-from validation.ledger import Finding, Found, Missing, Results, judge, read_ledger
-from validation.registry import STUDIES
-from validation.study import Check, Context, Outcome, Study
+from validation.claims.ledger import Finding, Found, Missing, Results, judge, read_ledger
+from validation.harness.registry import STUDIES
+from validation.harness.study import Check, Context, Outcome, Study
 
 ROLES = ("number", "limited", "second_route")
 

@@ -16,13 +16,13 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 import pandas as pd
 from pydantic import Field, ValidationError, model_validator
 
-from fctd.errors import MISSING, InputError, Table, exclusive, explain, look_up
-from validation import record
-from validation.record import Record
-from validation.registry import STUDIES
-from validation.study import ROOT, Check, Kind
+from fctd.case.errors import MISSING, InputError, Table, exclusive, explain, look_up
+from validation.harness import store
+from validation.harness.registry import STUDIES
+from validation.harness.store import Record
+from validation.harness.study import ROOT, Check, Kind
 
-CLAIMS = ROOT / "validation" / "claims.toml"
+CLAIMS = ROOT / "validation" / "claims" / "claims.toml"
 
 Recorded = Literal["holds", "holds with limits", "does not hold", "cannot be tested"]
 Verdict = Literal[Recorded, "not yet run", "routes disagree"]
@@ -288,7 +288,7 @@ class Results:
 
     def _read(self, study: str) -> Record | Missing:
         try:
-            run = record.read(self._folder / study)
+            run = store.read(self._folder / study)
         except FileNotFoundError:
             return Missing(study, f"{study} has not been run" if study in STUDIES else f"study {study} is to come")
         except (ValueError, TypeError, LookupError):

@@ -21,8 +21,8 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
-from references.timing import cpu_name
-from validation.study import ROOT
+from references.timing.stopwatch import cpu_name
+from validation.harness.study import ROOT
 
 # "package.module" or "package.module:Class", as in the registries of modules that are imported by name.
 MODULE_NAME = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)+(:\w+)?")

@@ -24,13 +24,13 @@ from rich.progress import (
 )
 from rich.text import Text
 
-from fctd.errors import InputError
-from fctd.text import printable_lines
-from validation import inputs, record
-from validation.inputs import Inputs
-from validation.record import Judged, Provenance, Record, Standing
-from validation.registry import STUDIES
-from validation.study import NEEDS, ROOT, Context, Outcome, Study, T
+from fctd.case.errors import InputError
+from fctd.case.text import printable_lines
+from validation.harness import fingerprint, store
+from validation.harness.fingerprint import Inputs
+from validation.harness.registry import STUDIES
+from validation.harness.store import Judged, Provenance, Record, Standing
+from validation.harness.study import NEEDS, ROOT, Context, Outcome, Study, T
 
 EXPECTED = ROOT / "validation" / "expected.toml"
 
@@ -135,9 +135,9 @@ def run_all(
 
     force : repeat those as well.  The code is 0, 1 for worse than recorded, 130 when interrupted.
     """
-    origin = record.provenance()
+    origin = store.provenance()
     # Now, before the studies are imported: what is edited during the run is repeated by the next one.
-    sources, around = inputs.Sources(), inputs.surroundings(quick)
+    sources, around = fingerprint.Sources(), fingerprint.surroundings(quick)
     code = {name: sources.used_by(STUDIES[name]) for name in names}
     finished: list[Done] = []
     columns = (
@@ -173,7 +173,7 @@ def run_one(
     recorded: Mapping[str, str],
     origin: Provenance,
     now: Inputs,
-    sources: inputs.Sources,
+    sources: fingerprint.Sources,
     force: bool,
 ) -> Done:
     """Take one study's result if it is up to date; otherwise run it and store what came of it.
@@ -205,7 +205,7 @@ def run_one(
             context = replace(context, data=None)
         why = "forced" if force else outdated(name, now, context.results)
         if why == KEPT:
-            return Done(record.judge_again(record.read(context.results / name), recorded, context.results), KEPT)
+            return Done(store.judge_again(store.read(context.results / name), recorded, context.results), KEPT)
         # What a study needs is a field of the context by the same name.
         absent = [NEEDS[need] for need in study.needs if getattr(context, need) is None]
         if absent:
@@ -215,45 +215,45 @@ def run_one(
             now = replace(now, files=read)
             run, tables = _finished(blank, outcome, recorded), outcome.tables
         run = replace(run, wall_s=time.perf_counter() - start)
-        record.write(run, tables, context.results, now)
+        store.write(run, tables, context.results, now)
     except Exception as error:
         # One study must not take the others with it: its failure is a result, and the exit code tells.
         if not isinstance(error, InputError):  # which says all there is to know
             print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
         message = f"{type(error).__name__}: {error}"
         run = replace(blank, message=message, wall_s=time.perf_counter() - start)
-        record.write(run, {}, context.results)
+        store.write(run, {}, context.results)
     return Done(run, why)
 
 
 def outdated(name: str, now: Inputs, results: Path) -> str:
     """Why a study has to be run: ``kept`` when it has not, nothing when there is no result yet."""
     try:
-        kept = record.read(results / name)
+        kept = store.read(results / name)
     except FileNotFoundError:
         return ""
     except (OSError, ValueError, TypeError, LookupError):
         return "the result cannot be read"
-    before = inputs.read(results / name)
+    before = fingerprint.read(results / name)
     if kept.status != "finished":
         return f"was {kept.status}"
-    if lost := record.unreadable(results / name, kept):
+    if lost := store.unreadable(results / name, kept):
         return f"table {lost} cannot be read"
     if before is None or not now.code:
         return "what it rests on is not known"
     changed = now.changed_since(before)
-    if changed == inputs.LENGTH:
-        return f"replaces a {before.around[inputs.LENGTH]} result"
+    if changed == fingerprint.LENGTH:
+        return f"replaces a {before.around[fingerprint.LENGTH]} result"
     return f"changed: {changed}" if changed else KEPT
 
 
 def changes(names: Iterable[str], results: Path) -> dict[str, str]:
     """Study -> what has changed since its result was stored, for those where something has."""
-    sources, surroundings, found = inputs.Sources(), cache(inputs.surroundings), {}
+    sources, surroundings, found = fingerprint.Sources(), cache(fingerprint.surroundings), {}
     for name in names:
-        if (before := inputs.read(results / name)) is None:
+        if (before := fingerprint.read(results / name)) is None:
             continue
-        around = surroundings(before.around.get(inputs.LENGTH) == "quick")
+        around = surroundings(before.around.get(fingerprint.LENGTH) == "quick")
         # Where the data lie is for the runner to know; here the files that were read tell.
         around = around | {key: value for key, value in before.around.items() if key == DATA}
         if changed := Inputs(sources.used_by(STUDIES[name]), around).changed_since(before):
@@ -262,12 +262,12 @@ def changes(names: Iterable[str], results: Path) -> dict[str, str]:
 
 
 def _watched(
-    study: Study, context: Context, code: Mapping[str, str], sources: inputs.Sources
+    study: Study, context: Context, code: Mapping[str, str], sources: fingerprint.Sources
 ) -> tuple[Outcome, dict[str, str]]:
     """Run a study; also gives the files that it read."""
     loaded = set(sys.modules)
     folders = (ROOT, context.results, *([context.data] if context.data else []))
-    with inputs.files_read(*folders) as read:
+    with fingerprint.files_read(*folders) as read:
         outcome = study.run(context)
     if strays := sources.strays(set(sys.modules) - loaded, code):
         raise RuntimeError(

@@ -21,9 +21,9 @@ import pandas as pd
 from pyarrow import parquet
 from pydantic import TypeAdapter
 
-from references.timing import cpu_name
-from validation.inputs import Inputs
-from validation.study import ROOT, Check
+from references.timing.stopwatch import cpu_name
+from validation.harness.fingerprint import Inputs
+from validation.harness.study import ROOT, Check
 
 Status = Literal["finished", "skipped", "failed"]
 Standing = Literal["met", "missed (recorded)", "better than recorded", "worse than recorded"]

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from references.packages import absent
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "validation" / "results"
 
 Kind = Literal["at_most", "at_least", "within"]

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from references.best_step import best_step, ladder
-from references.engine_mujoco import IMPEDANCE
 from references.engines import Window, build
-from references.friction_law import Sliding, lean_of_two_directions, sliding
+from references.engines.best_step import best_step, ladder
+from references.engines.friction_law import Sliding, lean_of_two_directions, sliding
+from references.engines.mujoco import IMPEDANCE
 from validation.cases import load, rotation
-from validation.study import Check
+from validation.harness.study import Check
 
 # Engine, configuration, its name and options.  PyElastica has no wall of its own.
 FRICTION: tuple[tuple[str, str, dict[str, Any]], ...] = (

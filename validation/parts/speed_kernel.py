@@ -7,19 +7,20 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fctd import Case, topdrive
-from fctd.case import KINDS
-from fctd.equilibrium import Solver
-from fctd.faults import UnstableError
-from fctd.operations import steady_rates
-from fctd.run import Run
-from fctd.topdrive import Motion
+from fctd import Case
+from fctd.case.load import KINDS
+from fctd.mechanics import topdrive
+from fctd.mechanics.faults import UnstableError
+from fctd.mechanics.topdrive import Motion
+from fctd.model.operations import steady_rates
+from fctd.simulation.run import Run
+from fctd.steady.equilibrium import Solver
 from references.engines import Stepper
-from references.timing import race, units_for
-from references.workloads import copy_of, fallen, find_walls, free_query, moving, touching, without_wall
+from references.timing.stopwatch import race, units_for
+from references.timing.workloads import copy_of, fallen, find_walls, free_query, moving, touching, without_wall
 from validation.cases import load, rotation
-from validation.steady_state import well_of
-from validation.study import log_slope
+from validation.harness.study import log_slope
+from validation.studies.steady_state import well_of
 
 BIT = 2450.0
 # FCTD's stepper runs this long before anything is timed: the first wave has passed the string [s].

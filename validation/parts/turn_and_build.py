@@ -6,12 +6,12 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, build_wellbore, simulate
-from fctd.drillstring import section_of
-from fctd.wellbore import hole_frame
-from references.cosserat import rest
+from fctd.model.drillstring import section_of
+from fctd.model.wellbore import hole_frame
+from references.beams.cosserat import rest
 from validation.cases import load, rotation
-from validation.steady import completed
-from validation.study import Check, Context
+from validation.harness.study import Check, Context
+from validation.parts.windows import completed
 
 # Vertical, a build of 2 deg/m, then a build that turns to the right at the same rate of dogleg.
 STATIONS = [[0, 0, 0], [32, 0, 0], [38, 12, 0], [50, 33, 40]]

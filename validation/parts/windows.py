@@ -5,7 +5,7 @@ from typing import Any
 import pandas as pd
 
 from fctd import SimulationResult
-from references.engine_run import hann_means
+from references.engines.run import hann_means
 from validation.cases import trip
 
 TRIP_SPEED, TRIP_WINDOW = 0.2, 20.0  # [m/s], [s] of a steady trip that are read

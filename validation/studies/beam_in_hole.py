@@ -7,9 +7,9 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium
-from fctd.drillstring import section_of
-from fctd.specs import ComponentSpec
-from validation.study import Check, Context, Outcome, Study
+from fctd.case.specs import ComponentSpec
+from fctd.model.drillstring import section_of
+from validation.harness.study import Check, Context, Outcome, Study
 
 HOLE = 0.3  # [m] diameter
 # 8 in collar; a bit or stabiliser as wide as the hole, shorter than the segments beside it, is a support.

@@ -4,10 +4,10 @@ import numpy as np
 import pandas as pd
 
 from fctd import torque_drag
-from fctd.torque_drag import with_friction
-from references.soft_string import soft_string
+from fctd.steady.torque_drag import with_friction
+from references.soft_string.integration import soft_string
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
 
 OPERATIONS = ("trip_in", "trip_out", "rotate_off_bottom")
 FACTORS = (0.1, 0.2, 0.3)

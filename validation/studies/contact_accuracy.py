@@ -8,11 +8,12 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import Case, InputError, build_wellbore, find_contacts
-from references import base, traps
-from references.footprint import footprint
-from references.timing import machine_table, race
+from references import contact
+from references.contact import traps
+from references.timing.footprint import footprint
+from references.timing.stopwatch import machine_table, race
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study, left_out
+from validation.harness.study import Check, Context, Outcome, Study, left_out
 
 Array = NDArray[np.float64]
 
@@ -30,8 +31,8 @@ def settings(quick: bool) -> list[tuple[str, dict[str, Any]]]:
     lengths = (0.5, 2.0, 5.0) if quick else (0.5, 1.0, 2.0, 5.0, 10.0)
     meshes = ((24, 2.0), (48, 2.0)) if quick else ((12, 4.0), (24, 2.0), (48, 2.0), (96, 1.0))
     chosen: list[tuple[str, dict[str, Any]]] = []
-    for name in base.METHODS:
-        keys = base.method_class(name).Options.model_fields
+    for name in contact.METHODS:
+        keys = contact.method_class(name).Options.model_fields
         if "facets" in keys:
             chosen += [(name, {"facets": facets, "ring_spacing": ring}) for facets, ring in meshes]
         elif "cylinder_length" in keys:
@@ -78,7 +79,7 @@ def points_in(case: Case, count: int) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def errors_of(method: base.ContactMethod, points: pd.DataFrame, case: Case) -> list[dict[str, Any]]:
+def errors_of(method: contact.ContactMethod, points: pd.DataFrame, case: Case) -> list[dict[str, Any]]:
     """A row for each region: contacts missed and false, errors of penetration and normal, and their bounds."""
     places = np.ascontiguousarray(points[["x", "y", "z"]])
     exact = find_contacts(build_wellbore(case), places, RADIUS)
@@ -112,23 +113,23 @@ def errors_of(method: base.ContactMethod, points: pd.DataFrame, case: Case) -> l
     return rows
 
 
-def built(context: Context, case: Case) -> tuple[dict[str, base.ContactMethod], list[dict[str, str]], list[str]]:
+def built(context: Context, case: Case) -> tuple[dict[str, contact.ContactMethod], list[dict[str, str]], list[str]]:
     """Methods by the label of their setting, settings that a library does not take, names that are not installed."""
-    methods: dict[str, base.ContactMethod] = {}
+    methods: dict[str, contact.ContactMethod] = {}
     refused: list[dict[str, str]] = []
-    missing = [name for name in base.METHODS if base.installed_version(name) is None]
+    missing = [name for name in contact.METHODS if contact.installed_version(name) is None]
     for name, options in settings(context.quick):
         if name in missing:
             continue
         key = label(name, options)
         try:
-            methods[key] = base.build(name, case, **options)
+            methods[key] = contact.build(name, case, **options)
         except InputError as error:
             refused.append({"setting": key, "why": str(error)})
     return methods, refused, missing
 
 
-def costs(methods: dict[str, base.ContactMethod], points: pd.DataFrame, rounds: int) -> pd.DataFrame:
+def costs(methods: dict[str, contact.ContactMethod], points: pd.DataFrame, rounds: int) -> pd.DataFrame:
     """The race of all settings over the points, a row each."""
     places, radii = np.ascontiguousarray(points[["x", "y", "z"]]), np.full(len(points), RADIUS)
     actions = {key: partial(method.query, places, radii) for key, method in methods.items()}
@@ -144,7 +145,9 @@ def footprints(context: Context, case: Case, names: list[str]) -> pd.DataFrame:
     rows = []
     for name in context.progress(names, "memory"):
         memory, seconds = footprint(name, case)
-        rows.append({"method": name, "pieces": base.build(name, case).pieces, "memory_MB": memory, "build_s": seconds})
+        rows.append(
+            {"method": name, "pieces": contact.build(name, case).pieces, "memory_MB": memory, "build_s": seconds}
+        )
     return pd.DataFrame(rows)
 
 
@@ -153,7 +156,7 @@ def tried(missing: list[str]) -> pd.DataFrame:
     at = traps.scene()
     rows = [
         {
-            "package": base.method_class(trap.method).distribution,
+            "package": contact.method_class(trap.method).distribution,
             "tried": trap.tried,
             "what_is_measured": trap.measure.__doc__.splitlines()[0] if trap.measure.__doc__ else "",
             "found": traps.measure(trap, at),
@@ -181,7 +184,7 @@ def run(context: Context) -> Outcome:
     bends = errors[errors["region"] != "straight"].groupby("setting")
     for column in ("max_penetration_error_mm", "max_angle_error_deg"):
         cost[column] = cost["setting"].map(bends[column].max())
-    raced = [name for name in base.METHODS if name not in missing]
+    raced = [name for name in contact.METHODS if name not in missing]
     trapped = tried(missing)
     return Outcome(
         tables={

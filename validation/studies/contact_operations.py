@@ -7,17 +7,16 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd import contact, state
-from fctd.run import Run, contact_points, forget_start, prepare, settle
-from references import contact_own
-from references.base import build, installed_version
-from references.box_tree import BoxTree, penetration
-from references.for_loop import for_loop_owner, for_loop_owners, one_cylinder
-from references.operation_count import Counted, Number, arithmetic, counted, interpreted, operations_of
-from references.timing import Action, race
-from references.tube_mesh import TubeOptions, build_tube
+from fctd.mechanics import contact, state
+from fctd.simulation.run import Run, contact_points, forget_start, prepare, settle
+from references.contact import build, installed_version, own
+from references.contact.box_tree import BoxTree, penetration
+from references.contact.for_loop import for_loop_owner, for_loop_owners, one_cylinder
+from references.contact.tube_mesh import TubeOptions, build_tube
+from references.timing.operation_count import Counted, Number, arithmetic, counted, interpreted, operations_of
+from references.timing.stopwatch import Action, race
 from validation.cases import load, trip
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
 
 Array = NDArray[np.float64]
 
@@ -93,7 +92,7 @@ def engine_rows(run: Run, motion: Any, moments: int) -> list[dict[str, Any]]:
     n, pieces = run.segments, Counted(run.hole.pieces)
     follow, refresh = interpreted(contact.follow_cylinders), interpreted(contact.refresh_cylinders)
     place, loop = interpreted(contact.contact_point), interpreted(for_loop_owner)
-    write = interpreted(contact_own._write)
+    write = interpreted(own._write)
     followed, looked_up, searched = Counter[str](), Counter[str](), Counter[str]()
     for _ in range(moments):
         # The next step's search, from the owners this one leaves behind.

@@ -8,15 +8,15 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, simulate
-from fctd.run import Run
-from fctd.topdrive import Motion
-from references import base
-from references.for_loop import advance_with_for_loop
-from references.timing import machine_table, race, units_for
-from references.workloads import NoWall, asking, copy_of, moving, without_wall
+from fctd.mechanics.topdrive import Motion
+from fctd.simulation.run import Run
+from references import contact
+from references.contact.for_loop import advance_with_for_loop
+from references.timing.stopwatch import machine_table, race, units_for
+from references.timing.workloads import NoWall, asking, copy_of, moving, without_wall
 from validation.cases import load, rotation, trip
-from validation.steady import last_seconds
-from validation.study import Check, Context, Outcome, Study, left_out
+from validation.harness.study import Check, Context, Outcome, Study, left_out
+from validation.parts.windows import last_seconds
 
 SEGMENTS = (60, 170)
 BIT = 2450.0
@@ -34,7 +34,7 @@ def queries(methods: Iterable[str]) -> dict[str, tuple[str, dict[str, Any]]]:
     """Name in the tables -> method and options, one for each way in which a method can be asked."""
     found: dict[str, tuple[str, dict[str, Any]]] = {}
     for name in methods:
-        label, keys = LABELS.get(name, name), base.method_class(name).Options.model_fields
+        label, keys = LABELS.get(name, name), contact.method_class(name).Options.model_fields
         ways = get_args(keys["query"].annotation) if "query" in keys else ()
         found |= {f"{label}, {way}": (name, {"query": way}) for way in ways} or {label: (name, {})}
     return found
@@ -76,7 +76,7 @@ def costs(segments: int, asked: Mapping[str, tuple[str, dict[str, Any]]], rounds
         ),
     )
     walls: dict[str, Any] = {"no contact, asked from Python": NoWall()}
-    walls |= {f"{name}, from Python": base.build(each[0], start.case, **each[1]) for name, each in asked.items()}
+    walls |= {f"{name}, from Python": contact.build(each[0], start.case, **each[1]) for name, each in asked.items()}
     for name, wall in walls.items():
         enter(name, loop_of(asking(start, wall)))
     table = race(actions, counts, rounds, BASELINE).rename(columns={"name": "loop", "ns": "ns_per_segment_step"})
@@ -90,7 +90,7 @@ def facets(quick: bool) -> pd.DataFrame:
     own = last_seconds(simulate(case), window)
     rows = [{"wall": "cylinders", "facets": np.nan, "wedge_percent": 0.0} | _loads(own, own)]
     for count in (24,) if quick else (12, 24, 48, 96):
-        method = base.build("coal", case, facets=count)
+        method = contact.build("coal", case, facets=count)
         end = last_seconds(simulate(case, contact=method), window)
         rows.append({"wall": "mesh", "facets": count, "wedge_percent": wedge(count)} | _loads(end, own))
     return pd.DataFrame(rows)
@@ -109,7 +109,7 @@ def counted() -> pd.DataFrame:
             record__interval=0.1,
             string__components__0__segments=segments,
         )
-        method = base.build("coal", case) if wall == "mesh" else None
+        method = contact.build("coal", case) if wall == "mesh" else None
         end = last_seconds(simulate(case, contact=method), 6.0)
         rows.append({"wall": wall, "segments": segments, "sum_r_mu_fn_kN_m": end["sum_r_mu_fn_N_m"] / 1e3})
     table = pd.DataFrame(rows)
@@ -141,7 +141,7 @@ def figure_13(context: Context, method: str) -> dict[str, pd.DataFrame]:
     depths = (2250.0,) if context.quick else np.arange(1850.0, 2250.1, 100.0)
     for depth in context.progress(depths, "windows"):
         case = trip_of(float(depth) - SPEED * (duration - RAMP / 2), float(depth))
-        swapped = simulate(case, contact=base.build(method, case))
+        swapped = simulate(case, contact=contact.build(method, case))
         seconds, steps = seconds + swapped.run["wall_s"], steps + swapped.run["steps"]
         # The Hann window over the second half of the trip has its middle at three quarters.
         row: dict[str, Any] = {"bit_depth_m": depth - SPEED * duration / 4}
@@ -166,7 +166,7 @@ def torques(methods: Iterable[str], duration: float) -> pd.DataFrame:
     own = last_seconds(simulate(case), 3.0)
     rows = []
     for name in methods:
-        end = last_seconds(simulate(case, contact=base.build(name, case)), 3.0)
+        end = last_seconds(simulate(case, contact=contact.build(name, case)), 3.0)
         rows.append({"method": name} | _loads(end, own))
     return pd.DataFrame(rows)
 
@@ -179,8 +179,8 @@ def trip_of(start: float, end: float) -> Case:
 
 def run(context: Context) -> Outcome:
     """The race with 60 and 170 segments (quick: with 60), the facets, the windows of Fig. 13."""
-    missing = [name for name in base.METHODS if base.installed_version(name) is None]
-    there = [name for name in base.METHODS if name not in missing]
+    missing = [name for name in contact.METHODS if contact.installed_version(name) is None]
+    there = [name for name in contact.METHODS if name not in missing]
     raced = [name for name in there if not (context.quick and name in FULL_ONLY)]
     asked, rounds = queries(raced), 5 if context.quick else 25
     counts = SEGMENTS[:1] if context.quick else SEGMENTS

@@ -7,11 +7,11 @@ import numpy as np
 import pandas as pd
 
 from fctd import simulate
-from fctd.drillstring import section_of
-from references.soft_string import soft_string
+from fctd.model.drillstring import section_of
+from references.soft_string.integration import soft_string
 from validation.cases import load, rotation
-from validation.steady import TRIP_WINDOW, last_seconds, steady_trip
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.windows import TRIP_WINDOW, last_seconds, steady_trip
 
 BIT = 2450.0
 SCHEDULES = {

@@ -5,7 +5,7 @@ import pandas as pd
 
 from fctd import build_wellbore, find_contacts
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study, log_slope
+from validation.harness.study import Check, Context, Outcome, Study, log_slope
 
 BEND = 450.0 / (np.pi / 2)  # radius [m] of the bend of curved-chain
 

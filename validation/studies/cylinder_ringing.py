@@ -1,7 +1,7 @@
 """Why the hook load of paper-well-b swings on the way in: collars that meet the joints of the hole's cylinders at once.
 
 One thing is changed at a time.  Two more routes to what is seen need no time step: the frequencies of the chain of
-masses and springs, and the swing that the tilt of the cylinders builds up in it (``fctd.ringing``).
+masses and springs, and the swing that the tilt of the cylinders builds up in it (``fctd.simulation.ringing``).
 """
 
 from typing import Any
@@ -11,11 +11,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import simulate, torque_drag
-from fctd.ringing import Ringing, expected_ringing
-from fctd.run import prepare
+from fctd.simulation.ringing import Ringing, expected_ringing
+from fctd.simulation.run import prepare
 from validation.cases import load, trip
-from validation.steady import completed
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.windows import completed
 
 Array = NDArray[np.float64]
 

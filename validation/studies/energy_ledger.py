@@ -5,9 +5,9 @@ from typing import Any
 import pandas as pd
 
 from fctd import simulate
-from fctd.run import prepare
+from fctd.simulation.run import prepare
 from validation.cases import load, rotation, trip
-from validation.study import Check, Context, Outcome, Study, log_slope
+from validation.harness.study import Check, Context, Outcome, Study, log_slope
 
 # A build of 60° in 50 m, turning by 30°: far sharper than wells are drilled.
 SHARP = [[0, 0, 0], [1700, 0, 350], [1750, 60, 20], [2600, 60, 20]]

@@ -7,13 +7,13 @@ import pandas as pd
 
 from fctd import Case, equilibrium, simulate
 from references import engines
-from references.engine_run import late
 from references.engines import EngineRun, Window
-from references.scaling import SCALE, Factors, factors, scaled
-from validation import engine_settings
+from references.engines.run import late
+from references.engines.scaling import SCALE, Factors, factors, scaled
 from validation.cases import load, rotation, trip
-from validation.steady import last_seconds
-from validation.study import Check, Context, Outcome, Study, left_out
+from validation.harness.study import Check, Context, Outcome, Study, left_out
+from validation.parts import engine_settings
+from validation.parts.windows import last_seconds
 
 BIT, S_BIT = 2450.0, 480.0
 SPEED = 0.2  # [m/s] of the trips

@@ -6,14 +6,14 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case
-from fctd.drillstring import section_of
-from fctd.equilibrium import Equilibrium, Solver
-from fctd.operations import rad_per_s, steady_rates
-from references.closed_forms import hold
-from references.sliding import motion_of, split_friction
-from references.soft_string import soft_string
+from fctd.model.drillstring import section_of
+from fctd.model.operations import rad_per_s, steady_rates
+from fctd.steady.equilibrium import Equilibrium, Solver
+from references.soft_string.closed_forms import hold
+from references.soft_string.integration import soft_string
+from references.soft_string.sliding import motion_of, split_friction
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
 
 LAWS = ("paper", "coulomb")
 BIT = 2450.0

@@ -3,9 +3,9 @@
 import pandas as pd
 
 from fctd import equilibrium
-from references.soft_string import soft_string
+from references.soft_string.integration import soft_string
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
 
 BIT = 3718.0
 # Hook load [kN] and torque [kN m] of Johancsik, Friesen & Dawson 1984.

@@ -7,14 +7,15 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from fctd import Case, equilibrium, simulate, state
-from fctd.drillstring import section_of
-from fctd.operations import rad_per_s
-from fctd.run import prepare
-from references.torsion import twisted
+from fctd import Case, equilibrium, simulate
+from fctd.mechanics import state
+from fctd.model.drillstring import section_of
+from fctd.model.operations import rad_per_s
+from fctd.simulation.run import prepare
+from references.soft_string.torsion import twisted
 from validation.cases import load, rotation, trip
-from validation.steady import completed
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.windows import completed
 
 Array = NDArray[np.float64]
 

@@ -3,10 +3,10 @@
 import pandas as pd
 
 from fctd import simulate, torque_drag
-from references import base
+from references import contact
 from validation.cases import load, rotation
-from validation.steady import last_seconds
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.windows import last_seconds
 
 DEPTHS = (2000.0, 2125.0, 2250.0)
 METHOD = "fcl"
@@ -17,15 +17,15 @@ AGREE = 2.0  # percent
 
 def run(context: Context) -> Outcome:
     """Windows of some seconds with both, from the same start, at each depth; the engine's steady torque at all."""
-    if base.installed_version(METHOD) is None:
-        return Outcome({}, [], [f"Not installed, and so not run: {base.method_class(METHOD).distribution}."])
+    if contact.installed_version(METHOD) is None:
+        return Outcome({}, [], [f"Not installed, and so not run: {contact.method_class(METHOD).distribution}."])
     length, window = (4.0, 1.0) if context.quick else (8.0, 4.0)
     rows = []
     for depth in context.progress(DEPTHS[-1:] if context.quick else DEPTHS, "depths"):
         case = load("paper_well", operations=rotation(depth, length, RAMP), record__interval=0.1)
         loads = {
             "FCTD": last_seconds(simulate(case), window),
-            METHOD: last_seconds(simulate(case, contact=base.build(METHOD, case)), window),
+            METHOD: last_seconds(simulate(case, contact=contact.build(METHOD, case)), window),
         }
         row = {"bit_depth_m": depth}
         for name, end in loads.items():

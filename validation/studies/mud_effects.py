@@ -7,13 +7,13 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import Case, equilibrium, simulate
-from fctd.drillstring import lay_out, section_of
-from fctd.topdrive import GRAVITY
-from references.soft_string import soft_string
+from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.drillstring import lay_out, section_of
+from references.soft_string.integration import soft_string
 from validation.cases import load, rotation
-from validation.long_segment import PIPE, chain_frequencies, continuous_frequencies, the_case
-from validation.steady import completed, last_seconds
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.windows import completed, last_seconds
+from validation.studies.long_segment import PIPE, chain_frequencies, continuous_frequencies, the_case
 
 Array = NDArray[np.float64]
 

@@ -4,10 +4,10 @@ import numpy as np
 import pandas as pd
 
 from fctd import build_wellbore, find_contacts
-from fctd.wellbore import hole_frame
-from references.for_loop import for_loop_owners
+from fctd.model.wellbore import hole_frame
+from references.contact.for_loop import for_loop_owners
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
 
 LENGTH = 2.0  # of the cylinders [m]
 OVERLAP = 0.2  # [m]

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 
 from fctd import build_wellbore
-from fctd.contact import LENGTH, START_MD
-from references.for_loop import for_loop_owners
+from fctd.mechanics.contact import LENGTH, START_MD
+from references.contact.for_loop import for_loop_owners
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
 
 WELLS: dict[str, list[list[float]]] = {
     "build to 60°": [[0, 0, 0], [300, 0, 0], [750, 60, 0], [1500, 60, 0]],

@@ -6,8 +6,8 @@ import pandas as pd
 
 from fctd import SimulationResult, simulate
 from validation.cases import load, trip
-from validation.steady import completed
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.windows import completed
 
 # §6.3: 0 to 2250 m of survey depth took FCTD 4 h and Adams 34 h; 150 m of vertical hole without contact 4 s and 12 s.
 HOURS, ADAMS_HOURS, DEPTH = 4.0, 34.0, 2250.0

@@ -7,8 +7,8 @@ import pandas as pd
 
 from fctd import SimulationResult, simulate
 from validation.cases import load, rotation
-from validation.steady import last_seconds
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.windows import last_seconds
 
 VARIANTS = {"paper-well": "paper_well", "paper-well-b": "paper_well_b"}
 PROFILE_DEPTHS = [1900.0, 2200.0]  # and the last one, 2450 m

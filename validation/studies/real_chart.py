@@ -6,10 +6,10 @@ from typing import Any
 import pandas as pd
 
 from fctd import torque_drag
-from fctd.case import KINDS
-from fctd.equilibrium import ANSWERED
-from validation.study import Check, Context, Outcome, Study
-from validation.wells import real_well
+from fctd.case.load import KINDS
+from fctd.steady.equilibrium import ANSWERED
+from validation.cases.wells import real_well
+from validation.harness.study import Check, Context, Outcome, Study
 
 
 def run(context: Context) -> Outcome:

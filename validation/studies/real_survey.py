@@ -3,9 +3,9 @@
 import pandas as pd
 
 from fctd import simulate
-from references.soft_string import soft_string
-from validation.study import Check, Context, Outcome, Study
-from validation.wells import real_well
+from references.soft_string.integration import soft_string
+from validation.cases.wells import real_well
+from validation.harness.study import Check, Context, Outcome, Study
 
 
 def run(context: Context) -> Outcome:

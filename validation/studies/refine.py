@@ -6,14 +6,14 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, equilibrium, refine
-from fctd.drillstring import lay_out
-from fctd.equilibrium import Solver
-from fctd.layouts import Layout, graded, is_long, uniform, with_components
-from fctd.operations import steady_rates
-from fctd.refine import relative_difference
+from fctd.model.drillstring import lay_out
+from fctd.model.layouts import Layout, graded, is_long, uniform, with_components
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import Solver
+from fctd.steady.refine import relative_difference
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study
-from validation.wells import COLLAR, HEAVY, S_WELL, TURN, assembly, well
+from validation.cases.wells import COLLAR, HEAVY, S_WELL, TURN, assembly, well
+from validation.harness.study import Check, Context, Outcome, Study
 
 TOLERANCES = (0.01, 0.003)
 OPERATIONS = ("rotate_off_bottom", "trip_out", "trip_in")

@@ -8,11 +8,11 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case
-from fctd.layouts import Components, uniform
+from fctd.model.layouts import Components, uniform
 from validation.cases import load
-from validation.refine import REFERENCE, in_arcs, judge, loads
-from validation.study import Context, Outcome, Study
-from validation.wells import real_well
+from validation.cases.wells import real_well
+from validation.harness.study import Context, Outcome, Study
+from validation.studies.refine import REFERENCE, in_arcs, judge, loads
 
 COUNTS = (40, 80, 160, 320, 640)
 # Where the lowest joint is, in segments above the bit.

@@ -6,12 +6,12 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd.equilibrium import Equilibrium, Solver
-from fctd.operations import steady_rates
-from fctd.run import prepare
+from fctd.model.operations import steady_rates
+from fctd.simulation.run import prepare
+from fctd.steady.equilibrium import Equilibrium, Solver
 from validation.cases import load
-from validation.soft_stiff_map import LIMIT, NARROW, PIPE, case_of
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.studies.soft_stiff_map import LIMIT, NARROW, PIPE, case_of
 
 OPERATIONS = ("trip_in", "trip_out", "rotate_off_bottom", "drill_rotating")
 DRILLING = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}

@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from fctd import Case, build_wellbore, equilibrium, simulate
-from fctd.wellbore import hole_frame
-from references.beam_case import beam_of, top_of
-from references.beam_dynamics import Lowered, generalised_alpha, lower
-from references.beam_fe import Beam
-from references.planar_hole import PlanarHole
+from fctd.model.wellbore import hole_frame
+from references.beams.case import beam_of, top_of
+from references.beams.dynamics import Lowered, generalised_alpha, lower
+from references.beams.elements import Beam
+from references.beams.planar_hole import PlanarHole
 from validation.cases import load, trip
-from validation.steady import completed
-from validation.study import Check, Context, Outcome, Study
-from validation.turn_and_build import turn_and_build
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.turn_and_build import turn_and_build
+from validation.parts.windows import completed
 
 Array = NDArray[np.float64]
 

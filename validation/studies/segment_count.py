@@ -8,13 +8,14 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd import Case, Equilibrium, simulate, survey
-from fctd.equilibrium import Solver
-from fctd.operations import steady_rates
+from fctd import Case, Equilibrium, simulate
+from fctd.model import survey
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import Solver
 from validation.cases import load, rotation
-from validation.segmented_wells import WELLS, Well
-from validation.steady import last_seconds
-from validation.study import Check, Context, Outcome, Study, log_slope
+from validation.cases.segmented_wells import WELLS, Well
+from validation.harness.study import Check, Context, Outcome, Study, log_slope
+from validation.parts.windows import last_seconds
 
 Array = NDArray[np.float64]
 

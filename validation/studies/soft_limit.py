@@ -6,13 +6,13 @@ from typing import Any
 import pandas as pd
 
 from fctd import Case
-from fctd.drillstring import section_of
-from fctd.equilibrium import Solver
-from fctd.operations import steady_rates
-from references.closed_forms import Loads, bend_in_parts, hold, side_turn, sum_up, vertical
-from references.sliding import motion_of, split_friction
-from references.soft_string import soft_string_ode
-from validation.study import Check, Context, Outcome, Study
+from fctd.model.drillstring import section_of
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import Solver
+from references.soft_string.closed_forms import Loads, bend_in_parts, hold, side_turn, sum_up, vertical
+from references.soft_string.integration import soft_string_ode
+from references.soft_string.sliding import motion_of, split_friction
+from validation.harness.study import Check, Context, Outcome, Study
 
 DEG = 0.017453292519943295
 HOLE = 0.2159  # [m] diameter

@@ -7,12 +7,12 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case
-from fctd.equilibrium import Solver
-from fctd.operations import steady_rates
-from references.soft_string import soft_string
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import Solver
+from references.soft_string.integration import soft_string
 from validation.cases import trip
-from validation.study import Check, Context, Outcome, Study
-from validation.wells import FOOT
+from validation.cases.wells import FOOT
+from validation.harness.study import Check, Context, Outcome, Study
 
 HUNDRED_FEET = 100 * FOOT
 MU = 0.25
@@ -126,7 +126,7 @@ def by_finite_elements(
     slacking off.
     """
     # Here alone scikit-fem is needed.
-    from references.beam_case import steady
+    from references.beams.case import steady
 
     case, slick = (case_of(string, severity, clearance, straight, friction=factor) for factor in (MU, 0.0))
     bit = float(case.wellbore.read_stations()[-1, 0])

@@ -6,19 +6,19 @@ from typing import NamedTuple
 
 import pandas as pd
 
-import fctd.state
-from fctd.faults import UnstableError
-from fctd.run import Run
-from fctd.topdrive import Motion
-from references import base, engines
+import fctd.mechanics.state
+from fctd.mechanics.faults import UnstableError
+from fctd.mechanics.topdrive import Motion
+from fctd.simulation.run import Run
+from references import contact, engines
 from references.engines import Stepper
-from references.free_bodies import FreeBodies
-from references.timing import machine_table, race, units_for
-from references.workloads import NoWall, asking, copy_of, moving
-from validation import speed_kernel
-from validation.contact_swap import FULL_ONLY, TOO_SLOW
-from validation.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
-from validation.study import Check, Context, Kind, Outcome, Progress, Study, left_out
+from references.engines.free_bodies import FreeBodies
+from references.timing.stopwatch import machine_table, race, units_for
+from references.timing.workloads import NoWall, asking, copy_of, moving
+from validation.harness.study import Check, Context, Kind, Outcome, Progress, Study, left_out
+from validation.parts import speed_kernel
+from validation.parts.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
+from validation.studies.contact_swap import FULL_ONLY, TOO_SLOW
 
 SEGMENTS = (60, 170)  # of the paper's FCTD model and of its Adams model
 # By then a wave of torque has run down 1500 m of steel [s].
@@ -50,13 +50,13 @@ COLUMNS = [
 def swapped(quick: bool) -> dict[str, str]:
     """Name in the tables -> contact method, of all registered ones that are fast enough to be raced."""
     left_out = {*OURS, TOO_SLOW, *(FULL_ONLY if quick else ())}
-    return {LABELS.get(method, method) + IN_LOOP: method for method in base.METHODS if method not in left_out}
+    return {LABELS.get(method, method) + IN_LOOP: method for method in contact.METHODS if method not in left_out}
 
 
 def available(quick: bool) -> tuple[list[str], list[str]]:
     """Names that can be raced, and those whose package is missing."""
     found = {FCTD: engines.installed_version("fctd")}
-    found |= {name: base.installed_version(method) for name, method in swapped(quick).items()}
+    found |= {name: contact.installed_version(method) for name, method in swapped(quick).items()}
     found |= {name: engines.installed_version(key) for name, key in OTHERS.items()}
     return [name for name in found if found[name]], [name for name in found if not found[name]]
 
@@ -67,12 +67,12 @@ def begin(name: str, start: Run, state: str, step: float | None) -> tuple[Run, S
         method = swapped(quick=False)[name]
         # Without a wall there is nothing to ask: what is left is our loop of two compiled calls and an empty query.
         run = asking(
-            start, base.build(method, start.case, **CHEAPER.get(method, {})) if state == TOUCHING else NoWall()
+            start, contact.build(method, start.case, **CHEAPER.get(method, {})) if state == TOUCHING else NoWall()
         )
     else:
         run = copy_of(start)
     if state == TAKEN:
-        run.laws = run.laws._replace(geometry=fctd.state.OPEN)
+        run.laws = run.laws._replace(geometry=fctd.mechanics.state.OPEN)
     stepper = engines.build(OTHERS.get(name, "fctd"), **({} if step is None else {"step": step})).begin(run)
     if isinstance(stepper, FreeBodies):
         stepper.watch = False  # what is read for our checks is no cost of the engine

@@ -7,12 +7,12 @@ from typing import Any
 import pandas as pd
 
 from fctd import Case, simulate, torque_drag
-from fctd.case import KINDS
-from fctd.equilibrium import Solver
-from fctd.operations import steady_rates
+from fctd.case.load import KINDS
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import Solver
 from validation.cases import load, rotation
-from validation.steady import TRIP_WINDOW, last_seconds, steady_trip
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.windows import TRIP_WINDOW, last_seconds, steady_trip
 
 DRILLING = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
 DEPTHS = [float(depth) for depth in range(1750, 2451, 10)]

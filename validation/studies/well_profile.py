@@ -8,9 +8,9 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_simpson
 
-from fctd import survey
+from fctd.model import survey
 from validation.cases import load
-from validation.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study
 
 Array = NDArray[np.float64]
 

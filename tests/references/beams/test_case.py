@@ -5,10 +5,10 @@ import pytest
 
 pytest.importorskip("skfem")
 
-from fctd.errors import InputError
-from fctd.topdrive import ramp
-from references import beam_case, beam_fe
-from references.beam_case import beam_of, steady, top_of
+from fctd.case.errors import InputError
+from fctd.mechanics.topdrive import ramp
+from references.beams import case, elements
+from references.beams.case import beam_of, steady, top_of
 from validation.cases import load
 
 
@@ -92,20 +92,20 @@ def test_a_pipe_laid_down_presses_with_its_weight_and_slides_with_its_friction(s
     section = beam_of(load("scaled_section"), 0.3, 20.0).section
     across = section.weight * np.sin(np.pi / 3)
     clamp = 2 / 3 * across * (72 * section.EI * 0.025 / across) ** 0.25
-    elements = []
+    meshes = []
 
     def beam(nodes, *others):
-        elements.append(np.diff(nodes))
-        return beam_fe.Beam(nodes, *others)
+        meshes.append(np.diff(nodes))
+        return elements.Beam(nodes, *others)
 
-    monkeypatch.setattr(beam_case, "Beam", beam)
+    monkeypatch.setattr(case, "Beam", beam)
     found = steady(slanted(), 40.0, segments)
-    assert all(np.median(sizes) == pytest.approx(0.6 * segments, rel=0.05) for sizes in elements)
+    assert all(np.median(sizes) == pytest.approx(0.6 * segments, rel=0.05) for sizes in meshes)
     assert found.contact_force == pytest.approx(40 * across - clamp, rel=0.02)
     assert found.hookload == pytest.approx(20 * section.weight - 0.25 * found.contact_force, rel=2e-3)
 
 
 def test_a_fall_that_does_not_converge_says_so(monkeypatch):
-    monkeypatch.setattr(beam_fe, "MOST_ITERATIONS", 1)
-    with pytest.raises(beam_fe.ConvergenceError):
+    monkeypatch.setattr(elements, "MOST_ITERATIONS", 1)
+    with pytest.raises(elements.ConvergenceError):
         steady(slanted(), 40.0)

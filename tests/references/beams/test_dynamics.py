@@ -6,10 +6,10 @@ import pytest
 
 pytest.importorskip("skfem")
 
-from fctd.drillstring import Section
-from references.beam_dynamics import generalised_alpha, lower
-from references.beam_fe import Beam, Surroundings
-from references.planar_hole import PlanarHole
+from fctd.model.drillstring import Section
+from references.beams.dynamics import generalised_alpha, lower
+from references.beams.elements import Beam, Surroundings
+from references.beams.planar_hole import PlanarHole
 
 # 50 mm pipe into a bend of 2 deg/m with 25 mm of clearance.
 PIPE = Section(9.86, 96.7, 4.2e-3, 2.1e-3, 2.6e8, 4.2e4, 5.5e4, 6.2e7, 0.025, 0.015, 0.025, 931e6)

@@ -9,9 +9,9 @@ from scipy.optimize import brentq
 from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
 from skfem import BilinearForm, LinearForm
 
-from fctd.drillstring import Section
-from references.beam_fe import Beam, ConvergenceError, Surroundings, newton, statics
-from references.planar_hole import PlanarHole
+from fctd.model.drillstring import Section
+from references.beams.elements import Beam, ConvergenceError, Surroundings, newton, statics
+from references.beams.planar_hole import PlanarHole
 
 
 def section(EA, EI, shear):

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd import survey
-from references.planar_hole import PlanarHole
+from fctd.model import survey
+from references.beams.planar_hole import PlanarHole
 
 STATIONS = np.array([[0, 0, 0], [32, 0, 0], [50, 36, 0], [70, 20, 0], [90, 80, 0]], dtype=float)
 

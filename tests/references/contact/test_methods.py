@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from fctd.errors import InputError
-from fctd.wellbore import build_wellbore, find_contacts
-from references import base
+from fctd.case.errors import InputError
+from fctd.model.wellbore import build_wellbore, find_contacts
+from references import contact
+from references.contact.tube_mesh import curvature_at
 from references.packages import absent
-from references.tube_mesh import curvature_at
+from tests.references.wells import HOLE, RADIUS, REGIONS, bent_case, beside_the_wall
 from validation.cases import load
-
-from .wells import HOLE, RADIUS, REGIONS, bent_case, beside_the_wall
 
 CASE = bent_case()
 # Mesh methods are asked twice, so that an error that ignores the resolution shows.
@@ -21,17 +20,17 @@ SETTINGS += [
 ]
 SETTINGS += [(name, {"query": "collide"}) for name in ("fcl", "coal")]
 IDS = ["-".join([name, *(f"{value}" for value in options.values())]) for name, options in SETTINGS]
-BUILT: dict[str, base.ContactMethod] = {}
+BUILT: dict[str, contact.ContactMethod] = {}
 
 
 @pytest.fixture(params=zip(IDS, SETTINGS, strict=True), ids=IDS)
-def method(request: pytest.FixtureRequest) -> base.ContactMethod:
+def method(request: pytest.FixtureRequest) -> contact.ContactMethod:
     """A method built for the case; skipped by name where its package is missing."""
     key, (name, options) = request.param
-    if base.installed_version(name) is None:
-        pytest.skip(f"package {absent(base.method_class(name).distribution)}")
+    if contact.installed_version(name) is None:
+        pytest.skip(f"package {absent(contact.method_class(name).distribution)}")
     if key not in BUILT:
-        BUILT[key] = base.build(name, CASE, **options)
+        BUILT[key] = contact.build(name, CASE, **options)
     return BUILT[key]
 
 
@@ -48,7 +47,7 @@ def curvature(region):
 
 
 @pytest.mark.parametrize("region", REGIONS)
-def test_the_exact_tube_within_the_geometric_error(method: base.ContactMethod, region: str) -> None:
+def test_the_exact_tube_within_the_geometric_error(method: contact.ContactMethod, region: str) -> None:
     points, offset = beside_the_wall(region, 120)
     exact = truth(points)
     hits = method.query(points, np.full(len(points), RADIUS))
@@ -72,18 +71,18 @@ def test_the_exact_tube_within_the_geometric_error(method: base.ContactMethod, r
 
 
 @pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
-@pytest.mark.parametrize("name", base.METHODS)
+@pytest.mark.parametrize("name", contact.METHODS)
 def test_bends_of_hundreds_of_metres_between_two_stations(name: str, geometry: str) -> None:
     """A course is one arc or many cylinders; a mesh has rings enough within either."""
-    if base.installed_version(name) is None:
-        pytest.skip(f"package {absent(base.method_class(name).distribution)}")
+    if contact.installed_version(name) is None:
+        pytest.skip(f"package {absent(contact.method_class(name).distribution)}")
     case, exact = load("s_shape", wellbore__geometry=geometry), build_wellbore(load("s_shape"))
     rng, n = np.random.default_rng(3), 200
     md, angle = rng.uniform(1, 519, n), rng.uniform(0, 2 * np.pi, n)
     radius = 0.084
     points = exact.off_axis(md, angle, HOLE - radius + rng.uniform(-0.01, 0.01, n))
     truth = find_contacts(exact, points, radius)
-    method = base.build(name, case)
+    method = contact.build(name, case)
     depth, _ = method.error_bound(float(curvature_at(exact, md).max()))
     # Meshes of cylinders have the errors of both.
     depth += case.wellbore.chord_tolerance if geometry == "cylinders" and name in MESHES else 1e-6
@@ -94,7 +93,7 @@ def test_bends_of_hundreds_of_metres_between_two_stations(name: str, geometry: s
     assert np.abs(hits.penetration - truth.penetration)[known].max() <= depth
 
 
-def test_contacts_only_say_nothing_of_a_clear_point(method: base.ContactMethod) -> None:
+def test_contacts_only_say_nothing_of_a_clear_point(method: contact.ContactMethod) -> None:
     points, _ = beside_the_wall("build", 60)
     hits = method.query(points, np.full(60, RADIUS))
     clear = hits.penetration <= 0
@@ -109,7 +108,7 @@ def test_contacts_only_say_nothing_of_a_clear_point(method: base.ContactMethod) 
         assert np.isnan(hits.md[clear]).all()
 
 
-def test_points_beyond_the_wall_are_deeper_than_their_radius(method: base.ContactMethod) -> None:
+def test_points_beyond_the_wall_are_deeper_than_their_radius(method: contact.ContactMethod) -> None:
     """A distance has no sign of its own.  Methods that report contacts alone see the overlap of two surfaces: for
     them a sphere is deepest while its centre is still inside."""
     points, _ = beside_the_wall("build", 30)
@@ -129,7 +128,7 @@ def test_points_that_jump_in_a_well_past_90_degrees_are_looked_up_anew(name: str
         stations=[[0, 0, 0], [450, 120, 0], [1000, 120, 0]],
         intervals=[{"to_md": 1000, "diameter": 2 * HOLE, "friction": 0.2}],
     )
-    method, hole = base.build(name, far), build_wellbore(far)
+    method, hole = contact.build(name, far), build_wellbore(far)
     radii = np.full(40, RADIUS)
     for top, bottom in ((5.0, 200.0), (700.0, 990.0), (20.0, 400.0)):
         md = np.linspace(top, bottom, 40)
@@ -137,7 +136,7 @@ def test_points_that_jump_in_a_well_past_90_degrees_are_looked_up_anew(name: str
         np.testing.assert_allclose(hits.md, md, atol=0.01)
 
 
-def test_each_point_has_its_own_radius(method: base.ContactMethod) -> None:
+def test_each_point_has_its_own_radius(method: contact.ContactMethod) -> None:
     points, _ = beside_the_wall("turn", 60)
     radii = np.where(np.arange(60) % 2, RADIUS, RADIUS + 0.02)
     hits, same = method.query(points, radii), method.query(points, np.full(60, RADIUS + 0.02))
@@ -148,7 +147,7 @@ def test_each_point_has_its_own_radius(method: base.ContactMethod) -> None:
     np.testing.assert_allclose((same.penetration - hits.penetration)[both], 0.02, atol=2e-6)
 
 
-def test_answers_do_not_depend_on_what_was_asked_before(method: base.ContactMethod) -> None:
+def test_answers_do_not_depend_on_what_was_asked_before(method: contact.ContactMethod) -> None:
     points, _ = beside_the_wall("build", 50)
     others, _ = beside_the_wall("turn", 50, seed=8)
     radii = np.full(50, RADIUS)
@@ -158,7 +157,7 @@ def test_answers_do_not_depend_on_what_was_asked_before(method: base.ContactMeth
         np.testing.assert_allclose(after, before, atol=1e-12)
 
 
-def test_one_point_and_points_of_another_number(method: base.ContactMethod) -> None:
+def test_one_point_and_points_of_another_number(method: contact.ContactMethod) -> None:
     points, _ = beside_the_wall("build", 70)
     many = method.query(points, np.full(70, RADIUS))
     one = method.query(points[3:4], np.full(1, RADIUS))
@@ -167,9 +166,9 @@ def test_one_point_and_points_of_another_number(method: base.ContactMethod) -> N
     np.testing.assert_allclose(one.penetration[0], many.penetration[3], atol=1e-12)
 
 
-@pytest.mark.parametrize("name", base.METHODS)
+@pytest.mark.parametrize("name", contact.METHODS)
 def test_every_name_of_the_registry_is_the_class_it_says(name: str) -> None:
-    assert base.method_class(name).name == name
+    assert contact.method_class(name).name == name
 
 
 @pytest.mark.parametrize(
@@ -192,27 +191,27 @@ def test_every_name_of_the_registry_is_the_class_it_says(name: str) -> None:
     ],
 )
 def test_bad_options_are_told(name: str, options: dict, expected: str) -> None:
-    if name in base.METHODS and base.installed_version(name) is None:
-        pytest.skip(f"package {absent(base.method_class(name).distribution)}")
+    if name in contact.METHODS and contact.installed_version(name) is None:
+        pytest.skip(f"package {absent(contact.method_class(name).distribution)}")
     with pytest.raises(InputError) as told:
-        base.build(name, CASE, **options)
+        contact.build(name, CASE, **options)
     assert expected in str(told.value)
 
 
 @pytest.mark.parametrize("name", MESHES)
 def test_a_missing_package_is_named(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    method = base.method_class(name)
+    method = contact.method_class(name)
 
     def absent(module: str) -> object:
         raise ModuleNotFoundError(f"No module named {module!r}", name=module)
 
-    monkeypatch.setattr(base.importlib, "import_module", absent)
+    monkeypatch.setattr(contact.importlib, "import_module", absent)
     with pytest.raises(InputError) as told:
-        base.need("some_module", method)
+        contact.need("some_module", method)
     assert method.distribution in str(told.value)
     assert "not installed" in str(told.value)
 
 
 def test_a_package_that_is_not_there_has_no_version() -> None:
-    assert base.version_of("fctd") is not None
-    assert base.version_of("fctd-is-not-called-so") is None
+    assert contact.version_of("fctd") is not None
+    assert contact.version_of("fctd-is-not-called-so") is None

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from fctd import Case, InputError, simulate, state
-from fctd.run import prepare
-from fctd.wellbore import Contacts, build_wellbore
-from references import base
-from references.for_loop import advance_with_for_loop
-
-from ..cases import make_case, pipe, rotation
+from fctd import Case, InputError, simulate
+from fctd.mechanics import state
+from fctd.model.wellbore import Contacts, build_wellbore
+from fctd.simulation.run import prepare
+from references import contact
+from references.contact.for_loop import advance_with_for_loop
+from tests.cases import make_case, pipe, rotation
 
 STATIONS = [[0, 0, 0], [100, 0, 0], [400, 60, 30], [600, 60, 30]]
 SIZES = [{"to_md": 350, "diameter": 0.24, "friction": 0.3}, {"to_md": 600, "diameter": 0.2159, "friction": 0.2}]
@@ -33,7 +33,7 @@ def turning(geometry: str = "cylinders", **sections) -> Case:
 def test_the_same_wall_gives_the_same_run(name: str, geometry: str, law: str) -> None:
     """Two sizes of hole and of friction, too: what the method does not know is taken from the case."""
     case = turning(geometry, contact={"friction_law": law})
-    own, swapped = simulate(case), simulate(case, contact=base.build(name, case))
+    own, swapped = simulate(case), simulate(case, contact=contact.build(name, case))
     assert swapped.status == "completed"
     assert swapped.run["contact"] == name
     assert own.run["contact"] == geometry
@@ -63,7 +63,7 @@ def test_fcl_turns_the_string_like_the_engine() -> None:
     pytest.importorskip("fcl")
     case = turning()
     own = simulate(case).history.iloc[-1]
-    mesh = simulate(case, contact=base.build("fcl", case, facets=96)).history.iloc[-1]
+    mesh = simulate(case, contact=contact.build("fcl", case, facets=96)).history.iloc[-1]
     assert mesh["total_contact_force_N"] == pytest.approx(own["total_contact_force_N"], rel=0.02)
     assert mesh["surface_torque_N_m"] == pytest.approx(own["surface_torque_N_m"], rel=0.1)
 
@@ -74,7 +74,7 @@ class Faulty:
     name = "faulty"
 
     def __init__(self, case: Case, spoil) -> None:
-        self.good, self.spoil, self.asked = base.build("cylinders", case), spoil, 0
+        self.good, self.spoil, self.asked = contact.build("cylinders", case), spoil, 0
 
     def query(self, points, radii) -> Contacts:
         self.asked += 1
@@ -101,7 +101,7 @@ def test_an_answer_of_the_wrong_shape_is_an_error() -> None:
 def test_no_wall_and_another_contact_method_exclude_each_other() -> None:
     case = turning(contact={"enabled": False})
     with pytest.raises(InputError, match=r"contact\.enabled"):
-        simulate(case, contact=base.build("cylinders", case))
+        simulate(case, contact=contact.build("cylinders", case))
 
 
 def test_the_wall_along_the_hole_leads_from_one_size_to_the_next() -> None:

@@ -2,8 +2,9 @@
 
 import pytest
 
-from fctd.errors import InputError
-from references import base, traps
+from fctd.case.errors import InputError
+from references import contact
+from references.contact import traps
 from references.packages import absent
 
 pytest.importorskip("trimesh")
@@ -20,8 +21,8 @@ FAILS = {
 
 @pytest.mark.parametrize("trap", traps.TRAPS, ids=[f"{trap.method}-{trap.tried}" for trap in traps.TRAPS])
 def test_the_obvious_way_fails_or_is_known_not_to(trap: traps.Trap) -> None:
-    if base.installed_version(trap.method) is None:
-        pytest.skip(f"package {absent(base.method_class(trap.method).distribution)}")
+    if contact.installed_version(trap.method) is None:
+        pytest.skip(f"package {absent(contact.method_class(trap.method).distribution)}")
     found = traps.measure(trap, traps.scene(40))
     if (trap.method, trap.tried) in FAILS:
         assert found >= FAILS[trap.method, trap.tried]

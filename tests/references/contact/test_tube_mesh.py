@@ -5,13 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-from fctd.errors import InputError
-from fctd.wellbore import RUN_OUT, build_wellbore, find_contacts
-
-from .wells import HOLE, bent_case
+from fctd.case.errors import InputError
+from fctd.model.wellbore import RUN_OUT, build_wellbore, find_contacts
+from tests.references.wells import HOLE, bent_case
 
 trimesh = pytest.importorskip("trimesh")
-from references.tube_mesh import TubeOptions, build_tube, check_tube  # noqa: E402
+from references.contact.tube_mesh import TubeOptions, build_tube, check_tube  # noqa: E402
 
 CASE = bent_case()
 

@@ -10,21 +10,21 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fctd import Case, InputError, state, topdrive
-from fctd.energy import Energy, energy_of
-from fctd.run import Run, prepare
+from fctd import Case, InputError
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.energy import Energy, energy_of
+from fctd.simulation.run import Run, prepare
 from references import engines, packages
-from references.best_step import best_step, ladder
-from references.engine_checks import axial_period, drift, energy_error
-from references.engine_fctd import Fctd
-from references.engine_run import begin_run, run_window
 from references.engines import EngineRun, Window
-from references.friction_law import lean_of_two_directions, sliding
+from references.engines.best_step import best_step, ladder
+from references.engines.checks import axial_period, drift, energy_error
+from references.engines.friction_law import lean_of_two_directions, sliding
+from references.engines.own import Fctd
+from references.engines.run import begin_run, run_window
 from references.packages import absent
+from tests.cases import make_case, pipe, rotation
 from validation.cases import load
-from validation.study import left_out
-
-from ..cases import make_case, pipe, rotation
+from validation.harness.study import left_out
 
 STATIONS = [[0, 0, 0], [100, 0, 0], [400, 60, 30], [600, 60, 30]]
 WINDOW = Window(5.0, 1.0)

@@ -3,9 +3,8 @@
 import pytest
 
 from fctd import equilibrium
-from references.scaling import factors, scaled
-
-from ..cases import make_case, pipe, rotation
+from references.engines.scaling import factors, scaled
+from tests.cases import make_case, pipe, rotation
 
 STATIONS = [[0, 0, 0], [100, 0, 0], [400, 60, 30], [600, 60, 30]]
 

@@ -7,13 +7,22 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fctd.case import Case
-from fctd.drillstring import section_of
-from fctd.errors import InputError
-from references import closed_forms
-from references.closed_forms import SideChangeError, bend_in_parts, build, capstan, drop, hold, side_turn, vertical
-from references.sliding import Friction, loads_at_bit, motion_of, split_friction
-from references.soft_string import soft_string, soft_string_ode
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.model.drillstring import section_of
+from references.soft_string import closed_forms
+from references.soft_string.closed_forms import (
+    SideChangeError,
+    bend_in_parts,
+    build,
+    capstan,
+    drop,
+    hold,
+    side_turn,
+    vertical,
+)
+from references.soft_string.integration import soft_string, soft_string_ode
+from references.soft_string.sliding import Friction, loads_at_bit, motion_of, split_friction
 from tests.cases import make_case, pipe
 
 DEG = np.pi / 180

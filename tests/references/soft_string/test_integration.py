@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fctd import survey
-from fctd.case import Case
-from fctd.drillstring import check_fit, lay_out, section_of
-from fctd.errors import InputError
-from fctd.wellbore import build_wellbore
-from references.soft_string import SoftString, soft_string, soft_string_ode
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.model import survey
+from fctd.model.drillstring import check_fit, lay_out, section_of
+from fctd.model.wellbore import build_wellbore
+from references.soft_string.integration import SoftString, soft_string, soft_string_ode
 from tests.cases import make_case, pipe, trip
 from validation.cases import load
 

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from fctd.drillstring import section_of
-from references.soft_string import soft_string
-from references.torsion import twisted
-
-from ..cases import make_case, pipe, rotation
+from fctd.model.drillstring import section_of
+from references.soft_string.integration import soft_string
+from references.soft_string.torsion import twisted
+from tests.cases import make_case, pipe, rotation
 
 SPIN, STEP = 2.0, 0.0005  # [rad/s], [s]
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from numba import njit
 
-from fctd import contact
-from references import base
-from references.box_tree import BoxTree, _near, penetration
-from references.operation_count import Counted, Number, arithmetic, counted, interpreted, operations_of
+from fctd.mechanics import contact
+from references.contact import build
+from references.contact.box_tree import BoxTree, _near, penetration
+from references.timing.operation_count import Counted, Number, arithmetic, counted, interpreted, operations_of
 
 
 @njit
@@ -75,11 +75,11 @@ def test_box_tree_finds_the_nearest_triangle():
 def test_box_tree_answers_as_coal_does():
     pytest.importorskip("coal")
     from fctd import load_case
-    from references.tube_mesh import TubeOptions, build_tube
+    from references.contact.tube_mesh import TubeOptions, build_tube
     from validation.cases import FOLDER
 
     case = load_case(FOLDER / "scaled_section.toml")
-    coal = base.build("coal", case, query="collide", facets=16)
+    coal = build("coal", case, query="collide", facets=16)
     tree = BoxTree(np.asarray(build_tube(case, TubeOptions(facets=16)).mesh.triangles))
     points = np.array([[0.0, 0.024, 12.0], [0.02, -0.015, 20.3], [0.0, 0.0, 5.0]])
     hits = coal.query(points, np.full(3, 0.03))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from references import timing
+from references.timing import stopwatch
 
 
 def test_turns_alternate_and_the_first_round_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -16,9 +16,9 @@ def test_turns_alternate_and_the_first_round_does_not_count(monkeypatch: pytest.
 
         return act
 
-    monkeypatch.setattr(timing.time, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(stopwatch.time, "perf_counter", lambda: clock[0])
     actions = {"a": acts("a", 1.0), "b": acts("b", 6.0)}
-    table = timing.race(actions, {"a": 10, "b": 20}, rounds=8, baseline="a").set_index("name")
+    table = stopwatch.race(actions, {"a": 10, "b": 20}, rounds=8, baseline="a").set_index("name")
     assert called[:6] == ["a", "b", "a", "b", "b", "a"]
     assert table.loc["a", "ratio"] == 1
     assert table.loc["b", "ratio"] == pytest.approx(3, rel=0.01)
@@ -28,7 +28,7 @@ def test_turns_alternate_and_the_first_round_does_not_count(monkeypatch: pytest.
 
 
 def test_the_machine_is_named_with_every_version() -> None:
-    found = timing.machine()
+    found = stopwatch.machine()
     assert {
         "processor",
         "cores",
@@ -51,10 +51,10 @@ def test_each_has_its_own_baseline(monkeypatch: pytest.MonkeyPatch) -> None:
 
         return act
 
-    monkeypatch.setattr(timing.time, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(stopwatch.time, "perf_counter", lambda: clock[0])
     actions = {"a": takes(1.0), "b": takes(2.0), "c": takes(6.0)}
     counts = {"a": 1, "b": 1, "c": 0.5}
-    table = timing.race(actions, counts, 3, {"a": "a", "b": "a", "c": "b"}).set_index("name")
+    table = stopwatch.race(actions, counts, 3, {"a": "a", "b": "a", "c": "b"}).set_index("name")
     assert table["ratio"].to_dict() == {"a": 1.0, "b": 2.0, "c": 6.0}
     assert table["ns_least"].to_dict() == {"a": 1e9, "b": 2e9, "c": 12e9}
 
@@ -67,7 +67,7 @@ def test_units_fill_a_call(cost: float, monkeypatch: pytest.MonkeyPatch) -> None
         asked.append(units)
         clock[0] += 2e-6 + cost * units + (1.0 if len(asked) == 1 else 0.0)  # a call has its price, the first compiles
 
-    monkeypatch.setattr(timing.time, "process_time", lambda: clock[0])
-    units = timing.units_for(work, 0.01)
+    monkeypatch.setattr(stopwatch.time, "process_time", lambda: clock[0])
+    units = stopwatch.units_for(work, 0.01)
     assert units == 1 if cost > 0.01 else 0.005 < units * cost < 0.015
     assert len(asked) < 20

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from fctd import find_contacts
-from fctd import state as rows
-from fctd.energy import energy_of
-from fctd.run import contact_points
-from references import workloads
-from references.workloads import NoWall, asking, copy_of, fallen, free_query, moving, without_wall
-from validation.speed_kernel import chain
+from fctd.mechanics import state as rows
+from fctd.mechanics.energy import energy_of
+from fctd.simulation.run import contact_points
+from references.timing import workloads
+from references.timing.workloads import NoWall, asking, copy_of, fallen, free_query, moving, without_wall
+from validation.parts.speed_kernel import chain
 
 
 @pytest.fixture(scope="module")

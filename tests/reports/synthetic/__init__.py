@@ -3,7 +3,7 @@
 A function for each study, by the study's name.
 """
 
-from validation import registry
+from validation.harness import registry
 
 from . import contact, motion, paper, segments, steady
 

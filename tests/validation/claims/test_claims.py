@@ -8,13 +8,14 @@ import pandas as pd
 import pytest
 
 from fctd import build_wellbore
-from fctd.errors import InputError
-from validation import claims, inputs, ledger, record, registry
+from fctd.case.errors import InputError
 from validation.cases import load
-from validation.ledger import read_ledger
-from validation.study import Check, Outcome
+from validation.claims import judgement, ledger
+from validation.claims.ledger import read_ledger
+from validation.harness import fingerprint, registry, store
+from validation.harness.study import Check, Outcome
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 CLAIM = """
 pending = ["later"]
@@ -52,18 +53,18 @@ def outcome(value, unit="mm"):
 def judged(register, run, tmp_path, monkeypatch):
     """Write claims.toml, run toy and second studies that find ``values``, then the claims; gives the ledger's table."""
     monkeypatch.setattr(ledger, "CLAIMS", tmp_path / "claims.toml")
-    monkeypatch.setattr(claims, "read_ledger", lambda: read_ledger(tmp_path / "claims.toml"))
+    monkeypatch.setattr(judgement, "read_ledger", lambda: read_ledger(tmp_path / "claims.toml"))
 
     def call(text, *, quick=False, **values):
         (tmp_path / "claims.toml").write_text(text)
         for name in ("toy", "second"):
             register(name, lambda context, name=name: outcome(values[name]))
-        register("claims", claims.run)
+        register("claims", judgement.run)
         for name in values:
             run(name, quick=quick)
         code, printed = run("claims", quick=quick)
         folder = tmp_path / "results" / "claims"
-        table = record.read_tables(folder, record.read(folder)).get("ledger")
+        table = store.read_tables(folder, store.read(folder)).get("ledger")
         return code, printed, table
 
     return call
@@ -167,7 +168,7 @@ def test_a_skipped_study_gives_no_number(judged, register, run):
     judged(CLAIM)
     register("toy", needs=("data",))
     run("toy")
-    register("claims", claims.run)
+    register("claims", judgement.run)
     assert "no checks" in run("claims")[1]
 
 
@@ -281,7 +282,7 @@ def test_two_claims_of_one_name_are_refused(register, tmp_path):
 
 def test_the_ledger_rests_on_the_results_that_it_read(judged, tmp_path):
     judged(CLAIM, toy=0.5)
-    rests_on = inputs.read(tmp_path / "results" / "claims").files
+    rests_on = fingerprint.read(tmp_path / "results" / "claims").files
     assert str(tmp_path / "results" / "toy" / "verdict.json") in rests_on
     assert str(tmp_path / "claims.toml") not in rests_on  # outside of the project; the true one is inside
 

@@ -3,9 +3,9 @@
 import pytest
 from typer.testing import CliRunner
 
-from validation import record, runner, study
 from validation.__main__ import app
-from validation.study import Check, Outcome
+from validation.harness import runner, store, study
+from validation.harness.study import Check, Outcome
 
 
 @pytest.fixture
@@ -32,7 +32,7 @@ def test_list_gives_names_and_questions(invoke):
 def test_all_runs_every_study(invoke):
     assert invoke("--all", "--quick").exit_code == 0
     assert results() == ["overlap", "paper_well"]
-    assert record.read(study.RESULTS / "overlap").quick
+    assert store.read(study.RESULTS / "overlap").quick
 
 
 def test_reproduce_runs_the_marked_ones(invoke):
@@ -82,7 +82,7 @@ def test_a_disk_that_is_full(invoke, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(record, "write", full)
+    monkeypatch.setattr(store, "write", full)
     answer = invoke("--all")
     assert answer.exit_code == 2
     assert "results: expected a folder that can be written ([Errno 28] No space left on device)" in answer.output

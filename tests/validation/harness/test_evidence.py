@@ -4,12 +4,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fctd.contact import DIRECTION, START
-from fctd.run import prepare
-from references.engine_run import hann_means
+from fctd.mechanics.contact import DIRECTION, START
+from fctd.simulation.run import prepare
+from references.contact.for_loop import one_cylinder
 from references.engines import Window
-from references.for_loop import one_cylinder
-from validation import (
+from references.engines.run import hann_means
+from validation.cases import load, rotation
+from validation.harness.study import Context, log_slope
+from validation.parts.windows import TRIP_SPEED, TRIP_WINDOW, steady_trip
+from validation.studies import (
     contact_operations,
     cylinder_ringing,
     engines_agree,
@@ -22,10 +25,7 @@ from validation import (
     segment_count,
     soft_stiff_map,
 )
-from validation import well_profile as profile
-from validation.cases import load, rotation
-from validation.steady import TRIP_SPEED, TRIP_WINDOW, steady_trip
-from validation.study import Context, log_slope
+from validation.studies import well_profile as profile
 
 
 def test_a_uniform_string_has_the_frequencies_of_a_quarter_wave():

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from validation import inputs, registry, runner
+from validation.harness import fingerprint, registry, runner
 
 # A project of one study: a module that it imports, one that a registry names, one that it has nothing to do with.
 PROJECT = {
@@ -23,7 +23,7 @@ PROJECT = {
         from pathlib import Path
 
         from toylab import steps
-        from validation.study import Check, Outcome, Study
+        from validation.harness.study import Check, Outcome, Study
 
         def run(context):
             from toylab.methods import build
@@ -63,7 +63,7 @@ def lab(tmp_path, monkeypatch, empty_registry):
     """The project on disk, its study alone in the registry; gives its folder."""
     for name, text in PROJECT.items():
         write(tmp_path, name, text)
-    monkeypatch.setattr(inputs, "ROOT", tmp_path)
+    monkeypatch.setattr(fingerprint, "ROOT", tmp_path)
     monkeypatch.setattr(runner, "ROOT", tmp_path)
     registry.STUDIES["question"] = "toylab.question"
     monkeypatch.syspath_prepend(tmp_path)
@@ -140,7 +140,7 @@ def test_the_packages_above_a_module_count(lab):
     write(lab, "toylab/inner/__init__.py", "from . import beside\n")
     for name in ("deep", "beside"):
         write(lab, f"toylab/inner/{name}.py", "")
-    found = inputs.Sources().used_by("toylab.inner.deep")
+    found = fingerprint.Sources().used_by("toylab.inner.deep")
     assert {name.removeprefix("toylab/") for name in found} == {
         "__init__.py", "inner/__init__.py", "inner/deep.py", "inner/beside.py",
     }  # fmt: skip
@@ -173,7 +173,7 @@ def test_packages_and_processor_count(lab, monkeypatch):
     run(lab)
     write(lab, "requirements.lock", "numpy==1.0\nno-such-package==2.0\n")
     assert "changed: package no-such-package" in run(lab)[1]
-    monkeypatch.setattr(inputs, "cpu_name", lambda: "another one")
+    monkeypatch.setattr(fingerprint, "cpu_name", lambda: "another one")
     assert "changed: processor" in run(lab)[1]
     assert runs(lab) == 3
 
@@ -266,17 +266,17 @@ def test_a_run_that_was_killed_goes_on_where_it_was(lab):
     script = """
         import pathlib, sys
         from rich.console import Console
-        from validation import inputs, registry, runner
+        from validation.harness import fingerprint, registry, runner
 
         lab = pathlib.Path(sys.argv[1])
         sys.path.insert(0, sys.argv[1])
-        inputs.ROOT = runner.ROOT = lab
+        fingerprint.ROOT = runner.ROOT = lab
         registry.STUDIES.clear()
         registry.STUDIES |= {"question": "toylab.question", "second": "toylab.second"}
         runner.run_all(["question", "second"], quick=False, data=None, expected={}, results=lab / "results",
                        console=Console())
         """
-    repository = Path(__file__).parents[2]
+    repository = Path(__file__).parents[3]
     with subprocess.Popen([sys.executable, "-c", textwrap.dedent(script), str(lab)], cwd=repository) as process:
         while not (lab / "results" / "question" / "verdict.json").exists():
             assert process.poll() is None
@@ -292,11 +292,13 @@ def test_a_run_that_was_killed_goes_on_where_it_was(lab):
 
 
 def test_every_registered_contact_method_and_engine_counts():
-    from references import base, engines
+    from references import contact, engines
 
-    sources = inputs.Sources()
-    for study, chosen in (("contact_swap", base.METHODS), ("engines_agree", engines.ENGINES)):
+    sources = fingerprint.Sources()
+    for study, chosen in (("contact_swap", contact.METHODS), ("engines_agree", engines.ENGINES)):
         code = sources.used_by(registry.STUDIES[study])
         for where in chosen.values():
             assert where.partition(":")[0].replace(".", "/") + ".py" in code
-    assert not {name for name in sources.used_by("validation.overlap") if name.startswith("references/contact_")}
+    assert not {
+        name for name in sources.used_by("validation.studies.overlap") if name.startswith("references/contact_")
+    }

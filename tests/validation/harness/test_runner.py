@@ -10,10 +10,9 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from validation import record, registry, runner
-from validation.study import Check, Outcome
-
-from .conftest import outcome
+from tests.validation.conftest import outcome
+from validation.harness import registry, runner, store
+from validation.harness.study import Check, Outcome
 
 
 def stored(tmp_path, name):
@@ -40,8 +39,8 @@ def test_met_check_and_its_table_are_stored(register, run, tmp_path):
         "recorded": None,
     }
     assert set(verdict["provenance"]["versions"]) == {"fctd", "numpy", "numba", "python"}
-    kept = record.read(tmp_path / "results" / "toy")
-    table = record.read_tables(tmp_path / "results" / "toy", kept)["forces"]
+    kept = store.read(tmp_path / "results" / "toy")
+    table = store.read_tables(tmp_path / "results" / "toy", kept)["forces"]
     pd.testing.assert_frame_equal(table, outcome().tables["forces"])
 
 
@@ -89,7 +88,7 @@ def test_recorded_check_that_is_gone_is_named(register, run):
 def test_numbers_that_json_has_no_word_for_survive(register, run, tmp_path, value):
     register("toy", lambda context: outcome(value))
     assert run("toy")[0] == 1
-    check = record.read(tmp_path / "results" / "toy").checks[0].check
+    check = store.read(tmp_path / "results" / "toy").checks[0].check
     assert check.value == pytest.approx(value, nan_ok=True)
 
 
@@ -97,7 +96,7 @@ def test_pair_of_bounds_survives(register, run, tmp_path):
     check = Check("share", 0.5, (0.0, math.inf), "within", "", "closed form")
     register("toy", lambda context: Outcome({}, [check]))
     assert run("toy")[0] == 0
-    assert record.read(tmp_path / "results" / "toy").checks[0].check == check
+    assert store.read(tmp_path / "results" / "toy").checks[0].check == check
 
 
 def test_failed_study_is_recorded_and_the_others_go_on(register, run, tmp_path, capsys):
@@ -124,7 +123,7 @@ def test_a_message_is_shown_as_it_stands_and_stored_with_any_bytes(register, run
     register("broken", fail)
     _, text = run("broken")
     assert r"ArithmeticError: [/x] :x: \x1b[31m Σ data-\udcff" in text
-    assert record.read(tmp_path / "results" / "broken").message == f"ArithmeticError: {message}"
+    assert store.read(tmp_path / "results" / "broken").message == f"ArithmeticError: {message}"
 
 
 def test_study_that_cannot_be_loaded_fails_like_any_other(register, run, tmp_path, monkeypatch, capsys):
@@ -214,7 +213,7 @@ def test_interrupt_while_writing_leaves_the_earlier_result(register, run, tmp_pa
     def interrupt(*args, **kwargs):
         os.kill(os.getpid(), signal.SIGINT)
 
-    monkeypatch.setattr(record, "_to_json", interrupt)
+    monkeypatch.setattr(store, "_to_json", interrupt)
     # Tests that run in the background have inherited that SIGINT is ignored.
     inherited = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:

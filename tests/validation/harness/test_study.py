@@ -5,8 +5,8 @@ import math
 import pandas as pd
 import pytest
 
-from validation import study
-from validation.study import Check, Outcome
+from validation.harness import study
+from validation.harness.study import Check, Outcome
 
 
 @pytest.mark.parametrize(

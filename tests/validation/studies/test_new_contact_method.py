@@ -9,16 +9,17 @@ pytest.importorskip("matplotlib")
 
 from typer.testing import CliRunner
 
-from references import base
+from references import contact
 from references.__main__ import app
-from references.workloads import moving
+from references.timing.workloads import moving
 from reports import figures
-from validation import contact_accuracy, contact_swap, speed, speed_kernel
-from validation.study import Context, silent
+from validation.harness.study import Context, silent
+from validation.parts import speed_kernel
+from validation.studies import contact_accuracy, contact_swap, speed
 
 FILE = """
-    from fctd.errors import Table
-    from references.contact_own import ArcOptions, Arcs
+    from fctd.case.errors import Table
+    from references.contact.own import ArcOptions, Arcs
 
     class Options(Table):
         pass
@@ -45,9 +46,9 @@ def toy(tmp_path, monkeypatch):
     """The file and the line; of the other methods those that the engine brings, for the sake of time."""
     (tmp_path / "toy_contact.py").write_text(textwrap.dedent(FILE))
     monkeypatch.syspath_prepend(tmp_path)
-    for name in [name for name in base.METHODS if name not in ("cylinders", "arcs")]:
-        monkeypatch.delitem(base.METHODS, name)
-    monkeypatch.setitem(base.METHODS, "toy", "toy_contact:Toy")
+    for name in [name for name in contact.METHODS if name not in ("cylinders", "arcs")]:
+        monkeypatch.delitem(contact.METHODS, name)
+    monkeypatch.setitem(contact.METHODS, "toy", "toy_contact:Toy")
 
 
 def written(study, tables):

@@ -6,8 +6,8 @@ import pytest
 
 pytest.importorskip("skfem")
 
-from validation import scaled_section
-from validation.scaled_section import Comparable, differences
+from validation.studies import scaled_section
+from validation.studies.scaled_section import Comparable, differences
 
 
 def model(force=1.0, shift=0.0, late=0.0, deeper=0.0):

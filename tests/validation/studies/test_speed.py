@@ -4,9 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from references.workloads import moving
-from validation import speed, speed_kernel
-from validation.speed import EQUAL, FCTD, FREE, OWN, TAKEN, TOUCHING
+from references.timing.workloads import moving
+from validation.parts import speed_kernel
+from validation.studies import speed
+from validation.studies.speed import EQUAL, FCTD, FREE, OWN, TAKEN, TOUCHING
 
 FCL = "FCL in our loop"
 
