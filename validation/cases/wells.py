@@ -15,6 +15,9 @@ PIPE = {"name": "pipe", "outer_diameter": 0.127, "inner_diameter": 0.1086, "cont
 COLLAR = {"name": "drill collar", "outer_diameter": 0.165, "inner_diameter": 0.0714}
 HEAVY = {"name": "heavy-weight pipe", "outer_diameter": 0.127, "inner_diameter": 0.0762, "contact_diameter": 0.165}
 
+# Weight on bit and bit torque with which the paper's well is drilled.
+DRILLING = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
+
 # 4.5°/30 m to 60°.
 BUILD: Stations = [[0, 0, 0], [400, 0, 0], [800, 60, 0], [1500, 60, 0]]
 # 30°/100 ft to horizontal, where a soft string is said to fail.
@@ -65,3 +68,16 @@ def assembly(*bottom: tuple[dict[str, Any], float]) -> list[dict[str, Any]]:
     """Components of these lengths [m] and pipe above them, in 10 m segments."""
     parts = [{**part, "length": length, "segment_length": 10.0} for part, length in bottom]
     return [*parts, {**PIPE, "segment_length": 10.0}]
+
+
+def drilled_paper_well(segments: int) -> Case:
+    """Paper-well drilled, its string in 61 segments, as in the paper, or in equal ones."""
+    if segments == 61:
+        return load("paper_well", **DRILLING)
+    return load(
+        "paper_well",
+        string__components__0__segments=round(200 / 2450 * segments),
+        string__components__1__segments=round(1500 / 2450 * segments),
+        string__components__2__segments=None,
+        string__components__2__segment_length=2450 / segments,
+    )

@@ -19,8 +19,8 @@ from references.engines import Stepper
 from references.timing.stopwatch import race, units_for
 from references.timing.workloads import copy_of, fallen, find_walls, free_query, moving, touching, without_wall
 from validation.cases import load, rotation
+from validation.cases.wells import drilled_paper_well
 from validation.harness.study import log_slope
-from validation.studies.steady_state import well_of
 
 BIT = 2450.0
 # FCTD's stepper runs this long before anything is timed: the first wave has passed the string [s].
@@ -132,7 +132,7 @@ def step_on(stepper: Run | Stepper, motion: Motion, count: int) -> None:
 
 def steady(rounds: int) -> pd.DataFrame:
     """Milliseconds a depth of paper-well with 61 and 500 segments, each operation; fastest round."""
-    solvers = {segments: Solver(well_of(segments)) for segments in (61, 500)}
+    solvers = {segments: Solver(drilled_paper_well(segments)) for segments in (61, 500)}
     actions: dict[str, Callable[[], object]] = {}
     for segments, solver in solvers.items():
         for kind in KINDS:

@@ -16,13 +16,12 @@ from references.timing.stopwatch import machine_table, race, units_for
 from references.timing.workloads import NoWall, asking, copy_of, moving, without_wall
 from validation.cases import load, rotation, trip
 from validation.harness.study import Check, Context, Outcome, Study, left_out
+from validation.parts.methods import FULL_ONLY, TOO_SLOW
 from validation.parts.windows import last_seconds
 
 SEGMENTS = (60, 170)
 BIT = 2450.0
 ROUND = 0.02  # aimed-at length of a call in the race [s]
-FULL_ONLY = ("bullet", "mujoco", "trimesh")
-TOO_SLOW = "trimesh"  # milliseconds a point: minutes for the seconds that a torque takes
 LABELS = {"for_loop": "FOR-loop"}
 BASELINE = "no contact, compiled"
 # The window of Fig. 13: a trip over the last metres above each depth, at the speed of the whole trip.

@@ -12,8 +12,8 @@ from fctd.model.drillstring import lay_out, section_of
 from references.soft_string.integration import soft_string
 from validation.cases import load, rotation
 from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.long_string import PIPE, chain_frequencies, continuous_frequencies, the_case
 from validation.parts.windows import completed, last_seconds
-from validation.studies.long_segment import PIPE, chain_frequencies, continuous_frequencies, the_case
 
 Array = NDArray[np.float64]
 
@@ -109,7 +109,7 @@ def damping_of(viscosity: float) -> tuple[dict[str, float], tuple[float, float]]
 
 
 def damped(vertical: float | None) -> pd.DataFrame:
-    """Steady loads of the paper's well with mud of rising viscosity; ``vertical`` as of ``long_segment.the_case``."""
+    """Steady loads of the paper's well with mud of rising viscosity; ``vertical`` as of ``long_string.the_case``."""
     rows = []
     for viscosity in VISCOSITIES:
         keys, (axial, turning) = damping_of(viscosity)

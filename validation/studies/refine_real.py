@@ -12,7 +12,7 @@ from fctd.model.layouts import Components, uniform
 from validation.cases import load
 from validation.cases.wells import real_well
 from validation.harness.study import Context, Outcome, Study
-from validation.studies.refine import REFERENCE, in_arcs, judge, loads
+from validation.parts.refinement import REFERENCE, in_arcs, judge, loads
 
 COUNTS = (40, 80, 160, 320, 640)
 # Where the lowest joint is, in segments above the bit.

@@ -11,7 +11,7 @@ from fctd.simulation.run import prepare
 from fctd.steady.equilibrium import Equilibrium, Solver
 from validation.cases import load
 from validation.harness.study import Check, Context, Outcome, Study
-from validation.studies.soft_stiff_map import LIMIT, NARROW, PIPE, case_of
+from validation.parts.bends import LIMIT, NARROW, PIPE, case_of
 
 OPERATIONS = ("trip_in", "trip_out", "rotate_off_bottom", "drill_rotating")
 DRILLING = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}

@@ -17,8 +17,8 @@ from references.timing.stopwatch import machine_table, race, units_for
 from references.timing.workloads import NoWall, asking, copy_of, moving
 from validation.harness.study import Check, Context, Kind, Outcome, Progress, Study, left_out
 from validation.parts import speed_kernel
+from validation.parts.methods import FULL_ONLY, TOO_SLOW
 from validation.parts.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
-from validation.studies.contact_swap import FULL_ONLY, TOO_SLOW
 
 SEGMENTS = (60, 170)  # of the paper's FCTD model and of its Adams model
 # By then a wave of torque has run down 1500 m of steel [s].

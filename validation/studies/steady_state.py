@@ -6,15 +6,15 @@ from typing import Any
 
 import pandas as pd
 
-from fctd import Case, simulate, torque_drag
+from fctd import simulate, torque_drag
 from fctd.case.load import KINDS
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from validation.cases import load, rotation
+from validation.cases.wells import DRILLING, drilled_paper_well
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.windows import TRIP_WINDOW, last_seconds, steady_trip
 
-DRILLING = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
 DEPTHS = [float(depth) for depth in range(1750, 2451, 10)]
 COMPARED = [1900.0, 2050.0, 2200.0, 2330.0, 2450.0]
 
@@ -51,22 +51,9 @@ def compare(chart: pd.DataFrame, depths: list[float], context: Context) -> pd.Da
     return pd.DataFrame(rows)
 
 
-def well_of(segments: int) -> Case:
-    """Paper-well drilled, its string in 61 segments, as in the paper, or in equal ones."""
-    if segments == 61:
-        return load("paper_well", **DRILLING)
-    return load(
-        "paper_well",
-        string__components__0__segments=round(200 / 2450 * segments),
-        string__components__1__segments=round(1500 / 2450 * segments),
-        string__components__2__segments=None,
-        string__components__2__segment_length=2450 / segments,
-    )
-
-
 def cost(segments: int, repeats: int) -> dict[str, Any]:
     """Milliseconds a depth, layout and all, compiled code warm: median over repeats at 2450 m."""
-    case = well_of(segments)
+    case = drilled_paper_well(segments)
     solver, row = Solver(case), {"segments": 0.0}
     for kind in KINDS:
         rates = steady_rates(case, kind)

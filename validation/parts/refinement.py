@@ -1,0 +1,168 @@
+"""What judges ``fctd refine`` on a set of wells: does it land within its tolerance, and does grading pay?"""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fctd import Case, equilibrium, refine
+from fctd.model.drillstring import lay_out
+from fctd.model.layouts import Layout, graded, is_long, uniform, with_components
+from fctd.model.operations import steady_rates
+from fctd.steady.equilibrium import Solver
+from fctd.steady.refine import relative_difference
+from validation.harness.study import Check, Context, Outcome
+
+TOLERANCES = (0.01, 0.003)
+OPERATIONS = ("rotate_off_bottom", "trip_out", "trip_in")
+FINER = 4
+# Shortest segments of the graded strings, as shares of the string: ladders of half octaves, between each other.
+LADDERS = 4
+SHARES = tuple(40 * 2 ** (k / (2 * LADDERS)) for k in range(9 * LADDERS))
+REFERENCE = 4096
+
+
+def finer(case: Case) -> Case:
+    """The same case with segments and cylinders a quarter as long."""
+    pieces = []
+    for part in case.string.components:
+        if is_long(part):
+            pieces.append(part)
+        elif part.segments is not None:
+            pieces.append(part.model_copy(update={"segments": FINER * part.segments}))
+        else:
+            assert part.segment_length is not None
+            pieces.append(part.model_copy(update={"segment_length": part.segment_length / FINER}))
+    hole = case.wellbore
+    assert hole.chord_tolerance is not None  # of all these cases
+    update = {"chord_tolerance": hole.chord_tolerance / FINER**2, "overlap": hole.overlap / FINER}
+    return with_components(case, tuple(pieces)).model_copy(update={"wellbore": hole.model_copy(update=update)})
+
+
+def land(name: str, case: Case, bit: float, tolerance: float, grade: bool) -> list[dict[str, Any]]:
+    """Refine for three operations at once; how far each is from a run four times as fine."""
+    refined = refine(case, tolerance, OPERATIONS, bit, graded=grade)
+    rows = []
+    for kind in OPERATIONS:
+        point, fine = (equilibrium(c, kind, bit) for c in (refined.case, finer(refined.case)))
+        hookload, torque = relative_difference(point, fine, steady_rates(case, kind).spin)
+        rows.append(
+            {
+                "well": name,
+                "asked": "graded" if grade else "uniform",
+                "layout": refined.layout,
+                "tolerance_percent": 100 * tolerance,
+                "operation": kind,
+                "status": refined.status if fine.answered else f"finer: {fine.status}",
+                "segments": refined.segments,
+                "estimate_percent": 100 * refined.error,
+                "hookload_off_percent": 100 * hookload if fine.answered else float("nan"),
+                "torque_off_percent": 100 * torque if fine.answered else float("nan"),
+            }
+        )
+    return rows
+
+
+def in_arcs(case: Case) -> Case:
+    """The case in the exact hole."""
+    return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"geometry": "arcs"})})
+
+
+def compare(name: str, case: Case, bit: float, shares: tuple[float, ...]) -> list[dict[str, Any]]:
+    """Errors of graded and uniform strings of equal counts, turning and picking up, in the exact hole.
+
+    A share's ladder is its place among ``LADDERS``.
+    """
+    case = in_arcs(case)
+    total = bit - case.string.top_md
+    exact = loads(case, uniform, bit, total / REFERENCE)
+    rows = []
+    for share in shares:
+        cut = loads(case, graded, bit, total / share)
+        even = loads(case, uniform, bit, total / cut[0])
+        for layout, (count, torque, hookload) in (("graded", cut), ("uniform", even)):
+            rows.append(
+                {
+                    "well": name,
+                    "layout": layout,
+                    "share": share,
+                    "ladder": SHARES.index(share) % LADDERS,
+                    "segments": count,
+                    "torque_percent": 100 * abs(torque / exact[1] - 1),
+                    "hookload_percent": 100 * abs(hookload / exact[2] - 1),
+                }
+            )
+    return rows
+
+
+def loads(case: Case, layout: Layout, bit: float, length: float) -> tuple[int, float, float]:
+    """Segments, torque turning and hook load picking up, NaN without a balance."""
+    cut = with_components(case, layout(case, bit, length))
+    solver = Solver(cut)
+    turning, lifting = (solver.solve(kind, steady_rates(cut, kind), bit) for kind in OPERATIONS[:2])
+    count = lay_out(cut, bit).segments
+    if not (turning.answered and lifting.answered):
+        return count, float("nan"), float("nan")
+    return count, turning.surface_torque, lifting.hookload
+
+
+def gains(strings: pd.DataFrame) -> pd.DataFrame:
+    """Error of the graded string over that of the uniform one of as many segments: geometric mean over the counts.
+
+    Errors pass through zero by chance, so a string counts with the largest error of its own and all longer counts.
+    Where joints happen to fall still shows, so there is a ratio for each ladder of counts: their mean, least and most.
+    """
+    rows = []
+    for name, of_well in strings.groupby("well", sort=False):
+        row: dict[str, Any] = {"well": name}
+        for quantity in ("torque", "hookload"):
+            ratios = np.array([_gain(ladder, f"{quantity}_percent") for _, ladder in of_well.groupby("ladder")])
+            row[f"{quantity}_ratio"] = float(np.exp(np.log(ratios).mean()))
+            row |= {f"{quantity}_least": ratios.min(), f"{quantity}_most": ratios.max()}
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _gain(ladder: pd.DataFrame, column: str) -> float:
+    table = ladder.pivot_table(index="share", columns="layout", values=column, dropna=False)
+    table = table.sort_index(ascending=False).cummax()
+    return float(np.exp(np.log(table["graded"] / table["uniform"]).mean()))
+
+
+def judge(cases: dict[str, tuple[Case, float]], context: Context, *notes: str) -> Outcome:
+    """Every well, tolerance and layout; then both layouts at equal counts."""
+    landed, strings = [], []
+    for name, (case, bit) in context.progress(list(cases.items()), "wells"):
+        for tolerance in TOLERANCES[:1] if context.quick else TOLERANCES:
+            for grade in (False, True):
+                landed += land(name, case, bit, tolerance, grade)
+        strings += compare(name, case, bit, SHARES[::LADDERS] if context.quick else SHARES)
+    table, lengths = pd.DataFrame(landed), pd.DataFrame(strings)
+    off = table[["hookload_off_percent", "torque_off_percent"]].max(axis=1) / table["tolerance_percent"]
+    gained = gains(lengths)
+    return Outcome(
+        tables={"landed": table, "layouts": lengths, "gains": gained},
+        checks=[
+            Check("difference from a run four times as fine over the tolerance, largest", float(off.max(skipna=False)),
+                  1.0, "at_most", "", "the tolerance asked for"),
+            Check("refinements that did not reach their tolerance",
+                  float((table["status"] != "within_tolerance").sum()), 0, "at_most", "", "every well is reached"),
+            *(
+                Check(f"{load} error of graded over uniform strings of equal counts, most of wells and ladders",
+                      float(gained[column].max(skipna=False)), 1.0, "at_most", "", "target: grading pays")
+                for load, column in (("torque", "torque_most"), ("hook load", "hookload_most"))
+            ),
+        ],
+        notes=[
+            *notes,
+            "Tolerances count as in the command: a share of the load, or of a tenth of weight or Σ r μ F_n where that "
+            "is more; torque of a string that only slides, of all of Σ r μ F_n. The finer run has segments and "
+            "cylinders a quarter as long.",
+            f"Counts are half an octave apart in each of {LADDERS} ladders. A graded string is taken only where it "
+            "saves a tenth of the uniform one's segments.",
+        ],
+        display={
+            "landed": "What refine found, and how far a run four times as fine is from it",
+            "gains": "Error of graded over uniform strings of equal counts: mean, least and most of the ladders",
+        },
+    )  # fmt: skip
