@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.case.errors import InputError
 from fctd.mechanics.jit import inlined
 
 MAX_SEGMENTS = 10_000
@@ -106,17 +105,13 @@ CYLINDERS, ARCS, OPEN = 0, 1, 2
 COULOMB, PAPER = 0, 1
 
 
-def check_segments(segments: float) -> None:
-    """Raise InputError when the string has more segments than the buffer holds."""
-    if segments > MAX_SEGMENTS:
-        raise InputError(
-            f"at most {MAX_SEGMENTS} segments in all", key="string.components", value=f"{segments:.7g} segments"
-        )
-
-
 def new_state(segments: int) -> np.ndarray:
-    """Return a fresh buffer for ``segments`` bodies: at rest at the origin, upright, without mass."""
-    check_segments(segments)
+    """Return a fresh buffer for ``segments`` bodies: at rest at the origin, upright, without mass.
+
+    Raises ValueError for more bodies than the buffer holds; ``lay_out`` refuses such a string before.
+    """
+    if segments > MAX_SEGMENTS:
+        raise ValueError(f"at most {MAX_SEGMENTS} segments fit into a buffer, not {segments}")
     S = _aligned()
     S[QW : QW + STRIDE] = 1.0
     S[AZ : AZ + STRIDE] = 1.0

@@ -210,7 +210,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         )
     if deepest is not None:
         _check_feed(case, owner[-1], deepest)
-    state.check_segments(len(lengths))
+    _check_segments(len(lengths))
     string = String(
         top_md=case.string.top_md,
         bit_depth=bit_depth,
@@ -240,12 +240,20 @@ def _check_feed(case: Case, top: int, deepest: float) -> None:
         )
 
 
+def _check_segments(segments: float) -> None:
+    """Raise InputError when the string has more segments than the state buffer holds."""
+    if segments > state.MAX_SEGMENTS:
+        raise InputError(
+            f"at most {state.MAX_SEGMENTS} segments in all", key="string.components", value=f"{segments:.7g} segments"
+        )
+
+
 def _divide(part: ComponentSpec, take: float) -> list[float]:
     """Segments of ``take`` metres of a component from the bit up; remainder (0.5–1.5 nominal) on top."""
     whole = take if part.length is None else part.length
     nominal = whole / part.segments if part.segments is not None else part.segment_length
     assert nominal is not None  # the case makes sure that one of the two is given
-    state.check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
+    _check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
     if abs(take - whole) < 1e-9:
         count = max(round(whole / nominal), 1)
         return [whole / count] * count

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from fctd.case.errors import InputError
 from fctd.mechanics import state
 
 
@@ -19,5 +18,5 @@ def test_every_row_has_its_own_place() -> None:
 def test_the_stride_holds_the_largest_string_and_its_last_packed_operation() -> None:
     assert state.STRIDE >= state.MAX_SEGMENTS + 2 + state.LANES
     assert state.STRIDE & (state.STRIDE - 1)  # no power of two
-    with pytest.raises(InputError, match="at most 10000 segments"):
+    with pytest.raises(ValueError, match="at most 10000 segments"):
         state.new_state(state.MAX_SEGMENTS + 1)
