@@ -12,7 +12,7 @@ from pydantic import AwareDatetime, BaseModel, ConfigDict, Field, ValidationErro
 
 from benchmarks.measure import ROOT, Costs, ratios
 from benchmarks.subjects import REFERENCE
-from benchmarks.worker import digest, reference_digest
+from benchmarks.worker import reference_digest, sources_digest
 from fctd.case.errors import MISSING, InputError
 from references.timing.stopwatch import cpu_name, machine
 
@@ -54,7 +54,8 @@ class Kernel(BaseModel):
 class Record(BaseModel):
     """A release's costs, and what they depend on.
 
-    sources, reference : hashes of fctd/*.py and of the reference kernel.  reference_ns : cost of its column [ns].
+    sources, reference : hashes of the engine's sources and of the reference kernel.  reference_ns : cost of the
+    reference kernel's column [ns].
     """
 
     model_config = ConfigDict(frozen=True)
@@ -105,7 +106,7 @@ def machine_versions() -> dict[str, str]:
 
 def sources_of(root: Path) -> str:
     """Hash of the engine's sources in a checkout."""
-    return digest(*(root / "fctd").glob("*.py"))
+    return sources_digest(root)
 
 
 def record_of(costs: Costs, subjects: dict[str, Any], instructions: dict[str, float], release: str) -> Record:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.subjects import ARCS, CYLINDERS, FCL, FREE, REFERENCE
-from benchmarks.worker import PROTOCOL, digest, reference_digest
+from benchmarks.worker import PROTOCOL, reference_digest, sources_digest
 from fctd.case.errors import InputError
 
 ROOT = Path(__file__).parents[1]
@@ -58,7 +58,7 @@ def environment(root: Path) -> dict[str, str]:
     """
     single = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
     try:
-        own = {"NUMBA_CACHE_DIR": str(cache() / f"measured-{digest(*(root / 'fctd').glob('*.py'))}")}
+        own = {"NUMBA_CACHE_DIR": str(cache() / f"measured-{sources_digest(root)}")}
     except RuntimeError:  # there is no home; the process has its parent's cache
         own = {}
     return {**os.environ, **single, **own, "PYTHONPATH": str(root)}

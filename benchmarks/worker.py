@@ -29,6 +29,14 @@ def digest(*files: Path) -> str:
     return found.hexdigest()[:16]
 
 
+def sources_digest(root: Path) -> str:
+    """Hash of the engine's sources in a checkout: names relative to ``fctd/`` and contents, in rooms or all in one."""
+    folder, found = root / "fctd", hashlib.sha256()
+    for file in sorted(folder.rglob("*.py")):
+        found.update(file.relative_to(folder).as_posix().encode() + file.read_bytes())
+    return found.hexdigest()[:16]
+
+
 def reference_digest() -> str:
     """Hash of the reference kernel's source: costs in units of different kernels do not compare."""
     return digest(Path(reference_kernel.__file__))
