@@ -10,11 +10,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from tests.test_cli import CASE, run
 
 from fctd import open_result
 from fctd.cli import main, refine, steady
 from fctd.cli.interrupts import as_interrupts
+from tests.cli.test_main import CASE, run
 
 ROOT = Path(__file__).parents[2]
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
@@ -73,7 +73,7 @@ def test_a_command_without_results_ends_without_files(
         "chart": ("chart", case_file, "--operation", "trip_in", "--depths", "700:750:10", "--out", tmp_path / "a.csv"),
         "refine": ("refine", case_file, "--out", tmp_path / "fine.toml"),
     }
-    monkeypatch.setattr(sys.modules["fctd.simulate"], "settle", settle)
+    monkeypatch.setattr(sys.modules["fctd.simulation.simulate"], "settle", settle)
     monkeypatch.setattr(steady, "torque_drag", sending(steady.torque_drag, number, 2))
     monkeypatch.setattr(refine, "refine", sending(refine.refine, number, 1))
     assert run(monkeypatch, *options[command]) == 130

@@ -12,13 +12,13 @@ import pyarrow.parquet as pq
 import pytest
 from hypothesis import given
 from rich.table import Table
-from tests.test_cli import CASE
-from tests.test_text import ANYTHING
 
 from fctd.case.load import Case
 from fctd.case.text import printable_lines
 from fctd.cli import main
 from references.__main__ import app as references_app
+from tests.case.test_text import ANYTHING
+from tests.cli.test_main import CASE
 
 # A name as TOML writes it, and as it is shown: markup, emoji code, formula, CSI, OSC, C1, a line's end, an override.
 WILD = r"[/x] [bold]y :x: $\\frac{ \u001b[31m \u001b]0;t\u0007 \u009b1m \n \u202e"

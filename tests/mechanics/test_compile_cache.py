@@ -223,9 +223,9 @@ def test_no_compiled_function_leaves_an_option_open() -> None:
 
 EVERY_SIGNATURE = """
 import fctd
-from fctd import cli_compile
+from fctd.cli import compile as cli_compile
 from tests import cases
-from tests.test_compile_cache import dispatchers
+from tests.mechanics.test_compile_cache import dispatchers
 
 kept = {name: f for name, f in dispatchers().items() if hasattr(f._cache, "_label") and "wall_query" not in name}
 cli_compile.compile_all()

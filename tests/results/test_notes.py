@@ -9,13 +9,13 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from tests.test_cli import run
 
 from fctd import Case, equilibrium, simulate, torque_drag
 from fctd.case.units import conversion
 from fctd.results import notes
 from fctd.steady.equilibrium import Equilibrium
 from tests.cases import make_case, pipe, rotation, trip
+from tests.cli.test_main import run
 
 
 def bend(quarters: int) -> list[list[float]]:

@@ -154,7 +154,7 @@ def test_a_run_that_feeds_another_depth_than_its_schedule_is_a_defect(monkeypatc
         run, stretches = prepare(case, contact)
         return run, [s._replace(motion=s.motion._replace(feed_to=1.0001 * s.motion.feed_to)) for s in stretches]
 
-    monkeypatch.setattr(sys.modules["fctd.simulate"], "prepare", prepare_wrongly)
+    monkeypatch.setattr(sys.modules["fctd.simulation.simulate"], "prepare", prepare_wrongly)
     case = make_case(components=[pipe(None, 4)], operations=[trip(300, 301)], contact={"enabled": False})
     with pytest.raises(AssertionError, match=r"ends at 301\.0000\d+ m, the schedule at 301\.000000 m"):
         simulate(case)

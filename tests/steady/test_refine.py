@@ -17,7 +17,7 @@ from fctd.model.operations import SteadyRates, steady_rates
 from fctd.steady.equilibrium import Solver
 from fctd.steady.refine import SAFETY, Refinement, Status, _better, _errors, _Level, relative_difference
 from tests.cases import make_case, pipe, rotation, trip
-from validation.studies.refine import finer
+from validation.parts.refinement import finer
 
 BUILD = [[0, 0, 0], [400, 0, 0], [800, 60, 0], [1300, 60, 0]]
 
