@@ -102,7 +102,7 @@ def test_the_second_signal_does_not_cost_the_results(
 def test_a_terminal_that_has_gone_does_not_cost_the_results(case_file: Path, tmp_path: Path) -> None:
     """With its bar and its tables on that terminal."""
     code = (
-        "import os, signal, time\nfrom fctd import cli\nreal = cli.simulate\n"
+        "import os, signal, time\nfrom fctd.cli import main as cli\nreal = cli.simulate\n"
         "def simulate(*a, progress, **k):\n"
         "    def report(*v):\n"
         "        progress(*v)\n"

@@ -227,7 +227,7 @@ from fctd.cli import compile as cli_compile
 from tests import cases
 from tests.mechanics.test_compile_cache import dispatchers
 
-kept = {name: f for name, f in dispatchers().items() if hasattr(f._cache, "_label") and "wall_query" not in name}
+kept = {name: f for name, f in dispatchers().items() if hasattr(f._cache, "_label") and "external_contact" not in name}
 cli_compile.compile_all()
 # Compiled together with what calls them, and from Python called only where that fails.
 inside = {"eliminate", "hold_back", "take_step"}
