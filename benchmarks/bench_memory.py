@@ -22,8 +22,8 @@ RUN = """
 import json
 from benchmarks.strings import chain
 from fctd.simulation.run import prepare
-run, stretches = prepare(chain({segments}))
-run.advance(stretches[0].motion, run.step)
+run, phases = prepare(chain({segments}))
+run.advance(phases[0].motion, run.step)
 arrays = [run.S, run.top, run.owner, run.hole.pieces]
 """
 ENGINE = """

@@ -20,7 +20,7 @@ from fctd.mechanics.query import query_walls
 from fctd.mechanics.state import OPEN, RADIUS, copy_state, row
 from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import steady_rates
-from fctd.simulation.run import Run, contact_points, forget_start, prepare, settle
+from fctd.simulation.run import Run, contact_points, prepare, settle, start_from_rest
 from fctd.steady.equilibrium import Solver
 from references import contact
 
@@ -50,11 +50,11 @@ def turning(segments: int, changes: Mapping[str, Any] = {}) -> tuple[Run, Motion
     Turned for 4 s first: ahead of the first wave velocities are denormal numbers, which take many times longer.
     """
     case = load_case(CASE, {"string.components[0].segments": segments, "operations": [ROTATION], **changes})
-    run, stretches = prepare(case)
+    run, phases = prepare(case)
     settle(run)
-    forget_start(run)
-    run.advance(stretches[0].motion, stretches[0].motion.duration)
-    return run, stretches[1].motion
+    start_from_rest(run)
+    run.advance(phases[0].motion, phases[0].motion.duration)
+    return run, phases[1].motion
 
 
 @njit(error_model="numpy", cache=True)

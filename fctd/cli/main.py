@@ -29,8 +29,8 @@ from fctd.cli.options import (
     print_status,
     print_written,
     read_case,
+    refuse_source_files,
     screen,
-    spare_files,
 )
 from fctd.cli.refine import refine_command
 from fctd.cli.steady import chart_command, equilibrium_command
@@ -74,7 +74,7 @@ def simulate_file(
     method = None if contact is None else contact(case)
     folder = out or Path(file_name(case.name, "-result"))
     check_result_folder(folder, csv, "--out")  # before hours of computing, not after
-    spare_files(case, (folder / name for name in own_files(folder).union(result_files(csv))), "--out")
+    refuse_source_files(case, (folder / name for name in own_files(folder).union(result_files(csv))), "--out")
     columns = (
         TextColumn("{task.description}", markup=False),
         BarColumn(),

@@ -102,13 +102,13 @@ def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
         check_file(file, key)
 
 
-def spare_sources(case: Case, path: Path | None, key: str) -> None:
+def refuse_sources(case: Case, path: Path | None, key: str) -> None:
     """Refuse a file that, or whose side file, would be written over the case file or its survey."""
     if path is not None:
-        spare_files(case, table_files(path), key)
+        refuse_source_files(case, table_files(path), key)
 
 
-def spare_files(case: Case, paths: Iterable[Path], key: str) -> None:
+def refuse_source_files(case: Case, paths: Iterable[Path], key: str) -> None:
     """Refuse files one of which is the case file or its survey."""
     for path in paths:
         for source in (case.file, case.wellbore.survey):

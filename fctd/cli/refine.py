@@ -24,8 +24,8 @@ from fctd.cli.options import (
     read_case,
     read_quantity,
     read_share,
+    refuse_sources,
     screen,
-    spare_sources,
 )
 from fctd.cli.steady import KIND_HELP, Rpm, Speed, Units, read_drive
 from fctd.results.unit_systems import System, shown
@@ -64,7 +64,7 @@ def refine_command(
     check_target(out, "--out", (".toml",))
     share = read_share(tolerance, "--tolerance")
     case = read_case(case_file, overrides, friction)
-    spare_sources(case, out, "--out")
+    refuse_sources(case, out, "--out")
     if out is not None:
         survey_from(out, case)  # before the computing, not after
     depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth")

@@ -30,8 +30,8 @@ from fctd.cli.options import (
     print_written,
     read_case,
     read_quantity,
+    refuse_sources,
     screen,
-    spare_sources,
 )
 from fctd.model.operations import rates_of_all
 from fctd.results.notes import MEANINGS, as_metadata, meanings_of
@@ -114,8 +114,8 @@ def equilibrium_command(
         raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
     (operation,) = operations
     case = read_case(case_file, overrides, friction)
-    spare_sources(case, out, "--out")
-    spare_sources(case, plot, "--plot")
+    refuse_sources(case, out, "--out")
+    refuse_sources(case, plot, "--plot")
     depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
     _check_in_hole(case, [depth], "--bit-depth", bit_depth)
     drive = read_drive(speed, rpm)
@@ -166,7 +166,7 @@ def chart_command(
     plots = _plots({"--plot": plot, "--plot-profile": plot_profile})
     case = read_case(case_file, overrides)
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
-        spare_sources(case, path, key)
+        refuse_sources(case, path, key)
     bit_depths = read_depths(depths)
     _check_in_hole(case, bit_depths, "--depths", depths)
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))

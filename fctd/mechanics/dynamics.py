@@ -287,7 +287,7 @@ def update_positions(S, top, packed, laws, pipe, feed, rate, dt):
 
 
 @inlined
-def whole_operations(n):
+def padded_columns(n):
     """Columns of ``n`` bodies rounded up to whole packed operations."""
     return (n + LANES - 1) // LANES * LANES
 
@@ -295,7 +295,7 @@ def whole_operations(n):
 @kernel
 def step(S, top, owner, n, C, laws, motion, pipe, dt):
     """Advance the string by one step: the algorithm of §4 and Fig. 7 in order."""
-    packed = whole_operations(n)
+    packed = padded_columns(n)
     feed, rate = update_loads(S, top, packed, laws, motion, pipe, dt)
     update_walls(S, owner, n, packed, C, laws.geometry)
     update_positions(S, top, packed, laws, pipe, feed, rate, dt)
@@ -304,6 +304,6 @@ def step(S, top, owner, n, C, laws, motion, pipe, dt):
 @entry
 def advance(S, top, owner, n, C, laws, motion, pipe, dt, steps):
     """Advance by ``steps`` steps of ``dt`` [s]; the one compiled entry of a run, allocating nothing."""
-    update_axes(S, whole_operations(n))
+    update_axes(S, padded_columns(n))
     for _ in range(steps):
         step(S, top, owner, n, C, laws, motion, pipe, dt)

@@ -1,4 +1,4 @@
-"""What the rig does: the schedule of a case as stretches of constant or ramped feed and rotation."""
+"""What the rig does: the schedule of a case as phases of constant or ramped feed and rotation."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from fctd.mechanics.topdrive import Motion
 SHORTEST = 1e-3
 
 
-class Stretch(NamedTuple):
+class Phase(NamedTuple):
     """A piece of the schedule: the top drive's motion, and the index of the operation it belongs to."""
 
     motion: Motion
@@ -37,14 +37,14 @@ def rad_per_s(rpm: float) -> float:
     return rpm * np.pi / 30
 
 
-def schedule(operations: Sequence[Operation]) -> list[Stretch]:
+def schedule(operations: Sequence[Operation]) -> list[Phase]:
     """Stretches of the operations one after the other, starting from rest.
 
     Each operation ramps speed and rotation within its ramp time.  One that another follows comes to rest at
     its end depth; the last one ends in motion, so that its end can be read as a steady state.  Raises InputError
     for an operation shorter than ``SHORTEST``.
     """
-    stretches: list[Stretch] = []
+    phases: list[Phase] = []
     clock, turning = 0.0, 0.0
     for k, operation in enumerate(operations):
         rate = rad_per_s(operation.rpm)
@@ -59,10 +59,10 @@ def schedule(operations: Sequence[Operation]) -> list[Stretch]:
             )
         for duration, feed_from, feed_to in parts:
             motion = Motion(clock, duration, feed_from, feed_to, turning, rate)
-            stretches.append(Stretch(motion, k))
+            phases.append(Phase(motion, k))
             clock += duration
             turning = rate
-    return stretches
+    return phases
 
 
 def _feed(operation: Operation, stops: bool) -> list[tuple[float, float, float]]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fctd.mechanics import state
 from fctd.mechanics.contact import contact_point, store_wall
-from fctd.mechanics.dynamics import update_axes, update_loads, update_positions, whole_operations
+from fctd.mechanics.dynamics import padded_columns, update_axes, update_loads, update_positions
 from fctd.mechanics.jit import entry
 from fctd.mechanics.state import Laws
 from fctd.mechanics.topdrive import Motion, PerMetre
@@ -69,7 +69,7 @@ def _store(S, n, radii, penetration, normal, md, wall):
 @entry
 def _before(S, top, n, laws, motion, pipe, dt, points):
     """The step up to the query: loads, and the points (n, 3) to ask about; returns feed and rotation."""
-    feed, rate = update_loads(S, top, whole_operations(n), laws, motion, pipe, dt)
+    feed, rate = update_loads(S, top, padded_columns(n), laws, motion, pipe, dt)
     _points(S, n, points)
     return feed, rate
 
@@ -78,7 +78,7 @@ def _before(S, top, n, laws, motion, pipe, dt, points):
 def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md, wall):
     """The step after the query: walls, motion, top drive."""
     _store(S, n, radii, penetration, normal, md, wall)
-    update_positions(S, top, whole_operations(n), laws, pipe, feed, rate, dt)
+    update_positions(S, top, padded_columns(n), laws, pipe, feed, rate, dt)
 
 
 class QueriedWall:
@@ -93,7 +93,7 @@ class QueriedWall:
     def advance(self, S: Array, top: Array, laws: Laws, motion: Motion, pipe: PerMetre, dt: float, steps: int) -> None:
         """Advance by ``steps`` steps of ``dt`` [s]."""
         n, radii = self._segments, self._radii(S)
-        update_axes(S, whole_operations(n))
+        update_axes(S, padded_columns(n))
         for _ in range(steps):
             feed, rate = _before(S, top, n, laws, motion, pipe, dt, self._points)
             hits = self._ask(radii)

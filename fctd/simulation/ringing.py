@@ -19,7 +19,7 @@ from scipy.linalg import eigh_tridiagonal
 
 from fctd.mechanics import contact, state, topdrive
 from fctd.model.drillstring import String
-from fctd.model.operations import Stretch
+from fctd.model.operations import Phase
 from fctd.model.wellbore import Wellbore
 from fctd.simulation.run import Run
 
@@ -78,14 +78,14 @@ class Modes(NamedTuple):
     pull: Array
 
 
-def expected_ringing(run: Run, stretches: list[Stretch]) -> Ringing:
-    """Ringing that joints of cylinders cause where a run feeds pipe at constant speed, each stretch from rest."""
+def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
+    """Ringing that joints of cylinders cause where a run feeds pipe at constant speed, each phase from rest."""
     depths: list[float] = []
     frequencies: list[Array] = []
     amplitudes: list[Array] = []
     if run.laws.geometry == state.CYLINDERS and run.queried is None and run.segments > MODES:
         tilt, probe, depth = cylinder_tilt(run.hole), run.S.copy(), run.string.bit_depth
-        for motion, _ in stretches:
+        for motion, _ in phases:
             fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration
             steady = motion.feed_from == motion.feed_to != 0
             strides = int(np.ceil(max(abs(fed) / STRIDE, motion.duration / SPAN))) if steady else 0

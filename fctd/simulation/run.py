@@ -16,7 +16,7 @@ from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.model.drillstring import String, check_fit, fill, lay_out
-from fctd.model.operations import Stretch, depth_range, rad_per_s, schedule
+from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.simulation.external_contact import QueriedWall, WallQuery
 
@@ -92,22 +92,22 @@ class Run:
         check(self.S, self.segments)
 
 
-def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Stretch]]:
+def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Phase]]:
     """Build hole and string of a case, lay the string on the axis of the hole and choose the step.
 
     contact : answers for the wall in place of the hole's own pieces.  Raises InputError for a case that cannot
     be simulated.
     """
     with naming_file(case):
-        run, stretches = _prepare(case)
+        run, phases = _prepare(case)
         if contact is not None:
             if not case.contact.enabled:
                 raise InputError("true, since another contact method is to be run", key="contact.enabled", value=False)
             run.queried = QueriedWall(contact, run.hole, run.segments)
-        return run, stretches
+        return run, phases
 
 
-def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
+def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     if not case.operations:
         raise InputError("at least one operation to simulate", key="operations", value=[])
     _check_dynamic(case)
@@ -130,7 +130,7 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
     pipe = fill(S, string, case)
     top[topdrive.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
     lie_on_axis(S, string, hole)
-    stretches = schedule(case.operations)
+    phases = schedule(case.operations)
     laws = state.Laws(
         geometry=hole.geometry if case.contact.enabled else state.OPEN,
         friction=state.PAPER if case.contact.friction_law == "paper" else state.COULOMB,
@@ -146,16 +146,16 @@ def _prepare(case: Case) -> tuple[Run, list[Stretch]]:
         raise InputError(
             f"'auto', 'largest' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
         )
-    _check_cost(case, n, step, sum(s.motion.duration for s in stretches))
+    _check_cost(case, n, step, sum(s.motion.duration for s in phases))
     # A walk from the top would stop at the first slab a point lies in, which past 90° may be a far one's.
     owner = np.zeros(n + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
-    return Run(case, hole, string, pipe, S, top, owner, step, laws), stretches
+    return Run(case, hole, string, pipe, S, top, owner, step, laws), phases
 
 
 def _check_cost(case: Case, segments: int, step: float, duration: float) -> None:
     """Raise InputError for a run that would take hours or more memory than there is; step and duration [s]."""
-    most = MOST_SEGMENT_STEPS / dynamics.whole_operations(segments)
+    most = MOST_SEGMENT_STEPS / dynamics.padded_columns(segments)
     if (duration + LONGEST_SETTLING) / step > most:
         raise InputError(
             f"masses, stiffnesses, speeds and durations that need at most {most:.2g} steps of {segments} segments",
@@ -324,7 +324,7 @@ def _three(run: Run, rows: tuple[int, int, int]) -> Array:
     return np.stack([state.row(run.S, row, run.segments) for row in rows])
 
 
-def forget_start(run: Run) -> None:
+def start_from_rest(run: Run) -> None:
     """Bring the settled string to rest and clear clock, sums and losses: the run starts here."""
     for offset in (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ):
         state.row(run.S, offset, run.segments)[:] = 0.0

@@ -23,7 +23,7 @@ class Pace(NamedTuple):
     """How boldly to step, and when to stop.
 
     iterations : at most.  tau : first pseudo-time [s]; growth : its factor after a step that was not shortened;
-    relent : its factor after a step that made things ten times worse (1 : never mind).
+    shrink : its factor after a step that made things ten times worse (1 : never mind).
     shift [m], turn [rad] : a body's largest lateral step and largest rotation.
     force [N], moment [N m] : largest imbalance of a body when converged.
     """
@@ -31,7 +31,7 @@ class Pace(NamedTuple):
     iterations: int
     tau: float
     growth: float
-    relent: float
+    shrink: float
     shift: float
     turn: float
     force: float
@@ -52,7 +52,7 @@ def imbalance(R, n, pace):
 
 
 @entry
-def hold_back(S, n, tau, D):
+def add_pseudo_mass(S, n, tau, D):
     """Add the masses over τ² to the diagonal blocks."""
     k = 1 / (tau * tau)
     for j in range(1, n + 1):
@@ -94,7 +94,7 @@ def converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, tau):
     """Iterate from pose P towards balance; returns status, iterations and the last pseudo-time.
 
     R then holds what is out of balance and, in row 0, the reactions of the top drive.  ``UNSOUND`` : the
-    elimination lost its digits; `assemble` and `hold_back` build the system again for another solver.
+    elimination lost its digits; `assemble` and `add_pseudo_mass` build the system again for another solver.
     """
     before = np.inf
     share = 0.0
@@ -106,11 +106,11 @@ def converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, tau):
         if error <= 1:
             return CONVERGED, k, tau
         if error > 10 * before:
-            tau *= pace.relent
-        if share == 1 and (error < before or pace.relent == 1):
+            tau *= pace.shrink
+        if share == 1 and (error < before or pace.shrink == 1):
             tau *= pace.growth
         before = error
-        hold_back(S, n, tau, D)
+        add_pseudo_mass(S, n, tau, D)
         if not eliminate(D, A, U, R, n, W):
             return UNSOUND, k, tau
         share = allowed_share(S, n, P, R, pace)

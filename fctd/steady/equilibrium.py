@@ -22,7 +22,7 @@ from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.steady import tangent
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
-from fctd.steady.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, converge, hold_back, take_step
+from fctd.steady.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, take_step
 from fctd.steady.first_guess import MD, NODE, guess
 from fctd.steady.tangent import POSE, Steady, assemble, frictionless_tangent, read_loads
 
@@ -38,7 +38,7 @@ TOLERANCE = 1e-7
 SEED = 1e-4
 # Bold steps converge in some eight iterations.  A string that hardly fits its hole needs steps that mind the
 # imbalance, one that buckles needs small ones, to converge at all or to find a stable shape.
-# Iterations, first pseudo-time [s], growth, relent, largest lateral step [m]: as of Pace.
+# Iterations, first pseudo-time [s], growth, shrink, largest lateral step [m]: as of Pace.
 ATTEMPTS = (
     (25, 0.2, 3.0, 1.0, 0.05),
     (60, 0.05, 3.0, 0.3, 0.02),
@@ -215,11 +215,11 @@ class Solver:
         kinks[:, 0] = 1.0
         total, code, negative = 0, NOT_FINITE, 0
         unstable: tuple[int, Array, NDArray[np.int64]] | None = None
-        for iterations, tau, growth, relent, shift in ATTEMPTS:
+        for iterations, tau, growth, shrink, shift in ATTEMPTS:
             guess(w.S, n, pieces, laws, string.top_md, -weight_on_bit, SEED, w.G, w.P)
             self._bend(string, kinks)
             w.owner[1 : n + 1] = np.searchsorted(pieces[:, START_MD], w.G[1 : n + 1, MD], side="right") - 1
-            pace = Pace(iterations, tau, growth, relent, shift, LARGEST_TURN, force, force)
+            pace = Pace(iterations, tau, growth, shrink, shift, LARGEST_TURN, force, force)
             code, done = self._iterate(n, kinks, laws, pace)
             total += done
             if code != CONVERGED:
@@ -247,7 +247,7 @@ class Solver:
             if code != UNSOUND:
                 return code, done
             assemble(w.S, n, w.P, kinks, pieces, w.owner, laws, w.R, w.D, w.A, w.U)
-            hold_back(w.S, n, tau, w.D)
+            add_pseudo_mass(w.S, n, tau, w.D)
             try:
                 w.R[1 : n + 1] = solve_with_pivoting(w.D, w.A, w.U, w.R, n)
             except (np.linalg.LinAlgError, ValueError):

@@ -95,10 +95,10 @@ def options_of(table: type[Table], name: str, options: Mapping[str, Any]) -> Tab
 
 def need(module: str, method: type[ContactMethod]) -> Any:
     """Import the package of a method; InputError naming it when it is not installed."""
-    return import_or_tell(module, method.distribution, method.name)
+    return import_optional(module, method.distribution, method.name)
 
 
-def import_or_tell(module: str, distribution: str, wanted_for: str, key: str = "contact") -> Any:
+def import_optional(module: str, distribution: str, wanted_for: str, key: str = "contact") -> Any:
     """Import a module of an optional package; InputError naming the package when it is not installed."""
     try:
         return importlib.import_module(module)

@@ -5,7 +5,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from fctd.mechanics.contact import DIRECTION, LENGTH, START, contact_point, cylinder_wall, distance_along, store_wall
-from fctd.mechanics.dynamics import update_axes, update_loads, update_positions, whole_operations
+from fctd.mechanics.dynamics import padded_columns, update_axes, update_loads, update_positions
 from fctd.mechanics.state import RADIUS
 
 
@@ -53,7 +53,7 @@ def one_cylinder(
 @njit(error_model="numpy", cache=True)
 def advance_with_for_loop(S, top, n, C, laws, motion, pipe, dt, steps):  # type: ignore[no-untyped-def]
     """The engine's ``dynamics.advance``, compiled as a whole, with the FOR-loop in place of its search."""
-    packed = whole_operations(n)
+    packed = padded_columns(n)
     update_axes(S, packed)
     for _ in range(steps):
         feed, rate = update_loads(S, top, packed, laws, motion, pipe, dt)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
-from references.contact import import_or_tell, need
+from references.contact import import_optional, need
 from references.contact.tube_mesh import OnTube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
@@ -24,7 +24,7 @@ class TriMesh(OnTube):
     Options: ClassVar[type[Table]] = TubeOptions
 
     def __init__(self, case: Case, options: TubeOptions) -> None:
-        import_or_tell("rtree", "rtree", self.name)
+        import_optional("rtree", "rtree", self.name)
         self._proximity = need("trimesh.proximity", type(self))
         self.tube = build_tube(case, options)
         # The tree is made at first use: here, so that no query pays for it.

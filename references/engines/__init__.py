@@ -14,7 +14,7 @@ from fctd.case.load import Case
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.topdrive import Motion
 from fctd.simulation.run import Run
-from references.contact import import_or_tell, options_of, registered, version_of
+from references.contact import import_optional, options_of, registered, version_of
 
 ENGINES: dict[str, str] = {
     "fctd": "references.engines.own:Fctd",
@@ -119,7 +119,7 @@ def installed_version(name: str) -> str | None:
 
 def need(module: str, engine: type[StringEngine]) -> Any:
     """Import the package of an engine; InputError naming it when it is not installed."""
-    return import_or_tell(module, engine.distribution, engine.name, key="engine")
+    return import_optional(module, engine.distribution, engine.name, key="engine")
 
 
 class StepOptions(Table):

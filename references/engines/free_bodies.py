@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fctd.case import units
 from fctd.case.errors import InputError
 from fctd.mechanics import state
-from fctd.mechanics.dynamics import update_axes, update_loads, whole_operations
+from fctd.mechanics.dynamics import padded_columns, update_axes, update_loads
 from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.topdrive import Motion, move_top_drive
@@ -84,8 +84,8 @@ def tube_of(run: Run, options: FreeBodyOptions) -> Tube | None:
 @njit(error_model="numpy", cache=True)
 def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untyped-def]
     """Loads of the present poses; out (n, 6) force and moment about the centre of mass; returns feed and rotation."""
-    update_axes(S, whole_operations(n))
-    feed, rate = update_loads(S, top, whole_operations(n), laws, motion, pipe, dt)
+    update_axes(S, padded_columns(n))
+    feed, rate = update_loads(S, top, padded_columns(n), laws, motion, pipe, dt)
     for j in range(1, n + 1):
         fx, fy, fz = state.joint_force(S, j)
         gx, gy, gz = state.joint_force(S, j + 1)

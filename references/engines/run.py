@@ -12,25 +12,23 @@ from fctd.case.load import Case, naming_file
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
-from fctd.model.operations import Stretch
+from fctd.model.operations import Phase
 from fctd.simulation.recorder import LOSSES, Recorder
-from fctd.simulation.run import Run, forget_start, prepare, settle
+from fctd.simulation.run import Run, prepare, settle, start_from_rest
 from references.engines import EngineRun, Stepper, Window
 from references.engines.checks import examine
 
 
-def legs(
-    case: Case, stretches: list[Stretch], start: float, end: float, interval: float
-) -> list[tuple[Stretch, float]]:
+def legs(case: Case, phases: list[Phase], start: float, end: float, interval: float) -> list[tuple[Phase, float]]:
     """Parts of a schedule between two times, and the time at which each ends, no longer than ``interval`` [s]."""
     parts = []
     now = start
-    for stretch in stretches:
-        last = min(stretch.motion.start + stretch.motion.duration, end)
+    for phase in phases:
+        last = min(phase.motion.start + phase.motion.duration, end)
         if last <= now + 1e-9:
             continue
         count = max(int(np.ceil((last - now) / interval - 1e-9)), 1)
-        parts += [(stretch, float(t)) for t in np.linspace(now, last, count + 1)[1:]]
+        parts += [(phase, float(t)) for t in np.linspace(now, last, count + 1)[1:]]
         now = last
     if now < end - 1e-9:
         raise InputError(
@@ -39,28 +37,28 @@ def legs(
     return parts
 
 
-def begin_run(case: Case, window: Window) -> tuple[Run, list[Stretch]]:
+def begin_run(case: Case, window: Window) -> tuple[Run, list[Phase]]:
     """The string of a case at the start of a window, sums and losses cleared; raises InputError."""
     if not (window.start >= 0 and window.duration > 0):
         raise InputError("a start of at least 0 s and a duration above 0 s", key="window", value=str(tuple(window)))
-    run, stretches = prepare(case)
+    run, phases = prepare(case)
     settle(run)
-    forget_start(run)
+    start_from_rest(run)
     if window.start > 0:
-        for stretch, until in legs(case, stretches, 0.0, window.start, np.inf):
-            run.advance(stretch.motion, until - float(run.top[topdrive.TOP_TIME]))
+        for phase, until in legs(case, phases, 0.0, window.start, np.inf):
+            run.advance(phase.motion, until - float(run.top[topdrive.TOP_TIME]))
     run.refresh()
     run.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
     run.top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE, topdrive.TOP_WORK, topdrive.FED_ENERGY]] = 0.0
     run.steps = 0
-    return run, stretches
+    return run, phases
 
 
 def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> EngineRun:
     """Run a window with a stepper begun by ``begin``, record as ``fctd.simulate`` does, and hold it to the checks."""
     with naming_file(case):
-        run, stretches = begin_run(case, window)
-        parts = legs(case, stretches, window.start, window.start + window.duration, case.record.interval)
+        run, phases = begin_run(case, window)
+        parts = legs(case, phases, window.start, window.start + window.duration, case.record.interval)
         recorder = Recorder(run)
         recorder.start_depth += float(run.top[topdrive.TOP_LENGTH]) - (
             run.string.length[0] if run.string.long_segment else 0.0

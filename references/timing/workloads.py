@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 from fctd.case.load import Case
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.contact import update_walls
-from fctd.mechanics.dynamics import whole_operations
+from fctd.mechanics.dynamics import padded_columns
 from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.query import query_walls
 from fctd.mechanics.topdrive import Motion
 from fctd.model.wellbore import Contacts
 from fctd.simulation.external_contact import QueriedWall
 from fctd.simulation.recorder import LOSSES
-from fctd.simulation.run import STILL, Run, contact_points, forget_start, prepare
+from fctd.simulation.run import STILL, Run, contact_points, prepare, start_from_rest
 from references.engines import Window, checks
 from references.engines.run import begin_run, legs
 
@@ -47,9 +47,9 @@ class NoWall:
 def moving(case: Case, after: float) -> tuple[Run, Motion]:
     """The string of a case ``after`` so many seconds of its schedule, and what its top drive then does."""
     window = Window(after, 1.0)
-    run, stretches = begin_run(case, window)
-    (stretch, _) = legs(case, stretches, after, after + window.duration, np.inf)[-1]
-    return run, stretch.motion
+    run, phases = begin_run(case, window)
+    (phase, _) = legs(case, phases, after, after + window.duration, np.inf)[-1]
+    return run, phase.motion
 
 
 def fallen(case: Case, seconds: float) -> tuple[Run, Motion]:
@@ -57,11 +57,11 @@ def fallen(case: Case, seconds: float) -> tuple[Run, Motion]:
 
     For segments in thousands, which would take minutes to settle.
     """
-    run, stretches = prepare(case)
+    run, phases = prepare(case)
     run.refresh()
     run.advance(STILL, seconds, run.laws._replace(settling=BRAKE))
-    forget_start(run)
-    motion = stretches[-1].motion
+    start_from_rest(run)
+    motion = phases[-1].motion
     state.row(run.S, state.WZ, run.segments)[:] = motion.spin_to
     run.refresh()
     run.check()
@@ -107,7 +107,7 @@ def _walls(S, owner, n, packed, C, geometry, times):  # type: ignore[no-untyped-
 def find_walls(run: Run, times: int) -> None:
     """The engine's contact query of all points as in its steps, so many times."""
     n = run.segments
-    _walls(run.S, run.owner, n, whole_operations(n), run.hole.pieces, run.laws.geometry, times)
+    _walls(run.S, run.owner, n, padded_columns(n), run.hole.pieces, run.laws.geometry, times)
 
 
 def free_query(run: Run) -> Callable[[int], None]:

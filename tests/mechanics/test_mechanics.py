@@ -35,9 +35,9 @@ def test_cantilever_converges_to_the_timoshenko_beam() -> None:
 def test_twist_of_a_string_held_back_by_mud() -> None:
     """Rotating in mud alone the torque falls linearly to the bit, and the bit lags by c ω L²/2GJ."""
     case = make_case(operations=[rotation(1000, 60, ramp=40)], mud={"rotational_damping": 0.8})
-    run, stretches = prepare(case)
+    run, phases = prepare(case)
     settle(run)
-    for motion, _ in stretches:
+    for motion, _ in phases:
         run.advance(motion, motion.duration)
     section = section_of(case.string.components[0], 0.0)
     rate = rad_per_s(60)
@@ -58,14 +58,14 @@ def test_free_vibration_has_the_frequency_of_a_bar(kind: str, speed: float) -> N
         components=[pipe(1000, 40)], operations=[rotation(1000, 10)],
         contact={"enabled": False}, solver={"joint_damping": 0},
     )  # fmt: skip
-    run, stretches = prepare(case)
+    run, phases = prepare(case)
     settle(run)
     n = run.segments
     shape = np.sin(np.pi / 2 * (np.arange(n) + 0.5) / n)
     row = state.VZ if kind == "axial" else state.WZ
     state.row(run.S, row, n)[:] += 0.1 * shape
     quarter = 1000 / speed
-    still = stretches[0].motion._replace(spin_to=0.0)
+    still = phases[0].motion._replace(spin_to=0.0)
     history = []
     for _ in range(800):
         run.advance(still, quarter / 20)

@@ -1,4 +1,4 @@
-"""The schedule's stretches by hand, and the depths they reach."""
+"""The schedule's phases by hand, and the depths they reach."""
 
 from typing import Any
 

@@ -9,7 +9,7 @@ import pytest
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import Motion
 from fctd.simulation.recorder import Recorder, _work
-from fctd.simulation.run import forget_start, prepare
+from fctd.simulation.run import prepare, start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
 
 RIG = {"block_weight": 1e4, "sheave_efficiency": 0.5, "torque_offset": 50.0}
@@ -19,7 +19,7 @@ def recorder_of(components: list[dict[str, Any]], profile_at: tuple[float, ...] 
     """A string in vertical hole at the start of a trip out of 10 m, at rest and unstretched."""
     sections = {"rig": RIG, "record": {"profile_at": profile_at}, "contact": {"enabled": False}}
     run, _ = prepare(make_case(components=components, operations=[trip(1000, 990)], **sections))
-    forget_start(run)
+    start_from_rest(run)
     return Recorder(run)
 
 

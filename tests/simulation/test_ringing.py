@@ -64,9 +64,9 @@ def test_frequencies_are_those_of_the_chain_at_that_depth() -> None:
 
 
 def test_ringing_is_expected_of_cylinders_in_motion_alone() -> None:
-    run, stretches = prepare(well_b(2000.0, 2100.0))
-    _, cruise = stretches
-    assert len(expected_ringing(run, stretches).bit_depth) == round(cruise.motion.duration * 0.5 / STRIDE)
+    run, phases = prepare(well_b(2000.0, 2100.0))
+    _, cruise = phases
+    assert len(expected_ringing(run, phases).bit_depth) == round(cruise.motion.duration * 0.5 / STRIDE)
     # Rows are no further apart than a slow string slides in the span over which forces are constant.
     slow = expected_ringing(*prepare(well_b(2000.0, 2010.0, speed=0.01))).bit_depth
     assert np.diff(slow).max() <= 0.01 * SPAN + 1e-9

@@ -13,7 +13,7 @@ from fctd import Case, InputError, equilibrium, simulate
 from fctd.mechanics import state, topdrive
 from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.model.layouts import graded, uniform, with_components
-from fctd.model.operations import Stretch, depth_range, schedule
+from fctd.model.operations import Phase, depth_range, schedule
 from fctd.simulation.run import Run, _relaxing, contact_points, prepare
 from tests.cases import make_case, pipe, rotation, trip
 
@@ -74,9 +74,9 @@ def test_a_run_starts_and_ends_with_the_string_of_the_steady_solver(
     end = case.operations[-1].end_md
     whole = lay_out(case, shallowest)
     assume(metres(whole)[-1] >= SHORTEST_LONG_SEGMENT)  # or it is refused: too short to be fed from
-    run, stretches = prepare(case)
+    run, phases = prepare(case)
     string, S, n = run.string, run.S, run.segments
-    fed = sum(0.5 * (m.feed_from + m.feed_to) * m.duration for m, _ in stretches)
+    fed = sum(0.5 * (m.feed_from + m.feed_to) * m.duration for m, _ in phases)
     for depth, laid in ((first, string), (end, string.lengthened(end - first)), (first + fed, string.lengthened(fed))):
         assert laid.bit_depth == pytest.approx(depth, abs=1e-6)
         assert top_md + laid.length.sum() == pytest.approx(depth, abs=1e-6)
@@ -150,9 +150,9 @@ def test_a_steep_ramp_read_at_odd_times_feeds_its_depth() -> None:
 
 
 def test_a_run_that_feeds_another_depth_than_its_schedule_is_a_defect(monkeypatch: pytest.MonkeyPatch) -> None:
-    def prepare_wrongly(case: Case, contact: None) -> tuple[Run, list[Stretch]]:
-        run, stretches = prepare(case, contact)
-        return run, [s._replace(motion=s.motion._replace(feed_to=1.0001 * s.motion.feed_to)) for s in stretches]
+    def prepare_wrongly(case: Case, contact: None) -> tuple[Run, list[Phase]]:
+        run, phases = prepare(case, contact)
+        return run, [s._replace(motion=s.motion._replace(feed_to=1.0001 * s.motion.feed_to)) for s in phases]
 
     monkeypatch.setattr(sys.modules["fctd.simulation.simulate"], "prepare", prepare_wrongly)
     case = make_case(components=[pipe(None, 4)], operations=[trip(300, 301)], contact={"enabled": False})
@@ -163,13 +163,13 @@ def test_a_run_that_feeds_another_depth_than_its_schedule_is_a_defect(monkeypatc
 @given(moves=operations())
 def test_a_schedule_feeds_what_its_operations_say(moves: list[dict[str, Any]]) -> None:
     case = make_case(operations=moves)
-    stretches = schedule(case.operations)
+    phases = schedule(case.operations)
     for k, operation in enumerate(case.operations):
-        own = [m for m, index in stretches if index == k]
+        own = [m for m, index in phases if index == k]
         fed = sum(0.5 * (m.feed_from + m.feed_to) * m.duration for m in own)
         assert fed == pytest.approx(operation.end_md - operation.start_md, abs=1e-6)
     clock = 0.0
-    for motion, _ in stretches:
+    for motion, _ in phases:
         assert motion.start == pytest.approx(clock, abs=1e-9)
         clock += motion.duration
 

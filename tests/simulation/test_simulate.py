@@ -163,18 +163,18 @@ def test_many_turns_of_twist_are_kept() -> None:
 
 def test_schedule_stops_between_operations_and_hits_its_depths() -> None:
     case = build_case([trip(990, 994, ramp=2), rotation(994, 10, ramp=2), trip(994, 991, ramp=2)])
-    stretches = schedule(case.operations)
-    travelled = sum(0.5 * (m.feed_from + m.feed_to) * m.duration for m, _ in stretches)
+    phases = schedule(case.operations)
+    travelled = sum(0.5 * (m.feed_from + m.feed_to) * m.duration for m, _ in phases)
     assert travelled == pytest.approx(1.0)
     result = simulate(case)
     ends = result.history.groupby("operation", sort=False).bit_depth_m.last()
     np.testing.assert_allclose(ends, [994, 994, 991], atol=1e-4)
-    assert result.run["simulated_s"] == pytest.approx(sum(m.duration for m, _ in stretches))
+    assert result.run["simulated_s"] == pytest.approx(sum(m.duration for m, _ in phases))
 
 
 def test_short_trips_shorten_their_ramps() -> None:
-    stretches = schedule(build_case([trip(990, 990.5, speed=1.0, ramp=10)]).operations)
-    assert sum(0.5 * (m.feed_from + m.feed_to) * m.duration for m, _ in stretches) == pytest.approx(0.5)
+    phases = schedule(build_case([trip(990, 990.5, speed=1.0, ramp=10)]).operations)
+    assert sum(0.5 * (m.feed_from + m.feed_to) * m.duration for m, _ in phases) == pytest.approx(0.5)
 
 
 def test_profiles_are_kept_at_the_depths_asked_for() -> None:
@@ -243,8 +243,8 @@ def test_an_interrupted_run_keeps_what_it_has() -> None:
 def test_slices_of_a_long_stretch_change_no_bit(geometry: str, law: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def state_after(most: int) -> tuple[np.ndarray, np.ndarray, int]:
         monkeypatch.setattr("fctd.simulation.run.SLICE", most)
-        run, stretches = prepare(build_case(ROTATE, wellbore={"geometry": geometry}, contact={"friction_law": law}))
-        run.advance(stretches[0].motion, 3.0)
+        run, phases = prepare(build_case(ROTATE, wellbore={"geometry": geometry}, contact={"friction_law": law}))
+        run.advance(phases[0].motion, 3.0)
         return run.S, run.top, run.steps
 
     whole, sliced = state_after(10**9), state_after(7 * 28)

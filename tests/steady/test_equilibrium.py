@@ -14,7 +14,7 @@ from fctd.case.load import KINDS
 from fctd.model.operations import steady_rates
 from fctd.model.wellbore import build_wellbore, hole_frame
 from fctd.steady.block_thomas import solve_with_pivoting
-from fctd.steady.continuation import hold_back, take_step
+from fctd.steady.continuation import add_pseudo_mass, take_step
 from fctd.steady.equilibrium import Solver
 from fctd.steady.first_guess import MD, guess
 from fctd.steady.tangent import Steady, assemble
@@ -222,7 +222,7 @@ def test_steps_by_the_other_solver_lead_to_the_same_balance() -> None:
     tau = 0.2
     for _ in range(25):
         assemble(w.S, n, w.P, kinks, pieces, w.owner, laws, w.R, w.D, w.A, w.U)
-        hold_back(w.S, n, tau, w.D)
+        add_pseudo_mass(w.S, n, tau, w.D)
         w.R[1 : n + 1] = solve_with_pivoting(w.D, w.A, w.U, w.R, n)
         take_step(w.P, n, w.R, 1.0)
         tau *= 3

@@ -8,7 +8,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.mechanics import contact, state
-from fctd.simulation.run import Run, contact_points, forget_start, prepare, settle
+from fctd.simulation.run import Run, contact_points, prepare, settle, start_from_rest
 from references.contact import build, installed_version, own
 from references.contact.box_tree import BoxTree, penetration
 from references.contact.for_loop import for_loop_owner, for_loop_owners, one_cylinder
@@ -65,11 +65,11 @@ def numbers(*values: float) -> list[Number]:
 
 def tripping() -> tuple[Run, Any]:
     """The paper's well in 61 segments, tripped in for some seconds; the motion goes on."""
-    run, stretches = prepare(load("paper_well", operations=trip(BIT - 10, BIT, SPEED, ramp=2.0)))
+    run, phases = prepare(load("paper_well", operations=trip(BIT - 10, BIT, SPEED, ramp=2.0)))
     settle(run)
-    forget_start(run)
-    run.advance(stretches[0].motion, 2.0)
-    motion = stretches[1].motion
+    start_from_rest(run)
+    run.advance(phases[0].motion, 2.0)
+    motion = phases[1].motion
     run.advance(motion, 2.0)
     return run, motion
 

@@ -47,8 +47,8 @@ def test_the_same_wall_gives_the_same_run(name: str, geometry: str, law: str) ->
 
 def test_the_compiled_for_loop_is_the_engine_where_no_slab_is_crossed_twice() -> None:
     case = turning()
-    (run, stretches), (loop, _) = prepare(case), prepare(case)
-    motion, steps = stretches[0].motion, 400
+    (run, phases), (loop, _) = prepare(case), prepare(case)
+    motion, steps = phases[0].motion, 400
     run.advance(motion, steps * run.step)
     advance_with_for_loop(
         loop.S, loop.top, loop.segments, loop.hole.pieces, loop.laws, motion, loop.pipe, loop.step, steps
