@@ -277,7 +277,8 @@ class Solver:
             # Deeper in the wall than the hole's radius, as for a string in motion (faults.py).
             outside = np.linalg.norm(shape.walls[:, :3], axis=1) + shape.radius > 2 * shape.walls[:, 3]
             if outside.any():
-                return "diverged", f"segment {int(np.argmax(outside)) + 1} has left the hole"
+                text = f"segment {int(np.argmax(outside)) + 1} lies deeper in the wall than the hole's radius"
+                return "diverged", f"{text}: a stiffer wall, or less load"
         if code != CONVERGED:
             return (
                 "max_iterations",
