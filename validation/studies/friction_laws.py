@@ -17,7 +17,7 @@ from validation.harness.study import Check, Context, Outcome, Study
 
 LAWS = ("paper", "coulomb")
 BIT = 2450.0
-RPM = 60.0
+RPM = 6.0  # of the straight hole, where only the ratio of the speeds counts
 INCLINATION, LENGTH, HOLE, MU = 60.0, 1000.0, 0.2159, 0.25  # [deg], [m], [m] of the straight hole
 ALLOWED = 1.1  # 10 %, what the paper allows between model and measurement (§7)
 # Operations as they are done: kind, speed [m/s], rev/min.
