@@ -16,7 +16,7 @@ with ends_program():
     from fctd.case.load import Case, load_case
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
     from fctd.results.tables import SimulationResult, open_result
-    from fctd.simulation.simulate import simulate
+    from fctd.simulation.simulate import Simulation, simulate
     from fctd.steady.equilibrium import Equilibrium, equilibrium
     from fctd.steady.refine import Refinement, refine
     from fctd.steady.torque_drag import torque_drag
@@ -27,6 +27,7 @@ __all__ = [
     "Equilibrium",
     "InputError",
     "Refinement",
+    "Simulation",
     "SimulationResult",
     "Wellbore",
     "build_wellbore",

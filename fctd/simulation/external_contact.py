@@ -13,8 +13,9 @@ from fctd.mechanics import state
 from fctd.mechanics.contact import contact_point, store_wall
 from fctd.mechanics.dynamics import padded_columns, update_axes, update_loads, update_positions
 from fctd.mechanics.jit import entry
+from fctd.mechanics.moving_string import MovingString
 from fctd.mechanics.state import Laws
-from fctd.mechanics.topdrive import Motion, PerMetre
+from fctd.mechanics.topdrive import Motion
 from fctd.model.wellbore import Contacts, Wellbore
 
 Array = NDArray[np.float64]
@@ -82,16 +83,21 @@ def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md
 
 
 class QueriedWall:
-    """Runs the loop of ``dynamics.advance`` with a method's answers for the wall."""
+    """A contact method as a Wall: the loop of ``dynamics.advance`` with its answers for the wall."""
+
+    # In the corner between two facets of a mesh the one contact of a point goes from side to side.
+    jumps = True
+    seams = False
 
     def __init__(self, method: WallQuery, hole: Wellbore, segments: int) -> None:
-        self.method = method
+        self.name, self._method = method.name, method
         self._wall = hole.wall_along()
         self._segments = segments
         self._points = np.empty((segments, 3))
 
-    def advance(self, S: Array, top: Array, laws: Laws, motion: Motion, pipe: PerMetre, dt: float, steps: int) -> None:
-        """Advance by ``steps`` steps of ``dt`` [s]."""
+    def advance(self, string: MovingString, motion: Motion, laws: Laws, dt: float, steps: int) -> None:
+        """See ``Wall.advance``."""
+        S, top, pipe = string.S, string.top, string.pipe
         n, radii = self._segments, self._radii(S)
         update_axes(S, padded_columns(n))
         for _ in range(steps):
@@ -99,8 +105,9 @@ class QueriedWall:
             hits = self._ask(radii)
             _after(S, top, n, laws, pipe, feed, rate, dt, radii, *hits, self._wall)
 
-    def refresh(self, S: Array) -> None:
-        """Update the walls for the present positions, given axes."""
+    def refresh(self, string: MovingString) -> None:
+        """See ``Wall.refresh``."""
+        S = string.S
         radii = self._radii(S)
         _points(S, self._segments, self._points)
         _store(S, self._segments, radii, *self._ask(radii), self._wall)
@@ -111,8 +118,8 @@ class QueriedWall:
     def _ask(self, radii: Array) -> Contacts:
         """The method's answer; ValueError when its shapes are not those asked for."""
         n = self._segments
-        hits = self.method.query(self._points, radii)
+        hits = self._method.query(self._points, radii)
         shapes = [part.shape for part in hits]
         if shapes != [(n,), (n, 3), (n,)]:
-            raise ValueError(f"contact method {self.method.name!r} answered {n} points with shapes {shapes}")
+            raise ValueError(f"contact method {self.name!r} answered {n} points with shapes {shapes}")
         return hits

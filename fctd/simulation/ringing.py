@@ -83,7 +83,7 @@ def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
     depths: list[float] = []
     frequencies: list[Array] = []
     amplitudes: list[Array] = []
-    if run.laws.geometry == state.CYLINDERS and run.queried is None and run.segments > MODES:
+    if run.wall.seams and run.case.contact.enabled and run.segments > MODES:
         tilt, probe, depth = cylinder_tilt(run.hole), run.S.copy(), run.string.bit_depth
         for motion, _ in phases:
             fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from fctd.case.errors import InputError
 from fctd.case.load import DRILLING, Case, naming_file
 from fctd.mechanics import dynamics, state, topdrive
-from fctd.mechanics.contact import update_walls
-from fctd.mechanics.faults import UnstableError, check
+from fctd.mechanics.faults import UnstableError
+from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
 from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
-from fctd.mechanics.topdrive import Motion, PerMetre
+from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String, check_fit, fill, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.wellbore import Wellbore, build_wellbore
@@ -26,70 +26,23 @@ SETTLED = 1e-6
 LONGEST_SETTLING = 400.0  # [s] simulated
 # The same for another contact method's wall, averaged over a window, and the least number of windows.
 HANDED_OVER, LEAST_WINDOWS = 1e-3, 3
-STILL = Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 VELOCITY, PLACE = (state.VX, state.VY, state.VZ), (state.X, state.Y, state.Z)
 # Beyond these a run would take hours or not fit into memory: a slip in the case, not a wish.  A step of one segment
 # takes some 20 ns, a record keeps 2 kB and a row of a profile 200 bytes.
 MOST_SEGMENT_STEPS = 1e12
 MOST_RECORDS = 200_000
 MOST_PROFILE_ROWS = 2_000_000
-# Compiled code does not see Ctrl-C: it is left after so many steps of a segment, a fraction of a second.
-SLICE = 2_000_000
 # Called while a string settles, with simulated time [s] and the largest force out of balance over the weight.
 Settling = Callable[[float, float], None]
 
 
-@dataclass
-class Run:
-    """Everything the stepper works on, and the step it takes.
-
-    S, top, owner : state buffers (state.py, topdrive.py, contact.py); step [s].
-    """
+@dataclass(kw_only=True)
+class Run(MovingString):
+    """The string of a case in motion: everything the stepper works on, and what it was built from."""
 
     case: Case
     hole: Wellbore
     string: String
-    pipe: PerMetre
-    S: Array
-    top: Array
-    owner: NDArray[np.int64]
-    step: float
-    laws: state.Laws
-    queried: QueriedWall | None = None  # the wall as another contact method sees it, in place of the hole's
-    steps: int = 0
-
-    @property
-    def segments(self) -> int:
-        """Number of segments."""
-        return self.string.segments
-
-    def advance(self, motion: Motion, duration: float, laws: state.Laws | None = None) -> None:
-        """Advance by ``duration`` [s] in equal steps no longer than the run's; Ctrl-C stops it between two of them."""
-        steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
-        laws, dt = laws or self.laws, duration / steps
-        if self.queried is not None:
-            self.queried.advance(self.S, self.top, laws, motion, self.pipe, dt, steps)
-            self.steps += steps
-            return
-        at_once = max(SLICE // self.segments, 1)
-        for done in range(0, steps, at_once):
-            count = min(at_once, steps - done)
-            dynamics.advance(
-                self.S, self.top, self.owner, self.segments, self.hole.pieces, laws, motion, self.pipe, dt, count
-            )
-            self.steps += count
-
-    def refresh(self) -> None:
-        """Bring axes and walls up to the present positions."""
-        dynamics.update_axes(self.S, self.segments)
-        if self.queried is not None:
-            self.queried.refresh(self.S)
-            return
-        update_walls(self.S, self.owner, self.segments, self.segments, self.hole.pieces, self.laws.geometry)
-
-    def check(self) -> None:
-        """Raise UnstableError when the state is no longer finite, or has left the hole or the joint law."""
-        check(self.S, self.segments)
 
 
 def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Phase]]:
@@ -103,7 +56,7 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
         if contact is not None:
             if not case.contact.enabled:
                 raise InputError("true, since another contact method is to be run", key="contact.enabled", value=False)
-            run.queried = QueriedWall(contact, run.hole, run.segments)
+            run.wall = QueriedWall(contact, run.hole, run.segments)
         return run, phases
 
 
@@ -150,7 +103,16 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     # A walk from the top would stop at the first slab a point lies in, which past 90° may be a far one's.
     owner = np.zeros(n + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
-    return Run(case, hole, string, pipe, S, top, owner, step, laws), phases
+    run = Run(
+        case=case, hole=hole, string=string, pipe=pipe, S=S, top=top, owner=owner, segments=n, step=step, laws=laws,
+        wall=own_wall(case, hole),
+    )  # fmt: skip
+    return run, phases
+
+
+def own_wall(case: Case, hole: Wellbore) -> HoleWall:
+    """The wall of a case by the pieces of its own hole."""
+    return HoleWall(hole.pieces, case.wellbore.geometry)
 
 
 def _check_cost(case: Case, segments: int, step: float, duration: float) -> None:
@@ -268,8 +230,8 @@ def settle(run: Run, tolerance: float = SETTLED, progress: Settling | None = Non
     Damping proportional to mass, a few times critical for the slowest swing of the hanging string: damping
     critical for its stretching would leave the swing creeping for minutes.
     """
-    if run.queried is not None:
-        settle(replace(run, queried=None), tolerance, progress)
+    if run.wall.jumps:
+        settle(replace(run, wall=own_wall(run.case, run.hole)), tolerance, progress)
         return _hand_over(run, progress)
     laws, weight = _relaxing(run)
     residual = np.inf
@@ -291,10 +253,9 @@ def settle(run: Run, tolerance: float = SETTLED, progress: Settling | None = Non
 
 
 def _hand_over(run: Run, progress: Settling | None) -> float:
-    """Relax a string that the hole's own pieces have settled once more, against another contact method's wall.
+    """Relax a string that the hole's own pieces have settled once more, against a wall whose contacts jump.
 
-    Returns the imbalance as ``settle``, but of forces averaged over a window: in the corner between two facets
-    of a mesh the one contact of a point jumps from side to side, and no single step is ever in balance.
+    Returns the imbalance as ``settle``, but of forces averaged over a window, since no single step is ever in balance.
     """
     laws, weight = _relaxing(run)
     residual, window = np.inf, 1 / laws.settling
@@ -328,9 +289,6 @@ def start_from_rest(run: Run) -> None:
     """Bring the settled string to rest and clear clock, sums and losses: the run starts here."""
     for offset in (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ):
         state.row(run.S, offset, run.segments)[:] = 0.0
-    first, last = state.SUM_NORMAL, state.LOST_JOINT
-    run.S[first : last + state.STRIDE] = 0.0
-    run.top[[topdrive.TOP_TIME, topdrive.TOP_WORK, topdrive.FED_ENERGY]] = 0.0
-    run.top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 0.0
-    run.steps = 0
+    run.clear()
+    run.top[topdrive.TOP_TIME] = 0.0
     run.refresh()

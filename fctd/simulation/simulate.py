@@ -1,28 +1,198 @@
 """A whole simulation: prepare, settle, run the schedule, record (§4.6, §6.2)."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any, Protocol
 
 import numpy as np
 
-from fctd.case.load import Case
+from fctd.case.load import Case, naming_file
 from fctd.mechanics import topdrive
+from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
-from fctd.model.operations import Phase
 from fctd.results import notes
 from fctd.results.tables import SimulationResult
 from fctd.simulation.external_contact import WallQuery
+from fctd.simulation.intervals import Window, whole_schedule, within
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.ringing import expected_ringing
 from fctd.simulation.run import Run, Settling, prepare, settle, start_from_rest
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
+# A row of the history by its column names.
+Record = dict[str, Any]
 # A string that cylinders ring by more than this share of its hook load gets a note.
 RINGING = 0.005
+
+
+class Stepper(Protocol):
+    """What advances the string of a run; ``Run`` itself is one, another engine may take its place."""
+
+    def advance(self, motion: Motion, duration: float) -> None:
+        """Advance by ``duration`` [s]; adds to time, sums, losses and work of the run."""
+
+    def refresh(self) -> None:
+        """Bring poses, velocities, axes and walls of the run up to the present."""
+
+    def energy(self) -> Energy:
+        """What the string holds [J], after ``refresh``."""
+
+
+class Simulation(Iterator[Record]):
+    """A case's operations, one record at a time: ``for record in Simulation(case): ...``.
+
+    contact : another contact method, built for the hole of this case, that answers for the wall at every step;
+    friction, force law and step stay the same.  window : the part of the schedule that is run and recorded, as start
+    and duration [s]; the string is advanced to its start without a record.  stepper : begins another engine with the
+    run at its start, in place of the own stepper.  settling : called while the string settles before the start.
+
+    A record is a row of the history.  The string settles before the first one.  Ctrl-C leaves the iteration with its
+    KeyboardInterrupt; ``record_part`` then keeps what has passed of a record interval.  ``result`` gives at any time
+    what has been recorded so far.  Raises InputError for a case or a window that cannot be simulated.
+    """
+
+    def __init__(
+        self,
+        case: Case,
+        contact: WallQuery | None = None,
+        *,
+        window: tuple[float, float] | None = None,
+        stepper: Callable[[Run], Stepper] | None = None,
+        settling: Settling | None = None,
+    ) -> None:
+        self.case, self.window = case, None if window is None else Window(*window)
+        self.run, self.phases = prepare(case, contact)
+        with naming_file(case):
+            self.intervals = (
+                whole_schedule(self.phases, case.record.interval)
+                if self.window is None
+                else within(self.phases, self.window, case.record.interval)
+            )
+        self.done = 0  # of the intervals
+        self.status, self.message = "interrupted", "before the start"  # until it has ended in another way
+        self.wall_s = 0.0  # spent since the start
+        self.settling_residual = float("nan")
+        self.stepper: Stepper = self.run
+        self._begin, self._settling = stepper, settling
+        self._recorder: Recorder | None = None
+
+    @property
+    def started(self) -> bool:
+        """Whether the string has been settled and stands at the start."""
+        return self._recorder is not None
+
+    @property
+    def end(self) -> float:
+        """Simulated time at which the last record is due [s]."""
+        return self.intervals[-1].end
+
+    def start(self) -> None:
+        """Settle the string and bring it to the start, where the first record interval begins; only the first call.
+
+        Raises UnstableError when the string does not settle.
+        """
+        if self.started:
+            return
+        try:
+            self.settling_residual = settle(self.run, progress=self._settling)
+        except UnstableError as error:
+            self.status, self.message = "unsettled", f"before the start: {error}"
+            raise
+        start_from_rest(self.run)
+        start = 0.0 if self.window is None else self.window.start
+        if start > 0:
+            for motion, _, end in within(self.phases, Window(0.0, start), float("inf")):
+                self.run.advance(motion, end - self.run.time)
+            self.run.refresh()
+            self.run.clear()
+        if self._begin is not None:
+            with naming_file(self.case):
+                self.stepper = self._begin(self.run)
+        self._recorder = Recorder(self.run, start, self.stepper.energy)
+
+    def __next__(self) -> Record:
+        """Run to the end of the next interval and record it; ends the iteration also where the string is unstable."""
+        if self.status != "interrupted":
+            raise StopIteration
+        try:
+            self.start()
+            if self.done == len(self.intervals):
+                self._complete()
+                raise StopIteration
+            return self._record_next()
+        except UnstableError as error:
+            if self.started:
+                self.status, self.message = "unstable", f"at {self.run.time:.4g} s: {error}"
+            raise StopIteration from None
+
+    def _record_next(self) -> Record:
+        motion, _, end = self.intervals[self.done]
+        began = time.perf_counter()
+        try:
+            self.stepper.advance(motion, end - self.run.time)
+            self.stepper.refresh()
+            self.run.check()
+            record = self._record()
+        finally:
+            self.wall_s += time.perf_counter() - began
+        self.done += 1
+        return record
+
+    def _record(self) -> Record:
+        assert self._recorder is not None
+        self._recorder.record(self.intervals[self.done].operation, self.run.drain())
+        return self._recorder.history[-1]
+
+    def record_part(self) -> None:
+        """Record what has passed of an interval that was left before its end, if anything has.
+
+        Iterating again goes on with the rest of the interval.
+        """
+        if self._recorder is not None and self.run.time > self._recorder.last_time:
+            self.stepper.refresh()
+            self._record()
+
+    def result(self) -> SimulationResult:
+        """What has been recorded so far; ``interrupted`` before the end.  A completed schedule is judged as a whole."""
+        if self._recorder is None:
+            return Recorder(self.run).result(self.status, self.message, 0.0, float("nan"))
+        message = f"at {self.run.time:.4g} s" if self.status == "interrupted" else self.message
+        result = self._recorder.result(self.status, message, self.wall_s, self.settling_residual)
+        return self._judged(result) if self.status == "completed" and self.window is None else result
+
+    def _complete(self) -> None:
+        if self.window is None:
+            self._check_fed()
+        self.status, self.message = "completed", ""
+
+    def _check_fed(self) -> None:
+        """Raise AssertionError when the string of a finished run is not as long as its bit should be deep."""
+        run, end = self.run, self.case.operations[-1].end_md
+        length = float(run.top[topdrive.TOP_LENGTH])
+        fed = length - float(run.string.length[0]) if run.string.long_segment else 0.0
+        # A step feeds by the speed in its middle, exact but for h²/24 times the change of the ramp's slope, at most
+        # 3 Δv/T, and rounds the length.
+        allowed = SAME_LENGTH + run.steps * float(np.spacing(length))
+        allowed += sum(run.step**2 * abs(m.feed_to - m.feed_from) / (8 * m.duration) for m, _ in self.phases)
+        if not abs(run.string.bit_depth + fed - end) <= allowed:
+            raise AssertionError(
+                f"the fed string ends at {run.string.bit_depth + fed:.6f} m, the schedule at {end:.6f} m"
+            )
+
+    def _judged(self, result: SimulationResult) -> SimulationResult:
+        """A run that came to its end, with what can be said of all of it."""
+        error = result.run["energy_error"]
+        swing, frequency, depth = expected_ringing(self.run, self.phases).largest()
+        bound = RINGING * float(result.history["hookload_N"].abs().mean())
+        ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
+        found = tuple(note for note in (ledger, ringing, *result.notes) if note is not None)
+        if ledger is not None and not error <= notes.INACCURATE:
+            return replace(result, status="inaccurate", message=str(ledger), notes=found)
+        return replace(result, message="; ".join(map(str, found)), notes=found)
 
 
 def simulate(
@@ -40,67 +210,14 @@ def simulate(
     Returns whatever was reached: ``status`` is ``completed``, or says why it stopped and ``message`` when.
     Raises InputError for a case that cannot be simulated.
     """
-    run, phases = prepare(case, contact)
+    simulation = Simulation(case, contact, settling=settling)
     try:
-        residual = settle(run, progress=settling)
-    except UnstableError as error:
-        return Recorder(run).result("unsettled", f"before the start: {error}", 0.0, float("nan"))
-    start_from_rest(run)
-    recorder = Recorder(run)
-    status, message = "completed", ""
-    total = sum(s.motion.duration for s in phases)
-    began = time.perf_counter()
-    try:
-        for motion, operation in phases:
-            for end in _records(motion, case.record.interval):
-                run.advance(motion, end - run.top[topdrive.TOP_TIME])
-                run.refresh()
-                run.check()
-                recorder.record(operation)
-                if progress is not None:
-                    now = run.top[topdrive.TOP_TIME]
-                    progress(now, total, now / max(time.perf_counter() - began, 1e-9))
-        _check_fed(run, phases)
-    except UnstableError as error:
-        status, message = "unstable", f"at {run.top[topdrive.TOP_TIME]:.4g} s: {error}"
+        for record in simulation:
+            if progress is not None:
+                now = record["time_s"]
+                progress(now, simulation.end, now / max(simulation.wall_s, 1e-9))
     except KeyboardInterrupt:
-        status, message = "interrupted", f"at {run.top[topdrive.TOP_TIME]:.4g} s"
-        if run.top[topdrive.TOP_TIME] > recorder.last_time:  # a part of a record interval
-            run.refresh()
-            recorder.record(operation)
-    wall = time.perf_counter() - began
-    result = recorder.result(status, message, wall, residual)
-    return _finished(result, run, phases) if status == "completed" else result
-
-
-def _check_fed(run: Run, phases: list[Phase]) -> None:
-    """Raise AssertionError when the string of a finished run is not as long as its bit should be deep."""
-    end = run.case.operations[-1].end_md
-    length = float(run.top[topdrive.TOP_LENGTH])
-    fed = length - float(run.string.length[0]) if run.string.long_segment else 0.0
-    # A step feeds by the speed in its middle, exact but for h²/24 times the change of the ramp's slope, at most
-    # 3 Δv/T, and rounds the length.
-    allowed = SAME_LENGTH + run.steps * float(np.spacing(length))
-    allowed += sum(run.step**2 * abs(m.feed_to - m.feed_from) / (8 * m.duration) for m, _ in phases)
-    if not abs(run.string.bit_depth + fed - end) <= allowed:
-        raise AssertionError(f"the fed string ends at {run.string.bit_depth + fed:.6f} m, the schedule at {end:.6f} m")
-
-
-def _finished(result: SimulationResult, run: Run, phases: list[Phase]) -> SimulationResult:
-    """A run that came to its end, with what can be said of all of it."""
-    error = result.run["energy_error"]
-    swing, frequency, depth = expected_ringing(run, phases).largest()
-    bound = RINGING * float(result.history["hookload_N"].abs().mean())
-    ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
-    found = tuple(note for note in (ledger, ringing, *result.notes) if note is not None)
-    if ledger is not None and not error <= notes.INACCURATE:
-        return replace(result, status="inaccurate", message=str(ledger), notes=found)
-    return replace(result, message="; ".join(map(str, found)), notes=found)
-
-
-def _records(motion: Motion, interval: float) -> list[float]:
-    """Times at which a phase is recorded: the grid of the interval and its own end [s]."""
-    end = motion.start + motion.duration
-    grid = interval * np.arange(np.floor(motion.start / interval) + 1, np.ceil(end / interval))
-    inside = grid[(grid > motion.start + 1e-6) & (grid < end - 1e-6)]
-    return [*(float(t) for t in inside), end]
+        if not simulation.started:
+            raise
+        simulation.record_part()
+    return simulation.result()

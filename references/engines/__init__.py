@@ -13,6 +13,7 @@ from fctd.case.errors import InputError, Table
 from fctd.case.load import Case
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.topdrive import Motion
+from fctd.simulation.intervals import Window as Window
 from fctd.simulation.run import Run
 from references.contact import import_optional, options_of, registered, version_of
 
@@ -23,17 +24,6 @@ ENGINES: dict[str, str] = {
     "mujoco_chain": "references.engines.mujoco_chain:MuJoCoChain",
     "elastica": "references.engines.elastica:Elastica",
 }
-
-
-class Window(NamedTuple):
-    """The part of a case's schedule that an engine runs.
-
-    start [s] : FCTD's stepper goes this far from the settled string at rest and hands over its state, in motion; 0
-    leaves everything to the engine.  duration [s].
-    """
-
-    start: float
-    duration: float
 
 
 class EngineRun(NamedTuple):

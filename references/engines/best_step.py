@@ -9,9 +9,9 @@ from typing import Any
 import pandas as pd
 
 from fctd.case.load import Case
+from fctd.results import ledger
 from references import engines
 from references.engines import Window
-from references.engines.checks import energy_error
 from references.engines.run import late
 
 CLOSE = 0.01
@@ -33,7 +33,7 @@ def ladder(
         rows.append(
             {"step_s": run.step, "status": run.status, "failed": run.message}
             | {load: loads[load] for load in LOADS}
-            | {"energy_error": energy_error(run.energy), "wall_s": run.wall_s}
+            | {"energy_error": ledger.error(run.energy, motion=True), "wall_s": run.wall_s}
         )
     table = pd.DataFrame(rows)
     finer = table[list(LOADS)].shift(-1)

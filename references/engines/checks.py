@@ -10,7 +10,7 @@ from scipy.linalg import eigh_tridiagonal
 
 from fctd.mechanics import state
 from fctd.mechanics.energy import penetration
-from fctd.simulation.recorder import LOSSES
+from fctd.results import ledger
 from fctd.simulation.run import Run, contact_points
 
 # Largest depth in the wall over the clearance there; the stiffest wall of a case is pressed in by less than 2 %.
@@ -35,7 +35,7 @@ def examine(
         "finite state": (_not_finite(run, history) + bool(broken), 0.0),
         "end points inside the hole": (_deepest(run), DEEPEST),
         "chain length": (_length_error(run, profile), LENGTH),
-        "energy": (energy_error(energy), ENERGY),
+        "energy": (ledger.error(energy, motion=True), ENERGY),
         "settled hook load": (drift(start, history, axial_period(run)), DRIFT),
     }
     rows = [
@@ -43,19 +43,6 @@ def examine(
         for name, (value, bound) in values.items()
     ]
     return pd.DataFrame(rows)
-
-
-def energy_error(energy: pd.DataFrame) -> float:
-    """Largest residual of a ledger over the energy turned over: losses, or work beyond lifting; NaN of no number."""
-    if energy.empty:
-        return np.nan
-    if not np.isfinite(energy.to_numpy(float)).all():
-        return np.nan
-    lost = energy[list(LOSSES)].sum(axis=1).abs().max()
-    beyond = (energy["top_drive_work_J"] - energy["gravity_J"]).abs().max()
-    moving = energy["kinetic_J"].abs().max() + energy["strain_J"].abs().max()
-    work = max(lost, beyond, moving)
-    return float(energy["residual_J"].abs().max() / work) if work > 0 else 0.0
 
 
 def _not_finite(run: Run, history: pd.DataFrame) -> float:

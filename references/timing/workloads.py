@@ -14,18 +14,18 @@ from numba import njit
 from numpy.typing import NDArray
 
 from fctd.case.load import Case
-from fctd.mechanics import state, topdrive
+from fctd.mechanics import state
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.dynamics import padded_columns
 from fctd.mechanics.energy import Energy, penetration
+from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.query import query_walls
 from fctd.mechanics.topdrive import Motion
 from fctd.model.wellbore import Contacts
+from fctd.results import ledger
 from fctd.simulation.external_contact import QueriedWall
-from fctd.simulation.recorder import LOSSES
-from fctd.simulation.run import STILL, Run, contact_points, prepare, start_from_rest
-from references.engines import Window, checks
-from references.engines.run import begin_run, legs
+from fctd.simulation.run import Run, contact_points, prepare, start_from_rest
+from fctd.simulation.simulate import Simulation
 
 Array = NDArray[np.float64]
 
@@ -46,10 +46,9 @@ class NoWall:
 
 def moving(case: Case, after: float) -> tuple[Run, Motion]:
     """The string of a case ``after`` so many seconds of its schedule, and what its top drive then does."""
-    window = Window(after, 1.0)
-    run, phases = begin_run(case, window)
-    (phase, _) = legs(case, phases, after, after + window.duration, np.inf)[-1]
-    return run, phase.motion
+    simulation = Simulation(case, window=(after, 1.0))
+    simulation.start()
+    return simulation.run, simulation.intervals[-1].motion
 
 
 def fallen(case: Case, seconds: float) -> tuple[Run, Motion]:
@@ -80,7 +79,7 @@ def without_wall(run: Run) -> Run:
 
 def asking(run: Run, method: Any) -> Run:
     """The same state with a contact method that is asked from Python at every step."""
-    return copy_of(run, queried=QueriedWall(method, run.hole, run.segments))
+    return copy_of(run, wall=QueriedWall(method, run.hole, run.segments))
 
 
 def touching(run: Run) -> float:
@@ -89,13 +88,9 @@ def touching(run: Run) -> float:
 
 
 def energy_error(run: Run, before: Energy, now: Energy) -> float:
-    """What the ledger misses since ``begin_run``, over the energy turned over; exact is 0."""
-    entries = {f"{name}_J": b - a for name, a, b in zip(Energy._fields, before, now, strict=True)}
-    lost = {name: float(state.row(run.S, row, run.segments).sum()) for name, row in LOSSES.items()}
-    work, fed = float(run.top[topdrive.TOP_WORK]), float(run.top[topdrive.FED_ENERGY])
-    left = sum(entries.values()) + sum(lost.values()) - work - fed
-    entries |= lost | {"top_drive_work_J": work, "fed_pipe_J": fed, "residual_J": left}
-    return checks.energy_error(pd.DataFrame([entries]))
+    """Energy error (``ledger.error``) of a run whose string held ``before`` at its start; exact is 0."""
+    row = ledger.entry(run.S, run.top, run.segments, before, now)
+    return ledger.error(pd.DataFrame([row]), motion=True)
 
 
 @njit(error_model="numpy", cache=True)

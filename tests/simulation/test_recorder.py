@@ -3,12 +3,11 @@
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import Motion
-from fctd.simulation.recorder import Recorder, _work
+from fctd.simulation.recorder import Recorder
 from fctd.simulation.run import prepare, start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
 
@@ -23,22 +22,13 @@ def recorder_of(components: list[dict[str, Any]], profile_at: tuple[float, ...] 
     return Recorder(run)
 
 
-def test_work_is_the_larger_of_losses_and_of_what_is_not_lifting() -> None:
-    columns = {name: [0.0, 1.0] for name in ("lost_friction_J", "lost_contact_J", "lost_mud_J", "lost_joints_J")}
-    ledger = pd.DataFrame({**columns, "top_drive_work_J": [0.0, 90.0], "gravity_J": [0.0, 100.0]})
-    assert _work(ledger) == 10.0
-    assert _work(ledger.assign(gravity_J=[0.0, 87.0])) == 4.0
-    assert np.isnan(_work(ledger.assign(lost_mud_J=[0.0, np.nan])))
-    assert np.isnan(_work(ledger.assign(gravity_J=[0.0, np.nan])))
-
-
 def test_numbers_of_a_run() -> None:
     """Means over the interval, the speed of the run, and the largest residual of the ledger over the work."""
     recorder = recorder_of([pipe(None, 10)])
     run = recorder.run
     for end in (0.5, 2.0):
         run.advance(Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0), end - recorder.last_time)
-        recorder.record(0)
+        recorder.record(0, recorder.run.drain())
     recorder.ledger[0]["residual_J"], recorder.ledger[1]["residual_J"] = -3.0, 1.0
     recorder.ledger[1]["lost_mud_J"] = 1e6
     numbers = recorder.result("completed", "", 4.0, 1e-7).run
@@ -67,7 +57,7 @@ def test_a_row_of_history_is_sums_over_its_span() -> None:
             state.row(S, offset, n)[:] = value
         top[topdrive.TOP_TIME] += span
         top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 400.0, 40.0
-        recorder.record(0)
+        recorder.record(0, recorder.run.drain())
         assert not any(state.row(S, offset, n).any() for offset in sums)
         assert not top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]].any()
         row = recorder.history[-1]
@@ -87,7 +77,7 @@ def test_points_in_the_wall_are_counted() -> None:
     recorder.run.top[topdrive.TOP_TIME] = 1.0
     state.row(S, state.HOLE, n)[:], state.row(S, state.RADIUS, n)[:] = 0.1, 0.06
     state.row(S, state.PX, n)[:] = [0.0, 0.03, 0.039, 0.041, 0.05, -0.041, -0.03, 0.0, 0.0, 0.041]
-    recorder.record(0)
+    recorder.record(0, recorder.run.drain())
     assert recorder.history[-1]["contact_count"] == 4
 
 
@@ -101,7 +91,7 @@ def test_the_ledger_by_hand() -> None:
         state.row(S, offset, n)[:] = 10.0**k
     state.row(S, state.VZ, n)[:] = 0.3
     top[[topdrive.TOP_TIME, topdrive.TOP_WORK, topdrive.FED_ENERGY]] = 1.0, 7e5, 2e5
-    recorder.record(0)
+    recorder.record(0, recorder.run.drain())
     (row,) = recorder.ledger
     # Of the 109 m at the top, which are fed, the top drive itself carries half.
     kinetic = 0.5 * 0.09 * 7850 * np.pi / 4 * (0.127**2 - 0.07**2) * (1000 - 0.5 * 109)
@@ -118,11 +108,11 @@ def test_a_profile_is_kept_where_the_bit_passes_its_depth() -> None:
     for depth in (999.0, 996.5, 994.0, 993.0, 992.0005, 991.0):
         top[topdrive.TOP_LENGTH] = depth - 300.0
         top[topdrive.TOP_TIME] += 1.0
-        recorder.record(0)
+        recorder.record(0, recorder.run.drain())
         kept.append(sorted(recorder.profiles))
     recorder.run.case = make_case(operations=[trip(1000, 990), rotation(990, 5)])
     top[topdrive.TOP_TIME] += 1.0
-    recorder.record(1)
+    recorder.record(1, recorder.run.drain())
     # The first at once, two in one step, one within a millimetre, and the last not at all.
     assert kept == [[1.0], [1.0], [1.0, 3.0], [1.0, 3.0], [1.0, 3.0, 5.0], [1.0, 3.0, 5.0]]
     assert recorder.wanted == [990.0]
@@ -138,14 +128,14 @@ def test_a_profile_has_the_means_of_its_interval(long: bool) -> None:
     assert recorder.run.string.long_segment
     S, top, n = recorder.run.S, recorder.run.top, recorder.run.segments
     top[[topdrive.TOP_TIME, topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 1.0, 77.0, 7.0
-    recorder.record(0)  # an interval before
+    recorder.record(0, recorder.run.drain())  # an interval before
     top[topdrive.TOP_TIME] = 3.0
     for offset in (state.SUM_TENSION, state.SUM_TORQUE, state.SUM_NORMAL):
         state.row(S, offset, n)[:] = offset + np.arange(n)
     top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 400.0, 40.0
     # The lowest segment turned by 0.1 rad against the one above it.
     S[state.AX + n], S[state.AZ + n] = np.sin(0.1), np.cos(0.1)
-    recorder.record(0)
+    recorder.record(0, recorder.run.drain())
     profile = recorder.result("completed", "", 1.0, 0.0).profile
     assert list(profile["operation"].unique()) == ["trip_out"]
     assert len(profile) == n + 1

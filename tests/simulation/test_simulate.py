@@ -238,43 +238,6 @@ def test_an_interrupted_run_keeps_what_it_has() -> None:
     assert 3 <= result.history.time_s.max() < 6
 
 
-@pytest.mark.parametrize("law", ["coulomb", "paper"])
-@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
-def test_slices_of_a_long_stretch_change_no_bit(geometry: str, law: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    def state_after(most: int) -> tuple[np.ndarray, np.ndarray, int]:
-        monkeypatch.setattr("fctd.simulation.run.SLICE", most)
-        run, phases = prepare(build_case(ROTATE, wellbore={"geometry": geometry}, contact={"friction_law": law}))
-        run.advance(phases[0].motion, 3.0)
-        return run.S, run.top, run.steps
-
-    whole, sliced = state_after(10**9), state_after(7 * 28)
-    np.testing.assert_array_equal(whole[0], sliced[0])
-    np.testing.assert_array_equal(whole[1], sliced[1])
-    assert whole[2] == sliced[2] > 500
-
-
-def test_ctrl_c_ends_a_long_record_and_keeps_what_it_has(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An hour between records: compiled code is left in the midst of it, and what has passed becomes its last row."""
-    monkeypatch.setattr("fctd.simulation.run.SLICE", 20_000)
-    sliced, calls = fctd.mechanics.dynamics.advance, []
-
-    def interrupted(*arguments: object) -> None:
-        calls.append(arguments[-1])
-        sliced(*arguments)
-        if arguments[6].duration == 3590.0:  # what follows the ramp
-            raise KeyboardInterrupt
-
-    monkeypatch.setattr("fctd.mechanics.dynamics.advance", interrupted)
-    result = simulate(build_case(rotation(1000, 3600, ramp=10), record={"interval": 3600}))
-    assert max(calls) <= 20_000 / 28
-    assert result.status == "interrupted"
-    times = result.history["time_s"]
-    assert times.iloc[0] == pytest.approx(10.0)
-    assert 10.0 < times.iloc[-1] < 20.0
-    assert result.profile["bit_depth_m"].unique().tolist() == [1000.0]
-    assert len(result.energy) == len(result.history) == 2
-
-
 def test_settling_reports_how_far_it_is() -> None:
     seen: list[tuple[float, float]] = []
     simulate(build_case(rotation(1000, 1, ramp=1)), settling=lambda *args: seen.append(args))

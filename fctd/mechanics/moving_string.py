@@ -1,0 +1,162 @@
+"""The bare loop: a string of segments is advanced by so many steps, with a wall around it and given damping.
+
+Neither schedule nor records: a run adds those, and whoever wants to relax a string needs neither.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.mechanics import dynamics, state, topdrive
+from fctd.mechanics.contact import update_walls
+from fctd.mechanics.energy import Energy, energy_of
+from fctd.mechanics.faults import check
+from fctd.mechanics.state import Laws
+from fctd.mechanics.topdrive import Motion, PerMetre
+
+Array = NDArray[np.float64]
+
+# The top drive at rest.
+STILL = Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+# Compiled code does not see Ctrl-C: it is left after so many steps of a segment, a fraction of a second.
+AT_ONCE = 2_000_000
+
+
+class Sums(NamedTuple):
+    """Loads summed over time, of every segment (n,) and at the top drive.
+
+    normal [N s], friction_torque, r_mu_normal, mud_torque [N m s], tension [N s], torque [N m s];
+    hookload [N s], top_torque [N m s].
+    """
+
+    normal: Array
+    friction_torque: Array
+    r_mu_normal: Array
+    mud_torque: Array
+    tension: Array
+    torque: Array
+    hookload: float
+    top_torque: float
+
+    def over(self, span: float) -> "Sums":
+        """The means over a time span [s]: N and N m."""
+        return Sums._make(part / span for part in self)
+
+
+# Rows of the state in the order of ``Sums``.
+SUM_ROWS = (
+    state.SUM_NORMAL, state.SUM_FRICTION_TORQUE, state.SUM_R_MU_N,
+    state.SUM_MUD_TORQUE, state.SUM_TENSION, state.SUM_TORQUE,
+)  # fmt: skip
+
+
+@dataclass(kw_only=True)
+class MovingString:
+    """A string in motion: the buffers that a step changes, and what the step is taken with.
+
+    S, top, owner : state buffers (state.py, topdrive.py, contact.py); pipe : what is fed in at the top; step : the
+    longest to be taken [s]; steps : how many were taken; at_once : most steps of a segment in one compiled call.
+    """
+
+    S: Array
+    top: Array
+    owner: NDArray[np.int64]
+    segments: int
+    pipe: PerMetre
+    laws: Laws
+    wall: "Wall"
+    step: float
+    steps: int = 0
+    at_once: int = AT_ONCE
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
+        return float(self.top[topdrive.TOP_TIME])
+
+    def advance(self, motion: Motion, duration: float, laws: Laws | None = None) -> None:
+        """Advance by ``duration`` [s] in equal steps no longer than ``step``; Ctrl-C stops it between two calls.
+
+        laws : in place of the string's own, as for artificial damping.
+        """
+        steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
+        laws, dt = laws or self.laws, duration / steps
+        most = max(self.at_once // self.segments, 1)
+        for done in range(0, steps, most):
+            count = min(most, steps - done)
+            self.wall.advance(self, motion, laws, dt, count)
+            self.steps += count
+
+    def refresh(self) -> None:
+        """Bring axes and walls up to the present positions."""
+        dynamics.update_axes(self.S, self.segments)
+        self.wall.refresh(self)
+
+    def check(self) -> None:
+        """Raise UnstableError when the state is no longer finite, or has left the hole or the joint law."""
+        check(self.S, self.segments)
+
+    def energy(self) -> Energy:
+        """Energy of the string [J], after ``refresh``."""
+        return energy_of(self.S, self.segments)
+
+    def drain(self) -> Sums:
+        """The sums of loads since they were last drained or cleared, which are cleared."""
+        rows = [state.row(self.S, offset, self.segments) for offset in SUM_ROWS]
+        at_top = [topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]
+        sums = Sums._make([*(row.copy() for row in rows), *map(float, self.top[at_top])])
+        for row in rows:
+            row[:] = 0.0
+        self.top[at_top] = 0.0
+        return sums
+
+    def clear(self) -> None:
+        """Clear sums, losses, the top drive's work, the energy of fed pipe and the count of steps."""
+        self.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
+        top = topdrive
+        self.top[[top.SUM_HOOKLOAD, top.SUM_TOP_TORQUE, top.TOP_WORK, top.FED_ENERGY]] = 0.0
+        self.steps = 0
+
+
+class Wall(Protocol):
+    """What stands around a string, and takes its steps, since every step asks for it between loads and motion.
+
+    name : goes into the result.  jumps : the contact of a point at rest may jump between steps, so that forces are
+    balanced on average only.  seams : of cylinders, past which a sliding string may ring.
+    """
+
+    name: str
+    jumps: bool
+    seams: bool
+
+    def advance(self, string: MovingString, motion: Motion, laws: Laws, dt: float, steps: int) -> None:
+        """Advance a string by ``steps`` steps of ``dt`` [s]."""
+
+    def refresh(self, string: MovingString) -> None:
+        """Update the walls for the present positions, given axes."""
+
+
+class HoleWall:
+    """The wall of the hole's own pieces, compiled.
+
+    pieces : of a Wellbore; geometry : its name, ``cylinders`` or ``arcs``.
+    """
+
+    jumps = False
+
+    def __init__(self, pieces: Array, geometry: str) -> None:
+        self.name, self.seams = geometry, geometry == "cylinders"
+        self._pieces = pieces
+
+    def advance(self, string: MovingString, motion: Motion, laws: Laws, dt: float, steps: int) -> None:
+        """See ``Wall.advance``."""
+        dynamics.advance(
+            string.S, string.top, string.owner, string.segments, self._pieces, laws, motion, string.pipe, dt, steps
+        )
+
+    def refresh(self, string: MovingString) -> None:
+        """See ``Wall.refresh``."""
+        n = string.segments
+        update_walls(string.S, string.owner, n, n, self._pieces, string.laws.geometry)

@@ -1,0 +1,56 @@
+"""The energy ledger: what a string holds and has lost against what was brought in; the rest is the error."""
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fctd.mechanics import state, topdrive
+from fctd.mechanics.energy import Energy
+
+# Losses and the rows of the state in which they are summed.
+LOSSES = {
+    "lost_friction_J": state.LOST_FRICTION,
+    "lost_contact_J": state.LOST_CONTACT,
+    "lost_mud_J": state.LOST_MUD,
+    "lost_joints_J": state.LOST_JOINT,
+}
+
+
+def entry(
+    S: NDArray[np.float64], top: NDArray[np.float64], segments: int, start: Energy, now: Energy
+) -> dict[str, float]:
+    """A row of the ledger [J]: what the string holds beyond its start, gains, losses, and what is left over.
+
+    S, top : state buffers, whose losses and work have been summed since the start.
+    """
+    held = {f"{name}_J": b - a for name, a, b in zip(Energy._fields, start, now, strict=True)}
+    gains = {"top_drive_work_J": float(top[topdrive.TOP_WORK]), "fed_pipe_J": float(top[topdrive.FED_ENERGY])}
+    losses = {name: float(state.row(S, offset, segments).sum()) for name, offset in LOSSES.items()}
+    residual = sum(held.values()) + sum(losses.values()) - sum(gains.values())
+    return {**held, **gains, **losses, "residual_J": residual}
+
+
+def work(energy: pd.DataFrame, *, motion: bool = False) -> float:
+    """Energy turned over in a run [J]: the larger of all losses and of the top drive's work beyond lifting.
+
+    energy : a row for every ``entry``.  Lifting and lowering move hundreds of times more energy back and forth, which
+    would hide any error.  motion : also the energy of motion and strain, for windows so short that hardly anything is
+    lost.  NaN where a term is no number, or there is no row.
+    """
+    if not np.isfinite(energy.to_numpy(float)).all() or energy.empty:
+        return float("nan")
+    lost = energy[list(LOSSES)].sum(axis=1).abs()
+    beyond = (energy["top_drive_work_J"] - energy["gravity_J"]).abs()
+    found = [lost.max(), beyond.max()]
+    if motion:
+        found.append(energy["kinetic_J"].abs().max() + energy["strain_J"].abs().max())
+    return float(max(found))
+
+
+def error(energy: pd.DataFrame, *, motion: bool = False) -> float:
+    """Energy error: the largest residual of a run over its ``work``; NaN without work.
+
+    The largest, not the last: the residual of a swinging string passes through zero again and again.
+    """
+    turned_over = work(energy, motion=motion)
+    return float(energy["residual_J"].abs().max()) / turned_over if turned_over > 0 else float("nan")

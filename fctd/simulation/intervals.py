@@ -1,0 +1,57 @@
+"""The intervals of a schedule at whose ends a run is recorded."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fctd.case.errors import InputError
+from fctd.mechanics.topdrive import Motion
+from fctd.model.operations import Phase
+
+
+class Interval(NamedTuple):
+    """A part of a phase: what the top drive does, the index of the operation, and the time at its end [s]."""
+
+    motion: Motion
+    operation: int
+    end: float
+
+
+class Window(NamedTuple):
+    """A part of a schedule: its start and its duration [s]."""
+
+    start: float
+    duration: float
+
+
+def whole_schedule(phases: list[Phase], interval: float) -> list[Interval]:
+    """All of a schedule, recorded at the multiples of an interval [s] and at the end of every phase."""
+    parts = []
+    for motion, operation in phases:
+        end = motion.start + motion.duration
+        grid = interval * np.arange(np.floor(motion.start / interval) + 1, np.ceil(end / interval))
+        inside = grid[(grid > motion.start + 1e-6) & (grid < end - 1e-6)]
+        parts += [Interval(motion, operation, float(t)) for t in [*inside, end]]
+    return parts
+
+
+def within(phases: list[Phase], window: Window, longest: float) -> list[Interval]:
+    """A window of a schedule, every phase in equal intervals no longer than ``longest`` [s].
+
+    Raises InputError for a window that is empty or not within the schedule.
+    """
+    start, duration = window
+    if not (start >= 0 and duration > 0):
+        raise InputError("a start of at least 0 s and a duration above 0 s", key="window", value=str((start, duration)))
+    parts: list[Interval] = []
+    now, end = start, start + duration
+    for motion, operation in phases:
+        last = min(motion.start + motion.duration, end)
+        if last <= now + 1e-9:
+            continue
+        count = max(int(np.ceil((last - now) / longest - 1e-9)), 1)
+        parts += [Interval(motion, operation, float(t)) for t in np.linspace(now, last, count + 1)[1:]]
+        now = last
+    if now < end - 1e-9:
+        raise InputError(f"a window within the schedule, which ends after {now:g} s", key="window", value=f"{end:g} s")
+    return parts
