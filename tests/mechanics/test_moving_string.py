@@ -43,10 +43,10 @@ def test_damping_given_to_the_loop_brings_a_string_to_rest() -> None:
     string = string_of()
     laws = string.laws._replace(friction_scale=0.0, settling=5.0)
     fastest = []
-    for _ in range(2):
-        string.advance(STILL, 20.0, laws)
+    for duration in (1.0, 39.0):
+        string.advance(STILL, duration, laws)
         fastest.append(np.abs(state.row(string.S, state.VZ, string.segments)).max())
-    assert fastest[1] < 0.1 * fastest[0]
+    assert fastest[1] < 1e-3 * fastest[0]
     assert string.time == pytest.approx(40.0)
     string.refresh()
     string.check()
@@ -58,11 +58,10 @@ def test_sums_are_drained_once_and_are_those_of_the_time_since() -> None:
     motion = STILL._replace(duration=1.0, spin_to=6.0)
     drained = []
     for _ in range(3):
-        parts.advance(motion, 1.0)
+        parts.advance(motion, 100 * parts.step)
         drained.append(parts.drain())
-    whole.advance(motion, 3.0)
-    # Equal steps: three times as many, as long.
-    assert whole.steps == parts.steps
+    whole.advance(motion, 300 * whole.step)
+    assert whole.steps == parts.steps == 300
     for name, total in whole.drain()._asdict().items():
         np.testing.assert_allclose(sum(getattr(sums, name) for sums in drained), total, rtol=1e-9, atol=1e-9)
     assert drained[0].hookload > 0
