@@ -2,6 +2,7 @@
 
     case = fctd.load_case("well.toml")
     result = fctd.simulate(case)
+    for record in fctd.Simulation(case): print(record["hookload_N"])
     point = fctd.equilibrium(case, operation="trip_out", bit_depth=2450)
     chart = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
     finer = fctd.refine(case, tolerance=0.01).case

@@ -233,7 +233,7 @@ def settle(run: Run, tolerance: float = SETTLED, progress: Settling | None = Non
     if run.wall.jumps:
         settle(replace(run, wall=own_wall(run.case, run.hole)), tolerance, progress)
         return _hand_over(run, progress)
-    laws, weight = _relaxing(run)
+    laws, weight = relaxing(run)
     residual = np.inf
     for k in range(int(LONGEST_SETTLING * laws.settling)):
         run.advance(STILL, 1 / laws.settling, laws)
@@ -257,7 +257,7 @@ def _hand_over(run: Run, progress: Settling | None) -> float:
 
     Returns the imbalance as ``settle``, but of forces averaged over a window, since no single step is ever in balance.
     """
-    laws, weight = _relaxing(run)
+    laws, weight = relaxing(run)
     residual, window = np.inf, 1 / laws.settling
     for k in range(int(LONGEST_SETTLING * laws.settling)):
         speed, place = _three(run, VELOCITY), _three(run, PLACE)
@@ -273,7 +273,7 @@ def _hand_over(run: Run, progress: Settling | None) -> float:
     raise UnstableError(f"forces are out of balance by {residual:.2g} of the weight after {LONGEST_SETTLING:g} s")
 
 
-def _relaxing(run: Run) -> tuple[state.Laws, float]:
+def relaxing(run: Run) -> tuple[state.Laws, float]:
     """The laws under which a string settles, and its weight [N]."""
     weight = float((run.string.of("weight") * run.string.length).sum())
     rate = 12 * np.sqrt(topdrive.GRAVITY / float(run.string.length.sum()))

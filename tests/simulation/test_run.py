@@ -14,7 +14,7 @@ from fctd.mechanics import state, topdrive
 from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.model.layouts import graded, uniform, with_components
 from fctd.model.operations import Phase, depth_range, schedule
-from fctd.simulation.run import Run, _relaxing, contact_points, prepare
+from fctd.simulation.run import Run, relaxing, contact_points, prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]
@@ -236,7 +236,7 @@ def test_a_run_knows_the_pieces_its_points_lie_in() -> None:
 
 def test_a_string_settles_against_its_own_weight_and_length() -> None:
     run, _ = prepare(make_case(components=[pipe(100, 10, outer=0.15), pipe(None, 18)], operations=[rotation(1000, 1)]))
-    laws, weight = _relaxing(run)
+    laws, weight = relaxing(run)
     by_hand = 9.80665 * 7850 * np.pi / 4 * (100 * (0.15**2 - 0.07**2) + 900 * (0.127**2 - 0.07**2))
     assert weight == pytest.approx(by_hand)
     assert laws == run.laws._replace(friction_scale=0.0, settling=pytest.approx(12 * np.sqrt(9.80665 / 1000)))
