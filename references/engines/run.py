@@ -37,11 +37,11 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     try:
         for _ in simulation:
             pass
+        if simulation.status == "unstable":
+            simulation.record_part()  # for the checks, which say how
     finally:
         stepper.close()
     broken = simulation.message
-    if broken:  # the checks are to see how
-        simulation.record_part()
     run, result = simulation.run, simulation.result()
     checks = examine(run, window.start, result.history, result.profile, result.energy, broken)
     failed = [f"{row.check} ({row.value:.3g}, at most {row.bound:g})" for row in checks.itertuples() if not row.passed]

@@ -14,7 +14,7 @@ from fctd.mechanics import state, topdrive
 from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.model.layouts import graded, uniform, with_components
 from fctd.model.operations import Phase, depth_range, schedule
-from fctd.simulation.run import Run, relaxing, contact_points, prepare
+from fctd.simulation.run import Run, contact_points, prepare, relaxing
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]
