@@ -144,11 +144,14 @@ class Workspace:
 
 
 class Solver:
-    """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth."""
+    """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
-    def __init__(self, case: Case) -> None:
+    hole : that of the case, where it is built already.
+    """
+
+    def __init__(self, case: Case, hole: Wellbore | None = None) -> None:
         self.case = case
-        self.hole = build_wellbore(case)
+        self.hole = build_wellbore(case) if hole is None else hole
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
         self.law = state.PAPER if case.contact.friction_law == "paper" else state.COULOMB

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from fctd import find_contacts
 from fctd.case.errors import InputError
+from fctd.case.survey_file import to_radians
 from fctd.mechanics import contact
 from fctd.model import survey
 from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
@@ -397,6 +398,31 @@ def test_average_angle_hole_follows_interpolated_angles() -> None:
     stations = [[0, 0, 0], [500, 90, 0]]
     radius = 500 / (np.pi / 2)
     fine = hole_of(stations, survey_method="average_angle", cylinder_length=1.0)
-    bare = survey.average_angle(survey.to_radians(np.array(stations, dtype=float)))[-1]
+    bare = survey.average_angle(to_radians(np.array(stations, dtype=float)))[-1]
     assert fine.points[-1, 2] == pytest.approx(radius, abs=0.01)
     assert abs(bare[2] - radius) > 10
+
+
+SHOES = [
+    {"to_md": 200.0, "diameter": 0.3112, "friction": 0.2},
+    {"to_md": 500.05, "diameter": 0.25, "friction": 0.3, "stiffness": 3e7},
+    {"to_md": 500.1, "diameter": 0.24, "friction": 0.1},  # shorter than the overlap
+    {"to_md": 900.0, "diameter": 0.2159, "friction": 0.25},
+]
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+@pytest.mark.parametrize("factors", [0.4, [0.1, 0.5, 0.0, 0.3]])
+def test_another_friction_is_the_hole_that_a_fresh_build_gives(geometry: str, factors: float | list[float]) -> None:
+    stations = [[0, 0, 350], [100, 0, 350], [400, 60, 10], [700, 80, 60], [900, 80, 60]]
+    here = hole_of(stations, geometry=geometry, intervals=SHOES)
+    before = here.pieces.copy()
+    each = np.broadcast_to(factors, len(SHOES)).tolist()
+    intervals = [interval | {"friction": factor} for interval, factor in zip(SHOES, each, strict=True)]
+    fresh, found = hole_of(stations, geometry=geometry, intervals=intervals), here.with_friction(factors)
+    for name in ("pieces", "md", "points", "directions", "intervals"):
+        assert getattr(found, name).tobytes() == getattr(fresh, name).tobytes(), name
+    assert found.wall_along().tobytes() == fresh.wall_along().tobytes()
+    assert found.points is here.points
+    assert here.pieces.tobytes() == before.tobytes()
+    assert (found.pieces[:, contact.FACTOR] != before[:, contact.FACTOR]).any()
