@@ -11,7 +11,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.specs import IntervalSpec, WellboreSpec
 from fctd.mechanics import contact
-from fctd.mechanics.query import query_walls
+from fctd.mechanics.query import WALL_COLUMNS, Walls, query_walls, walls_in
 from fctd.mechanics.state import ARCS, CYLINDERS
 from fctd.model import survey
 
@@ -113,26 +113,28 @@ class Wellbore:
         return axis + distance[:, None] * (np.cos(angle)[:, None] * high + np.sin(angle)[:, None] * right)
 
     def wall_along(self) -> Array:
-        """The wall over measured depth, linear between rows (k, 4): depth, hole radius, stiffness, friction (columns above).
+        """The wall over measured depth, linear between rows: (k, 4), columns of the intervals.
 
         An interval leads into the next over one overlap below its end, as cylinders and arcs do.
         """
         if len(self.intervals) == 1:
             return self.intervals.copy()
         above, below = self.intervals[:-1].copy(), self.intervals[1:].copy()
-        below[:, TO_MD] = np.minimum(above[:, TO_MD] + self.shoe, below[:, TO_MD])  # an interval may be shorter than a shoe
+        below[:, TO_MD] = np.minimum(
+            above[:, TO_MD] + self.shoe, below[:, TO_MD]
+        )  # an interval may be shorter than a shoe
         return np.stack([above, below], axis=1).reshape(-1, 4)
 
     def inclination(self, md: Array) -> Array:
         """Inclination of the axis [rad] at measured depths (n,) [m]."""
         return np.asarray(np.arccos(np.clip(self.at(md)[1][:, 2], -1.0, 1.0)))
 
-    def walls(self, points: Array, near: NDArray[np.int64] | None = None) -> Array:
-        """Walls beside points (n, 3) [m]: (n, 7) PT [m], hole radius [m], stiffness, friction, md [m].
+    def walls(self, points: Array, near: NDArray[np.int64] | None = None) -> Walls:
+        """Walls beside points (n, 3) [m].
 
         near : (n,) pieces to start looking from, for points that have been asked for before.
         """
-        return self._query(points, near)[0]
+        return walls_in(self._query(points, near)[0])
 
     def owners(self, points: Array) -> NDArray[np.int64]:
         """Index of the piece that owns each point (n, 3) [m]."""
@@ -141,7 +143,7 @@ class Wellbore:
     def _query(self, points: Array, near: NDArray[np.int64] | None) -> tuple[Array, NDArray[np.int64]]:
         points = np.ascontiguousarray(np.atleast_2d(points), dtype=float)
         owner = self._nearest(points) if near is None else near.copy()
-        out = np.empty((len(points), 7))
+        out = np.empty((len(points), WALL_COLUMNS))
         query_walls(self.pieces, self.geometry, points, owner, out)
         return out, owner
 
@@ -168,9 +170,9 @@ def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Co
         expected = f"a point within {FARTHEST:g} m of the origin, north, east and down"
         raise InputError(expected, key=f"points[{k}][{axis}]", value=float(points[k, axis]))
     walls = wellbore.walls(points)
-    distance = np.linalg.norm(walls[:, :3], axis=1)
-    normal = walls[:, :3] / np.maximum(distance, 1e-300)[:, None]
-    return Contacts(distance - walls[:, 3] + radii, normal, walls[:, 6])
+    distance = np.linalg.norm(walls.offset, axis=1)
+    normal = walls.offset / np.maximum(distance, 1e-300)[:, None]
+    return Contacts(distance - walls.radius + radii, normal, walls.md)
 
 
 def hole_frame(direction: Array) -> tuple[Array, Array]:

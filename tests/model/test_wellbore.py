@@ -217,9 +217,9 @@ def test_intervals_set_size_and_friction_and_the_boundary_is_a_piece_end() -> No
         hole = hole_of([[0, 0, 0], [400, 0, 0], [1000, 40, 0]], intervals=intervals, geometry=geometry)
         assert 512.5 in hole.md
         walls = hole.walls(hole.at(np.array([300.0, 512.0, 514.0]))[0])
-        np.testing.assert_allclose(walls[:, 3], [0.16, 0.16, 0.10795])
-        np.testing.assert_allclose(walls[:, 4], [1e7, 1e7, 5e6])
-        np.testing.assert_allclose(walls[:, 5], [0.1, 0.1, 0.3])
+        np.testing.assert_allclose(walls.radius, [0.16, 0.16, 0.10795])
+        np.testing.assert_allclose(walls.stiffness, [1e7, 1e7, 5e6])
+        np.testing.assert_allclose(walls.friction, [0.1, 0.1, 0.3])
 
 
 @pytest.mark.parametrize(("geometry", "station"), [("cylinders", 505.0), ("arcs", 505.0), ("arcs", 500.1)])
@@ -235,9 +235,9 @@ def test_the_wall_leads_from_one_size_of_hole_to_the_next(geometry: str, station
     axis, direction = hole.at(md)
     walls = hole.walls(axis + 0.05 * hole_frame(direction)[1])
     share = np.clip((md - 500) / 0.2, 0, 1)
-    np.testing.assert_allclose(walls[:, 3], 0.16 - 0.05 * share, atol=1e-4)
-    np.testing.assert_allclose(walls[:, 4], 2e7 - 1e7 * share, rtol=1e-3)
-    np.testing.assert_allclose(walls[:, 5], 0.1 + 0.2 * share, atol=1e-3)
+    np.testing.assert_allclose(walls.radius, 0.16 - 0.05 * share, atol=1e-4)
+    np.testing.assert_allclose(walls.stiffness, 2e7 - 1e7 * share, rtol=1e-3)
+    np.testing.assert_allclose(walls.friction, 0.1 + 0.2 * share, atol=1e-3)
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
@@ -291,7 +291,7 @@ def test_below_the_last_interval_the_hole_stays_as_it_is(geometry: str) -> None:
     ]
     hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry=geometry)
     walls = hole.walls(hole.at(np.array([200.0, 499.0, 501.0, 999.0]))[0])
-    np.testing.assert_allclose(walls[:, 3:6], [[0.16, 1e7, 0.1], *[[0.10795, 5e6, 0.3]] * 3])
+    np.testing.assert_allclose(np.stack(walls[1:4], axis=1), [[0.16, 1e7, 0.1], *[[0.10795, 5e6, 0.3]] * 3])
 
 
 def test_arcs_lead_through_every_size_of_hole() -> None:
@@ -299,15 +299,15 @@ def test_arcs_lead_through_every_size_of_hole() -> None:
     intervals = [{"to_md": to_md, "diameter": diameter, "friction": friction} for to_md, diameter, friction in sizes]
     hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry="arcs", overlap=0.2)
     walls = hole.walls(hole.at(np.array([399.9, 400.1, 400.3, 599.9, 600.05, 600.3]))[0])
-    np.testing.assert_allclose(walls[:, 3], [0.16, 0.15, 0.14, 0.14, 0.1325, 0.11], atol=1e-9)
-    np.testing.assert_allclose(walls[:, 5], [0.1, 0.15, 0.2, 0.2, 0.225, 0.3], atol=1e-9)
+    np.testing.assert_allclose(walls.radius, [0.16, 0.15, 0.14, 0.14, 0.1325, 0.11], atol=1e-9)
+    np.testing.assert_allclose(walls.friction, [0.1, 0.15, 0.2, 0.2, 0.225, 0.3], atol=1e-9)
 
 
 def test_arcs_without_a_shoe_change_at_once() -> None:
     intervals = [{"to_md": 500, "diameter": 0.32, "friction": 0.1}, {"to_md": 1000, "diameter": 0.22, "friction": 0.3}]
     hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry="arcs", overlap=0.0)
     walls = hole.walls(hole.at(np.array([499.99, 500.01]))[0])
-    np.testing.assert_allclose(walls[:, [3, 5]], [[0.16, 0.1], [0.11, 0.3]])
+    np.testing.assert_allclose(np.stack([walls.radius, walls.friction], axis=1), [[0.16, 0.1], [0.11, 0.3]])
 
 
 def test_cylinders_of_straight_hole_are_no_longer_than_thirty_metres() -> None:

@@ -137,7 +137,7 @@ def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, ge
     before = S.copy()
     update_joint_loads(S, packed, 0.0, dt)
     update_walls(S, w.owner, n, packed, solver.hole.pieces, solver.geometry)
-    dynamics.update_motion(S, packed, laws, dt)
+    dynamics.update_velocities(S, packed, laws, dt)
     weight = float(state.row(S, state.WEIGHT, n).sum())
     for velocity in (state.VX, state.VY, state.VZ):
         change = state.row(S, velocity, n) - state.row(before, velocity, n)

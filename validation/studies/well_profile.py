@@ -82,7 +82,8 @@ def table_2(stations: Array) -> pd.DataFrame:
     chosen = np.isin(stations[:, 0], SAMPLE)
     columns = ("north", "east", "tvd")
     md, *angles = stations[chosen].T
-    table = pd.DataFrame(dict(zip(("survey_depth_m", "inclination_deg", "azimuth_deg"), (md, *np.degrees(angles)), strict=True)))
+    inclination, azimuth = np.degrees(angles)
+    table = pd.DataFrame({"survey_depth_m": md, "inclination_deg": inclination, "azimuth_deg": azimuth})
     average, arcs, true = average_angle(stations), minimum_curvature(stations), exact(stations[:, 0])
     for k, name in enumerate(columns):
         table[f"{name}_m"] = average[chosen, k]
