@@ -275,11 +275,12 @@ def padded_columns(n):
     return (n + LANES - 1) // LANES * LANES
 
 
-@kernel
+@inlined
 def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     """Advance the string by one step: the stages of §4 and Fig. 7 in order.
 
     find_walls : ``update_walls``, or another search for the walls beside the contact points, with its arguments.
+    Compiled into its caller: code that hands a function on as an argument could not be kept on disk.
     """
     packed = padded_columns(n)
     # 1: where the segments and their ends are, and what joints and top drive do to them there.
