@@ -8,7 +8,7 @@ dissipating impulse by the velocity after it, which is what moves the body.
 
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.friction import approach, coulomb_impulse, normal_impulse, paper_impulse, wall_normal
-from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import (

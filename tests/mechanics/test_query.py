@@ -6,7 +6,7 @@ from numba import njit
 
 from fctd import build_wellbore
 from fctd.mechanics.contact import arc_owner, arc_wall, cylinder_owner, cylinder_wall
-from fctd.mechanics.query import TOGETHER
+from fctd.mechanics.query import TOGETHER, WALL_COLUMNS
 from fctd.mechanics.state import ARCS
 from fctd.model.wellbore import Wellbore
 from tests.cases import make_case
@@ -47,7 +47,7 @@ def test_short_cuts_answer_as_the_table_does(geometry, furthest, order):
     if order == "shuffled":
         points = rng.permutation(points)
     guess = np.clip(hole.owners(points) + rng.integers(-1, 2, count), 0, len(hole.pieces) - 1)
-    expected = np.empty((count, 7))
+    expected = np.empty((count, WALL_COLUMNS))
     from_table(hole.pieces, hole.geometry, points, guess.copy(), expected)
     found = np.column_stack(hole.walls(points, guess))
     assert np.ptp(expected[:, 3]) > 0.049  # both sizes of hole are met
