@@ -1,6 +1,8 @@
 """The package as it is installed: compile cache, imports, versions."""
 
+import importlib
 import os
+import pkgutil
 import shutil
 import subprocess
 import sys
@@ -71,3 +73,12 @@ def test_the_engine_needs_none_of_the_suite() -> None:
 
 def test_versions_name_what_the_numbers_depend_on() -> None:
     assert {"fctd", "python", "numpy", "numba"} <= fctd.results.tables.versions().keys()
+
+
+def test_no_name_hides_a_module() -> None:
+    """A package that offers a function under a module's name would hide the module from ``import package.name``."""
+    for found in pkgutil.walk_packages(fctd.__path__, "fctd."):
+        if found.name != "fctd.__main__":
+            module = importlib.import_module(found.name)
+            parent, _, name = found.name.rpartition(".")
+            assert getattr(sys.modules[parent], name) is module, found.name

@@ -182,14 +182,14 @@ class Case(Table):
 
     @property
     def depths(self) -> tuple[float, float]:
-        """Top of the string, and the deepest that survey and intervals let the bit be [m]. Reads the survey."""
-        deepest = min(float(self.wellbore.read_stations()[-1, 0]), self.wellbore.intervals[-1].to_md)
+        """Top of the string, and the deepest that survey and intervals let the bit be [m]. Needs the survey."""
+        deepest = min(float(self.wellbore.trajectory[-1, 0]), self.wellbore.intervals[-1].to_md)
         return self.string.top_md, deepest
 
     def check_depths(self, raw: Mapping[str, Any] | None = None) -> None:
         """Refuse a bit above the top of the string, or deeper than survey or intervals.
 
-        Reads the survey, so it is no part of validation: a stored case can be read without its files.
+        Needs the survey, so it is no part of validation: a stored case can be read without its files.
         raw: the case as it was written, to quote it.
         """
         top, bottom = self.depths

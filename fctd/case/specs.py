@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field, StrictBool, ValidationInfo, field_validator, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, StrictBool, ValidationInfo, field_validator, model_validator
 
 from fctd.case import units
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
@@ -40,6 +41,14 @@ class IntervalSpec(Table):
     stiffness_per_length: units.PositiveStiffnessPerLength | None = None
 
 
+@dataclass
+class _Trajectory:
+    """Stations as resolved once, and the keys they come from; two of them are equal, so that holes compare by keys."""
+
+    source: object = field(default=None, compare=False)
+    stations: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)), compare=False)
+
+
 class WellboreSpec(Table):
     """Where the hole runs, how wide it is, and how its wall answers.
 
@@ -62,6 +71,7 @@ class WellboreSpec(Table):
         default_factory=lambda given: 1e7 if given["stiffness_per_length"] is None else None
     )
     intervals: tuple[IntervalSpec, ...] = Field(description="tables [[wellbore.intervals]]")
+    _trajectory: _Trajectory = PrivateAttr(default_factory=_Trajectory)
 
     @field_validator("columns", mode="before")
     @classmethod
@@ -89,7 +99,7 @@ class WellboreSpec(Table):
         if self.geometry == "arcs" and self.survey_method != "minimum_curvature":
             raise InputError("cylinders, since arcs need survey_method minimum_curvature", key="geometry")
         if self.stations is not None:
-            self.read_stations()
+            self._resolve()
         if not self.intervals:
             raise InputError("at least one", key="intervals")
         kinds = ("stiffness", "stiffness_per_length")
@@ -102,8 +112,21 @@ class WellboreSpec(Table):
                 raise InputError("a depth below the interval above", key=f"intervals[{i}].to_md")
         return self
 
-    def read_stations(self) -> NDArray[np.float64]:
-        """Stations (n, 3) of survey file or case: measured depth [m], inclination [deg], azimuth [deg]."""
+    @property
+    def trajectory(self) -> NDArray[np.float64]:
+        """Stations (n, 3) of survey file or case: measured depth [m], inclination and unwrapped azimuth [rad].
+
+        The file is read when they are first asked for, so a stored case can be read without it, and once: copies
+        made from then on share them.  Raises InputError for a file that cannot be used.
+        """
+        source = (self.survey, self.columns, self.stations)
+        if self._trajectory.source != source:
+            stations = self._resolve()
+            stations.flags.writeable = False
+            self._trajectory = _Trajectory(source, stations)
+        return self._trajectory.stations
+
+    def _resolve(self) -> NDArray[np.float64]:
         if self.survey is not None:
             return read_stations(self.survey, self.columns)
         stations = np.array(self.stations or (), dtype=float).reshape(-1, 3)

@@ -1,6 +1,7 @@
 """Survey stations from a CSV file, and the checks that every list of stations passes.
 
-Stations are an array of shape (n, 3): measured depth [m], inclination [deg], azimuth [deg].
+Stations are an array of shape (n, 3): measured depth [m], inclination and azimuth [rad], the azimuth unwrapped, so
+that it may run past 2π.  Files and cases are written in degrees; here is the one place that converts them.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ MOST_STATIONS: Final = 100_000
 
 
 def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] | None = None) -> NDArray[np.float64]:
-    """The checked stations (n, 3) of a CSV file: measured depth [m], inclination and azimuth [deg].
+    """The checked stations (n, 3) of a CSV file: measured depth [m], inclination and azimuth [rad].
 
     Headers name their units: md_m or md_ft, inc_deg or inc_rad, azi_deg or azi_rad, in any case.
     `columns` maps md, inc, azi to other headers, which end in their unit: "Depth ( ft )", "depth_ft".
@@ -52,7 +53,10 @@ def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] |
 
 
 def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.float64]:
-    """The stations (n, 3) [m, deg, deg] without the exact repeats that real surveys hold, or an InputError."""
+    """Stations (n, 3) [m, rad, rad] of stations in [m, deg, deg], or an InputError.
+
+    The exact repeats that real surveys hold are left out.
+    """
 
     def refuse(row: int, column: int, expected: str) -> InputError:
         key, value = where(row, column)
@@ -79,7 +83,15 @@ def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.fl
         raise refuse(0, 0, "a first station at measured depth 0, add a tie-in station at surface")
     for row in kept[1:][np.diff(stations[kept, 0]) <= 0.0].tolist():
         raise refuse(row, 0, "a measured depth greater than that of the station before")
-    return stations[kept]
+    return to_radians(stations[kept])
+
+
+def to_radians(stations: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Stations (n, 3) in m and degrees to m and radians, with the azimuth unwrapped through north."""
+    out = np.array(stations, dtype=float)
+    out[:, 1] = np.radians(out[:, 1])
+    out[:, 2] = np.unwrap(np.radians(out[:, 2]))
+    return out
 
 
 def _rows(path: Path) -> list[tuple[int, list[str]]]:

@@ -8,7 +8,7 @@ dissipating impulse by the velocity after it, which is what moves the body.
 
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.friction import approach, coulomb_impulse, normal_impulse, paper_impulse, wall_normal
-from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import (
@@ -68,7 +68,7 @@ from fctd.mechanics.state import (
     spin,
     velocity,
 )
-from fctd.mechanics.topdrive import move_top_drive, planned_speeds, read_top_drive
+from fctd.mechanics.topdrive import drive_top, move_top_drive
 
 # Share of the room beside the string that certainly does not touch, far more than rounding takes from 1.
 NEARLY = 1 - 1e-6
@@ -259,31 +259,14 @@ def move_bodies(S, n, dt):
 
 
 @inlined
-def update_motion(S, n, laws, dt):
-    """Update velocities, positions and orientations, given joint loads and walls."""
+def update_velocities(S, n, laws, dt):
+    """Update velocity and spin of every body by springs, weight, wall and mud, given joint loads and walls."""
     if laws.geometry == OPEN:
         push_freely(S, n, laws, dt)
     elif laws.friction == PAPER:
         push_with_paper(S, n, laws, dt)
     else:
         push_with_coulomb(S, n, laws, dt)
-    move_bodies(S, n, dt)
-
-
-@inlined
-def update_loads(S, top, packed, laws, motion, pipe, dt):
-    """Update joint loads and the top drive's readings, given axes; returns its feed [m/s] and rotation [rad/s]."""
-    update_joint_loads(S, packed, laws.joint_damping, dt)
-    feed, rate = planned_speeds(top, motion, dt)
-    read_top_drive(S, top, pipe, dt * feed, dt * rate, dt)
-    return feed, rate
-
-
-@inlined
-def update_positions(S, top, packed, laws, pipe, feed, rate, dt):
-    """Update the motion of bodies and top drive, given loads and walls."""
-    update_motion(S, packed, laws, dt)
-    move_top_drive(S, top, pipe, feed, rate, dt)
 
 
 @inlined
@@ -292,13 +275,24 @@ def padded_columns(n):
     return (n + LANES - 1) // LANES * LANES
 
 
-@kernel
-def step(S, top, owner, n, C, laws, motion, pipe, dt):
-    """Advance the string by one step: the algorithm of §4 and Fig. 7 in order."""
+@inlined
+def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
+    """Advance the string by one step: the stages of §4 and Fig. 7 in order.
+
+    find_walls : ``update_walls``, or another search for the walls beside the contact points, with its arguments.
+    Compiled into its caller: code that hands a function on as an argument could not be kept on disk.
+    """
     packed = padded_columns(n)
-    feed, rate = update_loads(S, top, packed, laws, motion, pipe, dt)
-    update_walls(S, owner, n, packed, C, laws.geometry)
-    update_positions(S, top, packed, laws, pipe, feed, rate, dt)
+    # 1: where the segments and their ends are, and what joints and top drive do to them there.
+    update_joint_loads(S, packed, laws.joint_damping, dt)
+    feed, rate = drive_top(S, top, motion, pipe, dt)
+    # 2 and 3: the piece of hole that owns each contact point, and how far from its axis and wall the point is.
+    find_walls(S, owner, n, packed, C, laws.geometry)
+    # 4: normal and friction impulses, with those of springs, weight and mud.
+    update_velocities(S, packed, laws, dt)
+    # 5: the motion that follows, of the bodies and of the top drive.
+    move_bodies(S, packed, dt)
+    move_top_drive(S, top, pipe, feed, rate, dt)
 
 
 @entry
@@ -306,4 +300,4 @@ def advance(S, top, owner, n, C, laws, motion, pipe, dt, steps):
     """Advance by ``steps`` steps of ``dt`` [s]; the one compiled entry of a run, allocating nothing."""
     update_axes(S, padded_columns(n))
     for _ in range(steps):
-        step(S, top, owner, n, C, laws, motion, pipe, dt)
+        step(update_walls, S, top, owner, n, C, laws, motion, pipe, dt)

@@ -1,6 +1,9 @@
 """Stages 2 and 3 of the contact algorithm for free points, which have no copy of their piece (see contact.py)."""
 
+from typing import NamedTuple
+
 import numpy as np
+from numpy.typing import NDArray
 
 from fctd.mechanics.contact import (
     ALONE_FROM,
@@ -22,6 +25,29 @@ from fctd.mechanics.state import ARCS, LANES
 
 # Points of one arc that are worked on together; one or two are not worth a packed operation.
 TOGETHER, FEW = 64, 2
+
+
+# Columns of the walls beside free points: PT, hole radius, stiffness, friction, measured depth.
+WALL_COLUMNS = 7
+
+
+class Walls(NamedTuple):
+    """Walls beside points, one row a point.
+
+    offset (n, 3) : PT, from the hole axis to the point [m]; radius (n,) : of the hole [m]; stiffness (n,) [N/m, or
+    N/m/m]; friction (n,) : factor; md (n,) [m].
+    """
+
+    offset: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    stiffness: NDArray[np.float64]
+    friction: NDArray[np.float64]
+    md: NDArray[np.float64]
+
+
+def walls_in(out: NDArray[np.float64]) -> Walls:
+    """The columns of ``query_walls`` by name."""
+    return Walls(out[:, :3], out[:, 3], out[:, 4], out[:, 5], out[:, 6])
 
 
 @inlined
@@ -82,7 +108,7 @@ def query_arcs(C, points, owner, out):
         if count > FEW:
             walls_of_arc(read_arc(C, i), W, (count + LANES - 1) // LANES * LANES)
             for k in range(count):
-                for column in range(7):
+                for column in range(WALL_COLUMNS):
                     out[first + k, column] = W[(3 + column) * TOGETHER + k]
         else:
             for j in range(first, first + count):
@@ -94,7 +120,7 @@ def query_arcs(C, points, owner, out):
 def query_walls(C, geometry, points, owner, out):
     """Walls beside free points.  points : (n, 3) [m]; owner : (n,) first guess in, owner out.
 
-    out : (n, 7) PT [m], hole radius [m], stiffness, friction, measured depth [m].
+    out : (n, WALL_COLUMNS), by name as ``walls_in`` has them.
     """
     if geometry == ARCS:
         query_arcs(C, points, owner, out)

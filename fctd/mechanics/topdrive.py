@@ -194,6 +194,14 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
 
 
 @inlined
+def drive_top(S, top, motion, pipe, dt):
+    """Read the top drive as it is driven over the step, given joint loads; returns feed [m/s] and rotation [rad/s]."""
+    feed, rate = planned_speeds(top, motion, dt)
+    read_top_drive(S, top, pipe, dt * feed, dt * rate, dt)
+    return feed, rate
+
+
+@inlined
 def move_top_drive(S, top, pipe, feed, rate, dt):
     """Move the top drive with the bodies: clock, feed [m/s], rotation [rad/s] and the pipe's speed in the clamp."""
     top[TOP_TIME] += dt

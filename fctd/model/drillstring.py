@@ -11,7 +11,7 @@ from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY, PerMetre, set_long_segment
-from fctd.model.wellbore import Wellbore
+from fctd.model.wellbore import RADIUS, TO_MD, Wellbore
 
 Array = NDArray[np.float64]
 
@@ -277,8 +277,8 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
     bottom = grown.top_md + np.cumsum(grown.length)
     top = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]])
     radius = string.of("contact_radius")
-    starts = np.concatenate([[0.0], hole.intervals[:-1, 0]])
-    for start, (to_md, hole_radius) in zip(starts, hole.intervals[:, :2], strict=True):
+    starts = np.concatenate([[0.0], hole.intervals[:-1, TO_MD]])
+    for start, (to_md, hole_radius) in zip(starts, hole.intervals[:, [TO_MD, RADIUS]], strict=True):
         tight = (start < bottom) & (to_md > top) & (radius > hole_radius)
         if tight.any():
             k = int(np.argmax(tight))

@@ -63,7 +63,7 @@ def coarseness(case: Case, bit_depth: float) -> tuple[Array, Array]:
     grow by the shortest one over the length of a wave in which a string lies in the hole, 2π (EI r/w)^¼ (Dawson &
     Paslay 1984).
     """
-    stations = survey.to_radians(case.wellbore.read_stations())
+    stations = case.wellbore.trajectory
     above_bit = np.linspace(0.0, bit_depth - case.string.top_md, SAMPLES)
     md = bit_depth - above_bit
     course = np.clip(np.searchsorted(stations[:, 0], md, side="right") - 1, 0, len(stations) - 2)

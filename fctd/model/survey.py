@@ -27,14 +27,6 @@ class Courses(NamedTuple):
     length: Array
 
 
-def to_radians(stations: Array) -> Array:
-    """Stations (n, 3) in m and degrees, as read, to m and radians with the azimuth unwrapped through north."""
-    out = np.array(stations, dtype=float)
-    out[:, 1] = np.radians(out[:, 1])
-    out[:, 2] = np.unwrap(np.radians(out[:, 2]))
-    return out
-
-
 def tangents(stations: Array) -> Array:
     """Unit vectors (n, 3) along the hole at the stations (n, 3) [m, rad, rad]."""
     inclination, azimuth = stations[:, 1], stations[:, 2]

@@ -1,6 +1,6 @@
 """The hole as the contact algorithm sees it: a table of cylinders with overlap (§5.2, Fig. 8), or of arcs."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +11,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.specs import IntervalSpec, WellboreSpec
 from fctd.mechanics import contact
-from fctd.mechanics.query import query_walls
+from fctd.mechanics.query import WALL_COLUMNS, Walls, query_walls, walls_in
 from fctd.mechanics.state import ARCS, CYLINDERS
 from fctd.model import survey
 
@@ -29,6 +29,11 @@ MOST_CYLINDERS = 1_000_000
 FARTHEST = 1e7
 # Below this inclination the high side is north [rad].
 VERTICAL = np.radians(0.1)
+
+
+# Columns of the intervals and of what lies along the hole: lower end (or depth) [m], hole radius [m], wall stiffness
+# [N/m or N/m/m], friction factor.
+TO_MD, RADIUS, STIFFNESS, FRICTION = range(4)
 
 
 class Contacts(NamedTuple):
@@ -56,7 +61,7 @@ class Wellbore:
     md: Array
     points: Array
     directions: Array
-    intervals: Array = field(repr=False)  # (k, 4) to_md, radius [m], stiffness, friction
+    intervals: Array = field(repr=False)  # (k, 4), columns above
     shoe: float  # length over which the hole leads from one interval to the next [m]
     courses: survey.Courses | None = None
 
@@ -82,6 +87,13 @@ class Wellbore:
         """Measured depth of the last station [m]."""
         return float(self.md[-1])
 
+    def with_friction(self, factors: Array | float) -> "Wellbore":
+        """The same hole with one friction factor for every interval, or (k,) one for each."""
+        pieces, intervals = self.pieces.copy(), self.intervals.copy()
+        intervals[:, FRICTION] = factors
+        _fill_wall(pieces, self.geometry, self.md, intervals, self.shoe)
+        return replace(self, pieces=pieces, intervals=intervals)
+
     def at(self, md: Array) -> tuple[Array, Array]:
         """Positions (n, 3) [m] and unit tangents (n, 3) of the axis at measured depths (n,) [m]."""
         md = np.atleast_1d(np.asarray(md, dtype=float))
@@ -101,26 +113,28 @@ class Wellbore:
         return axis + distance[:, None] * (np.cos(angle)[:, None] * high + np.sin(angle)[:, None] * right)
 
     def wall_along(self) -> Array:
-        """The wall over measured depth, linear between rows: (k, 4) md, hole radius [m], stiffness, friction.
+        """The wall over measured depth, linear between rows: (k, 4), columns of the intervals.
 
         An interval leads into the next over one overlap below its end, as cylinders and arcs do.
         """
         if len(self.intervals) == 1:
             return self.intervals.copy()
         above, below = self.intervals[:-1].copy(), self.intervals[1:].copy()
-        below[:, 0] = np.minimum(above[:, 0] + self.shoe, below[:, 0])  # an interval may be shorter than a shoe
+        below[:, TO_MD] = np.minimum(
+            above[:, TO_MD] + self.shoe, below[:, TO_MD]
+        )  # an interval may be shorter than a shoe
         return np.stack([above, below], axis=1).reshape(-1, 4)
 
     def inclination(self, md: Array) -> Array:
         """Inclination of the axis [rad] at measured depths (n,) [m]."""
         return np.asarray(np.arccos(np.clip(self.at(md)[1][:, 2], -1.0, 1.0)))
 
-    def walls(self, points: Array, near: NDArray[np.int64] | None = None) -> Array:
-        """Walls beside points (n, 3) [m]: (n, 7) PT [m], hole radius [m], stiffness, friction, md [m].
+    def walls(self, points: Array, near: NDArray[np.int64] | None = None) -> Walls:
+        """Walls beside points (n, 3) [m].
 
         near : (n,) pieces to start looking from, for points that have been asked for before.
         """
-        return self._query(points, near)[0]
+        return walls_in(self._query(points, near)[0])
 
     def owners(self, points: Array) -> NDArray[np.int64]:
         """Index of the piece that owns each point (n, 3) [m]."""
@@ -129,7 +143,7 @@ class Wellbore:
     def _query(self, points: Array, near: NDArray[np.int64] | None) -> tuple[Array, NDArray[np.int64]]:
         points = np.ascontiguousarray(np.atleast_2d(points), dtype=float)
         owner = self._nearest(points) if near is None else near.copy()
-        out = np.empty((len(points), 7))
+        out = np.empty((len(points), WALL_COLUMNS))
         query_walls(self.pieces, self.geometry, points, owner, out)
         return out, owner
 
@@ -156,9 +170,9 @@ def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Co
         expected = f"a point within {FARTHEST:g} m of the origin, north, east and down"
         raise InputError(expected, key=f"points[{k}][{axis}]", value=float(points[k, axis]))
     walls = wellbore.walls(points)
-    distance = np.linalg.norm(walls[:, :3], axis=1)
-    normal = walls[:, :3] / np.maximum(distance, 1e-300)[:, None]
-    return Contacts(distance - walls[:, 3] + radii, normal, walls[:, 6])
+    distance = np.linalg.norm(walls.offset, axis=1)
+    normal = walls.offset / np.maximum(distance, 1e-300)[:, None]
+    return Contacts(distance - walls.radius + radii, normal, walls.md)
 
 
 def hole_frame(direction: Array) -> tuple[Array, Array]:
@@ -179,9 +193,8 @@ def build_wellbore(case: Case) -> Wellbore:
     joins.
     """
     hole = case.wellbore
-    stations = survey.to_radians(hole.read_stations())
-    intervals = _intervals(hole)
-    ends = intervals[intervals[:, 0] < stations[-1, 0], 0]
+    stations, intervals = hole.trajectory, _intervals(hole)
+    ends = intervals[:, TO_MD][intervals[:, TO_MD] < stations[-1, 0]]
     courses = _courses(stations) if hole.survey_method == "minimum_curvature" else None
     if hole.geometry == "arcs":
         assert courses is not None  # the case makes sure of the method
@@ -189,16 +202,17 @@ def build_wellbore(case: Case) -> Wellbore:
         shoes = np.minimum(ends + hole.overlap, stations[-1, 0])
         md = np.union1d(stations[:, 0], np.concatenate([ends, shoes]))
         points, directions = survey.along_courses(courses, md)
-        geometry, pieces = ARCS, _arcs(hole, courses, md)
+        geometry, pieces = ARCS, _arcs(courses, md)
     else:
         md = _cylinder_ends(hole, stations, ends)
         if courses is not None:
             points = survey.along_courses(courses, md)[0]
         else:
             points = survey.average_angle(survey.interpolate_angles(stations, md))
-        geometry, pieces = CYLINDERS, _cylinders(hole, md, points)
+        geometry, pieces = CYLINDERS, _cylinders(hole.overlap, md, points)
         directions = pieces[:, contact.DIRECTION : contact.DIRECTION + 3]
         directions = np.vstack([directions, directions[-1:]])
+    _fill_wall(pieces, geometry, md, intervals, hole.overlap)
     kept = courses if geometry == ARCS else None
     return Wellbore(pieces, geometry, md, points, directions, intervals, hole.overlap, kept)
 
@@ -258,15 +272,22 @@ def _stiffness(hole: WellboreSpec, interval: IntervalSpec) -> float:
     return next(v for v in values if v is not None)
 
 
-def _wall_columns(hole: WellboreSpec, pieces: Array, middle: Array) -> None:
-    """Fill hole radius, stiffness and friction from the interval that holds the middle of each piece."""
-    intervals = _intervals(hole)
-    k = np.minimum(np.searchsorted(intervals[:, 0], middle), len(intervals) - 1)
-    pieces[:, [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR]] = intervals[k, 1:]
+def _fill_wall(pieces: Array, geometry: int, md: Array, intervals: Array, shoe: float) -> None:
+    """Fill the wall's columns of laid-out pieces from the interval that holds the middle of each piece."""
+    middle = 0.5 * (md[1:] + md[:-1])
+    if geometry == ARCS:  # with a straight piece before the first and after the last
+        middle = np.concatenate([md[:1], middle, md[-1:]])
+    k = np.minimum(np.searchsorted(intervals[:, TO_MD], middle), len(intervals) - 1)
+    pieces[:, [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR]] = intervals[k][:, [RADIUS, STIFFNESS, FRICTION]]
+    if geometry == ARCS:
+        _lead_into_next(pieces, md, middle, intervals, shoe)
+    else:
+        bend = np.linalg.norm(np.diff(pieces[:, contact.DIRECTION : contact.DIRECTION + 3], axis=0), axis=1)
+        pieces[1:, contact.ALONE_FROM] = pieces[:-1, contact.OVERLAP] + 4 * pieces[1:, contact.HOLE_RADIUS] * bend
 
 
-def _cylinders(hole: WellboreSpec, md: Array, points: Array) -> Array:
-    """Cylinders between successive points, each but the last extended by the overlap (Fig. 8)."""
+def _cylinders(longest_overlap: float, md: Array, points: Array) -> Array:
+    """Cylinders between successive points, each but the last extended by the overlap (Fig. 8); no wall yet."""
     span = np.diff(points, axis=0)
     length = np.linalg.norm(span, axis=1)
     direction = span / length[:, None]
@@ -274,14 +295,11 @@ def _cylinders(hole: WellboreSpec, md: Array, points: Array) -> Array:
     pieces[:, contact.START : contact.START + 3] = points[:-1]
     pieces[:, contact.DIRECTION : contact.DIRECTION + 3] = direction
     pieces[:, contact.START_MD] = md[:-1]
-    _wall_columns(hole, pieces, 0.5 * (md[1:] + md[:-1]))
     # Stations may stand closer than the overlap: it may not reach past half of the next cylinder.
-    overlap = np.minimum(hole.overlap, 0.5 * np.append(length[1:], 0.0))
+    overlap = np.minimum(longest_overlap, 0.5 * np.append(length[1:], 0.0))
     pieces[:, contact.OVERLAP] = overlap
     pieces[:, contact.LENGTH] = length + overlap
-    bend = np.linalg.norm(np.diff(direction, axis=0), axis=1)
     pieces[0, contact.ALONE_FROM] = -np.inf
-    pieces[1:, contact.ALONE_FROM] = overlap[:-1] + 4 * pieces[1:, contact.HOLE_RADIUS] * bend
     pieces[0, contact.START : contact.START + 3] -= RUN_OUT * direction[0]
     pieces[0, contact.START_MD] -= RUN_OUT
     pieces[0, contact.LENGTH] += RUN_OUT
@@ -291,8 +309,8 @@ def _cylinders(hole: WellboreSpec, md: Array, points: Array) -> Array:
     return pieces
 
 
-def _arcs(hole: WellboreSpec, courses: survey.Courses, md: Array) -> Array:
-    """Arcs between successive depths, with a straight piece before the first and after the last."""
+def _arcs(courses: survey.Courses, md: Array) -> Array:
+    """Arcs between successive depths, with a straight piece before the first and after the last; no wall yet."""
     point, tangent = survey.along_courses(courses, md)
     i = np.clip(np.searchsorted(courses.md, md, side="right") - 1, 0, len(courses.md) - 1)
     curvature, normal = courses.curvature[i], courses.normal[i]
@@ -313,23 +331,20 @@ def _arcs(hole: WellboreSpec, courses: survey.Courses, md: Array) -> Array:
     half, length = 0.5 * pieces[:, contact.CURVATURE] * pieces[:, contact.LENGTH], pieces[:, contact.LENGTH]
     pieces[:, contact.HALF_COS] = np.cos(half)
     pieces[:, contact.HALF_SINE] = 0.5 * length * np.sinc(half / np.pi)
-    middle = np.concatenate([md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]])
-    _wall_columns(hole, pieces, middle)
-    _lead_into_next(hole, pieces, md, middle)
     return pieces
 
 
-def _lead_into_next(hole: WellboreSpec, pieces: Array, md: Array, middle: Array) -> None:
+def _lead_into_next(pieces: Array, md: Array, middle: Array, intervals: Array, length: float) -> None:
     """Make the wall of the shoe pieces below each interval change linearly from its values to the next one's."""
     values = [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR]
     gains = [contact.RADIUS_GAIN, contact.STIFFNESS_GAIN, contact.FACTOR_GAIN]
     start = np.concatenate([md[:1], md])
-    for interval in hole.intervals[:-1]:
-        (shoe,) = np.nonzero((middle > interval.to_md) & (middle < interval.to_md + hole.overlap))
+    for to_md in intervals[:-1, TO_MD]:
+        (shoe,) = np.nonzero((middle > to_md) & (middle < to_md + length))
         if not len(shoe):
             continue
-        share = (start[shoe] - interval.to_md) / hole.overlap
+        share = (start[shoe] - to_md) / length
         for value, gain in zip(values, gains, strict=True):
             change = pieces[shoe, value] - pieces[shoe[0] - 1, value]
             pieces[shoe, value] -= (1 - share) * change
-            pieces[shoe, gain] = change / hole.overlap
+            pieces[shoe, gain] = change / length

@@ -11,6 +11,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String
 from fctd.results.profile import Loads, at_contacts, von_mises
 
@@ -86,20 +87,20 @@ def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:
 
 
 def string_notes(
-    string: String, loads: Loads, hookload: float, walls: Array, radius: Array, *, in_hole: bool = True
+    string: String, loads: Loads, hookload: float, walls: Walls, radius: Array, *, in_hole: bool = True
 ) -> tuple[Note, ...]:
     """Notes on a string: how deep it is in the wall, its stress, and what hangs on its top.
 
-    hookload [N]; walls (n, 7) : as of Wellbore.walls; radius (n,) : of the contact points [m]; in_hole : whether
+    hookload [N]; walls : beside the n contact points; radius (n,) : of the contact points [m]; in_hole : whether
     there is a wall.
     """
     found = [_penetration(walls, radius) if in_hole else None, _stress(string, loads, walls), _pull(string, hookload)]
     return tuple(note for note in found if note is not None)
 
 
-def _penetration(walls: Array, radius: Array) -> Note | None:
-    clearance = walls[:, 3] - radius
-    penetration = np.sqrt((walls[:, :3] ** 2).sum(axis=1)) - clearance
+def _penetration(walls: Walls, radius: Array) -> Note | None:
+    clearance = walls.radius - radius
+    penetration = np.sqrt((walls.offset**2).sum(axis=1)) - clearance
     if not penetration.max() > LEAST_PENETRATION:
         return None
     excess = penetration / np.clip(SHARE_OF_CLEARANCE * clearance, LEAST_PENETRATION, MOST_PENETRATION)
@@ -107,13 +108,13 @@ def _penetration(walls: Array, radius: Array) -> Note | None:
     if not excess[k] > 1:
         return None
     text = (
-        f"a contact point at {walls[k, 6]:.0f} m is {1e3 * penetration[k]:.3g} mm deep in the wall, "
+        f"a contact point at {walls.md[k]:.0f} m is {1e3 * penetration[k]:.3g} mm deep in the wall, "
         f"where the clearance is {1e3 * clearance[k]:.3g} mm"
     )
-    return _note("penetration", text, float(excess[k]), float(walls[k, 6]))
+    return _note("penetration", text, float(excess[k]), float(walls.md[k]))
 
 
-def _stress(string: String, loads: Loads, walls: Array) -> Note | None:
+def _stress(string: String, loads: Loads, walls: Walls) -> Note | None:
     # The largest loads taken together are a bound that no row of a healthy chart exceeds.
     tension = max(float(np.abs(loads.tension).max()), abs(loads.bit_tension))
     torque = max(float(np.abs(loads.torque).max()), abs(loads.bit_torque))
@@ -131,7 +132,7 @@ def _stress(string: String, loads: Loads, walls: Array) -> Note | None:
     k = int((stress / strength).argmax())
     if not stress[k] > strength[k]:
         return None
-    place = float(walls[k - 1, 6]) if k else string.top_md
+    place = float(walls.md[k - 1]) if k else string.top_md
     text = f"the stress at {place:.0f} m is {stress[k] / 1e6:.0f} MPa, the yield strength {strength[k] / 1e6:.0f} MPa"
     return _note("yield", text, float(stress[k] / strength[k]), place)
 

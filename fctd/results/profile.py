@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fctd.mechanics.query import Walls
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore, hole_frame
@@ -72,13 +73,13 @@ def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Lo
 
 
 def profile_table(
-    hole: Wellbore, string: String, mud_density: float, top: Array, points: Array, walls: Array, loads: Loads
+    hole: Wellbore, string: String, mud_density: float, top: Array, points: Array, walls: Walls, loads: Loads
 ) -> pd.DataFrame:
     """A row for the top and one per contact point.
 
-    top (3,), points (n, 3) : upper end and contact points [m]; walls (n, 7) : as of Wellbore.walls.
+    top (3,), points (n, 3) : upper end and contact points [m]; walls : beside them.
     """
-    offset, md = walls[:, :3], walls[:, 6]
+    offset, md = walls.offset, walls.md
     _, direction = hole.at(md)
     high, right = hole_frame(direction)
     up, aside = np.sum(offset * high, axis=1), np.sum(offset * right, axis=1)
@@ -93,7 +94,7 @@ def profile_table(
     # Buoyed weight carries effective tension; the steel's own follows from the pressure of equal mud inside
     # and outside.
     pressure, steel = mud_density * GRAVITY * np.append(top[2], points[:, 2]), np.pi * (outer**2 - inner**2)
-    clearance = walls[:, 3] - string.contact_radius()
+    clearance = walls.radius - string.contact_radius()
     sinusoidal, helical = buckling_limits(of("EI"), of("weight"), inclination, np.append(clearance[0], clearance))
     return pd.DataFrame(
         {

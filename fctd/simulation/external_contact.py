@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from fctd.mechanics import state
 from fctd.mechanics.contact import contact_point, store_wall
-from fctd.mechanics.dynamics import padded_columns, update_axes, update_loads, update_positions
+from fctd.mechanics.dynamics import move_bodies, padded_columns, update_axes, update_velocities
 from fctd.mechanics.jit import entry
+from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.moving_string import MovingString
 from fctd.mechanics.state import Laws
-from fctd.mechanics.topdrive import Motion
-from fctd.model.wellbore import Contacts, Wellbore
+from fctd.mechanics.topdrive import Motion, drive_top, move_top_drive
+from fctd.model.wellbore import FRICTION, RADIUS, STIFFNESS, TO_MD, Contacts, Wellbore
 
 Array = NDArray[np.float64]
 
@@ -50,14 +51,14 @@ def _store(S, n, radii, penetration, normal, md, wall):
         k = j - 1
         if penetration[k] > 0:
             i = 0
-            while i < last and md[k] > wall[i + 1, 0]:
+            while i < last and md[k] > wall[i + 1, TO_MD]:
                 i += 1
             below = min(i + 1, last)
-            span = wall[below, 0] - wall[i, 0]
-            v = min(max((md[k] - wall[i, 0]) / span, 0.0), 1.0) if span > 0 else 0.0
-            hole = wall[i, 1] + v * (wall[below, 1] - wall[i, 1])
-            stiffness = wall[i, 2] + v * (wall[below, 2] - wall[i, 2])
-            friction = wall[i, 3] + v * (wall[below, 3] - wall[i, 3])
+            span = wall[below, TO_MD] - wall[i, TO_MD]
+            v = min(max((md[k] - wall[i, TO_MD]) / span, 0.0), 1.0) if span > 0 else 0.0
+            hole = wall[i, RADIUS] + v * (wall[below, RADIUS] - wall[i, RADIUS])
+            stiffness = wall[i, STIFFNESS] + v * (wall[below, STIFFNESS] - wall[i, STIFFNESS])
+            friction = wall[i, FRICTION] + v * (wall[below, FRICTION] - wall[i, FRICTION])
             distance = hole - radii[k] + penetration[k]
             store_wall(
                 S, j, distance * normal[k, 0], distance * normal[k, 1], distance * normal[k, 2],
@@ -69,17 +70,21 @@ def _store(S, n, radii, penetration, normal, md, wall):
 
 @entry
 def _before(S, top, n, laws, motion, pipe, dt, points):
-    """The step up to the query: loads, and the points (n, 3) to ask about; returns feed and rotation."""
-    feed, rate = update_loads(S, top, padded_columns(n), laws, motion, pipe, dt)
+    """Stage 1 of ``dynamics.step``, and the points (n, 3) to ask about; returns feed and rotation."""
+    update_joint_loads(S, padded_columns(n), laws.joint_damping, dt)
+    feed, rate = drive_top(S, top, motion, pipe, dt)
     _points(S, n, points)
     return feed, rate
 
 
 @entry
 def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md, wall):
-    """The step after the query: walls, motion, top drive."""
+    """Stages 3 to 5 of ``dynamics.step`` with the queried walls."""
+    packed = padded_columns(n)
     _store(S, n, radii, penetration, normal, md, wall)
-    update_positions(S, top, padded_columns(n), laws, pipe, feed, rate, dt)
+    update_velocities(S, packed, laws, dt)
+    move_bodies(S, packed, dt)
+    move_top_drive(S, top, pipe, feed, rate, dt)
 
 
 class QueriedWall:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.moving_string import Sums
+from fctd.mechanics.query import Walls
 from fctd.model.operations import sensors
 from fctd.results import ledger
 from fctd.results.notes import Note, string_notes
@@ -118,10 +119,10 @@ class Recorder:
         run, n = self.run, self.run.segments
         place, arm = run.S[[state.X + n, state.Y + n, state.Z + n]], run.S[state.ARM_CONTACT + n]
         bit = place + arm * run.S[[state.AX + n, state.AY + n, state.AZ + n]]
-        return float(run.hole.walls(bit, run.owner[n : n + 1])[0, 6])
+        return float(run.hole.walls(bit, run.owner[n : n + 1]).md[0])
 
-    def _walls(self) -> tuple[Array, Array]:
-        """Contact points (n, 3) [m] and the walls beside them (Wellbore.walls)."""
+    def _walls(self) -> tuple[Array, Walls]:
+        """Contact points (n, 3) [m] and the walls beside them."""
         points = contact_points(self.run.S, self.run.segments)
         return points, self.run.hole.walls(points, self.run.owner[1 : self.run.segments + 1])
 

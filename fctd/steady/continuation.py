@@ -14,7 +14,7 @@ from fctd.mechanics.jit import entry, kernel
 from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import ARM_CONTACT, J_AXIAL, J_TRANSVERSE, MASS, TINY
 from fctd.steady.block_thomas import eliminate
-from fctd.steady.tangent import assemble
+from fctd.steady.tangent import SPIN, assemble, quaternion
 
 CONVERGED, MAX_ITERATIONS, NOT_FINITE, UNSOUND = range(4)
 
@@ -68,7 +68,7 @@ def allowed_share(S, n, P, X, pace):
     """Share of the step X (n + 1, 6) that moves no contact point sideways and turns no body too far."""
     share = 1.0
     for j in range(1, n + 1):
-        xx, xy, xz, yx, yy, yz, _, _, _ = rotation_columns(P[j, 3], P[j, 4], P[j, 5], P[j, 6])
+        xx, xy, xz, yx, yy, yz, _, _, _ = rotation_columns(*quaternion(P, j))
         arm, a, b = S[ARM_CONTACT + j], X[j, 3], X[j, 4]
         u = xx * X[j, 0] + xy * X[j, 1] + xz * X[j, 2] + arm * b
         v = yx * X[j, 0] + yy * X[j, 1] + yz * X[j, 2] - arm * a
@@ -83,10 +83,8 @@ def take_step(P, n, X, share):
     for j in range(1, n + 1):
         for i in range(3):
             P[j, i] += share * X[j, i]
-        P[j, 3], P[j, 4], P[j, 5], P[j, 6] = turned(
-            P[j, 3], P[j, 4], P[j, 5], P[j, 6], share * X[j, 3], share * X[j, 4], 0.0
-        )
-        P[j, 7] += share * X[j, 5]
+        P[j, 3], P[j, 4], P[j, 5], P[j, 6] = turned(*quaternion(P, j), share * X[j, 3], share * X[j, 4], 0.0)
+        P[j, SPIN] += share * X[j, 5]
 
 
 @entry

@@ -15,6 +15,7 @@ from fctd.case.load import DRILLING, Case, check_bit_depth, naming_file
 from fctd.case.units import bare
 from fctd.mechanics import state
 from fctd.mechanics.contact import START_MD
+from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String, check_fit, fill, lay_out
 from fctd.model.operations import SteadyRates, sensors, steady_rates
 from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
@@ -24,7 +25,25 @@ from fctd.steady import tangent
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, take_step
 from fctd.steady.first_guess import MD, NODE, guess
-from fctd.steady.tangent import POSE, Steady, assemble, frictionless_tangent, read_loads
+from fctd.steady.tangent import (
+    AXIAL_MOMENT,
+    CONTACT_COLUMNS,
+    FORCE,
+    JOINT_BENDING,
+    JOINT_COLUMNS,
+    JOINT_TENSION,
+    JOINT_TORQUE,
+    NORMAL_FORCE,
+    PLACE,
+    POSE,
+    QUATERNION,
+    R_FT,
+    R_MU_FN,
+    Steady,
+    assemble,
+    frictionless_tangent,
+    read_loads,
+)
 
 Array = NDArray[np.float64]
 
@@ -83,10 +102,9 @@ class Equilibrium:
     @cached_property
     def profile(self) -> pd.DataFrame:
         """The string from the top to the bit, a row per contact point; columns as of ``profile_table``."""
-        shape = self._shape
-        return profile_table(
-            shape.hole, shape.string, self.case.mud.density, shape.top, shape.contacts[:, :3], shape.walls, shape.loads
-        )
+        shape, mud = self._shape, self.case.mud.density
+        points = shape.contacts[:, PLACE]
+        return profile_table(shape.hole, shape.string, mud, shape.top, points, shape.walls, shape.loads)
 
     @cached_property
     def notes(self) -> tuple[Note, ...]:
@@ -115,15 +133,15 @@ class Shape:
     bit_torque: float
 
     @cached_property
-    def walls(self) -> Array:
-        """Walls (n, 7) beside the contact points, as of ``Wellbore.walls``."""
-        return self.hole.walls(self.contacts[:, :3], self.owner)
+    def walls(self) -> Walls:
+        """Walls beside the contact points."""
+        return self.hole.walls(self.contacts[:, PLACE], self.owner)
 
     @property
     def loads(self) -> Loads:
         """What the string carries."""
-        tension, torque, bending = self.joints.T
-        return Loads(tension, torque, bending, self.contacts[:, 3], self.bit_tension, self.bit_torque)
+        tension, torque, bending = (self.joints[:, column] for column in (JOINT_TENSION, JOINT_TORQUE, JOINT_BENDING))
+        return Loads(tension, torque, bending, self.contacts[:, NORMAL_FORCE], self.bit_tension, self.bit_torque)
 
 
 class Workspace:
@@ -144,11 +162,14 @@ class Workspace:
 
 
 class Solver:
-    """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth."""
+    """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
-    def __init__(self, case: Case) -> None:
+    hole : that of the case, where it is built already.
+    """
+
+    def __init__(self, case: Case, hole: Wellbore | None = None) -> None:
         self.case = case
-        self.hole = build_wellbore(case)
+        self.hole = build_wellbore(case) if hole is None else hole
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
         self.law = state.PAPER if case.contact.friction_law == "paper" else state.COULOMB
@@ -182,24 +203,24 @@ class Solver:
 
         w = self.work
         assemble(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, w.R, w.D, w.A, w.U)
-        joints, contacts = np.zeros((n + 1, 3)), np.zeros((n + 1, 6))
+        joints, contacts = np.zeros((n + 1, JOINT_COLUMNS)), np.zeros((n + 1, CONTACT_COLUMNS))
         read_loads(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, joints, contacts)
         top_axis = hole.at(np.array([string.top_md]))[1][0]
         # The half of a long segment that is not lumped below hangs on the top drive itself, in mud that resists it.
         half = 0.5 * string.length[0] if string.long_segment else 0.0
         held, resisted = half * (pipe.weight - pipe.mud_axial * rates.speed), half * pipe.mud_spin * rates.spin
-        hookload, torque = float(w.R[0, :3] @ top_axis) + held, resisted - float(w.R[0, 5])
-        joints[1, :2] += held, resisted
-        imbalance = float(np.linalg.norm(w.R[1 : n + 1, :3], axis=1).max())
+        hookload, torque = float(w.R[0, FORCE] @ top_axis) + held, resisted - float(w.R[0, AXIAL_MOMENT])
+        joints[1, [JOINT_TENSION, JOINT_TORQUE]] += held, resisted
+        imbalance = float(np.linalg.norm(w.R[1 : n + 1, FORCE], axis=1).max())
         # A string that lies level pulls neither way, to rounding.
         pushed = -hookload - case.rig.block_weight > n * allowed
         shape = Shape(
-            hole, string, w.P[0, :3].copy(), joints[1:], contacts[1:], state.row(w.S, state.RADIUS, n).copy(),
+            hole, string, w.P[0, PLACE].copy(), joints[1:], contacts[1:], state.row(w.S, state.RADIUS, n).copy(),
             w.owner[1 : n + 1].copy(), -weight_on_bit, laws.bit_torque,
         )  # fmt: skip
         status, message = self._judge(code, negative, pushed, shape, imbalance)
         indicator, drive = sensors(case, operation, hookload, torque)
-        normal, r_ft, r_mu_n = (float(contacts[:, k].sum()) for k in (3, 4, 5))
+        normal, r_ft, r_mu_n = (float(contacts[:, k].sum()) for k in (NORMAL_FORCE, R_FT, R_MU_FN))
         return Equilibrium(
             case, operation, bit_depth, status, message, iterations, hookload, torque, indicator, drive,
             normal, r_ft, r_mu_n, imbalance, shape,
@@ -265,7 +286,7 @@ class Solver:
             _, direction = self.hole.at(self.work.G[j - 1 : j, MD])
             (high,), (right,) = hole_frame(direction)
             towards = np.cos(component.toolface) * high + np.sin(component.toolface) * right
-            x, y, _ = tangent.in_frame(*self.work.P[j - 1, 3:7], *towards)
+            x, y, _ = tangent.in_frame(*self.work.P[j - 1, QUATERNION], *towards)
             half = 0.5 * component.bend
             kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
 
@@ -275,7 +296,7 @@ class Solver:
             return "not_finite", "a force is not finite"
         if self.geometry != state.OPEN:
             # Deeper in the wall than the hole's radius, as for a string in motion (faults.py).
-            outside = np.linalg.norm(shape.walls[:, :3], axis=1) + shape.radius > 2 * shape.walls[:, 3]
+            outside = np.linalg.norm(shape.walls.offset, axis=1) + shape.radius > 2 * shape.walls.radius
             if outside.any():
                 text = f"segment {int(np.argmax(outside)) + 1} lies deeper in the wall than the hole's radius"
                 return "diverged", f"{text}: a stiffer wall, or less load"

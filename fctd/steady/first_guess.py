@@ -25,6 +25,7 @@ from fctd.mechanics.state import (
     TRIBUTARY,
     WEIGHT,
 )
+from fctd.steady.tangent import SPIN, quaternion
 
 # Columns of what is known at a node, the lower end of a body: tension [N], torque [N m] just above it, offset
 # from the hole axis (global) [m], measured depth [m].
@@ -136,7 +137,7 @@ def lay_chain(S, n, C, geometry, G, seed, P):
         P[0, 3], P[0, 4], P[0, 5], P[0, 6] = (1 + az) / norm, -ay / norm, ax / norm, 0.0
     else:
         P[0, 3], P[0, 4], P[0, 5], P[0, 6] = 0.0, 1.0, 0.0, 0.0
-    P[0, 7] = 0.0
+    P[0, SPIN] = 0.0
     for j in range(1, n + 1):
         length = S[ARM_TOP + j] + S[ARM_BOTTOM + j]
         stretch = G[j - 1, TENSION] / S[K_AXIAL + j]
@@ -163,14 +164,14 @@ def lay_chain(S, n, C, geometry, G, seed, P):
         # The shortest rotation from the axis above to this one keeps the frame without twist.
         w = 1 + ax * bx + ay * by + az * bz
         cx, cy, cz = cross(ax, ay, az, bx, by, bz)
-        pw, px, py, pz = P[j - 1, 3], P[j - 1, 4], P[j - 1, 5], P[j - 1, 6]
+        pw, px, py, pz = quaternion(P, j - 1)
         qw = w * pw - cx * px - cy * py - cz * pz
         qx = w * px + cx * pw + cy * pz - cz * py
         qy = w * py - cx * pz + cy * pw + cz * px
         qz = w * pz + cx * py - cy * px + cz * pw
         norm = 1 / np.sqrt(qw * qw + qx * qx + qy * qy + qz * qz)
         P[j, 3], P[j, 4], P[j, 5], P[j, 6] = norm * qw, norm * qx, norm * qy, norm * qz
-        P[j, 7] = P[j - 1, 7] - G[j - 1, TORQUE] / S[K_TWIST + j]
+        P[j, SPIN] = P[j - 1, SPIN] - G[j - 1, TORQUE] / S[K_TWIST + j]
         x, y, z, ax, ay, az = nx, ny, nz, bx, by, bz
 
 

@@ -340,7 +340,7 @@ def _divided(case: Case, bit_depth: float) -> float:
 
 def _sharpest(case: Case) -> float:
     """The largest curvature of the hole [1/m]."""
-    stations = survey.to_radians(case.wellbore.read_stations())
+    stations = case.wellbore.trajectory
     return float((survey.dogleg(stations) / np.diff(stations[:, 0])).max())
 
 

@@ -38,7 +38,13 @@ from fctd.mechanics.state import (
 
 # Columns of a pose, one row a body, row 0 the top drive: centre of mass [m], frame without spin
 # (quaternion), spin about the own axis [rad].
-POSE = 8
+PLACE, QUATERNION, SPIN, POSE = slice(0, 3), slice(3, 7), 7, 8
+# Columns of the imbalance: force [N], global; moment [N m] in the frame of the body, the last about its axis.
+FORCE, AXIAL_MOMENT = slice(0, 3), 5
+# Columns of the loads of joints: tension [N], torque, bending moment [N m].
+JOINT_TENSION, JOINT_TORQUE, JOINT_BENDING, JOINT_COLUMNS = 0, 1, 2, 3
+# Columns of the loads of contact points, after their place [m], global: normal force [N], r F_t and r μ F_n [N m].
+NORMAL_FORCE, R_FT, R_MU_FN, CONTACT_COLUMNS = 3, 4, 5, 6
 STEP = 1e-30
 UNIT = 1 / STEP
 # Imaginary parts that step through the unknowns one by one.
@@ -62,6 +68,18 @@ class Steady(NamedTuple):
     bit_y: float
     bit_z: float
     bit_torque: float
+
+
+@inlined
+def place(P, j):
+    """Centre of mass of body j [m]."""
+    return P[j, 0], P[j, 1], P[j, 2]
+
+
+@inlined
+def quaternion(P, j):
+    """Frame of body j, without its spin."""
+    return P[j, 3], P[j, 4], P[j, 5], P[j, 6]
 
 
 @inlined
@@ -193,10 +211,10 @@ def differentiate_joint(S, j, P, kinks, L):
     bottom, top = S[ARM_BOTTOM + j - 1], S[ARM_TOP + j]
     ka, ks, kb, kt = S[K_AXIAL + j], S[K_SHEAR + j], S[K_BEND + j], S[K_TWIST + j]
     x, y, z = P[j, 0] - P[j - 1, 0], P[j, 1] - P[j - 1, 1], P[j, 2] - P[j - 1, 2]
-    aw, ax, ay, az = P[j - 1, 3], P[j - 1, 4], P[j - 1, 5], P[j - 1, 6]
-    bw, bx, by, bz = P[j, 3], P[j, 4], P[j, 5], P[j, 6]
+    aw, ax, ay, az = quaternion(P, j - 1)
+    bw, bx, by, bz = quaternion(P, j)
     kw, kx, ky, kz = kinks[j, 0], kinks[j, 1], kinks[j, 2], kinks[j, 3]
-    spin = P[j, 7] - P[j - 1, 7]
+    spin = P[j, SPIN] - P[j - 1, SPIN]
     for k in range(8):
         cw, cx, cy, cz = stepped(aw, ax, ay, az, complex(0.0, ONE_BY_ONE[3, k]), complex(0.0, ONE_BY_ONE[4, k]))
         dw, dx, dy, dz = stepped(bw, bx, by, bz, complex(0.0, ONE_BY_ONE[5, k]), complex(0.0, ONE_BY_ONE[6, k]))
@@ -238,8 +256,8 @@ def add_joint(S, j, P, kinks, R, D, A, U, L):
 @kernel
 def add_wall(S, j, P, C, owner, laws, R, D):
     """Add the wall beside contact point j to the forces out of balance and to the tangent."""
-    x, y, z = P[j, 0], P[j, 1], P[j, 2]
-    w, qx, qy, qz = P[j, 3], P[j, 4], P[j, 5], P[j, 6]
+    x, y, z = place(P, j)
+    w, qx, qy, qz = quaternion(P, j)
     arm = S[ARM_CONTACT + j]
     _, _, _, _, _, _, ax, ay, az = rotation_columns(w, qx, qy, qz)
     tx, ty, tz = x + arm * ax, y + arm * ay, z + arm * az
@@ -280,12 +298,12 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
         R[j, 2] += S[WEIGHT + j]
         # Mud drags a sliding string along its own axis and a turning one about it.
         drag = -S[MUD_AXIAL + j] * laws.speed
-        w, x, y, z = P[j, 3], P[j, 4], P[j, 5], P[j, 6]
+        w, x, y, z = quaternion(P, j)
         xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
         R[j, 0] += drag * zx
         R[j, 1] += drag * zy
         R[j, 2] += drag * zz
-        R[j, 5] -= S[MUD_SPIN + j] * laws.spin
+        R[j, AXIAL_MOMENT] -= S[MUD_SPIN + j] * laws.spin
         # A tilt (a, b) turns the axis by a (−y) + b x.
         for i, dx, dy in ((0, xx, yx), (1, xy, yy), (2, xz, yz)):
             D[j, i, 3] += drag * dy
@@ -297,11 +315,11 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
     R[n, 2] += laws.bit_z
     # The force acts at the bit, an arm away from the centre of the last body.
     arm = S[ARM_BOTTOM + n]
-    w, x, y, z = P[n, 3], P[n, 4], P[n, 5], P[n, 6]
+    w, x, y, z = quaternion(P, n)
     fa, fb, fc = in_frame(w, x, y, z, laws.bit_x, laws.bit_y, laws.bit_z)
     R[n, 3] -= arm * fb
     R[n, 4] += arm * fa
-    R[n, 5] -= laws.bit_torque
+    R[n, AXIAL_MOMENT] -= laws.bit_torque
     D[n, 3, 3] += arm * fc
     D[n, 4, 4] += arm * fc
 
@@ -317,29 +335,29 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
 def read_loads(S, n, P, kinks, C, owner, laws, joints, contacts):
     """Fill the loads of a steady string.
 
-    joints (n + 1, 3) : tension [N], torque [N m], bending moment [N m] of joint j.
-    contacts (n + 1, 6) : contact point [m], global; normal force [N], r F_t and r μ F_n [N m].
+    joints (n + 1, JOINT_COLUMNS), contacts (n + 1, CONTACT_COLUMNS) : columns above; row 0 is not used.
     """
     for j in range(1, n + 1):
-        aw, ax, ay, az = P[j - 1, 3], P[j - 1, 4], P[j - 1, 5], P[j - 1, 6]
-        bw, bx, by, bz = P[j, 3], P[j, 4], P[j, 5], P[j, 6]
+        aw, ax, ay, az = quaternion(P, j - 1)
+        bw, bx, by, bz = quaternion(P, j)
         _, _, _, _, _, _, ux, uy, uz = rotation_columns(aw, ax, ay, az)
         _, _, _, _, _, _, lx, ly, lz = rotation_columns(bw, bx, by, bz)
         qw, qx, qy, qz = times(aw, ax, ay, az, kinks[j, 0], kinks[j, 1], kinks[j, 2], kinks[j, 3])
         _, _, _, _, _, _, vx, vy, vz = rotation_columns(qw, qx, qy, qz)
         ex, ey, ez = P[j, 0] - P[j - 1, 0], P[j, 1] - P[j - 1, 1], P[j, 2] - P[j - 1, 2]
         dx, dy, dz = gap(ex, ey, ez, ux, uy, uz, lx, ly, lz, S[ARM_BOTTOM + j - 1], S[ARM_TOP + j])
-        twist = twist_angle(qw, qx, qy, qz, bw, bx, by, bz) + P[j, 7] - P[j - 1, 7]
+        twist = twist_angle(qw, qx, qy, qz, bw, bx, by, bz) + P[j, SPIN] - P[j - 1, SPIN]
         kb, kt = S[K_BEND + j], S[K_TWIST + j]
-        joints[j, 0] = joint_loads(vx, vy, vz, lx, ly, lz, dx, dy, dz, twist, S[K_AXIAL + j], S[K_SHEAR + j], kb, kt)[6]
-        joints[j, 1] = -kt * twist
+        loads = joint_loads(vx, vy, vz, lx, ly, lz, dx, dy, dz, twist, S[K_AXIAL + j], S[K_SHEAR + j], kb, kt)
+        joints[j, JOINT_TENSION] = loads[6]
+        joints[j, JOINT_TORQUE] = -kt * twist
         cx, cy, cz = cross(vx, vy, vz, lx, ly, lz)
-        joints[j, 2] = kb * np.arctan2(np.sqrt(cx * cx + cy * cy + cz * cz), vx * lx + vy * ly + vz * lz)
+        joints[j, JOINT_BENDING] = kb * np.arctan2(np.sqrt(cx * cx + cy * cy + cz * cz), vx * lx + vy * ly + vz * lz)
         arm = S[ARM_CONTACT + j]
         contacts[j, 0], contacts[j, 1], contacts[j, 2] = P[j, 0] + arm * lx, P[j, 1] + arm * ly, P[j, 2] + arm * lz
-        contacts[j, 3:] = 0.0
+        contacts[j, NORMAL_FORCE:] = 0.0
         if laws.geometry != OPEN:
-            loads = wall_loads(
+            wall = wall_loads(
                 C, owner[j], laws, P[j, 0], P[j, 1], P[j, 2], bw, bx, by, bz, arm, S[RADIUS + j], S[TRIBUTARY + j]
             )
-            contacts[j, 3], contacts[j, 4], contacts[j, 5] = loads[6], loads[7], loads[8]
+            contacts[j, NORMAL_FORCE], contacts[j, R_FT], contacts[j, R_MU_FN] = wall[6], wall[7], wall[8]

@@ -9,6 +9,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.units import FRICTION, bare
 from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.model.wellbore import build_wellbore
 from fctd.results.notes import codes_of
 from fctd.steady.equilibrium import Equilibrium, Solver
 
@@ -41,7 +42,11 @@ def torque_drag(
             raise InputError("at least one kind of operation", key="operation", value=[])
         rates = rates_of_all(case, kinds, speed, rpm)
         factors = _factors(friction)
-        solvers = [Solver(case if factor is None else with_friction(case, factor)) for factor in factors]
+        hole = build_wellbore(case)
+        solvers = [
+            Solver(case, hole) if factor is None else Solver(with_friction(case, factor), hole.with_friction(factor))
+            for factor in factors
+        ]
         rows = []
         for kind in kinds:
             for solver in solvers:

@@ -92,7 +92,7 @@ def pipe_and_hole(case: Case) -> tuple[Section, Surroundings]:
     if hole.stiffness_per_length is None:
         raise InputError("set, for planar finite elements", key="wellbore.stiffness_per_length")
     try:
-        axis = PlanarHole(hole.read_stations())
+        axis = PlanarHole(hole.trajectory)
     except ValueError as error:
         raise InputError(f"a planar hole, for finite elements: {error}", key="wellbore.stations") from None
     (section,), (interval,) = sections, hole.intervals

@@ -52,9 +52,9 @@ class _Surroundings(elastica.NoForces[Any]):
     def find(self, nodes: Array) -> None:
         """Update the wall's force on nodes (3, n + 1)."""
         walls = self.hole.walls(nodes.T, self.owner)
-        distance = np.sqrt((walls[:, :3] ** 2).sum(axis=1))
-        depth = np.maximum(distance - walls[:, 3] + self.radius, 0.0)
-        self.force[:] = -(self.stiffness * depth / np.maximum(distance, 1e-12)) * walls[:, :3].T
+        distance = np.sqrt((walls.offset**2).sum(axis=1))
+        depth = np.maximum(distance - walls.radius + self.radius, 0.0)
+        self.force[:] = -(self.stiffness * depth / np.maximum(distance, 1e-12)) * walls.offset.T
 
     def apply_forces(self, system: Any, time: Any = 0.0) -> None:
         """Add wall and weight to the rod's external forces (called by PyElastica)."""

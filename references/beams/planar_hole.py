@@ -32,22 +32,21 @@ class PlanarHole:
     """Stations joined by circular arcs in one plane, straight before the first and after the last."""
 
     def __init__(self, stations: Array) -> None:
-        """stations (n, 3) : measured depth [m], inclination and azimuth [deg].
+        """stations (n, 3) : measured depth [m], inclination and azimuth [rad].
 
         Raises ValueError when the hole leaves its plane, or turns by more than 90° between two directions: the
         planes that part one arc from the next would cut a far part of the hole.
         """
         md, inclination, azimuth = stations.T
         inclined = inclination > 0
-        if inclined.any() and np.ptp(azimuth[inclined] % 360) > 0:
+        if inclined.any() and np.ptp(azimuth[inclined] % (2 * np.pi)) > 0:
             raise ValueError("a planar hole has one azimuth")
-        if np.ptp(inclination) > 90:
+        if np.ptp(inclination) > np.pi / 2:
             raise ValueError("a planar hole may turn by at most 90 deg")
-        angle = np.radians(inclination)
         self.md = md
-        self.curvature = np.append(np.diff(angle) / np.diff(md), 0.0)
-        self.tangent = np.stack([np.cos(angle), np.sin(angle)])
-        self.normal = np.stack([-np.sin(angle), np.cos(angle)])
+        self.curvature = np.append(np.diff(inclination) / np.diff(md), 0.0)
+        self.tangent = np.stack([np.cos(inclination), np.sin(inclination)])
+        self.normal = np.stack([-np.sin(inclination), np.cos(inclination)])
         self.start = np.zeros((2, len(md)))
         self.start[0, 0] = md[0]
         steps = zip(*_arc(self.curvature[:-1], np.diff(md)), strict=True)

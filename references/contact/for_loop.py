@@ -5,7 +5,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from fctd.mechanics.contact import DIRECTION, LENGTH, START, contact_point, cylinder_wall, distance_along, store_wall
-from fctd.mechanics.dynamics import padded_columns, update_axes, update_loads, update_positions
+from fctd.mechanics.dynamics import padded_columns, step, update_axes
 from fctd.mechanics.state import RADIUS
 
 
@@ -50,19 +50,22 @@ def one_cylinder(
     return squares
 
 
+@njit(error_model="numpy")
+def find_walls(S, owner, n, packed, C, geometry):  # type: ignore[no-untyped-def]
+    """``contact.update_walls`` by the FOR-loop, which remembers no owner and knows cylinders alone."""
+    for j in range(1, n + 1):
+        x, y, z = contact_point(S, j)
+        i = for_loop_owner(C, x, y, z)
+        if i < 0:  # no cylinder, no wall
+            store_wall(S, j, 0.0, 0.0, 0.0, S[RADIUS + j] + 1.0, 0.0, 0.0)
+        else:
+            px, py, pz, hole, stiffness, friction, _md = cylinder_wall(C, i, x, y, z)
+            store_wall(S, j, px, py, pz, hole, stiffness, friction)
+
+
 @njit(error_model="numpy", cache=True)
 def advance_with_for_loop(S, top, n, C, laws, motion, pipe, dt, steps):  # type: ignore[no-untyped-def]
     """The engine's ``dynamics.advance``, compiled as a whole, with the FOR-loop in place of its search."""
-    packed = padded_columns(n)
-    update_axes(S, packed)
+    update_axes(S, padded_columns(n))
     for _ in range(steps):
-        feed, rate = update_loads(S, top, packed, laws, motion, pipe, dt)
-        for j in range(1, n + 1):
-            x, y, z = contact_point(S, j)
-            i = for_loop_owner(C, x, y, z)
-            if i < 0:  # no cylinder, no wall
-                store_wall(S, j, 0.0, 0.0, 0.0, S[RADIUS + j] + 1.0, 0.0, 0.0)
-            else:
-                px, py, pz, hole, stiffness, friction, _md = cylinder_wall(C, i, x, y, z)
-                store_wall(S, j, px, py, pz, hole, stiffness, friction)
-        update_positions(S, top, packed, laws, pipe, feed, rate, dt)
+        step(find_walls, S, top, None, n, C, laws, motion, pipe, dt)

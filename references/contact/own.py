@@ -13,7 +13,7 @@ from fctd.case.load import Case
 from fctd.case.specs import WellboreSpec
 from fctd.mechanics import contact
 from fctd.mechanics.state import ARCS
-from fctd.model.wellbore import Contacts, Wellbore, build_wellbore
+from fctd.model.wellbore import RADIUS, Contacts, Wellbore, build_wellbore
 from references.contact.for_loop import for_loop_owner
 
 Array = NDArray[np.float64]
@@ -92,7 +92,7 @@ class _Remembered:
         self.hole = hole
         self._owner = np.empty(0, np.int64)
         # Nothing of a string is this far outside its hole: the point has been exchanged for another [m].
-        self._wide = 2 * float(hole.intervals[:, 1].max())
+        self._wide = 2 * float(hole.intervals[:, RADIUS].max())
 
     def query(self, points: Array, radii: Array) -> Contacts:
         """See ``ContactMethod.query``."""

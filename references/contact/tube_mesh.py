@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 from fctd.case import units
 from fctd.case.errors import InputError, Table
 from fctd.case.load import Case
-from fctd.model.wellbore import RUN_OUT, Contacts, Wellbore, build_wellbore
+from fctd.model.wellbore import RADIUS, RUN_OUT, TO_MD, Contacts, Wellbore, build_wellbore
 from references.contact import import_optional
 
 Array = NDArray[np.float64]
@@ -135,7 +135,7 @@ def build_tube(case: Case, options: TubeOptions) -> Tube:
         )
     centres, across, aside = _ring_frames(hole, md)
     knots = hole.wall_along()
-    radius = np.interp(md, knots[:, 0], knots[:, 1])
+    radius = np.interp(md, knots[:, TO_MD], knots[:, RADIUS])
     angle = 2 * np.pi * np.arange(options.facets) / options.facets
     spokes = np.cos(angle)[:, None] * across[:, None] + np.sin(angle)[:, None] * aside[:, None]
     vertices = (centres[:, None] + radius[:, None, None] * spokes).reshape(-1, 3)
@@ -185,7 +185,7 @@ def _spacing(options: TubeOptions, curvature: Array | float) -> Array:
 
 def _ring_depths(hole: Wellbore, options: TubeOptions) -> Array:
     """Measured depths of the rings: ends of the pieces, changes of size, and enough between them."""
-    knots = hole.wall_along()[:, 0]
+    knots = hole.wall_along()[:, TO_MD]
     inside = knots[(knots > hole.md[0]) & (knots < hole.md[-1])]
     breaks = np.union1d(hole.md, inside)
     # Depths a rounding error apart would make triangles without area.

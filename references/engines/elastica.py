@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from fctd.case.errors import InputError, Table
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy
-from fctd.mechanics.query import query_walls
+from fctd.mechanics.query import WALL_COLUMNS, query_walls, walls_in
 from fctd.mechanics.topdrive import Motion, planned_speeds
 from fctd.simulation.run import Run
 from references.engines import StepOptions, check_coulomb, check_no_mud, need
@@ -83,7 +83,7 @@ class _Surroundings:
 
     def __init__(self, run: Run) -> None:
         n = run.segments
-        self.run, self.owner, self.walls = run, run.owner[1 : n + 1].copy(), np.empty((n, 7))
+        self.run, self.owner, self.walls = run, run.owner[1 : n + 1].copy(), np.empty((n, WALL_COLUMNS))
         # A long segment hangs half by its lower end, like any other element by its two nodes.
         weight = run.string.of("weight") * _lengths(run)
         self.weight = 0.5 * (np.append(weight, 0.0) + np.append(0.0, weight))
@@ -188,13 +188,14 @@ class _Stepper:
         turning = 0.5 * (inertia * rod.omega_collection**2).sum()
         contact = 0.0
         if run.laws.geometry != state.OPEN:
-            n, walls = run.segments, self._around.walls
+            n = run.segments
             query_walls(
                 run.hole.pieces, run.laws.geometry, np.ascontiguousarray(rod.position_collection[:, 1:].T),
-                self._around.owner, walls,
+                self._around.owner, self._around.walls,
             )  # fmt: skip
-            depth = np.linalg.norm(walls[:, :3], axis=1) - walls[:, 3] + state.row(run.S, state.RADIUS, n)
-            stiffness = walls[:, 4] * state.row(run.S, state.TRIBUTARY, n)
+            walls = walls_in(self._around.walls)
+            depth = np.linalg.norm(walls.offset, axis=1) - walls.radius + state.row(run.S, state.RADIUS, n)
+            stiffness = walls.stiffness * state.row(run.S, state.TRIBUTARY, n)
             contact = 0.5 * float((stiffness * np.maximum(depth, 0.0) ** 2).sum())
         gravity = -float(self._around.weight @ rod.position_collection[2])
         return Energy(float(moving + turning), gravity, float(stretch + bend), contact)

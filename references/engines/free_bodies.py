@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from fctd.case import units
 from fctd.case.errors import InputError
 from fctd.mechanics import state
-from fctd.mechanics.dynamics import padded_columns, update_axes, update_loads
+from fctd.mechanics.dynamics import padded_columns, update_axes
 from fctd.mechanics.energy import Energy, energy_of
+from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.rotations import rotation_columns
-from fctd.mechanics.topdrive import Motion, move_top_drive
+from fctd.mechanics.topdrive import Motion, drive_top, move_top_drive
 from fctd.model.wellbore import LONGEST_CYLINDER
 from fctd.simulation.run import Run
 from references.contact.tube_mesh import Tube, TubeOptions, build_tube, curvature_at
@@ -85,7 +86,8 @@ def tube_of(run: Run, options: FreeBodyOptions) -> Tube | None:
 def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untyped-def]
     """Loads of the present poses; out (n, 6) force and moment about the centre of mass; returns feed and rotation."""
     update_axes(S, padded_columns(n))
-    feed, rate = update_loads(S, top, padded_columns(n), laws, motion, pipe, dt)
+    update_joint_loads(S, padded_columns(n), laws.joint_damping, dt)
+    feed, rate = drive_top(S, top, motion, pipe, dt)
     for j in range(1, n + 1):
         fx, fy, fz = state.joint_force(S, j)
         gx, gy, gz = state.joint_force(S, j + 1)

@@ -7,6 +7,8 @@ written in millimetres.  ``naive`` : lengths by s and nothing else.
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from fctd.case.load import Case
 
 SCALE = 1e-3
@@ -41,10 +43,11 @@ def scaled(case: Case, reading: str, scale: float = SCALE) -> Case:
 
     raw = case.model_dump(exclude_none=True, exclude={"file"})
     hole = raw["wellbore"]
-    hole.pop("survey", None)
-    hole.pop("columns", None)
-    stations = case.wellbore.read_stations().tolist()
-    hole["stations"] = [[md * by.length, inclination, azimuth] for md, inclination, azimuth in stations]
+    if hole.pop("survey", None) is not None:
+        hole.pop("columns", None)
+        md, *angles = case.wellbore.trajectory.T
+        hole["stations"] = np.column_stack([md, *np.degrees(angles)]).tolist()
+    hole["stations"] = [[md * by.length, inclination, azimuth] for md, inclination, azimuth in hole["stations"]]
     # Intervals and components are tuples of tables; every key below is a length [m].
     for table in (hole, *hole["intervals"], raw["string"], *raw["string"]["components"], *raw["operations"]):
         for key in LENGTHS & table.keys():

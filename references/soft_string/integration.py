@@ -189,7 +189,7 @@ def _divide(piece: Piece, element: float) -> Array:
 def _pieces(case: Case, operation: str, bit_depth: float, speed: float | None, rpm: float | None) -> list[Piece]:
     """Smooth pieces of hole and string from top to bit."""
     motion = motion_of(case, operation, speed, rpm)
-    stations = case.wellbore.read_stations()[:, 0]
+    stations = case.wellbore.trajectory[:, 0]
     to_md = np.array([interval.to_md for interval in case.wellbore.intervals])
     bottom = min(stations[-1], to_md[-1])
     if not (np.isfinite(bit_depth) and bit_depth <= bottom + SAME_DEPTH):
@@ -213,7 +213,7 @@ def _pieces(case: Case, operation: str, bit_depth: float, speed: float | None, r
 
 def _axis(case: Case) -> Axis:
     """Tangent of the hole itself, not of the cylinders that stand for it, and its derivative [1/m]."""
-    stations = survey.to_radians(case.wellbore.read_stations())
+    stations = case.wellbore.trajectory
     if case.wellbore.survey_method == "minimum_curvature":
         try:
             courses = survey.minimum_curvature(stations)

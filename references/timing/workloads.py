@@ -19,7 +19,7 @@ from fctd.mechanics.contact import update_walls
 from fctd.mechanics.dynamics import padded_columns
 from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.moving_string import STILL
-from fctd.mechanics.query import query_walls
+from fctd.mechanics.query import WALL_COLUMNS, query_walls
 from fctd.mechanics.topdrive import Motion
 from fctd.model.wellbore import Contacts
 from fctd.results import ledger
@@ -109,7 +109,7 @@ def free_query(run: Run) -> Callable[[int], None]:
     """What asks so many times for the wall beside all contact points of a run, as of free points that remember."""
     n = run.segments
     points = np.ascontiguousarray(contact_points(run.S, n))
-    owner, out = run.owner[1 : n + 1].copy(), np.empty((n, 7))
+    owner, out = run.owner[1 : n + 1].copy(), np.empty((n, WALL_COLUMNS))
 
     def ask(times: int) -> None:
         for _ in range(times):

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fctd.case.errors import MISSING, InputError
-from fctd.case.survey_file import StationKey, check_stations, read_stations
+from fctd.case.survey_file import StationKey, check_stations, read_stations, to_radians
 
 DATA = Path(os.environ.get("FCTD_DATA", Path(__file__).parents[2] / ".." / "shared" / "data"))
 
@@ -44,12 +44,12 @@ def refusal(path: Path, columns: dict[StationKey, str] | None = None) -> InputEr
 def test_metres_and_degrees(write: Write) -> None:
     stations = read_stations(write("md_m,inc_deg,azi_deg", "0,0,0", "10.5,1.5,359"))
     assert stations.dtype == np.float64
-    assert stations.tolist() == [[0, 0, 0], [10.5, 1.5, 359]]
+    assert stations.tolist() == [[0, 0, 0], [10.5, math.radians(1.5), pytest.approx(math.radians(-1), rel=1e-13)]]
 
 
 def test_feet_and_radians_in_any_order_and_case(write: Write) -> None:
     stations = read_stations(write("AZI_RAD, Note ,Inc_Rad,MD_FT", "0,a,0,0", "1,b,0.5,100"))
-    assert stations[1] == pytest.approx([30.48, math.degrees(0.5), math.degrees(1)], rel=1e-14)
+    assert stations[1] == pytest.approx([30.48, 0.5, 1], rel=1e-14)
 
 
 @pytest.mark.parametrize("header", ["Measured Depth ( ft )", "Measured Depth (FT)", "depth_ft", "MD_FT"])
@@ -78,7 +78,7 @@ def test_repeats_never_change_what_remains(steps: list[float], repeats: list[int
     stations = np.column_stack([md, np.minimum(md, 180), -md % 360])
     repeated = np.repeat(stations, repeats[: len(md)], axis=0)
     checked = check_stations(repeated, lambda row, column: (f"[{row}][{column}]", MISSING))
-    assert np.array_equal(checked, stations)
+    assert np.array_equal(checked, to_radians(stations))
 
 
 # --- what is refused -------------------------------------------------------------------------------
@@ -220,4 +220,5 @@ def test_real_surveys(
         pytest.skip(f"{DATA / name} is missing: public well surveys, folder from FCTD_DATA, see README")
     stations = read_stations(DATA / name, columns)
     assert len(stations) == count
-    assert stations[-1] == pytest.approx(last, rel=1e-12)
+    md, inclination, azimuth = stations[-1]
+    assert (md, np.degrees(inclination), np.degrees(azimuth) % 360) == pytest.approx(last, rel=1e-12)

@@ -2,6 +2,7 @@
 
 import json
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -58,6 +59,51 @@ def case_file(tmp_path: Path) -> Path:
 def settings(*changes: str) -> list[str]:
     """The options that make these changes."""
     return [part for change in changes for part in ("--set", change)]
+
+
+COUNT_READS = """
+import sys
+
+survey, *arguments = sys.argv[1:]
+reads = 0
+
+def count(event, what):
+    global reads
+    reads += event == "open" and what[0] == survey
+
+sys.addaudithook(count)
+import fctd
+from fctd.cli.main import main
+
+case = fctd.load_case(arguments[1])
+fctd.torque_drag(case, ["trip_in", "trip_out", "rotate_off_bottom"], [600, 700], [0.1, 0.3])
+fctd.equilibrium(case, "trip_in", 700)
+print("reads", reads, file=sys.stderr)
+reads = 0
+try:
+    sys.argv = ["fctd", *arguments]
+    main()
+finally:
+    print("reads", reads, file=sys.stderr)
+"""
+
+
+def test_a_chart_reads_its_survey_once(tmp_path: Path) -> None:
+    """Whatever the number of operations and friction factors, and with pictures and tables."""
+    survey, case_file = tmp_path / "survey.csv", tmp_path / "tiny.toml"
+    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n100,0,0\n550,90,0\n900,90,0\n")
+    stations = "stations = [[0, 0, 0], [100, 0, 0], [550, 90, 0], [900, 90, 0]]"
+    case_file.write_text(CASE.replace(stations, 'survey = "survey.csv"'))
+    kinds = [word for kind in ("trip_in", "trip_out", "rotate_off_bottom") for word in ("--operation", kind)]
+    done = subprocess.run(
+        [sys.executable, "-c", COUNT_READS, str(survey), "chart", str(case_file), *kinds, "--depths", "600:700:50",
+         "--friction", "0.1", "--friction", "0.3", "--out", str(tmp_path / "chart.csv"),
+         "--plot-profile", str(tmp_path / "profile.svg"), "--quiet"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert [line for line in done.stderr.splitlines() if line.startswith("reads")] == ["reads 1", "reads 1"]
+    assert (tmp_path / "profile.svg").is_file()
 
 
 def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(

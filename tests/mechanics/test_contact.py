@@ -51,10 +51,10 @@ def test_bodies_carried_along_see_the_walls_that_free_points_see(geometry: str, 
         contact.update_walls(S, owner, n, packed, hole.pieces, hole.geometry)
         expected = hole.walls(points, owner[1 : n + 1])
         found = np.stack([state.row(S, row, n) for row in (*TO_WALL, state.HOLE)], axis=1)
-        np.testing.assert_allclose(found, expected[:, :4], atol=1e-11)
-        np.testing.assert_allclose(state.row(S, state.K_WALL, n), expected[:, 4] * share, rtol=1e-12)
-        np.testing.assert_allclose(state.row(S, state.FRICTION, n), expected[:, 5], rtol=1e-12)
-        np.testing.assert_allclose(expected[:, 6], md, atol=0.02)
+        np.testing.assert_allclose(found, np.column_stack(expected[:2]), atol=1e-11)
+        np.testing.assert_allclose(state.row(S, state.K_WALL, n), expected.stiffness * share, rtol=1e-12)
+        np.testing.assert_allclose(state.row(S, state.FRICTION, n), expected.friction, rtol=1e-12)
+        np.testing.assert_allclose(expected.md, md, atol=0.02)
         followed += int((state.row(S, state.SLACK, n) > 0).sum())
     assert followed > 0.4 * n * (k + 1)  # most need no search
 

@@ -198,7 +198,7 @@ def test_a_run_follows_its_laws(geometry: int, law: int, pressed: bool, rubbed: 
     S[state.K_WALL + 1], S[state.FRICTION + 1] = STIFFNESS, 0.25
     put(S, 1, TO_WALL, [HOLE - RADIUS + 2e-3, 0, 0])
     put(S, 1, VELOCITY, [0, 0.5, 0])
-    dynamics.update_motion(S, state.LANES, Laws(geometry, law, 1.0, 0.0, 0.0, 0.0), DT)
+    dynamics.update_velocities(S, state.LANES, Laws(geometry, law, 1.0, 0.0, 0.0, 0.0), DT)
     x, y, z = at(S, 1, VELOCITY)
     impulse = DT * STIFFNESS * 2e-3
     assert x == pytest.approx(-impulse / MASS if pressed else 0.0)

@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.case.survey_file import read_stations
+from fctd.case.survey_file import read_stations, to_radians
 from fctd.model import survey
 from validation.harness.study import data_folder
 
 
 def test_average_angle_is_the_paper_eqs_21_to_23() -> None:
-    stations = survey.to_radians(np.array([[0, 0, 0], [100, 10, 30], [200, 30, 60.0]]))
+    stations = to_radians(np.array([[0, 0, 0], [100, 10, 30], [200, 30, 60.0]]))
     a1, a2 = np.radians(5), np.radians(20)
     e1, e2 = np.radians(15), np.radians(45)
     north = 100 * (np.sin(a1) * np.cos(e1) + np.sin(a2) * np.cos(e2))
@@ -48,7 +48,7 @@ def test_both_methods_converge_to_each_other() -> None:
 
 
 def test_azimuth_runs_through_north_the_short_way() -> None:
-    stations = survey.to_radians(np.array([[0, 60, 350], [100, 60, 10.0]]))
+    stations = to_radians(np.array([[0, 60, 350], [100, 60, 10.0]]))
     assert np.degrees(stations[1, 2]) == pytest.approx(370)
     assert survey.average_angle(stations)[-1, 1] == pytest.approx(0, abs=1e-12)
 
@@ -63,7 +63,7 @@ def test_dogleg_keeps_its_precision_at_small_angles(inclination: float, azimuth:
 @pytest.mark.parametrize("azimuth", [0.0, 45.0, 90.0, 180.0, 270.0])
 @pytest.mark.parametrize("inclination", [0.0, 45.0, 90.0, 180.0])
 def test_a_straight_course_has_a_normal_too(inclination: float, azimuth: float) -> None:
-    stations = survey.to_radians(np.array([[0, inclination, azimuth], [100, inclination, azimuth]]))
+    stations = to_radians(np.array([[0, inclination, azimuth], [100, inclination, azimuth]]))
     courses = survey.minimum_curvature(stations)
     assert np.linalg.norm(courses.normal[0]) == pytest.approx(1.0, abs=1e-12)
     assert courses.normal[0] @ courses.tangent[0] == pytest.approx(0.0, abs=1e-12)
@@ -73,7 +73,7 @@ def test_a_straight_course_has_a_normal_too(inclination: float, azimuth: float) 
 
 
 def test_opposite_directions_have_no_arc() -> None:
-    stations = survey.to_radians(np.array([[0, 90, 0], [100, 90, 180.0]]))
+    stations = to_radians(np.array([[0, 90, 0], [100, 90, 180.0]]))
     with pytest.raises(ValueError, match="opposite directions at station 1"):
         survey.minimum_curvature(stations)
 
@@ -105,6 +105,6 @@ def computed(name: str, columns: dict[str, str] | None) -> tuple[np.ndarray, pd.
     """Positions by minimum curvature, and the published table."""
     folder = data_folder()
     assert folder is not None
-    stations = survey.to_radians(read_stations(folder / "surveys" / name, columns))
+    stations = read_stations(folder / "surveys" / name, columns)
     points, _ = survey.along_courses(survey.minimum_curvature(stations), stations[:, 0])
     return points, pd.read_csv(folder / "surveys" / name)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from fctd import find_contacts
 from fctd.case.errors import InputError
+from fctd.case.survey_file import to_radians
 from fctd.mechanics import contact
 from fctd.model import survey
 from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
@@ -216,9 +217,9 @@ def test_intervals_set_size_and_friction_and_the_boundary_is_a_piece_end() -> No
         hole = hole_of([[0, 0, 0], [400, 0, 0], [1000, 40, 0]], intervals=intervals, geometry=geometry)
         assert 512.5 in hole.md
         walls = hole.walls(hole.at(np.array([300.0, 512.0, 514.0]))[0])
-        np.testing.assert_allclose(walls[:, 3], [0.16, 0.16, 0.10795])
-        np.testing.assert_allclose(walls[:, 4], [1e7, 1e7, 5e6])
-        np.testing.assert_allclose(walls[:, 5], [0.1, 0.1, 0.3])
+        np.testing.assert_allclose(walls.radius, [0.16, 0.16, 0.10795])
+        np.testing.assert_allclose(walls.stiffness, [1e7, 1e7, 5e6])
+        np.testing.assert_allclose(walls.friction, [0.1, 0.1, 0.3])
 
 
 @pytest.mark.parametrize(("geometry", "station"), [("cylinders", 505.0), ("arcs", 505.0), ("arcs", 500.1)])
@@ -234,9 +235,9 @@ def test_the_wall_leads_from_one_size_of_hole_to_the_next(geometry: str, station
     axis, direction = hole.at(md)
     walls = hole.walls(axis + 0.05 * hole_frame(direction)[1])
     share = np.clip((md - 500) / 0.2, 0, 1)
-    np.testing.assert_allclose(walls[:, 3], 0.16 - 0.05 * share, atol=1e-4)
-    np.testing.assert_allclose(walls[:, 4], 2e7 - 1e7 * share, rtol=1e-3)
-    np.testing.assert_allclose(walls[:, 5], 0.1 + 0.2 * share, atol=1e-3)
+    np.testing.assert_allclose(walls.radius, 0.16 - 0.05 * share, atol=1e-4)
+    np.testing.assert_allclose(walls.stiffness, 2e7 - 1e7 * share, rtol=1e-3)
+    np.testing.assert_allclose(walls.friction, 0.1 + 0.2 * share, atol=1e-3)
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
@@ -290,7 +291,7 @@ def test_below_the_last_interval_the_hole_stays_as_it_is(geometry: str) -> None:
     ]
     hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry=geometry)
     walls = hole.walls(hole.at(np.array([200.0, 499.0, 501.0, 999.0]))[0])
-    np.testing.assert_allclose(walls[:, 3:6], [[0.16, 1e7, 0.1], *[[0.10795, 5e6, 0.3]] * 3])
+    np.testing.assert_allclose(np.stack(walls[1:4], axis=1), [[0.16, 1e7, 0.1], *[[0.10795, 5e6, 0.3]] * 3])
 
 
 def test_arcs_lead_through_every_size_of_hole() -> None:
@@ -298,15 +299,15 @@ def test_arcs_lead_through_every_size_of_hole() -> None:
     intervals = [{"to_md": to_md, "diameter": diameter, "friction": friction} for to_md, diameter, friction in sizes]
     hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry="arcs", overlap=0.2)
     walls = hole.walls(hole.at(np.array([399.9, 400.1, 400.3, 599.9, 600.05, 600.3]))[0])
-    np.testing.assert_allclose(walls[:, 3], [0.16, 0.15, 0.14, 0.14, 0.1325, 0.11], atol=1e-9)
-    np.testing.assert_allclose(walls[:, 5], [0.1, 0.15, 0.2, 0.2, 0.225, 0.3], atol=1e-9)
+    np.testing.assert_allclose(walls.radius, [0.16, 0.15, 0.14, 0.14, 0.1325, 0.11], atol=1e-9)
+    np.testing.assert_allclose(walls.friction, [0.1, 0.15, 0.2, 0.2, 0.225, 0.3], atol=1e-9)
 
 
 def test_arcs_without_a_shoe_change_at_once() -> None:
     intervals = [{"to_md": 500, "diameter": 0.32, "friction": 0.1}, {"to_md": 1000, "diameter": 0.22, "friction": 0.3}]
     hole = hole_of([[0, 0, 0], [1000, 30, 0]], intervals=intervals, geometry="arcs", overlap=0.0)
     walls = hole.walls(hole.at(np.array([499.99, 500.01]))[0])
-    np.testing.assert_allclose(walls[:, [3, 5]], [[0.16, 0.1], [0.11, 0.3]])
+    np.testing.assert_allclose(np.stack([walls.radius, walls.friction], axis=1), [[0.16, 0.1], [0.11, 0.3]])
 
 
 def test_cylinders_of_straight_hole_are_no_longer_than_thirty_metres() -> None:
@@ -397,6 +398,31 @@ def test_average_angle_hole_follows_interpolated_angles() -> None:
     stations = [[0, 0, 0], [500, 90, 0]]
     radius = 500 / (np.pi / 2)
     fine = hole_of(stations, survey_method="average_angle", cylinder_length=1.0)
-    bare = survey.average_angle(survey.to_radians(np.array(stations, dtype=float)))[-1]
+    bare = survey.average_angle(to_radians(np.array(stations, dtype=float)))[-1]
     assert fine.points[-1, 2] == pytest.approx(radius, abs=0.01)
     assert abs(bare[2] - radius) > 10
+
+
+SHOES = [
+    {"to_md": 200.0, "diameter": 0.3112, "friction": 0.2},
+    {"to_md": 500.05, "diameter": 0.25, "friction": 0.3, "stiffness": 3e7},
+    {"to_md": 500.1, "diameter": 0.24, "friction": 0.1},  # shorter than the overlap
+    {"to_md": 900.0, "diameter": 0.2159, "friction": 0.25},
+]
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+@pytest.mark.parametrize("factors", [0.4, [0.1, 0.5, 0.0, 0.3]])
+def test_another_friction_is_the_hole_that_a_fresh_build_gives(geometry: str, factors: float | list[float]) -> None:
+    stations = [[0, 0, 350], [100, 0, 350], [400, 60, 10], [700, 80, 60], [900, 80, 60]]
+    here = hole_of(stations, geometry=geometry, intervals=SHOES)
+    before = here.pieces.copy()
+    each = np.broadcast_to(factors, len(SHOES)).tolist()
+    intervals = [interval | {"friction": factor} for interval, factor in zip(SHOES, each, strict=True)]
+    fresh, found = hole_of(stations, geometry=geometry, intervals=intervals), here.with_friction(factors)
+    for name in ("pieces", "md", "points", "directions", "intervals"):
+        assert getattr(found, name).tobytes() == getattr(fresh, name).tobytes(), name
+    assert found.wall_along().tobytes() == fresh.wall_along().tobytes()
+    assert found.points is here.points
+    assert here.pieces.tobytes() == before.tobytes()
+    assert (found.pieces[:, contact.FACTOR] != before[:, contact.FACTOR]).any()

@@ -231,7 +231,7 @@ def test_a_run_knows_the_pieces_its_points_lie_in() -> None:
     # Laid unstretched on the axis: ends of segments on it, each a segment's length from the one above.
     np.testing.assert_allclose(np.linalg.norm(np.diff(points, axis=0), axis=1), run.string.length[1:], atol=1e-9)
     walls = run.hole.walls(points)
-    np.testing.assert_allclose(np.linalg.norm(walls[:, :3], axis=1), 0.0, atol=5e-3)
+    np.testing.assert_allclose(np.linalg.norm(walls.offset, axis=1), 0.0, atol=5e-3)
 
 
 def test_a_string_settles_against_its_own_weight_and_length() -> None:

@@ -14,7 +14,7 @@ from fctd.mechanics.rotations import turned
 from fctd.mechanics.state import LANES, Laws
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
-from fctd.steady.tangent import Steady, assemble
+from fctd.steady.tangent import QUATERNION, SPIN, Steady, assemble
 from tests.cases import make_case, pipe
 
 Array = NDArray[np.float64]
@@ -78,7 +78,7 @@ def test_tangent_is_the_derivative_of_the_forces(geometry: str, law: str, kind: 
     P = w.P[: n + 1].copy()
     for j in range(1, n + 1):
         P[j, :3] += 1e-4 * rng.normal(size=3)
-        P[j, 3:7] = turned(*P[j, 3:7], *(1e-3 * rng.normal(size=2)), 0.0)
+        P[j, QUATERNION] = turned(*P[j, QUATERNION], *(1e-3 * rng.normal(size=2)), 0.0)
     R, (D, A, U) = np.zeros((n + 1, 6)), np.zeros((3, n + 1, 6, 6))
 
     def forces(pose: Array) -> Array:
@@ -122,7 +122,7 @@ def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, ge
     S = w.S.copy()
     for k, offset in enumerate((state.X, state.Y, state.Z, state.QW, state.QX, state.QY, state.QZ)):
         S[offset : offset + n + 1] = w.P[: n + 1, k]
-    S[state.TURNS + 1 : state.TURNS + n + 1] = np.diff(w.P[: n + 1, 7])
+    S[state.TURNS + 1 : state.TURNS + n + 1] = np.diff(w.P[: n + 1, SPIN])
     packed = (n + LANES - 1) // LANES * LANES
     dynamics.update_axes(S, packed)
     # So slow that the stepper's own turning with the hole costs nothing, and never near the clamp.
@@ -137,7 +137,7 @@ def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, ge
     before = S.copy()
     update_joint_loads(S, packed, 0.0, dt)
     update_walls(S, w.owner, n, packed, solver.hole.pieces, solver.geometry)
-    dynamics.update_motion(S, packed, laws, dt)
+    dynamics.update_velocities(S, packed, laws, dt)
     weight = float(state.row(S, state.WEIGHT, n).sum())
     for velocity in (state.VX, state.VY, state.VZ):
         change = state.row(S, velocity, n) - state.row(before, velocity, n)

@@ -60,8 +60,8 @@ def _compare(count: int) -> dict[str, Any]:
     rod = rest(hole, pipe, TOP, BIT, count, stiffness, damping=10.0, tolerance=TOLERANCE, longest=30.0)
     force = np.linalg.norm(rod.wall_force[1:], axis=1)
     walls = hole.walls(rod.nodes[1:])
-    high, right = hole_frame(hole.at(walls[:, 6])[1])
-    offset = np.stack([(walls[:, :3] * high).sum(axis=1), (walls[:, :3] * right).sum(axis=1)], axis=1)
+    high, right = hole_frame(hole.at(walls.md)[1])
+    offset = np.stack([(walls.offset * high).sum(axis=1), (walls.offset * right).sum(axis=1)], axis=1)
     mine = result.profile.iloc[1:]
     own = mine["contact_force_N"].to_numpy()
     away = np.linalg.norm(mine[["offset_high_m", "offset_right_m"]].to_numpy() - offset, axis=1)

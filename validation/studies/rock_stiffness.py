@@ -52,7 +52,7 @@ def in_a_sharp_bend(decades: NDArray[np.float64]) -> pd.DataFrame:
     rows = []
     for decade in decades[::-1]:
         case = case_of(PIPE, LIMIT, NARROW, wall=float(10**decade))
-        solver, bit = Solver(case), float(case.wellbore.read_stations()[-1, 0])
+        solver, bit = Solver(case), float(case.wellbore.trajectory[-1, 0])
         pulled = solver.solve("trip_out", steady_rates(case, "trip_out"), bit)
         turned = solver.solve("rotate_off_bottom", steady_rates(case, "rotate_off_bottom"), bit)
         rows.append(

@@ -120,7 +120,7 @@ def _string(case: Case, above: Array, z: Array, x: Array) -> pd.DataFrame:
 
 
 def _hole(case: Case) -> PlanarHole:
-    return PlanarHole(case.wellbore.read_stations())
+    return PlanarHole(case.wellbore.trajectory)
 
 
 def _history(time: Array, force: Array, md: Array, case: Case) -> pd.DataFrame:

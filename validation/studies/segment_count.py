@@ -190,7 +190,7 @@ def enough(table: pd.DataFrame) -> pd.DataFrame:
 def vary_cylinders(name: str, lengths: Sequence[float]) -> pd.DataFrame:
     """Errors of one string in ever longer cylinders against the same string in the exact arcs."""
     of, arcs = WELLS[name], WELLS[name].case(IN_CYLINDERS, {"geometry": "arcs"})
-    stations = survey.to_radians(arcs.wellbore.read_stations())
+    stations = arcs.wellbore.trajectory
     sharpest = float((survey.dogleg(stations) / np.diff(stations[:, 0])).max())
     widest = max(component.contact_diameter for component in arcs.string.components)
     clearance = 0.5 * (min(interval.diameter for interval in arcs.wellbore.intervals) - widest)

@@ -52,7 +52,7 @@ def compare(
 ) -> list[dict[str, Any]]:
     """A row for each operation: by how much the stiff string's loads exceed the soft one's."""
     case = case_of(string, severity, clearance, straight, piece)
-    solver, bit = Solver(case), case.wellbore.read_stations()[-1, 0]
+    solver, bit = Solver(case), case.wellbore.trajectory[-1, 0]
     rows = []
     for kind in OPERATIONS:
         stiff, soft = solver.solve(kind, steady_rates(case, kind), bit), soft_string(case, kind, bit)
@@ -86,7 +86,7 @@ def by_finite_elements(
     from references.beams.case import steady
 
     case, slick = (case_of(string, severity, clearance, straight, friction=factor) for factor in (MU, 0.0))
-    bit = float(case.wellbore.read_stations()[-1, 0])
+    bit = float(case.wellbore.trajectory[-1, 0])
     elements = steady(case, bit, segments)
     stiff = [Solver(each).solve("trip_in", steady_rates(each, "trip_in"), bit) for each in (case, slick)]
     soft = [soft_string(each, "trip_in", bit, speed=1.0, rpm=0.0) for each in (case, slick)]

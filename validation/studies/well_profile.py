@@ -41,7 +41,7 @@ def average_angle(stations: Array) -> Array:
     """Eqs 21–23 as printed, term by term, DM the change of measured depth: north, east, down [m]."""
     rows, (north, east, down) = [np.zeros(3)], np.zeros(3)
     for (above, i, a), (below, j, b) in pairwise(stations):
-        length, inclination, azimuth = below - above, np.radians(0.5 * (i + j)), np.radians(0.5 * (a + b))
+        length, inclination, azimuth = below - above, 0.5 * (i + j), 0.5 * (a + b)
         north += length * np.sin(inclination) * np.cos(azimuth)
         east += length * np.sin(inclination) * np.sin(azimuth)
         down += length * np.cos(inclination)
@@ -51,21 +51,21 @@ def average_angle(stations: Array) -> Array:
 
 def engines_average_angle(stations: Array) -> Array:
     """The same by the engine, which takes it for cylinders."""
-    points: Array = survey.average_angle(survey.to_radians(stations))
+    points: Array = survey.average_angle(stations)
     return points
 
 
 def minimum_curvature(stations: Array) -> Array:
     """The same by the engine's arcs."""
-    points: Array = survey.along_courses(survey.minimum_curvature(survey.to_radians(stations)), stations[:, 0])[0]
+    points: Array = survey.along_courses(survey.minimum_curvature(stations), stations[:, 0])[0]
     return points
 
 
 def integrated(md: Array) -> Array:
     """The same by the direction at each depth alone, summed up by Simpson's rule every metre."""
-    stations = load("paper_well").wellbore.read_stations()
+    stations = load("paper_well").wellbore.trajectory
     each = np.arange(0.0, TOTAL + 0.5, 1.0)
-    inclination, azimuth = np.radians(np.interp(each, stations[:, 0], stations[:, 1])), np.radians(AZIMUTH)
+    inclination, azimuth = np.interp(each, stations[:, 0], stations[:, 1]), np.radians(AZIMUTH)
     level, down = np.sin(inclination), np.cos(inclination)
     tangents = np.stack([level * np.cos(azimuth), level * np.sin(azimuth), down], axis=1)
     along = cumulative_simpson(tangents, x=each, axis=0, initial=0.0)
@@ -81,7 +81,9 @@ def table_2(stations: Array) -> pd.DataFrame:
     """Rows of the paper's Table 2 from our stations."""
     chosen = np.isin(stations[:, 0], SAMPLE)
     columns = ("north", "east", "tvd")
-    table = pd.DataFrame(stations[chosen], columns=["survey_depth_m", "inclination_deg", "azimuth_deg"])
+    md, *angles = stations[chosen].T
+    inclination, azimuth = np.degrees(angles)
+    table = pd.DataFrame({"survey_depth_m": md, "inclination_deg": inclination, "azimuth_deg": azimuth})
     average, arcs, true = average_angle(stations), minimum_curvature(stations), exact(stations[:, 0])
     for k, name in enumerate(columns):
         table[f"{name}_m"] = average[chosen, k]
@@ -95,14 +97,14 @@ def wells() -> pd.DataFrame:
     """Both readings of the paper's well, every station."""
     frames = []
     for name, file in WELLS.items():
-        stations = load(file).wellbore.read_stations()
+        stations = load(file).wellbore.trajectory
         points = minimum_curvature(stations)
         frames.append(
             pd.DataFrame(
                 {
                     "variant": name,
                     "md_m": stations[:, 0],
-                    "inclination_deg": stations[:, 1],
+                    "inclination_deg": np.degrees(stations[:, 1]),
                     "departure_m": np.hypot(points[:, 0], points[:, 1]),
                     "tvd_m": points[:, 2],
                 }
@@ -113,7 +115,7 @@ def wells() -> pd.DataFrame:
 
 def run(context: Context) -> Outcome:
     """Stations every 10 m and at the ends of builds alone, by average angle and by minimum curvature."""
-    stations = load("paper_well").wellbore.read_stations()
+    stations = load("paper_well").wellbore.trajectory
     bare = stations[np.isin(stations[:, 0], [0.0, KICK_OFF, FIRST_END, SECOND_END, TOTAL])]
     # Each with another program of the same method, which is held against the other truth.
     both = {"average angle": (average_angle, engines_average_angle), "minimum curvature": (minimum_curvature,) * 2}
@@ -131,7 +133,7 @@ def run(context: Context) -> Outcome:
     methods = pd.DataFrame(rows)
     # Read to the letter, DM is the change of true vertical depth: Eq. 23 then gives less than that very change.
     down = exact(stations[:, 0])[:, 2]
-    middle = np.radians(0.5 * (stations[1:, 1] + stations[:-1, 1]))
+    middle = 0.5 * (stations[1:, 1] + stations[:-1, 1])
     literal = float(np.sum(np.diff(down) * np.cos(middle)))
     return Outcome(
         tables={"table_2": table_2(stations), "methods": methods, "wells": wells()},

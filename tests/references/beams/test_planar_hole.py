@@ -5,16 +5,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd.case.survey_file import to_radians
 from fctd.model import survey
 from references.beams.planar_hole import PlanarHole
 
-STATIONS = np.array([[0, 0, 0], [32, 0, 0], [50, 36, 0], [70, 20, 0], [90, 80, 0]], dtype=float)
+STATIONS = to_radians(np.array([[0, 0, 0], [32, 0, 0], [50, 36, 0], [70, 20, 0], [90, 80, 0]], dtype=float))
 
 
 @given(st.floats(1.0, 88.0), st.floats(-0.5, 0.5))
 def test_a_point_beside_the_axis_is_found_again(md, offset):
     hole = PlanarHole(STATIONS)
-    (point,), (tangent,) = survey.along_courses(survey.minimum_curvature(survey.to_radians(STATIONS)), np.array([md]))
+    (point,), (tangent,) = survey.along_courses(survey.minimum_curvature(STATIONS), np.array([md]))
     along = np.array([tangent[2], tangent[0]])
     normal = np.array([-along[1], along[0]])
     axis = hole.axis(np.array([point[2], point[0]]) + offset * normal)
@@ -53,14 +54,14 @@ def test_normal_and_turn_are_derivatives_of_the_offset(md, offset):
 )
 def test_other_holes_are_refused(stations, words):
     with pytest.raises(ValueError, match=words):
-        PlanarHole(np.array(stations, dtype=float))
+        PlanarHole(to_radians(np.array(stations, dtype=float)))
 
 
 def test_one_plane_is_one_plane_whatever_its_azimuth_is_called():
     stations = STATIONS.copy()
-    stations[3:, 2] = 360.0
+    stations[3:, 2] = 2 * np.pi
     point = np.array([60.0, 5.0])
     assert PlanarHole(stations).axis(point).offset == PlanarHole(STATIONS).axis(point).offset
-    stations[3:, 2] = 359.0
+    stations[3:, 2] = np.radians(359.0)
     with pytest.raises(ValueError, match="one azimuth"):
         PlanarHole(stations)

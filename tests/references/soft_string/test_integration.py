@@ -108,7 +108,7 @@ def test_the_formulas_as_johancsik_printed_them(operation: str, pull: float) -> 
     )  # fmt: skip
     weight = float(lay_out(case, 1700.0).of("weight")[0])
     md = np.linspace(0, 1700, 34001)
-    _, inc, azi = survey.interpolate_angles(survey.to_radians(case.wellbore.read_stations()), md).T
+    _, inc, azi = survey.interpolate_angles(case.wellbore.trajectory, md).T
     tension = torque = 0.0
     for k in range(len(md) - 2, -1, -1):
         middle, step = 0.5 * (inc[k] + inc[k + 1]), md[k + 1] - md[k]
@@ -160,7 +160,7 @@ def test_rotating_in_place_the_hook_carries_the_weight_of_the_vertical_reach(
     case = well(**hole | {"survey_method": "minimum_curvature"}, top_md=top * end)
     depth = part * end
     joint = max(depth - 0.3 * end, top * end)
-    courses = survey.minimum_curvature(survey.to_radians(case.wellbore.read_stations()))
+    courses = survey.minimum_curvature(case.wellbore.trajectory)
     down = survey.along_courses(courses, np.array([top * end, joint, depth]))[0][:, 2]
     below, above = (section_of(component, 1300.0).weight for component in case.string.components)
     expected = above * (down[1] - down[0]) + below * (down[2] - down[1])

@@ -163,8 +163,8 @@ def test_segments_in_a_bend_are_an_eighth_of_what_fits_it():
 
 def test_a_mapped_bend_has_its_severity_and_clearance():
     case = soft_stiff_map.case_of("6 3/4 in collar", 20.0, 0.01, soft_stiff_map.LIGHT)
-    md, inclination, _ = case.wellbore.read_stations().T
-    assert 30.48 * (inclination[2] - inclination[1]) / (md[2] - md[1]) == pytest.approx(20.0)
+    md, inclination, _ = case.wellbore.trajectory.T
+    assert 30.48 * np.degrees(inclination[2] - inclination[1]) / (md[2] - md[1]) == pytest.approx(20.0)
     assert case.wellbore.intervals[0].diameter - case.string.components[0].contact_diameter == pytest.approx(0.02)
     assert case.operations[0].end_md == pytest.approx(md[-1])
 
