@@ -67,7 +67,7 @@ def test_the_first_digest_of_a_file_counts(tmp_path: Path) -> None:
         path.write_text("x")
         declare(path)
     assert files == {path: ABSENT}
-    assert declare(path) == path  # nobody asks
+    assert declare(path) == path  # also where no study is being run
 
 
 def test_importing_the_studies_reads_no_file() -> None:
