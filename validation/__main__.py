@@ -35,8 +35,7 @@ def main(
     At the end of --all and --reproduce, and by the name of claims, the paper's claims are judged by what is stored.
 
     Exit code 0: each check as recorded in expected.toml or better, each verdict as recorded in claims.toml. 1: worse
-    than recorded, another verdict, or a study failed.
-    2: bad usage. 130: interrupted; what had finished is kept.
+    than recorded, another verdict, or a study failed. 2: bad usage. 130: interrupted; what had finished is kept.
     """
     if show:
         for name in STUDIES:
@@ -46,12 +45,12 @@ def main(
     names = names or []
     claims = every or reproduce or CLAIMS in names
     try:
+        sources = fingerprint.Sources()  # before any study is imported: a later edit is repeated by the next run
         chosen = _choose([name for name in names if name != CLAIMS], every, reproduce)
         if not chosen and not claims:
             raise runner.UsageError("nothing to run: name a study, or say --all, --reproduce or --list")
         expected = runner.read_expected(runner.EXPECTED)
         runner.check_results(study.RESULTS)
-        sources = fingerprint.Sources()
     except (runner.UsageError, SourceSyntaxError) as error:
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error

@@ -272,16 +272,14 @@ def changes(names: Iterable[str], results: Path, sources: Sources) -> dict[str, 
         if (before := fingerprint.read(results / name)) is None:
             continue
         try:
-            uses = load(name).uses
+            code = sources.used_by(STUDIES[name], *load(name).uses)
         except Exception:
-            # A study that cannot be loaded now could be when its result was stored.
-            found[name] = STUDIES[name]
-            continue
+            # What it declares cannot be asked, for want of a package or by an edit: the rest tells which.
+            code = before.code | sources.used_by(STUDIES[name])
         around = surroundings(before.around.get(fingerprint.LENGTH) == "quick", sources.root)
         # Where the data lie is for the runner to know; here the files that were read tell.
         around = around | {key: value for key, value in before.around.items() if key == DATA}
-        now = Inputs(sources.used_by(STUDIES[name], *uses), around)
-        if changed := now.changed_since(before, sources.root):
+        if changed := Inputs(code, around).changed_since(before, sources.root):
             found[name] = changed
     return found
 

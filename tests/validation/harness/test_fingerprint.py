@@ -269,6 +269,13 @@ def test_the_page_is_told_what_changed(lab):
     assert runner.changes(["question"], lab / "results", sources(lab)) == {"question": "toylab/case.toml"}
 
 
+def test_the_page_is_told_of_a_study_that_can_no_longer_be_imported(lab):
+    run(lab)
+    forget()
+    write(lab, "toylab/question.py", "import a_module_that_is_not_there\n")
+    assert runner.changes(["question"], lab / "results", sources(lab)) == {"question": "toylab/question.py"}
+
+
 def test_force_repeats(lab):
     run(lab)
     assert "; forced)" in run(lab, force=True)[1]
