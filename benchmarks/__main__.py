@@ -1,13 +1,12 @@
 """``python -m benchmarks``: the gate, this run against the last release, and a new record."""
 
-import subprocess
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from benchmarks import history, instructions, measure, tables
+from benchmarks import history, measure, tables
 from benchmarks.gate import gate
 from fctd.case.errors import InputError
 from fctd.cli.main import run
@@ -79,16 +78,7 @@ def record_command(
 def measured(release: str = "") -> history.Record:
     """The record of a measurement, now."""
     costs, subjects = measure.alone(PROCESSES, tell=tell)
-    counted, why_not = {}, "valgrind is not installed"
-    if instructions.available():
-        tell("counting instructions, about two minutes")
-        try:
-            counted, why_not = instructions.count(), ""
-        except (subprocess.CalledProcessError, OSError, ValueError) as failure:
-            why_not = str(failure)
-    if why_not:
-        tell(f"instructions are not counted: {why_not}")
-    return history.record_of(costs, subjects, counted, release or version("fctd"))
+    return history.record_of(costs, subjects, release or version("fctd"))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from benchmarks.records import COMPILED, describe, time_steps
 from benchmarks.strings import LEAD, chain, hanging
 from references import engines
 from references.engines.free_bodies import FreeBodies
-from references.packages import absent
+from references.registry import absent
 from references.timing.workloads import moving
 
 # Steps a round.

@@ -14,7 +14,7 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from benchmarks.records import describe
 from benchmarks.strings import CASES, chain
 from references import contact, engines
-from references.packages import absent
+from references.registry import absent
 from references.timing.footprint import footprint
 
 PEAK = "import resource; peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024\n"

@@ -16,7 +16,7 @@ from benchmarks.strings import LEAD, chain
 from fctd import build_wellbore, find_contacts
 from fctd.mechanics.query import query_walls
 from references import contact
-from references.packages import absent
+from references.registry import absent
 from references.timing.workloads import find_walls, moving
 
 POINTS, RADIUS = 240, 0.051

@@ -7,7 +7,7 @@ from benchmarks.records import describe, time_steps
 from benchmarks.strings import LEAD, chain
 from fctd.mechanics.energy import energy_of
 from references import contact
-from references.packages import absent
+from references.registry import absent
 from references.timing.workloads import NoWall, asking, energy_error, moving, without_wall
 
 # Steps a round: our own methods cost some hundred nanoseconds a point, libraries some ten microseconds or more.

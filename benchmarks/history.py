@@ -26,8 +26,7 @@ Cost = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 class Kernel(BaseModel):
     """One subject of a record: cost of a unit, absolute and over the reference kernel's in the same process.
 
-    samples : the ratio in each process; ratio, spread : their median and range.  instructions : of one unit, on the
-    plain processor of instructions.py; None where they were not counted.
+    samples : the ratio in each process; ratio, spread : their median and range.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -36,7 +35,6 @@ class Kernel(BaseModel):
     size: str
     ns: float
     samples: Annotated[tuple[Cost, ...], Field(min_length=1)]
-    instructions: float | None = None
 
     @computed_field  # type: ignore[prop-decorator]
     @property
@@ -77,11 +75,6 @@ class Record(BaseModel):
         processes = max(len(taken) for taken in found.values())
         return {REFERENCE: [1.0] * processes} | found
 
-    @property
-    def counts(self) -> dict[str, float]:
-        """Instructions of a unit of those kernels of which they were counted."""
-        return {name: one.instructions for name, one in self.kernels.items() if one.instructions is not None}
-
     def not_here(self, reference: str, processor: str, versions: Mapping[str, str]) -> str:
         """Why ratios measured here do not compare with these; empty where they do."""
         if self.reference != reference:
@@ -109,14 +102,13 @@ def sources_of(root: Path) -> str:
     return sources_digest(root)
 
 
-def record_of(costs: Costs, subjects: dict[str, Any], instructions: dict[str, float], release: str) -> Record:
+def record_of(costs: Costs, subjects: dict[str, Any], release: str) -> Record:
     """The record of a measurement of these sources, now."""
     kernels = {
         name: Kernel(
             **subjects[name],
             ns=_round(statistics.median(costs[name])),
             samples=tuple(map(_round, samples)),
-            instructions=instructions.get(name),
         )
         for name, samples in ratios(costs).items()
     }

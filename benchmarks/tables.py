@@ -46,7 +46,7 @@ def shown_table(outcome: Outcome) -> Table:
 
 
 def comparison(now: Record, last: Record | None, why_not: str) -> Table:
-    """A run beside the last release: time, ratio to the reference kernel with its range, instructions.
+    """A run beside the last release: time, ratio to the reference kernel with its range.
 
     why_not : why ratios do not compare, empty where they do; the change is printed only then.
 
@@ -58,17 +58,17 @@ def comparison(now: Record, last: Record | None, why_not: str) -> Table:
         box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
     )  # fmt: skip
     table.add_column("kernel\nsize")
-    for column in ("ns a unit\ninstructions", "ratio\nrange", "released\ninstructions", "change\n80 % interval"):
+    for column in ("ns a unit", "ratio\nrange", "released", "change\n80 % interval"):
         table.add_column(column, justify="right")
     for name, kernel in now.kernels.items():
         old = None if last is None else last.kernels.get(name)
-        released = "–" if old is None else f"{_number(old.ratio)}\n{_number(old.instructions)}"
+        released = "–" if old is None else _number(old.ratio)
         change = "–"
         if old is not None and not why_not:
             middle, low, high = change_of(old.samples, kernel.samples)
             change = f"{middle - 1:+.1%}\n{low - 1:+.0%} to {high - 1:+.0%}"
         table.add_row(
-            f"{name}, a {kernel.unit}\n{kernel.size}", f"{_number(kernel.ns)}\n{_number(kernel.instructions)}",
+            f"{name}, a {kernel.unit}\n{kernel.size}", _number(kernel.ns),
             f"{_number(kernel.ratio)}\n{_range(kernel.spread)}", released, change,
         )  # fmt: skip
     table.add_section()

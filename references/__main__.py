@@ -11,7 +11,7 @@ from fctd.cli.main import run, simulate_file
 from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, screen
 from references import contact, engines
 from references.contact import ContactMethod, build
-from references.packages import absent
+from references.registry import absent
 
 app = typer.Typer(
     no_args_is_help=True,

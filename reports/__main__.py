@@ -1,9 +1,10 @@
 """``python -m reports``: write the page from every result in validation/results."""
 
 import typer
+from grimp.exceptions import SourceSyntaxError
 
 from fctd.case.text import degrade_output, printable_lines
-from validation.harness import runner, study
+from validation.harness import fingerprint, runner, study
 from validation.harness.registry import STUDIES
 
 OUT = study.ROOT / "reports" / "out"
@@ -20,10 +21,15 @@ def main() -> None:
     try:
         from reports import page
     except ModuleNotFoundError as error:
-        typer.echo(f"error: expected the package {error.name} (pip install -e '.[suite]')", err=True)
+        typer.echo(f"error: expected the package {error.name} (pip install -e '.[pages]')", err=True)
         raise typer.Exit(2) from error
     try:
-        problems = page.render(study.RESULTS, STUDIES, OUT, runner.changes(STUDIES, study.RESULTS))
+        sources = fingerprint.Sources()
+    except SourceSyntaxError as error:
+        typer.echo(printable_lines(f"error: {error}"), err=True)
+        raise typer.Exit(2) from error
+    try:
+        problems = page.render(study.RESULTS, STUDIES, OUT, runner.changes(STUDIES, study.RESULTS, sources))
     except OSError as error:
         message = f"error: {OUT}: expected a folder that can be written ({error})"
         typer.echo(printable_lines(message), err=True)

@@ -14,8 +14,9 @@ import pandas as pd
 
 from fctd.case.text import printable_lines
 from reports import figures, words
-from reports.claims import LEDGER, read_claims
+from reports.claims import LOOKS, judged
 from reports.figures import style
+from validation.claims.ledger import CLAIMS
 from validation.harness import store
 from validation.harness.store import Record
 
@@ -66,19 +67,25 @@ class Section:
         return self.record.summary if self.record else "not run"
 
 
-def render(results: Path, studies: Iterable[str], out: Path, changes: Mapping[str, str] | None = None) -> list[str]:
+def render(
+    results: Path,
+    studies: Iterable[str],
+    out: Path,
+    changes: Mapping[str, str] | None = None,
+    ledger: Path = CLAIMS,
+) -> list[str]:
     """Write ``out/index.html`` and ``out/figures``; return what could not be drawn.
 
-    Studies stand in the order given; results of studies that are not among them come after.  The ledger of claims is
-    a study whose place is at the top.  changes : study -> what has changed since its result was stored.
+    Studies stand in the order given; results of studies that are not among them come after.  The claims of ``ledger``,
+    judged by these results, stand at the top.  changes : study -> what has changed since its result was stored.
     """
     shutil.rmtree(out / "figures", ignore_errors=True)
     (out / "figures").mkdir(parents=True)
     found = sorted(path.parent.name for path in results.glob("[!.]*/verdict.json"))
-    sections = [_section(results / study, out) for study in dict.fromkeys([*studies, *found]) if study != LEDGER]
+    sections = [_section(results / study, out) for study in dict.fromkeys([*studies, *found])]
     for section in sections:
         section.changed = (changes or {}).get(section.study, "")
-    claims = read_claims(results / LEDGER)
+    claims = judged(results, ledger)
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES),
         autoescape=True,
@@ -87,11 +94,16 @@ def render(results: Path, studies: Iterable[str], out: Path, changes: Mapping[st
         undefined=jinja2.StrictUndefined,
     )
     page = environment.get_template("page.html").render(
-        sections=sections, claims=claims, changes=changes or {}, number=words.number, quantity=words.quantity
+        sections=sections,
+        claims=claims,
+        looks=LOOKS,
+        changes=changes or {},
+        number=words.number,
+        quantity=words.quantity,
     )
     (out / "index.html").write_text(page, encoding="utf-8", errors="backslashreplace")
     problems = [f"{section.study}: {problem}" for section in sections for problem in section.problems]
-    return ([f"{LEDGER}: {claims.problem}"] if claims.problem else []) + problems
+    return ([f"claims: {claims.problem}"] if claims.problem else []) + problems
 
 
 def _section(folder: Path, out: Path) -> Section:

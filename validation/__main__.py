@@ -3,57 +3,77 @@
 from typing import Annotated
 
 import typer
+from grimp.exceptions import SourceSyntaxError
 from rich.console import Console
 
 from fctd.case.text import degrade_output, printable_lines
-from validation.harness import runner, study
+from validation.claims import judgement, ledger
+from validation.harness import fingerprint, runner, study
 from validation.harness.registry import STUDIES
+
+CLAIMS = "claims"  # No study: it judges by what the studies have stored.
 
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
 
 @app.command()
 def main(
-    names: Annotated[list[str] | None, typer.Argument(metavar="[NAME]...", help="Studies to run.")] = None,
+    names: Annotated[list[str] | None, typer.Argument(metavar="[NAME]...", help="Studies to run, or claims.")] = None,
     show: Annotated[bool, typer.Option("--list", help="List the studies and their questions.")] = False,
     every: Annotated[bool, typer.Option("--all", help="Run every study.")] = False,
     reproduce: Annotated[bool, typer.Option("--reproduce", help="Run what `make reproduce` runs.")] = False,
     quick: Annotated[bool, typer.Option("--quick", help="Shorten each study; the checks stay.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Repeat also what is kept and up to date.")] = False,
+    audit: Annotated[
+        bool, typer.Option("--audit", help="As --force; a study fails that reads a file it does not declare.")
+    ] = False,
 ) -> None:
     """Run studies; each leaves its tables and its verdict in validation/results/NAME/.
 
     A result is kept, and its study not repeated, until its code, the files it read, a package or the processor
     changes; a quick result is none for a full run, nor the other way round. An interrupted run goes on where it was.
+    At the end of --all and --reproduce, and by the name of claims, the paper's claims are judged by what is stored.
 
-    Exit code 0: each check as recorded in expected.toml or better. 1: worse than recorded, or a study failed.
-    2: bad usage. 130: interrupted; what had finished is kept.
+    Exit code 0: each check as recorded in expected.toml or better, each verdict as recorded in claims.toml. 1: worse
+    than recorded, another verdict, or a study failed. 2: bad usage. 130: interrupted; what had finished is kept.
     """
     if show:
         for name in STUDIES:
             typer.echo(printable_lines(_line(name)))
+        typer.echo(f"{CLAIMS:<20} What of the paper holds, by how much, and where does it end?  [reproduce]")
         return
+    names = names or []
+    claims = every or reproduce or CLAIMS in names
     try:
-        chosen = _choose(names or [], every, reproduce)
+        sources = fingerprint.Sources()  # before any study is imported: a later edit is repeated by the next run
+        chosen = _choose([name for name in names if name != CLAIMS], every, reproduce)
+        if not chosen and not claims:
+            raise runner.UsageError("nothing to run: name a study, or say --all, --reproduce or --list")
         expected = runner.read_expected(runner.EXPECTED)
         runner.check_results(study.RESULTS)
-    except runner.UsageError as error:
+    except (runner.UsageError, SourceSyntaxError) as error:
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
+    console, code = Console(), 0
     try:
-        code = runner.run_all(
-            chosen,
-            quick=quick,
-            force=force,
-            data=study.data_folder(),
-            expected=expected,
-            results=study.RESULTS,
-            console=Console(),
-        )
+        if chosen:
+            code = runner.run_all(
+                chosen,
+                quick=quick,
+                force=force,
+                audited=audit,
+                data=study.data_folder(),
+                expected=expected,
+                results=study.RESULTS,
+                sources=sources,
+                console=console,
+            )
     except OSError as error:  # of the results folder: what a study fails at is its own result
         message = f"error: {study.RESULTS}: expected a folder that can be written ({error})"
         typer.echo(printable_lines(message), err=True)
         raise typer.Exit(2) from error
+    if claims and code != runner.INTERRUPTED:
+        code = max(code, judgement.run(study.RESULTS, console, ledger.CLAIMS))
     raise typer.Exit(code)
 
 
@@ -61,10 +81,7 @@ def _choose(names: list[str], every: bool, reproduce: bool) -> list[str]:
     """The studies asked for, in the order of the registry."""
     for name in names:
         runner.check_name(name)
-    chosen = [name for name in STUDIES if every or name in names or (reproduce and runner.is_reproduced(name))]
-    if not chosen:
-        raise runner.UsageError("nothing to run: name a study, or say --all, --reproduce or --list")
-    return chosen
+    return [name for name in STUDIES if every or name in names or (reproduce and runner.is_reproduced(name))]
 
 
 def _line(name: str) -> str:

@@ -4,19 +4,15 @@ A method is built for the hole of a case and asked about points.  All share one 
 loop and the studies can swap them; what can be set is in the method's own ``Options``.
 """
 
-import importlib
-from collections.abc import Mapping
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import ValidationError
 
-from fctd.case.errors import InputError, Table, explain, nearest
+from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
-from references.packages import absent
+from references.registry import Registry
 
 Array = NDArray[np.float64]
 
@@ -61,18 +57,10 @@ class ContactMethod(Protocol):
         [1/m], from the geometry alone."""
 
 
-def method_class(name: str) -> type[ContactMethod]:
-    """The class registered under a name; InputError with the nearest name for another."""
-    found: type[ContactMethod] = registered(METHODS, name, "contact method", "contact")
-    return found
-
-
-def registered(registry: Mapping[str, str], name: str, noun: str, key: str) -> Any:
-    """What a registry calls "module:attribute"; InputError with the nearest name for one that it does not have."""
-    if name not in registry:
-        raise InputError(nearest(name, registry, noun), key=key, value=name)
-    module, _, attribute = registry[name].partition(":")
-    return getattr(importlib.import_module(module), attribute)
+REGISTRY: Registry[ContactMethod] = Registry(METHODS, "contact method", "contact")
+method_class = REGISTRY.find
+installed_version = REGISTRY.installed_version
+need = REGISTRY.need
 
 
 def build(name: str, case: Case, **options: Any) -> ContactMethod:
@@ -81,41 +69,4 @@ def build(name: str, case: Case, **options: Any) -> ContactMethod:
     options : keys of the method's ``Options``, quantities as in a case file.  Raises InputError for an unknown
     name, a bad option or a package that is not installed.
     """
-    method = method_class(name)
-    return method(case, options_of(method.Options, name, options))
-
-
-def options_of(table: type[Table], name: str, options: Mapping[str, Any]) -> Table:
-    """Validated options of what is registered under a name; InputError for a bad one."""
-    try:
-        return table.model_validate(options)
-    except ValidationError as failure:
-        raise explain(failure, options, ()).at(name) from None
-
-
-def need(module: str, method: type[ContactMethod]) -> Any:
-    """Import the package of a method; InputError naming it when it is not installed."""
-    return import_optional(module, method.distribution, method.name)
-
-
-def import_optional(module: str, distribution: str, wanted_for: str, key: str = "contact") -> Any:
-    """Import a module of an optional package; InputError naming the package when it is not installed."""
-    try:
-        return importlib.import_module(module)
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.partition(".")[0] != module.partition(".")[0]:
-            raise
-        raise InputError(f"package {absent(distribution)}", key=key, value=wanted_for) from None
-
-
-def installed_version(name: str) -> str | None:
-    """Version of the package that brings a method, None where it is not installed."""
-    return version_of(method_class(name).distribution)
-
-
-def version_of(distribution: str) -> str | None:
-    """Version of a package, None where it is not installed."""
-    try:
-        return version(distribution)
-    except PackageNotFoundError:
-        return None
+    return method_class(name)(case, REGISTRY.options(name, options))

@@ -34,7 +34,7 @@ class Bullet(OnTube):
     Options: ClassVar[type[Table]] = TubeOptions
 
     def __init__(self, case: Case, options: TubeOptions) -> None:
-        self._bullet = bullet = need("pybullet", type(self))
+        self._bullet = bullet = need("pybullet", self.name)
         self.tube = build_tube(case, options)
         self._client = client = bullet.connect(bullet.DIRECT)
         weakref.finalize(self, bullet.disconnect, client)

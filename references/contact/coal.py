@@ -34,7 +34,7 @@ class Coal(OnTube):
     Options: ClassVar[type[Table]] = CoalOptions
 
     def __init__(self, case: Case, options: CoalOptions) -> None:
-        self._coal = coal = need("coal", type(self))
+        self._coal = coal = need("coal", self.name)
         self.tube = build_tube(case, options)
         # The tree is built for the query: OBB is the faster one to collide with, RSS bounds distances.
         self._collide = options.query == "collide"

@@ -39,7 +39,7 @@ class Fcl(OnTube):
     Options: ClassVar[type[Table]] = FclOptions
 
     def __init__(self, case: Case, options: FclOptions) -> None:
-        self._fcl = fcl = need("fcl", type(self))
+        self._fcl = fcl = need("fcl", self.name)
         self.tube = build_tube(case, options)
         self._wall = wall_of(fcl, self.tube)
         self._point = fcl.CollisionObject(fcl.Sphere(POINT), fcl.Transform())

@@ -33,7 +33,7 @@ class MuJoCo(OnTube):
     Options: ClassVar[type[Table]] = TubeOptions
 
     def __init__(self, case: Case, options: TubeOptions) -> None:
-        self._mujoco = mujoco = need("mujoco", type(self))
+        self._mujoco = mujoco = need("mujoco", self.name)
         self.tube = build_tube(case, options)
         self._model = mujoco.MjModel.from_xml_string(_model(self.tube))
         self._data = mujoco.MjData(self._model)

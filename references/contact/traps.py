@@ -14,8 +14,8 @@ from fctd.model.wellbore import build_wellbore, find_contacts
 from references.contact import bullet as bullet_method
 from references.contact import coal as coal_method
 from references.contact import fcl as fcl_method
-from references.contact import method_class, need
 from references.contact import mujoco as mujoco_method
+from references.contact import need
 from references.contact.tube_mesh import Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
@@ -159,6 +159,5 @@ TRAPS = (
 
 def measure(trap: Trap, at: Scene) -> float:
     """The number of a trap; InputError where its package is not installed."""
-    method = method_class(trap.method)
     modules = {"fcl": "fcl", "coal": "coal", "bullet": "pybullet", "mujoco": "mujoco"}
-    return trap.measure(need(modules[trap.method], method), at)
+    return trap.measure(need(modules[trap.method], trap.method), at)

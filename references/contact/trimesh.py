@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
-from references.contact import import_optional, need
+from references.contact import need
 from references.contact.tube_mesh import OnTube, TubeOptions, build_tube
+from references.registry import import_optional
 
 Array = NDArray[np.float64]
 
@@ -24,8 +25,8 @@ class TriMesh(OnTube):
     Options: ClassVar[type[Table]] = TubeOptions
 
     def __init__(self, case: Case, options: TubeOptions) -> None:
-        import_optional("rtree", "rtree", self.name)
-        self._proximity = need("trimesh.proximity", type(self))
+        import_optional("rtree", "rtree", self.name, "contact")
+        self._proximity = need("trimesh.proximity", self.name)
         self.tube = build_tube(case, options)
         # The tree is made at first use: here, so that no query pays for it.
         assert self.tube.mesh.triangles_tree is not None

@@ -16,7 +16,7 @@ from fctd.case import units
 from fctd.case.errors import InputError, Table
 from fctd.case.load import Case
 from fctd.model.wellbore import RADIUS, RUN_OUT, TO_MD, Contacts, Wellbore, build_wellbore
-from references.contact import import_optional
+from references.registry import import_optional
 
 Array = NDArray[np.float64]
 
@@ -119,7 +119,7 @@ def build_tube(case: Case, options: TubeOptions) -> Tube:
 
     Raises InputError for a ring spacing longer than the hole, or for more triangles than fit into memory.
     """
-    trimesh = import_optional("trimesh", "trimesh", "a triangle mesh")
+    trimesh = import_optional("trimesh", "trimesh", "a triangle mesh", "contact")
     hole = build_wellbore(case)
     reach = hole.total_depth - hole.md[0]
     if options.ring_spacing > reach and "ring_spacing" in options.model_fields_set:

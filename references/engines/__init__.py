@@ -15,7 +15,7 @@ from fctd.mechanics.energy import Energy
 from fctd.mechanics.topdrive import Motion
 from fctd.simulation.intervals import Window as Window
 from fctd.simulation.run import Run
-from references.contact import import_optional, options_of, registered, version_of
+from references.registry import Registry
 
 ENGINES: dict[str, str] = {
     "fctd": "references.engines.own:Fctd",
@@ -87,10 +87,10 @@ class StringEngine(Protocol):
         """Run a window of a case; InputError for a case or a window that cannot be run."""
 
 
-def engine_class(name: str) -> type[StringEngine]:
-    """The class registered under a name; InputError with the nearest name for another."""
-    found: type[StringEngine] = registered(ENGINES, name, "engine", "engine")
-    return found
+REGISTRY: Registry[StringEngine] = Registry(ENGINES, "engine", "engine")
+engine_class = REGISTRY.find
+installed_version = REGISTRY.installed_version
+need = REGISTRY.need
 
 
 def build(name: str, **options: Any) -> StringEngine:
@@ -98,18 +98,7 @@ def build(name: str, **options: Any) -> StringEngine:
 
     Raises InputError for an unknown name, a bad option or a package that is not installed.
     """
-    engine = engine_class(name)
-    return engine(options_of(engine.Options, name, options))
-
-
-def installed_version(name: str) -> str | None:
-    """Version of the package that brings an engine, None where it is not installed."""
-    return version_of(engine_class(name).distribution)
-
-
-def need(module: str, engine: type[StringEngine]) -> Any:
-    """Import the package of an engine; InputError naming it when it is not installed."""
-    return import_optional(module, engine.distribution, engine.name, key="engine")
+    return engine_class(name)(REGISTRY.options(name, options))
 
 
 class StepOptions(Table):

@@ -189,7 +189,7 @@ class Bullet(InWindows):
     Options: ClassVar[type[Table]] = BulletOptions
 
     def __init__(self, options: BulletOptions) -> None:
-        self._bullet = need("pybullet", type(self))
+        self._bullet = need("pybullet", self.name)
         self.options = options
 
     def begin(self, run: Run) -> FreeBodies:

@@ -347,7 +347,7 @@ class Elastica(InWindows):
     Options: ClassVar[type[Table]] = ElasticaOptions
 
     def __init__(self, options: ElasticaOptions) -> None:
-        self._elastica = need("elastica", type(self))
+        self._elastica = need("elastica", self.name)
         self.options = options
 
     def begin(self, run: Run) -> _Stepper:

@@ -126,7 +126,7 @@ class MuJoCo(InWindows):
     Options: ClassVar[type[Table]] = MuJoCoOptions
 
     def __init__(self, options: MuJoCoOptions) -> None:
-        self._mujoco = need("mujoco", type(self))
+        self._mujoco = need("mujoco", self.name)
         self.options = options
 
     def begin(self, run: Run) -> FreeBodies:

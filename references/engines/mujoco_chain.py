@@ -125,7 +125,7 @@ class MuJoCoChain(InWindows):
     Options: ClassVar[type[Table]] = StepOptions
 
     def __init__(self, options: StepOptions) -> None:
-        self._mujoco = need("mujoco", type(self))
+        self._mujoco = need("mujoco", self.name)
         self.options = options
 
     def begin(self, run: Run) -> _Stepper:

@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 from benchmarks import __main__ as commands
 from benchmarks import gate as module
-from benchmarks import history, instructions, measure
+from benchmarks import history, measure
 from benchmarks.gate import Outcome, gate
 from benchmarks.history import Kernel, Record
 from benchmarks.release import NoSourcesError
@@ -123,30 +123,12 @@ def test_a_run_beside_the_last_release(monkeypatch: pytest.MonkeyPatch, tmp_path
     assert "+0.0%" not in text
 
 
-def test_a_measurement_without_valgrind_says_so(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_measurement_becomes_a_record(monkeypatch: pytest.MonkeyPatch) -> None:
     subject = {name: {"unit": "segment-step", "size": "60 segments"} for name in COSTS}
     monkeypatch.setattr(measure, "alone", lambda processes, tell: (COSTS, subject))
-    monkeypatch.setattr(instructions, "available", lambda: False)
-    monkeypatch.setattr(commands, "tell", print)
     record = commands.measured("4.0")
-    assert "valgrind is not installed" in capsys.readouterr().out
-    assert record.counts == {}
-    assert record.ratios == COSTS
-    monkeypatch.setattr(instructions, "available", lambda: True)
-    monkeypatch.setattr(instructions, "count", lambda: {measure.FREE: 200.0})
-    assert commands.measured().counts == {measure.FREE: 200.0}
+    assert (record.release, record.ratios) == ("4.0", COSTS)
     assert record.not_here(history.reference_digest(), history.processor(), history.machine_versions()) == ""
-
-
-def test_a_dump_of_the_counter_is_read(tmp_path: Path) -> None:
-    dump = tmp_path / "counts.1"
-    dump.write_text("events: Ir\nfn=(1) x\n12 34\n\ntotals: 8544699\n")
-    assert instructions._total(dump) == 8544699
-    dump.write_text("events: Ir\n")
-    with pytest.raises(ValueError, match=r"counts\.1 holds no total"):
-        instructions._total(dump)
 
 
 def test_a_record_needs_committed_sources(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

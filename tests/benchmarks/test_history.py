@@ -14,7 +14,7 @@ VERSIONS = {"python": "3.11.7", "numba": "0.68.1", "llvmlite": "0.50.0", "numpy"
 
 
 def a_record(**changes: object) -> Record:
-    kernel = Kernel(unit="joint", size="64 joints", ns=8.0, samples=(2.0, 1.9, 2.4), instructions=30.0)
+    kernel = Kernel(unit="joint", size="64 joints", ns=8.0, samples=(2.0, 1.9, 2.4))
     known = {
         "release": "1.0", "date": datetime(2026, 1, 2, tzinfo=UTC), "commit": "abc1234", "sources": "s",
         "reference": "r", "processor": "P", "versions": VERSIONS, "reference_ns": 4.0,
@@ -29,6 +29,14 @@ def test_a_record_survives_its_file(tmp_path: Path) -> None:
     assert path.name == "2026-01-02-1.0-abc1234.json"
     assert '"ratio": 2.0' in path.read_text()
     assert history.read(tmp_path) == [(path, record)]
+
+
+def test_an_old_record_with_counts_of_instructions_is_still_read(tmp_path: Path) -> None:
+    path = history.write(a_record(), tmp_path)
+    stored = json.loads(path.read_text())
+    stored["kernels"]["joint loads"]["instructions"] = 30.0
+    path.write_text(json.dumps(stored))
+    assert history.read(tmp_path) == [(path, a_record())]
 
 
 def test_the_last_release_is_the_newest_by_its_own_date(tmp_path: Path) -> None:

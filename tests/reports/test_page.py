@@ -6,7 +6,6 @@ import sys
 from dataclasses import replace
 from html.parser import HTMLParser
 
-import pandas as pd
 import pytest
 
 pytest.importorskip("jinja2")
@@ -16,10 +15,10 @@ from typer.testing import CliRunner
 
 from reports import __main__ as command_line
 from reports import page
-from validation.claims import judgement, ledger
+from validation.claims.ledger import CLAIMS
 from validation.harness import registry, store, study
 from validation.harness.store import Judged, Provenance, Record
-from validation.harness.study import Check, Context
+from validation.harness.study import Check
 
 from . import synthetic
 
@@ -51,10 +50,12 @@ def finished(name, **changes):
 
 @pytest.fixture
 def render(tmp_path):
-    def call(*runs, studies=(), changes=None):
+    (tmp_path / "claims.toml").write_text("claim = []")
+
+    def call(*runs, studies=(), changes=None, ledger=tmp_path / "claims.toml"):
         for run, tables in runs:
             store.write(run, tables, tmp_path / "results")
-        problems = page.render(tmp_path / "results", studies, tmp_path / "out", changes)
+        problems = page.render(tmp_path / "results", studies, tmp_path / "out", changes, ledger)
         return (tmp_path / "out" / "index.html").read_text(encoding="utf-8"), problems
 
     return call
@@ -131,19 +132,18 @@ def test_registry_order_then_what_else_was_found(render):
     assert re.findall(r'<section id="(\w+)">', html) == ["c", "b", "a"]
 
 
-def test_result_that_cannot_be_read_leaves_the_page(render, judged_claims, tmp_path):
+def test_result_that_cannot_be_read_leaves_the_page(render, claims, tmp_path):
     run, tables = finished("overlap", checks=(judged(5e-7),))
-    render(judged_claims, (run, tables))
+    render((run, tables))
     results = tmp_path / "results"
     (results / "overlap" / "drag.parquet").write_text("no table")
     (results / "jumps" / "verdict.json").write_text("{")
-    (results / "claims" / "verdict.json").write_text("{")
-    html, problems = render(studies=["overlap", "jumps", "claims"])
+    html, problems = render(studies=["overlap", "jumps"])
     assert [problem.partition(" cannot be read: ")[0] for problem in problems] == [
-        "claims: the result", "overlap: the result", "jumps: the result",
+        "overlap: the result", "jumps: the result",
     ]  # fmt: skip
     assert "largest jump" in html  # its verdict is there
-    assert words_of(html).count("cannot be read") == 3
+    assert words_of(html).count("cannot be read") == 2 + 5  # sections, claims that rest on jumps
 
 
 @pytest.mark.parametrize(
@@ -158,15 +158,6 @@ def test_a_verdict_of_another_shape_cannot_be_read(key, value, render, tmp_path)
     html, problems = render(studies=["overlap"])
     assert [problem.partition(" cannot be read: ")[0] for problem in problems] == ["overlap: the result"]
     assert "cannot be read" in words_of(html)
-
-
-def test_a_ledger_without_a_column_cannot_be_read(render, judged_claims, tmp_path):
-    render(judged_claims)
-    path = tmp_path / "results" / "claims" / "ledger.parquet"
-    pd.read_parquet(path).drop(columns="verdict").to_parquet(path)
-    html, problems = render()
-    assert problems == ["claims: the result cannot be read: KeyError: 'verdict'"]
-    assert problems[0].removeprefix("claims: ") in html.replace("&#39;", "'")
 
 
 def test_a_study_without_tables_has_no_figures(render):
@@ -285,20 +276,16 @@ tests = ["tests/test_joints.py::test_a_hinge_moves_along"]
 
 
 @pytest.fixture
-def judged_claims(tmp_path, monkeypatch):
-    """A stored ledger with a claim for every verdict."""
+def claims(tmp_path, monkeypatch):
+    """A ledger with a claim for every verdict, and the results that it is judged by."""
     (tmp_path / "claims.toml").write_text(LEDGER)
     for name, value in (("jumps", 0.5), ("drops", 0.75)):
         store.write(replace(BLANK, study=name, checks=(judged(value),)), {}, tmp_path / "results")
         monkeypatch.setitem(registry.STUDIES, name, "no.module")
-    monkeypatch.setattr(judgement, "read_ledger", lambda: ledger.read_ledger(tmp_path / "claims.toml"))
-    outcome = judgement.run(Context(results=tmp_path / "results"))
-    run = replace(BLANK, study="claims", question="What holds?", tables=tuple(outcome.tables))
-    return run, outcome.tables
 
 
-def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, judged_claims):
-    html, problems = render(judged_claims, studies=["jumps", "claims"])
+def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, claims):
+    html, problems = render(studies=["jumps"])
     text = words_of(html)
     assert problems == []
     assert text.index("The paper's claims") < text.index("Contents")
@@ -322,20 +309,20 @@ def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, judged_
     assert 'href="#jumps"' in html
 
 
-def test_claims_that_failed_or_were_not_run(render):
-    assert "The paper's claims Not run." in words_of(render()[0])
-    failed = replace(BLANK, study="claims", status="failed", message="InputError: claims.toml: lost")
-    assert "Failed: InputError: claims.toml: lost" in words_of(render((failed, {}))[0])
+def test_claims_that_were_not_judged(render, tmp_path):
+    assert "○ not yet run: " in words_of(render(ledger=CLAIMS)[0])
+    (tmp_path / "claims.toml").write_text("[[claim")
+    html, problems = render()
+    assert problems[0].startswith("claims: the claims cannot be judged: claims.toml: expected a TOML file")
+    assert "Failed: the claims cannot be judged: claims.toml" in words_of(html)
 
 
-def test_a_result_whose_inputs_changed_says_so(render, judged_claims):
-    text = words_of(render(judged_claims, studies=["jumps"], changes={"jumps": "fctd/run.py"})[0])
+def test_a_result_whose_inputs_changed_says_so(render, claims):
+    text = words_of(render(studies=["jumps"], changes={"jumps": "fctd/run.py"})[0])
     assert "Out of date: fctd/run.py has changed since. python -m validation jumps" in text
     assert "largest jump: jumps out of date Bound" in text
     assert "1 worse than recorded out of date" in text
-    text = words_of(render(judged_claims, changes={"claims": "validation/claims.toml"})[0])
-    assert "Out of date: validation/claims.toml has changed since. python -m validation claims judges again" in text
-    assert "ut of date" not in words_of(render(judged_claims, studies=["jumps"])[0])
+    assert "ut of date" not in words_of(render(studies=["jumps"])[0])
 
 
 def test_page_without_results(render):
@@ -344,7 +331,7 @@ def test_page_without_results(render):
     assert "There is no study yet." in html
 
 
-def test_tags_are_balanced(render, judged_claims):
+def test_tags_are_balanced(render, claims):
     class Balance(HTMLParser):
         def __init__(self):
             super().__init__()
@@ -359,7 +346,7 @@ def test_tags_are_balanced(render, judged_claims):
 
     run, tables = finished("ownership", display={"owners": "Wrong owners"}, checks=(judged(1.0, "why"),))
     parser = Balance()
-    parser.feed(render((run, tables), judged_claims, studies=["ownership", "absent"])[0])
+    parser.feed(render((run, tables), studies=["ownership", "absent"])[0])
     assert parser.open == []
 
 

@@ -11,6 +11,7 @@ import pytest
 from rich.console import Console
 
 from validation.harness import registry, runner, study
+from validation.harness.fingerprint import Sources
 from validation.harness.study import Check, Context, Outcome, Study
 
 Register = Callable[..., None]
@@ -48,9 +49,10 @@ def register(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, empty_registry: No
         *,
         reproduce: bool = True,
         needs: tuple[str, ...] = (),
+        uses: tuple[str, ...] = (),
     ) -> None:
         module = ModuleType(f"toy_{name}")
-        module.STUDY = Study(name, f"Is {name} right?", run, reproduce, needs)
+        module.STUDY = Study(name, f"Is {name} right?", run, reproduce, needs, uses)
         monkeypatch.setitem(sys.modules, module.__name__, module)
         registry.STUDIES[name] = module.__name__
 
@@ -71,6 +73,7 @@ def run(tmp_path: Path) -> Callable[..., tuple[int, str]]:
             data=data,
             expected=expected or {},
             results=tmp_path / "results",
+            sources=Sources(),
             console=Console(file=text),
         )
         return code, text.getvalue()

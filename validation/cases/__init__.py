@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from fctd import Case, load_case
+from validation.harness.files import declare
 
 FOLDER = Path(__file__).parent
 
@@ -11,7 +12,10 @@ FOLDER = Path(__file__).parent
 def load(name: str, **overrides: Any) -> Case:
     """A case of this folder by file name without suffix; ``__`` in a keyword stands for a dot."""
     changes = {key.replace("__", "."): value for key, value in overrides.items()}
-    return load_case(FOLDER / f"{name}.toml", changes)
+    case = load_case(declare(FOLDER / f"{name}.toml"), changes)
+    if case.wellbore.survey is not None:
+        declare(case.wellbore.survey)
+    return case
 
 
 def rotation(at: float, duration: float, ramp: float, rpm: float = 60.0) -> list[dict[str, Any]]:

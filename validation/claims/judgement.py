@@ -1,70 +1,53 @@
-"""The paper's claims one by one: verdicts computed from the stored results of the other studies."""
+"""The paper's claims one by one: verdicts computed from the stored results of the studies."""
 
-from typing import Any
+from dataclasses import dataclass
+from pathlib import Path
 
-import pandas as pd
+from rich.console import Console
+from rich.text import Text
 
-from validation.claims.ledger import Finding, Found, Missing, Results, judge, read_ledger
-from validation.harness.registry import STUDIES
-from validation.harness.study import Check, Context, Outcome, Study
-
-ROLES = ("number", "limited", "second_route")
-
-
-def run(context: Context) -> Outcome:
-    """Judge every claim of ``claims.toml`` by what is in ``validation/results``."""
-    ledger, results = read_ledger(), Results(context.results)
-    findings = [judge(claim, results) for claim in ledger.claim]
-    waiting = [f"{found.claim.id} ({found.why})" for found in findings if found.verdict == "not yet run"]
-    return Outcome(
-        tables={
-            "ledger": pd.DataFrame([row(found) for found in findings]),
-            "misprints": pd.DataFrame([misprint.model_dump() for misprint in ledger.misprint]),
-        },
-        checks=[as_recorded(found) for found in findings if found.verdict != "not yet run"],
-        notes=[f"Not yet run: {'; '.join(waiting)}."] if waiting else [],
-    )
+from fctd.case.errors import InputError
+from fctd.case.text import printable_lines
+from validation.claims.ledger import CLAIMS, Finding, Misprint, Results, judge, read_ledger
 
 
-def as_recorded(found: Finding) -> Check:
-    """Whether a verdict is the one that ``claims.toml`` records."""
-    claim = found.claim
-    agrees = found.verdict == claim.verdict
-    name = f"{claim.id}: {found.verdict}" + ("" if agrees else f", recorded is {claim.verdict or 'nothing'}")
-    return Check(name, float(agrees), 1.0, "at_least", "", "the verdict recorded in claims.toml")
+@dataclass(frozen=True)
+class Judgement:
+    """Every claim of ``claims.toml`` beside what was found, in its order, and the misprints."""
+
+    findings: list[Finding]
+    misprints: list[Misprint]
+
+    @property
+    def surprises(self) -> list[Finding]:
+        """The claims whose verdict is not the recorded one."""
+        return [found for found in self.findings if not found.as_recorded]
 
 
-def row(found: Finding) -> dict[str, Any]:
-    """A claim, its verdict and its numbers in columns."""
-    claim = found.claim
-    studies = [name for name in dict.fromkeys(number.study for number in claim.numbers) if name in STUDIES]
-    cells: dict[str, Any] = {
-        "claim": claim.id,
-        "section": claim.section,
-        "says": claim.says,
-        "verdict": found.verdict,
-        "recorded": claim.verdict or "",
-        "because": claim.because or "",
-        "why": found.why,
-        "limit": claim.limited.limit if claim.limited else "",
-        "one_route": claim.one_route or "",
-        "remark": claim.remark,
-        "command": " ".join(["python -m validation", *studies]) if studies else "",
-    }
-    for role in ROLES:
-        cells |= {f"{role}_{column}": value for column, value in _columns(getattr(found, role)).items()}
-    return cells
+def judge_all(results: Path, ledger: Path = CLAIMS) -> Judgement:
+    """Judge every claim by what is stored in a folder of results; InputError for a ledger that does not fit it."""
+    found, stored = read_ledger(ledger), Results(results)
+    return Judgement([judge(claim, stored) for claim in found.claim], found.misprint)
 
 
-def _columns(found: Found | Missing | None) -> dict[str, Any]:
-    if isinstance(found, Found):
-        check = found.check
-        return {
-            "study": found.study, "name": check.name, "value": check.value, "of_unit": check.unit,
-            "bound": check.requirement(), "met": found.met, "quick": found.quick,
-        }  # fmt: skip
-    blank = {"name": "", "value": float("nan"), "of_unit": "", "bound": "", "met": False, "quick": False}
-    return {"study": found.study if found else "", **blank}
-
-
-STUDY = Study("claims", "What of the paper holds, by how much, and where does it end?", run, reproduce=True)
+def run(results: Path, console: Console, ledger: Path) -> int:
+    """Judge the claims and print a line for each; the exit code, 1 where a verdict is not the recorded one."""
+    try:
+        judgement = judge_all(results, ledger)
+    except InputError as error:
+        console.print(Text(printable_lines(f"claims: failed: {error}"), "bold red"), soft_wrap=True)
+        return 1
+    count, surprises = len(judgement.findings), judgement.surprises
+    waiting = sum(found.verdict == "not yet run" for found in judgement.findings)
+    as_recorded = count - len(surprises) - waiting
+    parts = [f"{as_recorded} as recorded", f"{waiting} not yet run", f"{len(surprises)} other than recorded"]
+    style = "bold red" if surprises else "bold"
+    console.print(Text(f"claims: {', '.join(part for part in parts if part[0] != '0')}", style), soft_wrap=True)
+    for found in judgement.findings:
+        line = f"  {found.claim.id}: {found.verdict}"
+        if found.verdict == "not yet run":
+            line += f" ({found.why})"
+        if not found.as_recorded:
+            line += f", recorded is {found.claim.verdict or 'nothing'}"
+        console.print(Text(printable_lines(line), "" if found.as_recorded else "bold red"), soft_wrap=True)
+    return 1 if surprises else 0

@@ -212,6 +212,16 @@ class Finding:
     second_route: "Found | Missing | None" = None
     why: str = ""
 
+    @property
+    def as_recorded(self) -> bool:
+        """Whether the verdict is the recorded one, or there is none yet."""
+        return self.verdict in ("not yet run", self.claim.verdict)
+
+    @property
+    def studies(self) -> list[str]:
+        """The studies whose numbers it rests on, without those that are still to come."""
+        return [name for name in dict.fromkeys(number.study for number in self.claim.numbers) if name in STUDIES]
+
 
 class Found(NamedTuple):
     """A number beside its bound, and the run it comes from."""

@@ -32,6 +32,4 @@ STUDIES: dict[str, str] = {
     "real_survey": "validation.studies.real_survey",
     "real_chart": "validation.studies.real_chart",
     "refine_real": "validation.studies.refine_real",
-    # Last: it reads the results of the others.
-    "claims": "validation.claims.judgement",
 }

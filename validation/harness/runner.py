@@ -8,6 +8,7 @@ import time
 import tomllib
 import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cache
@@ -26,8 +27,9 @@ from rich.text import Text
 
 from fctd.case.errors import InputError
 from fctd.case.text import printable_lines
-from validation.harness import fingerprint, store
-from validation.harness.fingerprint import Inputs
+from validation.harness import audit, fingerprint, store
+from validation.harness.files import declared
+from validation.harness.fingerprint import Inputs, Sources
 from validation.harness.registry import STUDIES
 from validation.harness.store import Judged, Provenance, Record, Standing
 from validation.harness.study import NEEDS, ROOT, Context, Outcome, Study, T
@@ -105,6 +107,21 @@ def read_expected(path: Path) -> Expected:
 
 
 @dataclass(frozen=True)
+class Run:
+    """What holds for all studies of a run.
+
+    force : repeat also what is up to date.  audited : watch what each study reads and imports; it fails where its
+    fingerprint lacks any of that.
+    """
+
+    results: Path
+    sources: Sources
+    origin: Provenance
+    force: bool
+    audited: bool
+
+
+@dataclass(frozen=True)
 class Done:
     """A result, and why its study was repeated: ``kept`` where it was not, what has changed, or nothing at all."""
 
@@ -118,6 +135,7 @@ class Done:
 
 
 KEPT = "kept"
+INTERRUPTED = 130
 DATA = "public data folder"
 
 
@@ -126,19 +144,20 @@ def run_all(
     *,
     quick: bool,
     force: bool = False,
+    audited: bool = False,
     data: Path | None,
     expected: Expected,
     results: Path,
+    sources: Sources,
     console: Console,
 ) -> int:
     """Run and store each study named, unless its result is up to date; return the exit code.
 
-    force : repeat those as well.  The code is 0, 1 for worse than recorded, 130 when interrupted.
+    force : repeat those as well.  audited : the same, each study watched (see ``Run``).  The code is 0, 1 for worse
+    than recorded, 130 when interrupted.
     """
-    origin = store.provenance()
-    # Now, before the studies are imported: what is edited during the run is repeated by the next one.
-    sources, around = fingerprint.Sources(), fingerprint.surroundings(quick)
-    code = {name: sources.used_by(STUDIES[name]) for name in names}
+    rules = Run(results, sources, store.provenance(), force or audited, audited)
+    around = fingerprint.surroundings(quick, sources.root)
     finished: list[Done] = []
     columns = (
         SpinnerColumn(),
@@ -148,17 +167,17 @@ def run_all(
         TimeElapsedColumn(),
     )
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
-        context = Context(quick=quick, data=data, progress=Bars(bars), results=results)
+        context = Context(quick=quick, data=data, progress=Bars(bars))
         try:
             for name in context.progress(names, "studies"):
-                now, recorded = Inputs(code[name], around), expected.get(name, {})
-                done = run_one(name, context, recorded, origin, now, sources, force)
+                recorded = expected.get(name, {})
+                done = run_one(name, context, recorded, around, rules)
                 finished.append(done)
                 tell(done, recorded, console)
         except KeyboardInterrupt:
             there = ", ".join(done.record.study for done in finished) or "nothing had finished"
             _say(console, f"interrupted; kept: {there}; the same command goes on from there", "bold red")
-            return 130
+            return INTERRUPTED
     errors = [done.record.study for done in finished if done.record.is_error]
     kept = sum(done.kept for done in finished)
     verdict = f"worse than recorded: {', '.join(errors)}" if errors else "none worse than recorded"
@@ -171,10 +190,8 @@ def run_one(
     name: str,
     context: Context,
     recorded: Mapping[str, str],
-    origin: Provenance,
-    now: Inputs,
-    sources: fingerprint.Sources,
-    force: bool,
+    around: Mapping[str, str],
+    rules: Run,
 ) -> Done:
     """Take one study's result if it is up to date; otherwise run it and store what came of it.
 
@@ -193,88 +210,95 @@ def run_one(
         quick=context.quick,
         date=datetime.now(UTC).isoformat(timespec="seconds"),
         wall_s=0.0,
-        provenance=origin,
+        provenance=rules.origin,
     )
-    why = ""
+    why, results = "", rules.results
     try:
         study = load(name)
         blank = replace(blank, question=study.question)
+        now = Inputs(rules.sources.used_by(STUDIES[name], *study.uses), dict(around))
         if "data" in study.needs:
-            now = replace(now, around=now.around | {DATA: str(context.data)})
+            now.around[DATA] = str(context.data)
         else:
             context = replace(context, data=None)
-        why = "forced" if force else outdated(name, now, context.results)
+        why = "forced" if rules.force else outdated(name, now, rules)
         if why == KEPT:
-            return Done(store.judge_again(store.read(context.results / name), recorded, context.results), KEPT)
+            return Done(store.judge_again(store.read(results / name), recorded, results), KEPT)
         # What a study needs is a field of the context by the same name.
         absent = [NEEDS[need] for need in study.needs if getattr(context, need) is None]
         if absent:
             run, tables = replace(blank, status="skipped", message="; ".join(absent)), {}
         else:
-            outcome, read = _watched(study, context, now.code, sources)
-            now = replace(now, files=read)
+            outcome, now.files = _run(study, context, now.code, rules)
             run, tables = _finished(blank, outcome, recorded), outcome.tables
         run = replace(run, wall_s=time.perf_counter() - start)
-        store.write(run, tables, context.results, now)
+        store.write(run, tables, results, now)
     except Exception as error:
         # One study must not take the others with it: its failure is a result, and the exit code tells.
         if not isinstance(error, InputError):  # which says all there is to know
             print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
         message = f"{type(error).__name__}: {error}"
         run = replace(blank, message=message, wall_s=time.perf_counter() - start)
-        store.write(run, {}, context.results)
+        store.write(run, {}, results)
     return Done(run, why)
 
 
-def outdated(name: str, now: Inputs, results: Path) -> str:
+def outdated(name: str, now: Inputs, rules: Run) -> str:
     """Why a study has to be run: ``kept`` when it has not, nothing when there is no result yet."""
+    folder = rules.results / name
     try:
-        kept = store.read(results / name)
+        kept = store.read(folder)
     except FileNotFoundError:
         return ""
     except (OSError, ValueError, TypeError, LookupError):
         return "the result cannot be read"
-    before = fingerprint.read(results / name)
+    before = fingerprint.read(folder)
     if kept.status != "finished":
         return f"was {kept.status}"
-    if lost := store.unreadable(results / name, kept):
+    if lost := store.unreadable(folder, kept):
         return f"table {lost} cannot be read"
     if before is None or not now.code:
         return "what it rests on is not known"
-    changed = now.changed_since(before)
+    changed = now.changed_since(before, rules.sources.root)
     if changed == fingerprint.LENGTH:
         return f"replaces a {before.around[fingerprint.LENGTH]} result"
     return f"changed: {changed}" if changed else KEPT
 
 
-def changes(names: Iterable[str], results: Path) -> dict[str, str]:
+def changes(names: Iterable[str], results: Path, sources: Sources) -> dict[str, str]:
     """Study -> what has changed since its result was stored, for those where something has."""
-    sources, surroundings, found = fingerprint.Sources(), cache(fingerprint.surroundings), {}
+    surroundings, found = cache(fingerprint.surroundings), {}
     for name in names:
         if (before := fingerprint.read(results / name)) is None:
             continue
-        around = surroundings(before.around.get(fingerprint.LENGTH) == "quick")
+        try:
+            code = sources.used_by(STUDIES[name], *load(name).uses)
+        except Exception:
+            # What it declares cannot be asked, for want of a package or by an edit: the rest tells which.
+            code = before.code | sources.used_by(STUDIES[name])
+        around = surroundings(before.around.get(fingerprint.LENGTH) == "quick", sources.root)
         # Where the data lie is for the runner to know; here the files that were read tell.
         around = around | {key: value for key, value in before.around.items() if key == DATA}
-        if changed := Inputs(sources.used_by(STUDIES[name]), around).changed_since(before):
+        if changed := Inputs(code, around).changed_since(before, sources.root):
             found[name] = changed
     return found
 
 
-def _watched(
-    study: Study, context: Context, code: Mapping[str, str], sources: fingerprint.Sources
-) -> tuple[Outcome, dict[str, str]]:
-    """Run a study; also gives the files that it read."""
-    loaded = set(sys.modules)
-    folders = (ROOT, context.results, *([context.data] if context.data else []))
-    with fingerprint.files_read(*folders) as read:
+def _run(study: Study, context: Context, code: Mapping[str, str], rules: Run) -> tuple[Outcome, dict[str, str]]:
+    """Run a study; also gives the files that it declared, file -> digest.
+
+    Raises RuntimeError where it is audited and its fingerprint lacks what it read or imported.
+    """
+    sources = rules.sources
+    folders = (sources.root, *([context.data] if context.data else []))
+    with declared() as files, audit.watched(*folders) if rules.audited else nullcontext() as seen:
         outcome = study.run(context)
-    if strays := sources.strays(set(sys.modules) - loaded, code):
+    if seen is not None and (lacking := seen.undeclared(files, code, sources)):
         raise RuntimeError(
-            f"{', '.join(strays)}: imported under a name that stands in no source, so that a change of it would go "
-            "unnoticed; write the whole name of the module where it is chosen"
+            f"{', '.join(lacking)}: used by {study.name} and not in its fingerprint, so that a change would not repeat "
+            "it; declare a file by validation.harness.files.declare, a registry entry by Study(uses=...)"
         )
-    return outcome, read
+    return outcome, {sources.name_of(file): digest for file, digest in files.items()}
 
 
 def _finished(blank: Record, outcome: Outcome, recorded: Mapping[str, str]) -> Record:

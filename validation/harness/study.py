@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
-from references.packages import absent
+from references.registry import absent
 
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "validation" / "results"
@@ -125,14 +125,12 @@ def silent(items: Iterable[T], label: str) -> Iterable[T]:
 class Context:
     """What a study is told: whether to take the short way, where the public data lie, how to show progress.
 
-    ``data`` is a folder for a study that says ``needs=("data",)`` and None for any other. ``results`` holds a folder
-    for each study that has been run.
+    ``data`` is a folder for a study that says ``needs=("data",)`` and None for any other.
     """
 
     quick: bool = False
     data: Path | None = None
     progress: Progress = silent
-    results: Path = RESULTS
 
 
 @dataclass(frozen=True)
@@ -140,7 +138,7 @@ class Study:
     """One question, and the function that answers it.
 
     ``reproduce`` : whether ``make reproduce`` runs it. ``needs`` names what must be there, or the study is skipped by
-    name.
+    name. ``uses`` are the registry entries that it asks for, "module:class": no import statement leads to them.
     """
 
     name: str
@@ -148,3 +146,4 @@ class Study:
     run: Callable[[Context], Outcome]
     reproduce: bool = True
     needs: tuple[Need, ...] = ()
+    uses: tuple[str, ...] = ()

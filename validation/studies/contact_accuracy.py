@@ -8,7 +8,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import Case, InputError, build_wellbore, find_contacts
-from references import contact
+from references import contact, engines
 from references.contact import traps
 from references.timing.footprint import footprint
 from references.timing.stopwatch import machine_table, race
@@ -246,4 +246,9 @@ def notes(skipped: list[str]) -> list[str]:
     ]
 
 
-STUDY = Study("contact_accuracy", "What does each contact method get right, and what does a point cost?", run)
+STUDY = Study(
+    "contact_accuracy",
+    "What does each contact method get right, and what does a point cost?",
+    run,
+    uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
+)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fctd.mechanics import contact, state
 from fctd.simulation.run import Run, contact_points, prepare, settle, start_from_rest
-from references.contact import build, installed_version, own
+from references.contact import METHODS, build, installed_version, own
 from references.contact.box_tree import BoxTree, penetration
 from references.contact.for_loop import for_loop_owner, for_loop_owners, one_cylinder
 from references.contact.tube_mesh import TubeOptions, build_tube
@@ -245,4 +245,9 @@ def run(context: Context) -> Outcome:
     )
 
 
-STUDY = Study("contact_operations", "How many operations does a contact test take?", run)
+STUDY = Study(
+    "contact_operations",
+    "How many operations does a contact test take?",
+    run,
+    uses=(METHODS["coal"], METHODS["trimesh"]),
+)

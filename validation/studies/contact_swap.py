@@ -10,7 +10,7 @@ import pandas as pd
 from fctd import Case, simulate
 from fctd.mechanics.topdrive import Motion
 from fctd.simulation.run import Run
-from references import contact
+from references import contact, engines
 from references.contact.for_loop import advance_with_for_loop
 from references.timing.stopwatch import machine_table, race, units_for
 from references.timing.workloads import NoWall, asking, copy_of, moving, without_wall
@@ -262,4 +262,9 @@ def notes(missing: list[str]) -> list[str]:
     ]
 
 
-STUDY = Study("contact_swap", "What does the contact method cost in the loop, and does the torque depend on it?", run)
+STUDY = Study(
+    "contact_swap",
+    "What does the contact method cost in the loop, and does the torque depend on it?",
+    run,
+    uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
+)

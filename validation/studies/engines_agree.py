@@ -388,4 +388,9 @@ def notes(missing: list[str]) -> list[str]:
     ]
 
 
-STUDY = Study("engines_agree", "Does the same string give the same loads in engines that are not ours?", run)
+STUDY = Study(
+    "engines_agree",
+    "Does the same string give the same loads in engines that are not ours?",
+    run,
+    uses=tuple(engines.ENGINES.values()),
+)

@@ -58,4 +58,6 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("mesh_torque", "Does the torque off bottom depend on how contact is found?", run)
+STUDY = Study(
+    "mesh_torque", "Does the torque off bottom depend on how contact is found?", run, uses=(contact.METHODS[METHOD],)
+)

@@ -7,7 +7,7 @@ from fctd.case.errors import InputError
 from fctd.model.wellbore import build_wellbore, find_contacts
 from references import contact
 from references.contact.tube_mesh import curvature_at
-from references.packages import absent
+from references.registry import absent
 from tests.references.wells import HOLE, RADIUS, REGIONS, bent_case, beside_the_wall
 from validation.cases import load
 
@@ -196,22 +196,3 @@ def test_bad_options_are_told(name: str, options: dict, expected: str) -> None:
     with pytest.raises(InputError) as told:
         contact.build(name, CASE, **options)
     assert expected in str(told.value)
-
-
-@pytest.mark.parametrize("name", MESHES)
-def test_a_missing_package_is_named(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    method = contact.method_class(name)
-
-    def absent(module: str) -> object:
-        raise ModuleNotFoundError(f"No module named {module!r}", name=module)
-
-    monkeypatch.setattr(contact.importlib, "import_module", absent)
-    with pytest.raises(InputError) as told:
-        contact.need("some_module", method)
-    assert method.distribution in str(told.value)
-    assert "not installed" in str(told.value)
-
-
-def test_a_package_that_is_not_there_has_no_version() -> None:
-    assert contact.version_of("fctd") is not None
-    assert contact.version_of("fctd-is-not-called-so") is None

@@ -5,7 +5,7 @@ import pytest
 from fctd.case.errors import InputError
 from references import contact
 from references.contact import traps
-from references.packages import absent
+from references.registry import absent
 
 pytest.importorskip("trimesh")
 

@@ -22,7 +22,7 @@ from references.engines.checks import axial_period, drift
 from references.engines.friction_law import lean_of_two_directions, sliding
 from references.engines.own import Fctd
 from references.engines.run import run_window
-from references.packages import absent
+from references.registry import absent
 from tests.cases import make_case, pipe, rotation
 from validation.cases import load
 from validation.harness.study import left_out

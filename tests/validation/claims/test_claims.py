@@ -1,18 +1,20 @@
 """Verdicts follow from stored numbers and recorded bounds, and a ledger that says something else is refused."""
 
+import io
 import re
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 import pytest
+from rich.console import Console
 
 from fctd import build_wellbore
 from fctd.case.errors import InputError
 from validation.cases import load
-from validation.claims import judgement, ledger
-from validation.claims.ledger import read_ledger
-from validation.harness import fingerprint, registry, store
+from validation.claims import judgement
+from validation.claims.ledger import Finding, read_ledger
 from validation.harness.study import Check, Outcome
 
 ROOT = Path(__file__).parents[3]
@@ -49,29 +51,38 @@ def outcome(value, unit="mm"):
     return Outcome({"forces": table}, [Check("error", value, 1.0, "at_most", unit, "closed form")])
 
 
+class Answer(NamedTuple):
+    """Exit code, what was printed, and the first claim's finding; None where the claims could not be judged."""
+
+    code: int
+    printed: str
+    finding: Finding | None
+
+
 @pytest.fixture
-def judged(register, run, tmp_path, monkeypatch):
-    """Write claims.toml, run toy and second studies that find ``values``, then the claims; gives the ledger's table."""
-    monkeypatch.setattr(ledger, "CLAIMS", tmp_path / "claims.toml")
-    monkeypatch.setattr(judgement, "read_ledger", lambda: read_ledger(tmp_path / "claims.toml"))
+def judged(register, run, tmp_path):
+    """Write claims.toml, run toy and second studies that find ``values``, then judge the claims."""
 
     def call(text, *, quick=False, **values):
-        (tmp_path / "claims.toml").write_text(text)
+        path, results = tmp_path / "claims.toml", tmp_path / "results"
+        path.write_text(text)
         for name in ("toy", "second"):
             register(name, lambda context, name=name: outcome(values[name]))
-        register("claims", judgement.run)
         for name in values:
             run(name, quick=quick)
-        code, printed = run("claims", quick=quick)
-        folder = tmp_path / "results" / "claims"
-        table = store.read_tables(folder, store.read(folder)).get("ledger")
-        return code, printed, table
+        printed = io.StringIO()
+        code = judgement.run(results, Console(file=printed), path)
+        try:
+            (finding,) = judgement.judge_all(results, path).findings
+        except InputError:
+            finding = None
+        return Answer(code, printed.getvalue(), finding)
 
     return call
 
 
 def verdict(answer):
-    return answer[2]["verdict"].iloc[0]
+    return answer.finding.verdict
 
 
 @pytest.mark.parametrize(
@@ -99,10 +110,10 @@ def test_a_number_that_contradicts_the_paper_has_a_second_route_that_does_too(ju
     assert judged(text + SECOND, toy=2.0, second=3.0)[0] == 0
     answer = judged(text + SECOND, toy=2.0, second=0.5)
     assert (answer[0], verdict(answer)) == (1, "routes disagree")
-    assert answer[2]["second_route_value"].iloc[0] == 0.5
+    assert answer.finding.second_route.check.value == 0.5
     answer = judged(CLAIM + SECOND, toy=0.5, second=3.0)
     assert (answer[0], verdict(answer)) == (1, "routes disagree")
-    assert answer[2]["why"].iloc[0] == "the first route keeps the bound and the second does not"
+    assert answer.finding.why == "the first route keeps the bound and the second does not"
     told = "claim a-claim.second_route is missing: expected a second route"
     assert told in judged(text, toy=2.0)[1]
     answer = judged(ONE_ROUTE.replace('"holds"', '"does not hold"'), toy=2.0)
@@ -117,7 +128,7 @@ def test_a_number_that_needs_limits_has_a_second_route_or_says_why_not(judged):
     assert "one_route = why there is none" in judged(limited, toy=1.5)[1]
     answer = judged(ONE_ROUTE.replace('"holds"', '"holds with limits"') + LIMITED.format(2.0), toy=1.5)
     assert (answer[0], verdict(answer)) == (0, "holds with limits")
-    assert answer[2]["one_route"].iloc[0] == "one number is printed"
+    assert answer.finding.claim.one_route == "one number is printed"
     assert "second_route or one_route, not both" in judged(ONE_ROUTE + LIMITED.format(2.0) + SECOND, toy=1.5)[1]
 
 
@@ -152,24 +163,24 @@ def test_the_same_table_holds_other_numbers(judged):
     ],
 )
 def test_what_has_not_been_run_has_no_verdict(judged, text, values, why):
-    code, _, table = judged(text, **values)
-    assert code == 0
-    assert table["verdict"].iloc[0] == "not yet run"
-    assert table["why"].iloc[0] == why
+    answer = judged(text, **values)
+    assert (answer.code, verdict(answer), answer.finding.why) == (0, "not yet run", why)
+    assert f"a-claim: not yet run ({why})" in answer.printed
 
 
 def test_a_result_that_cannot_be_read_gives_no_number(judged, tmp_path, register, run):
     judged(CLAIM, toy=0.5)
     (tmp_path / "results" / "toy" / "verdict.json").write_text("{")
-    assert judged(CLAIM)[2]["why"].iloc[0] == "the result of toy cannot be read"
+    assert judged(CLAIM).finding.why == "the result of toy cannot be read"
 
 
-def test_a_skipped_study_gives_no_number(judged, register, run):
+def test_a_skipped_study_gives_no_number(judged, register, run, tmp_path):
     judged(CLAIM)
     register("toy", needs=("data",))
     run("toy")
-    register("claims", judgement.run)
-    assert "no checks" in run("claims")[1]
+    (finding,) = judgement.judge_all(tmp_path / "results", tmp_path / "claims.toml").findings
+    assert finding.verdict == "not yet run"
+    assert finding.why.startswith("toy: skipped, the public data folder is missing")
 
 
 def test_a_verdict_that_nobody_recorded_asks_for_it(judged):
@@ -181,7 +192,7 @@ def test_a_verdict_that_nobody_recorded_asks_for_it(judged):
 def test_a_claim_that_cannot_be_tested_says_why(judged):
     text = CLAIM[: CLAIM.index("because")].replace('"holds"', '"cannot be tested"') + 'untestable = "not public"\n'
     answer = judged(text)
-    assert (answer[0], verdict(answer), answer[2]["why"].iloc[0]) == (0, "cannot be tested", "not public")
+    assert (answer[0], verdict(answer), answer.finding.why) == (0, "cannot be tested", "not public")
 
 
 @pytest.mark.parametrize(
@@ -198,10 +209,11 @@ def test_a_claim_that_cannot_be_tested_says_why(judged):
     ],
 )
 def test_a_number_of_a_table(judged, more, value):
-    _, _, table = judged(CLAIM[: CLAIM.index("[claim.number]")] + CELL + more, toy=0.5)
-    assert table["number_value"].iloc[0] == pytest.approx(value)
-    assert table["verdict"].iloc[0] == ("holds" if value <= 1.5 else "does not hold")
-    assert (table["number_name"].iloc[0], table["number_bound"].iloc[0]) == ("force", "at most 1.5 N")
+    finding = judged(CLAIM[: CLAIM.index("[claim.number]")] + CELL + more, toy=0.5).finding
+    check = finding.number.check
+    assert check.value == pytest.approx(value)
+    assert finding.verdict == ("holds" if value <= 1.5 else "does not hold")
+    assert (check.name, check.requirement()) == ("force", "at most 1.5 N")
 
 
 @pytest.mark.parametrize(
@@ -223,7 +235,7 @@ def test_a_number_that_is_not_there_is_told_with_those_that_are(judged, old, new
         text = CLAIM.replace(old, new)
     code, printed, _ = judged(text, toy=0.5)
     assert code == 1
-    assert "InputError: claims.toml: claim a-claim.number" in printed
+    assert "claims: failed: claims.toml: claim a-claim.number" in printed
     assert message in printed
     assert "Traceback" not in capsys.readouterr().err
 
@@ -231,7 +243,7 @@ def test_a_number_that_is_not_there_is_told_with_those_that_are(judged, old, new
 def test_a_quick_run_may_leave_a_number_out(judged):
     answer = judged(CLAIM.replace('check = "error"', 'check = "of full runs"'), quick=True, toy=0.5)
     assert (answer[0], verdict(answer)) == (0, "not yet run")
-    assert answer[2]["why"].iloc[0] == "the quick run of toy has no such number"
+    assert answer.finding.why == "the quick run of toy has no such number"
 
 
 @pytest.mark.parametrize(
@@ -280,18 +292,10 @@ def test_two_claims_of_one_name_are_refused(register, tmp_path):
         read_ledger(path)
 
 
-def test_the_ledger_rests_on_the_results_that_it_read(judged, tmp_path):
-    judged(CLAIM, toy=0.5)
-    rests_on = fingerprint.read(tmp_path / "results" / "claims").files
-    assert str(tmp_path / "results" / "toy" / "verdict.json") in rests_on
-    assert str(tmp_path / "claims.toml") not in rests_on  # outside of the project; the true one is inside
-
-
 def test_the_papers_ledger_is_complete_and_reads():
     found = read_ledger()
     assert len(found.claim) >= 16
     assert all(claim.numbers or claim.untestable for claim in found.claim)
-    assert list(registry.STUDIES)[-1] == "claims"
     contradicted = [claim for claim in found.claim if claim.verdict in ("holds with limits", "does not hold")]
     assert len([claim for claim in contradicted if claim.second_route is None]) <= 1
 
@@ -312,5 +316,6 @@ def test_the_papers_wells_bend_by_some_fifteen_degrees_in_a_hundred_metres(name)
 
 
 def test_the_command_of_a_claim_names_its_studies(judged):
-    _, _, table = judged(CLAIM + SECOND, toy=0.5, second=0.5)
-    assert table["command"].iloc[0] == "python -m validation toy second"
+    assert judged(CLAIM + SECOND, toy=0.5, second=0.5).finding.studies == ["toy", "second"]
+    later = CLAIM.replace('study = "toy"', 'study = "later"')
+    assert judged(later).finding.studies == []

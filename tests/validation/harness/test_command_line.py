@@ -1,11 +1,23 @@
 """``python -m validation``: what it runs, what it answers, how it exits."""
 
 import pytest
+from grimp.exceptions import SourceSyntaxError
 from typer.testing import CliRunner
 
 from validation.__main__ import app
-from validation.harness import runner, store, study
+from validation.claims import ledger
+from validation.harness import fingerprint, runner, store, study
 from validation.harness.study import Check, Outcome
+
+CLAIM = """
+[[claim]]
+id = "a-claim"
+section = "5.2"
+says = "Forces are right."
+verdict = "holds"
+because = "target"
+number = { study = "paper_well", check = "error", at_most = 1.0 }
+"""
 
 
 @pytest.fixture
@@ -13,6 +25,8 @@ def invoke(register, tmp_path, monkeypatch):
     expected = tmp_path / "expected.toml"
     expected.write_text("")
     monkeypatch.setattr(runner, "EXPECTED", expected)
+    monkeypatch.setattr(ledger, "CLAIMS", tmp_path / "claims.toml")
+    ledger.CLAIMS.write_text(CLAIM)
     register("paper_well")
     register("overlap", reproduce=False)
     return lambda *arguments: CliRunner().invoke(app, arguments)
@@ -43,6 +57,40 @@ def test_reproduce_runs_the_marked_ones(invoke):
 def test_names_run_those(invoke):
     assert invoke("overlap").exit_code == 0
     assert results() == ["overlap"]
+
+
+def test_the_claims_are_judged_after_all_studies_and_by_their_name(invoke):
+    answer = invoke("claims")
+    assert "claims: 1 not yet run" in answer.output
+    for arguments in (["--all"], ["--reproduce"], ["claims"], ["claims", "overlap"]):
+        answer = invoke(*arguments)
+        assert answer.exit_code == 0, arguments
+        assert "claims: 1 as recorded" in answer.output
+        assert "a-claim: holds" in answer.output
+    assert "claims: " not in invoke("overlap").output
+    assert "studies run" not in invoke("claims").output
+
+
+def test_another_verdict_than_recorded_is_exit_code_1(invoke, register):
+    ledger.CLAIMS.write_text(CLAIM.replace("at_most = 1.0", "at_most = 0.1"))
+    assert invoke("paper_well").exit_code == 0
+    answer = invoke("--all")
+    assert answer.exit_code == 1
+    assert "a-claim: does not hold, recorded is holds" in answer.output
+    ledger.CLAIMS.write_text(CLAIM.replace(", at_most = 1.0", ""))
+    answer = invoke("claims")
+    assert answer.exit_code == 1
+    assert "claims: failed: claims.toml: claim a-claim.number" in answer.output
+
+
+def test_a_source_that_is_no_python_is_bad_usage(invoke, monkeypatch):
+    def broken():
+        raise SourceSyntaxError("fctd/x.py", 3, "def :")
+
+    monkeypatch.setattr(fingerprint, "Sources", broken)
+    answer = invoke("--all")
+    assert answer.exit_code == 2
+    assert "error: Syntax error in fctd/x.py, line 3: def :" in answer.output
 
 
 def test_unknown_name_is_answered_with_the_nearest(invoke):

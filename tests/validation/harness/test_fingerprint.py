@@ -11,18 +11,24 @@ import time
 from pathlib import Path
 
 import pytest
+from grimp.exceptions import SourceSyntaxError
 from rich.console import Console
 
 from validation.harness import fingerprint, registry, runner
 
 # A project of one study: a module that it imports, one that a registry names, one that it has nothing to do with.
 PROJECT = {
-    "requirements.lock": "numpy==1.0\n",
+    "pyproject.toml": """
+        [project]
+        dependencies = ["numpy"]
+        optional-dependencies = {suite = ["grimp; python_version > '3'"], dev = ["ruff"]}
+        """,
     "toylab/__init__.py": "",
     "toylab/question.py": """
         from pathlib import Path
 
         from toylab import steps
+        from validation.harness.files import declare
         from validation.harness.study import Check, Outcome, Study
 
         def run(context):
@@ -31,19 +37,24 @@ PROJECT = {
             here = Path(__file__).parent
             with here.joinpath("runs.log").open("a") as log:
                 log.write("run\\n")
-            limit = float(here.joinpath("case.toml").read_text())
+            limit = float(declare(here.joinpath("case.toml")).read_text())
             return Outcome({}, [Check("error", steps.ERROR * build("mesh").FACTOR, limit, "at_most", "mm", "toy")])
 
-        STUDY = Study("question", "Is it right?", run, reproduce=True, needs=())
+        STUDY = Study("question", "Is it right?", run, needs=(), uses=("toylab.mesh:Mesh",))
         """,
     "toylab/steps.py": "ERROR = 1.0\n",
     "toylab/methods.py": """
         import importlib
+        import sys
+
+        from references.registry import FOUND
 
         METHODS = {"mesh": "toylab.mesh:Mesh"}
 
         def build(name):
-            return importlib.import_module(METHODS[name].partition(":")[0])
+            module = METHODS[name].partition(":")[0]
+            sys.audit(FOUND, module)
+            return importlib.import_module(module)
         """,
     "toylab/mesh.py": "FACTOR = 1.0\n",
     "toylab/unrelated.py": "NUMBER = 1\n",
@@ -63,8 +74,6 @@ def lab(tmp_path, monkeypatch, empty_registry):
     """The project on disk, its study alone in the registry; gives its folder."""
     for name, text in PROJECT.items():
         write(tmp_path, name, text)
-    monkeypatch.setattr(fingerprint, "ROOT", tmp_path)
-    monkeypatch.setattr(runner, "ROOT", tmp_path)
     registry.STUDIES["question"] = "toylab.question"
     monkeypatch.syspath_prepend(tmp_path)
     yield tmp_path
@@ -83,8 +92,13 @@ def run(lab, *names, **options):
     shutil.rmtree(lab / "toylab" / "__pycache__", ignore_errors=True)  # two edits within a second look alike
     text = io.StringIO()
     chosen = {"quick": False, "data": None, "expected": {}, "results": lab / "results"} | options
+    chosen["sources"] = sources(lab)
     code = runner.run_all(names or ["question"], console=Console(file=text), **chosen)
     return code, text.getvalue()
+
+
+def sources(lab):
+    return fingerprint.Sources(lab, ("toylab",))
 
 
 def runs(lab):
@@ -140,7 +154,7 @@ def test_the_packages_above_a_module_count(lab):
     write(lab, "toylab/inner/__init__.py", "from . import beside\n")
     for name in ("deep", "beside"):
         write(lab, f"toylab/inner/{name}.py", "")
-    found = fingerprint.Sources().used_by("toylab.inner.deep")
+    found = sources(lab).used_by("toylab.inner.deep")
     assert {name.removeprefix("toylab/") for name in found} == {
         "__init__.py", "inner/__init__.py", "inner/deep.py", "inner/beside.py",
     }  # fmt: skip
@@ -154,12 +168,52 @@ def test_a_file_that_is_gone_is_a_change(lab):
     assert "changed: toylab/case.toml" in printed
 
 
-def test_a_lazily_loaded_module_that_no_source_names_is_an_error(lab, capsys):
-    hidden = PROJECT["toylab/methods.py"].replace('"toylab.mesh:Mesh"', '"toy" + "lab.mesh:Mesh"')
-    write(lab, "toylab/methods.py", hidden)
-    code, printed = run(lab)
+@pytest.mark.parametrize(
+    ("old", "new", "lacking"),
+    [
+        ('uses=("toylab.mesh:Mesh",)', "uses=()", "toylab.mesh"),
+        ('declare(here.joinpath("case.toml"))', 'here.joinpath("case.toml")', "toylab/case.toml"),
+        (
+            "limit = ",
+            "__import__('importlib').import_module('toylab.' + 'unrelated'); limit = ",
+            "toylab.unrelated",
+        ),
+    ],
+)
+def test_an_audit_fails_a_study_whose_fingerprint_lacks_what_it_used(lab, capsys, old, new, lacking):
+    assert run(lab, audited=True)[0] == 0
+    assert PROJECT["toylab/question.py"].count(old) == 1
+    write(lab, "toylab/question.py", PROJECT["toylab/question.py"].replace(old, new))
+    code, printed = run(lab, audited=True)
     assert code == 1
-    assert "toylab.mesh: imported under a name that stands in no source" in printed
+    assert f"RuntimeError: {lacking}: used by question and not in its fingerprint" in printed
+    assert run(lab)[0] == 0  # nothing is watched
+
+
+def test_an_audit_sees_an_entry_that_was_imported_before(lab, capsys):
+    text = PROJECT["toylab/question.py"].replace('uses=("toylab.mesh:Mesh",)', "uses=()")
+    write(lab, "toylab/question.py", text.replace("def run", "from toylab import mesh as _\n\n        def run"))
+    assert run(lab, audited=True)[0] == 0  # followed by its import statement
+    forget()
+    write(lab, "toylab/question.py", text)
+    write(lab, "toylab/second.py", text.replace('"question"', '"second"').replace("uses=()", 'uses=("toylab.mesh:M",)'))
+    registry.STUDIES["second"] = "toylab.second"
+    code, printed = run(lab, "second", "question", audited=True)
+    assert code == 1
+    assert "second: 1 met" in printed
+    assert "toylab.mesh: used by question" in printed
+
+
+def test_the_audit_repeats_what_is_up_to_date(lab):
+    run(lab)
+    run(lab, audited=True)
+    assert runs(lab) == 2
+
+
+def test_a_source_that_is_no_python_is_named(lab):
+    write(lab, "toylab/unrelated.py", "def :")
+    with pytest.raises(SourceSyntaxError, match=r"unrelated\.py, line 1"):
+        sources(lab)
 
 
 def test_quick_and_full_are_different_results(lab):
@@ -171,7 +225,10 @@ def test_quick_and_full_are_different_results(lab):
 
 def test_packages_and_processor_count(lab, monkeypatch):
     run(lab)
-    write(lab, "requirements.lock", "numpy==1.0\nno-such-package==2.0\n")
+    project = textwrap.dedent(PROJECT["pyproject.toml"])
+    write(lab, "pyproject.toml", project.replace("ruff", "no-tool"))
+    assert "kept from" in run(lab)[1]
+    write(lab, "pyproject.toml", project.replace('"grimp', '"no-such-package", "grimp'))
     assert "changed: package no-such-package" in run(lab)[1]
     monkeypatch.setattr(fingerprint, "cpu_name", lambda: "another one")
     assert "changed: processor" in run(lab)[1]
@@ -207,9 +264,16 @@ def test_the_page_is_told_what_changed(lab):
     write(lab, "toylab/question.py", asking)
     for quick in (False, True):
         run(lab, data=lab, quick=quick)
-        assert runner.changes(["question", "never run"], lab / "results") == {}
+        assert runner.changes(["question", "never run"], lab / "results", sources(lab)) == {}
     write(lab, "toylab/case.toml", "3.0")
-    assert runner.changes(["question"], lab / "results") == {"question": "toylab/case.toml"}
+    assert runner.changes(["question"], lab / "results", sources(lab)) == {"question": "toylab/case.toml"}
+
+
+def test_the_page_is_told_of_a_study_that_can_no_longer_be_imported(lab):
+    run(lab)
+    forget()
+    write(lab, "toylab/question.py", "import a_module_that_is_not_there\n")
+    assert runner.changes(["question"], lab / "results", sources(lab)) == {"question": "toylab/question.py"}
 
 
 def test_force_repeats(lab):
@@ -223,7 +287,7 @@ def test_force_repeats(lab):
 def test_a_result_that_cannot_be_read_is_repeated(lab, damage, text):
     run(lab)
     (lab / "results" / "question" / damage).write_text(text)
-    runner.changes(["question"], lab / "results")  # the page asks, too
+    runner.changes(["question"], lab / "results", sources(lab))  # the page asks, too
     assert run(lab)[0] == 0
     assert runs(lab) == 2
 
@@ -270,11 +334,10 @@ def test_a_run_that_was_killed_goes_on_where_it_was(lab):
 
         lab = pathlib.Path(sys.argv[1])
         sys.path.insert(0, sys.argv[1])
-        fingerprint.ROOT = runner.ROOT = lab
         registry.STUDIES.clear()
         registry.STUDIES |= {"question": "toylab.question", "second": "toylab.second"}
         runner.run_all(["question", "second"], quick=False, data=None, expected={}, results=lab / "results",
-                       console=Console())
+                       sources=fingerprint.Sources(lab, ("toylab",)), console=Console())
         """
     repository = Path(__file__).parents[3]
     with subprocess.Popen([sys.executable, "-c", textwrap.dedent(script), str(lab)], cwd=repository) as process:
@@ -294,11 +357,17 @@ def test_a_run_that_was_killed_goes_on_where_it_was(lab):
 def test_every_registered_contact_method_and_engine_counts():
     from references import contact, engines
 
-    sources = fingerprint.Sources()
+    found = fingerprint.Sources()
     for study, chosen in (("contact_swap", contact.METHODS), ("engines_agree", engines.ENGINES)):
-        code = sources.used_by(registry.STUDIES[study])
+        code = found.used_by(registry.STUDIES[study], *runner.load(study).uses)
         for where in chosen.values():
             assert where.partition(":")[0].replace(".", "/") + ".py" in code
-    assert not {
-        name for name in sources.used_by("validation.studies.overlap") if name.startswith("references/contact_")
-    }
+    overlap = found.used_by("validation.studies.overlap")
+    assert "validation/cases/__init__.py" in overlap
+    assert not {name for name in overlap if name.startswith("references/engines/")}
+
+
+def test_the_packages_are_those_of_engine_and_suite():
+    names = {name.removeprefix("package ") for name in fingerprint.surroundings(quick=True)}
+    assert names >= {"numpy", "numba", "llvmlite", "scipy", "pandas", "mujoco", "grimp", "pyelastica", "python-fcl"}
+    assert not names & {"ruff", "mypy", "hypothesis", "pytest", "import-linter"}

@@ -1,0 +1,95 @@
+"""Who may import whom: every contract of pyproject.toml is kept, and notices an import that it forbids."""
+
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PACKAGES = ("fctd", "references", "validation", "benchmarks", "reports")
+CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"]
+LONGEST = 400  # lines of a file
+
+# Contract, file, and an import that it may not hold.
+FORBIDDEN = [
+    ("the engine stands alone; references, studies and reports build on it", "fctd/results/tables.py", "references"),
+    ("the engine stands alone; references, studies and reports build on it", "references/registry.py", "validation"),
+    ("the engine stands alone; references, studies and reports build on it", "validation/harness/study.py", "reports"),
+    ("the engine stands alone; references, studies and reports build on it", "benchmarks/gate.py", "validation"),
+    ("rooms of the engine: each imports only what stands below it", "fctd/model/survey.py", "fctd.results.tables"),
+    ("rooms of the engine: each imports only what stands below it", "fctd/case/errors.py", "fctd.model.survey"),
+    ("rooms of the engine: each imports only what stands below it", "fctd/mechanics/state.py", "fctd.case.errors"),
+    ("rooms of the engine: each imports only what stands below it", "fctd/steady/tangent.py", "fctd.simulation.run"),
+    ("mechanics needs numba and numpy alone", "fctd/mechanics/joints.py", "pandas"),
+    ("rooms of the references", "references/contact/own.py", "references.engines.run"),
+    ("rooms of the references", "references/soft_string/torsion.py", "references.beams.case"),
+    ("rooms of the validation", "validation/cases/wells.py", "validation.parts.windows"),
+    ("rooms of the validation", "validation/harness/store.py", "validation.cases"),
+    ("rooms of the validation", "validation/studies/overlap.py", "validation.claims.ledger"),
+    ("no arrow runs up in any room", "fctd/mechanics/rotations.py", "fctd.mechanics.dynamics"),
+    ("no arrow runs up in any room", "validation/harness/study.py", "validation.harness.runner"),
+    ("no study imports another", "validation/studies/overlap.py", "validation.studies.broomstick"),
+]
+
+
+def broken(root: Path) -> set[str]:
+    """Names of the contracts that the sources under ``root`` break."""
+    done = subprocess.run(
+        [Path(sys.executable).with_name("lint-imports"), "--no-cache", "--no-logo"],
+        cwd=root, capture_output=True, text=True,
+    )  # fmt: skip
+    found = dict(re.findall(r"^(.+) (KEPT|BROKEN)$", done.stdout, re.MULTILINE))
+    assert found.keys() == {contract["name"] for contract in CONTRACTS}, done.stdout + done.stderr
+    assert done.returncode == ("BROKEN" in found.values())
+    return {name for name, state in found.items() if state == "BROKEN"}
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The sources and the contracts in a folder of their own."""
+    root = tmp_path_factory.mktemp("copy")
+    shutil.copy(ROOT / "pyproject.toml", root)
+    for package in PACKAGES:
+        for file in (ROOT / package).rglob("*.py"):
+            target = root / file.relative_to(ROOT)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(file, target)
+    return root
+
+
+def test_every_contract_is_kept(copy: Path) -> None:
+    assert broken(copy) == set()
+
+
+@pytest.mark.parametrize(("contract", "file", "module"), FORBIDDEN)
+def test_a_forbidden_import_breaks_its_contract(copy: Path, contract: str, file: str, module: str) -> None:
+    path = copy / file
+    text = path.read_text()
+    path.write_text(f"{text}\nimport {module}\n")
+    try:
+        assert contract in broken(copy)
+    finally:
+        path.write_text(text)
+
+
+def test_every_contract_has_an_import_that_it_forbids() -> None:
+    assert {contract for contract, _, _ in FORBIDDEN} == {contract["name"] for contract in CONTRACTS}
+
+
+def test_every_room_of_the_engine_has_its_place_in_the_layers() -> None:
+    """A room that no contract names could import anything."""
+    layers = next(contract["layers"] for contract in CONTRACTS if contract["name"].startswith("rooms of the engine"))
+    named = {room.strip() for layer in layers for room in layer.split("|")}
+    rooms = {f"fctd.{path.parent.name}" for path in (ROOT / "fctd").glob("*/__init__.py")}
+    modules = {f"fctd.{path.stem}" for path in (ROOT / "fctd").glob("*.py")} - {"fctd.__init__", "fctd.__main__"}
+    assert named == rooms | modules
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_no_file_is_longer_than_a_reader_can_take_in(package: str) -> None:
+    lengths = {path: len(path.read_text().splitlines()) for path in (ROOT / package).rglob("*.py")}
+    assert {path.name: lines for path, lines in lengths.items() if lines > LONGEST} == {}
