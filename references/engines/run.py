@@ -1,4 +1,4 @@
-"""The one way in which every string engine is run: the same start, the same recorder, the same checks."""
+"""Running a window of a case in any string engine: the same start, recorder and checks for all."""
 
 import time
 from abc import ABC, abstractmethod
@@ -20,7 +20,7 @@ from references.engines.checks import examine
 
 
 def legs(case: Case, phases: list[Phase], start: float, end: float, interval: float) -> list[tuple[Phase, float]]:
-    """Parts of a schedule between two times, and the time at which each ends, no longer than ``interval`` [s]."""
+    """Phases of a schedule between two times in parts of at most ``interval`` [s], each with its end time [s]."""
     parts = []
     now = start
     for phase in phases:
@@ -38,7 +38,7 @@ def legs(case: Case, phases: list[Phase], start: float, end: float, interval: fl
 
 
 def begin_run(case: Case, window: Window) -> tuple[Run, list[Phase]]:
-    """The string of a case at the start of a window, sums and losses cleared; raises InputError."""
+    """The string of a case at the start of a window, its sums and losses set to zero; raises InputError."""
     if not (window.start >= 0 and window.duration > 0):
         raise InputError("a start of at least 0 s and a duration above 0 s", key="window", value=str(tuple(window)))
     run, phases = prepare(case)
@@ -55,7 +55,7 @@ def begin_run(case: Case, window: Window) -> tuple[Run, list[Phase]]:
 
 
 def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> EngineRun:
-    """Run a window with a stepper begun by ``begin``, record as ``fctd.simulate`` does, and hold it to the checks."""
+    """Run a window with the stepper that ``begin`` returns, record as ``fctd.simulate`` does, and apply the checks."""
     with naming_file(case):
         run, phases = begin_run(case, window)
         parts = legs(case, phases, window.start, window.start + window.duration, case.record.interval)
@@ -93,7 +93,7 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
 
 
 class InWindows(ABC):
-    """What all engines share: they are run by ``run_window``."""
+    """Common part of all engines: ``run_window`` runs them."""
 
     @abstractmethod
     def begin(self, run: Run) -> Stepper:
@@ -105,7 +105,7 @@ class InWindows(ABC):
 
 
 def late(run: EngineRun, seconds: float = np.inf) -> pd.Series:
-    """Means of the history under a Hann window, of its last seconds."""
+    """Means of the last ``seconds`` [s] of the history under a Hann window."""
     history = run.history[run.history["time_s"] > run.history["time_s"].max() - seconds]
     return hann_means(history)
 
@@ -113,7 +113,7 @@ def late(run: EngineRun, seconds: float = np.inf) -> pd.Series:
 def hann_means(rows: pd.DataFrame) -> pd.Series:
     """Means of the columns of numbers under a Hann window over the rows.
 
-    A plain mean keeps a share of whatever swings about it; the window leaves next to none.
+    A plain mean over part of a period keeps a share of an oscillation; the window suppresses it.
     """
     numbers = rows.select_dtypes("number")
     weights = np.hanning(len(numbers) + 2)[1:-1]
@@ -121,7 +121,7 @@ def hann_means(rows: pd.DataFrame) -> pd.Series:
 
 
 def _ledger(table: pd.DataFrame, held: list[Energy]) -> pd.DataFrame:
-    """The recorder's ledger with what the engine itself says that the string holds."""
+    """The recorder's ledger with the energies that the engine itself reports."""
     ledger = table.copy()
     for name in Energy._fields:
         ledger[f"{name}_J"] = [getattr(now, name) - getattr(held[0], name) for now in held[1:]]
