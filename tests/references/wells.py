@@ -22,7 +22,7 @@ def bent_case(**wellbore: Any) -> Case:
     return make_case(STATIONS, [pipe(200, 20)], wellbore={"geometry": "arcs", "cylinder_length": 2.0} | wellbore)
 
 
-def beside_the_wall(region: str, count: int, seed: int = 7) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def points_near_wall(region: str, count: int, seed: int = 7) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Points (n, 3) [m] within 15 mm of touching, from exact arcs, and their distance from the axis (n,) [m]."""
     rng = np.random.default_rng(seed)
     md, angle = rng.uniform(*REGIONS[region], count), rng.uniform(0, 2 * np.pi, count)

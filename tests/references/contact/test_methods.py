@@ -8,7 +8,7 @@ from fctd.model.wellbore import build_wellbore, find_contacts
 from references import contact
 from references.contact.tube_mesh import curvature_at
 from references.packages import absent
-from tests.references.wells import HOLE, RADIUS, REGIONS, bent_case, beside_the_wall
+from tests.references.wells import HOLE, RADIUS, REGIONS, bent_case, points_near_wall
 from validation.cases import load
 
 CASE = bent_case()
@@ -48,7 +48,7 @@ def curvature(region):
 
 @pytest.mark.parametrize("region", REGIONS)
 def test_the_exact_hole_within_the_geometric_error(method: contact.ContactMethod, region: str) -> None:
-    points, offset = beside_the_wall(region, 120)
+    points, offset = points_near_wall(region, 120)
     exact = truth(points)
     hits = method.query(points, np.full(len(points), RADIUS))
     depth, turn = method.error_bound(curvature(region))
@@ -94,7 +94,7 @@ def test_bends_of_hundreds_of_metres_between_two_stations(name: str, geometry: s
 
 
 def test_methods_without_clearance_return_no_values_for_clear_points(method: contact.ContactMethod) -> None:
-    points, _ = beside_the_wall("build", 60)
+    points, _ = points_near_wall("build", 60)
     hits = method.query(points, np.full(60, RADIUS))
     clear = hits.penetration <= 0
     assert clear.any()
@@ -111,7 +111,7 @@ def test_methods_without_clearance_return_no_values_for_clear_points(method: con
 def test_points_beyond_the_wall_are_deeper_than_their_radius(method: contact.ContactMethod) -> None:
     """A distance has no sign.  Methods without clearance compute the overlap of two surfaces, which is largest while
     the centre of the sphere is still inside the hole."""
-    points, _ = beside_the_wall("build", 30)
+    points, _ = points_near_wall("build", 30)
     exact = truth(points)
     wanted = np.maximum(0.08, 0.08 + exact.penetration) if method.gives_clearance else np.full(30, 0.7 * RADIUS)
     beyond = points + (wanted - exact.penetration)[:, None] * exact.normal
@@ -137,7 +137,7 @@ def test_points_that_jump_in_a_well_past_90_degrees_are_searched_anew(name: str)
 
 
 def test_each_point_has_its_own_radius(method: contact.ContactMethod) -> None:
-    points, _ = beside_the_wall("turn", 60)
+    points, _ = points_near_wall("turn", 60)
     radii = np.where(np.arange(60) % 2, RADIUS, RADIUS + 0.02)
     hits, same = method.query(points, radii), method.query(points, np.full(60, RADIUS + 0.02))
     wide = radii > RADIUS
@@ -148,8 +148,8 @@ def test_each_point_has_its_own_radius(method: contact.ContactMethod) -> None:
 
 
 def test_results_do_not_depend_on_earlier_queries(method: contact.ContactMethod) -> None:
-    points, _ = beside_the_wall("build", 50)
-    others, _ = beside_the_wall("turn", 50, seed=8)
+    points, _ = points_near_wall("build", 50)
+    others, _ = points_near_wall("turn", 50, seed=8)
     radii = np.full(50, RADIUS)
     first = method.query(points, radii)
     method.query(others, radii)
@@ -158,7 +158,7 @@ def test_results_do_not_depend_on_earlier_queries(method: contact.ContactMethod)
 
 
 def test_a_query_with_another_number_of_points(method: contact.ContactMethod) -> None:
-    points, _ = beside_the_wall("build", 70)
+    points, _ = points_near_wall("build", 70)
     many = method.query(points, np.full(70, RADIUS))
     one = method.query(points[3:4], np.full(1, RADIUS))
     assert one.penetration.shape == (1,)
