@@ -1,7 +1,7 @@
-"""Instructions per unit of each subject, counted by valgrind, independent of the load of the machine.
+"""Instructions that a unit of each subject takes, counted by valgrind: whatever the load.
 
-The code is compiled for one plain processor without the newest extensions, which valgrind does not support; counts are
-therefore comparable between machines.  They do not measure time, since instructions differ in cost.
+Compiled for one plain processor without the newest extensions, which valgrind does not know; counts therefore compare
+between machines.  They do not tell time, since instructions differ in cost: they stand in where no times compare.
 """
 
 import ctypes
@@ -17,8 +17,8 @@ from benchmarks import measure
 from benchmarks.subjects import subjects
 
 PROCESSOR = {"NUMBA_CPU_NAME": "haswell", "NUMBA_CPU_FEATURES": ""}
-# valgrind writes its counts at every call of the inner one of these functions of the C library; they seed an old random
-# generator, and nothing else calls them.
+# valgrind writes what it has counted whenever the inner of these functions of the C library is entered; it seeds an old
+# random generator, and nothing else calls it.
 MARKER, ENTERED = "lcong48", "lcong48_r"
 
 
@@ -30,11 +30,11 @@ def available() -> bool:
 def count(root: Path = measure.ROOT) -> dict[str, float]:
     """Instructions per unit of every subject; raises subprocess.CalledProcessError where valgrind fails.
 
-    Each subject runs once and then twice; the difference is one call, without the cost of the call from Python.
+    Each subject runs once and then twice; the difference is one call, without what a call from Python costs.
     """
     environment = {**measure.environment(root), **PROCESSOR, "PYTHONHASHSEED": "0"}
     program = [sys.executable, "-m", "benchmarks.instructions"]
-    # First without valgrind, to fill the compile cache for this processor.
+    # At full speed first: it fills the compile cache for this processor.
     subprocess.run(program, cwd=root, env=environment, check=True, capture_output=True)
     with tempfile.TemporaryDirectory() as scratch:
         done = subprocess.run(
@@ -45,7 +45,7 @@ def count(root: Path = measure.ROOT) -> dict[str, float]:
             cwd=root, env=environment, check=True, capture_output=True, text=True,
         )  # fmt: skip
         units = dict(line.rsplit("=", 1) for line in done.stdout.splitlines())
-        # The first dump is the preparation; then there are two dumps per subject.
+        # The first dump is what went before; then two for each subject.
         counted = [_total(Path(f"{scratch}/counts.{k + 1}")) for k in range(1 + 2 * len(units))][1:]
     return {
         name: (twice - once) / int(units[name])
@@ -62,7 +62,7 @@ def _total(dump: Path) -> int:
 
 
 def main() -> None:
-    """The counted process: compile and warm up every subject, then run each between markers."""
+    """The counted process: every subject compiled and warm, then between markers."""
     found = subjects()
     call, seed = getattr(ctypes.CDLL(None), MARKER), ctypes.create_string_buffer(14)
     for one in found.values():

@@ -1,4 +1,4 @@
-"""Optional packages that are not installed, and how to install them."""
+"""Optional packages that are not there, and how to have them."""
 
 import sys
 
@@ -7,7 +7,7 @@ NO_PYBULLET = (3, 12)
 
 
 def absent(distribution: str) -> str:
-    """Text that a package is not installed and how to install it, for the end of a message."""
+    """That a package is not installed, and how to have it."""
     if distribution == "pybullet" and sys.version_info >= NO_PYBULLET:
         how = "it has no wheels for Python 3.12 and later: run on Python 3.11, or build it by 'make bullet'"
     else:
