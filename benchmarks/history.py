@@ -26,8 +26,8 @@ Cost = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 class Kernel(BaseModel):
     """One subject of a record: cost per unit, absolute and relative to the reference kernel in the same process.
 
-    samples : the ratio in each process; ratio, spread : their median and range.  instructions : per unit, on
-    the plain processor of instructions.py; None if not counted.
+    samples : the ratio in each process; ratio, spread : their median and range.  instructions : of one unit, on the
+    plain processor of instructions.py; None where they were not counted.
     """
 
     model_config = ConfigDict(frozen=True)

@@ -109,7 +109,7 @@ def import_optional(module: str, distribution: str, wanted_for: str, key: str = 
 
 
 def installed_version(name: str) -> str | None:
-    """Version of the package that provides a method, None where it is not installed."""
+    """Version of the package that brings a method, None where it is not installed."""
     return version_of(method_class(name).distribution)
 
 

@@ -158,7 +158,7 @@ TRAPS = (
 
 
 def measure(trap: Trap, at: Scene) -> float:
-    """The error that a trap causes, in the unit of the trap; InputError where its package is not installed."""
+    """The number of a trap; InputError where its package is not installed."""
     method = method_class(trap.method)
     modules = {"fcl": "fcl", "coal": "coal", "bullet": "pybullet", "mujoco": "mujoco"}
     return trap.measure(need(modules[trap.method], method), at)

@@ -185,7 +185,7 @@ def _spacing(options: TubeOptions, curvature: Array | float) -> Array:
 
 
 def _ring_depths(hole: Wellbore, options: TubeOptions) -> Array:
-    """Measured depths of the rings [m]: ends of the pieces, changes of size, and rings between them by the spacing."""
+    """Measured depths of the rings: ends of the pieces, changes of size, and enough between them."""
     knots = hole.wall_along()[:, 0]
     inside = knots[(knots > hole.md[0]) & (knots < hole.md[-1])]
     breaks = np.union1d(hole.md, inside)

@@ -29,8 +29,8 @@ ENGINES: dict[str, str] = {
 class Window(NamedTuple):
     """The part of a case's schedule that an engine runs.
 
-    start [s] : FCTD's stepper runs from the settled string at rest to this time and hands over its state, in motion;
-    with 0 the engine runs from the start.  duration [s].
+    start [s] : FCTD's stepper goes this far from the settled string at rest and hands over its state, in motion; 0
+    leaves everything to the engine.  duration [s].
     """
 
     start: float
@@ -115,7 +115,7 @@ def build(name: str, **options: Any) -> StringEngine:
 
 
 def installed_version(name: str) -> str | None:
-    """Version of the package that provides an engine, None where it is not installed."""
+    """Version of the package that brings an engine, None where it is not installed."""
     return version_of(engine_class(name).distribution)
 
 

@@ -46,7 +46,7 @@ def examine(
 
 
 def energy_error(energy: pd.DataFrame) -> float:
-    """Largest residual of a ledger over the energy converted: losses, or work other than lifting; NaN if not finite."""
+    """Largest residual of a ledger over the energy turned over: losses, or work beyond lifting; NaN of no number."""
     if energy.empty:
         return np.nan
     if not np.isfinite(energy.to_numpy(float)).all():

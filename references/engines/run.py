@@ -20,7 +20,7 @@ from references.engines.checks import examine
 
 
 def legs(case: Case, phases: list[Phase], start: float, end: float, interval: float) -> list[tuple[Phase, float]]:
-    """Phases of a schedule between two times in parts of at most ``interval`` [s], each with its end time [s]."""
+    """Parts of a schedule between two times, and the time at which each ends, no longer than ``interval`` [s]."""
     parts = []
     now = start
     for phase in phases:
@@ -38,7 +38,7 @@ def legs(case: Case, phases: list[Phase], start: float, end: float, interval: fl
 
 
 def begin_run(case: Case, window: Window) -> tuple[Run, list[Phase]]:
-    """The string of a case at the start of a window, its sums and losses set to zero; raises InputError."""
+    """The string of a case at the start of a window, sums and losses cleared; raises InputError."""
     if not (window.start >= 0 and window.duration > 0):
         raise InputError("a start of at least 0 s and a duration above 0 s", key="window", value=str(tuple(window)))
     run, phases = prepare(case)
@@ -55,7 +55,7 @@ def begin_run(case: Case, window: Window) -> tuple[Run, list[Phase]]:
 
 
 def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> EngineRun:
-    """Run a window with the stepper that ``begin`` returns, record as ``fctd.simulate`` does, and apply the checks."""
+    """Run a window with a stepper begun by ``begin``, record as ``fctd.simulate`` does, and hold it to the checks."""
     with naming_file(case):
         run, phases = begin_run(case, window)
         parts = legs(case, phases, window.start, window.start + window.duration, case.record.interval)
@@ -121,7 +121,7 @@ def hann_means(rows: pd.DataFrame) -> pd.Series:
 
 
 def _ledger(table: pd.DataFrame, held: list[Energy]) -> pd.DataFrame:
-    """The recorder's ledger with the energies that the engine itself reports."""
+    """The recorder's ledger with what the engine itself says that the string holds."""
     ledger = table.copy()
     for name in Energy._fields:
         ledger[f"{name}_J"] = [getattr(now, name) - getattr(held[0], name) for now in held[1:]]

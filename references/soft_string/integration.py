@@ -212,7 +212,7 @@ def _pieces(case: Case, operation: str, bit_depth: float, speed: float | None, r
 
 
 def _axis(case: Case) -> Axis:
-    """Tangent of the hole, not of the cylinders that approximate it, and its derivative [1/m]."""
+    """Tangent of the hole itself, not of the cylinders that stand for it, and its derivative [1/m]."""
     stations = survey.to_radians(case.wellbore.read_stations())
     if case.wellbore.survey_method == "minimum_curvature":
         try:

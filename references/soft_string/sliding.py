@@ -18,7 +18,7 @@ from fctd.case.errors import InputError, nearest
 from fctd.case.load import DRILLING, Case
 from fctd.model.operations import rad_per_s
 
-# Direction of axial friction on the string: down the hole (+1), up (−1), none (0).
+# Which way friction pulls at the string: down the hole (+1), up (−1), or not at all along it.
 DRAG_SIGN = {
     "trip_in": -1.0,
     "trip_out": 1.0,
@@ -43,7 +43,7 @@ class Friction(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """Motion of the whole string: drag_sign of `DRAG_SIGN`, speed ≥ 0 [m/s], spin ≥ 0 [rad/s]."""
+    """What the whole string does: drag_sign of `DRAG_SIGN`, speed ≥ 0 [m/s], spin ≥ 0 [rad/s]."""
 
     drag_sign: float
     speed: float

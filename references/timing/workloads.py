@@ -45,7 +45,7 @@ class NoWall:
 
 
 def moving(case: Case, after: float) -> tuple[Run, Motion]:
-    """The string of a case ``after`` [s] of its schedule, and the motion of its top drive from then on."""
+    """The string of a case ``after`` so many seconds of its schedule, and what its top drive then does."""
     window = Window(after, 1.0)
     run, phases = begin_run(case, window)
     (phase, _) = legs(case, phases, after, after + window.duration, np.inf)[-1]
@@ -79,7 +79,7 @@ def without_wall(run: Run) -> Run:
 
 
 def asking(run: Run, method: Any) -> Run:
-    """A copy of a run that queries a contact method from Python at every step."""
+    """The same state with a contact method that is asked from Python at every step."""
     return copy_of(run, queried=QueriedWall(method, run.hole, run.segments))
 
 
@@ -89,7 +89,7 @@ def touching(run: Run) -> float:
 
 
 def energy_error(run: Run, before: Energy, now: Energy) -> float:
-    """Residual of the energy ledger since ``begin_run`` over the energy converted; 0 for an exact run."""
+    """What the ledger misses since ``begin_run``, over the energy turned over; exact is 0."""
     entries = {f"{name}_J": b - a for name, a, b in zip(Energy._fields, before, now, strict=True)}
     lost = {name: float(state.row(run.S, row, run.segments).sum()) for name, row in LOSSES.items()}
     work, fed = float(run.top[topdrive.TOP_WORK]), float(run.top[topdrive.FED_ENERGY])

@@ -69,7 +69,7 @@ def own() -> EngineRun:
 
 @pytest.mark.parametrize("name", CONTACT)
 def test_the_same_string_gives_the_same_loads(name: str, own: EngineRun) -> None:
-    """Hook load within 1 %, torque within 5 %."""
+    """Within the bounds of the issue: hook load 1 %, torque 5 %."""
     run = engines.build(name).run(turning(), WINDOW)
     assert run.status == "valid", run.message
     assert mean(own, "sum_r_ft_N_m") > 100
@@ -153,7 +153,7 @@ def test_weight_of_pipe_that_is_being_fed_in_an_engine_without_feed() -> None:
 
 
 def test_a_rod_begins_pressed_into_the_wall_as_deep_as_the_segments_were() -> None:
-    """Within the shift of the nodes to the middle of open joints."""
+    """Within what standing in the middle of open joints moves them by."""
     run, _ = begin_run(turning(), WINDOW)
     pressed = energy_of(run.S, run.segments).contact
     assert pressed > 1
@@ -301,8 +301,8 @@ def test_the_same_engine_without_a_fault_is_valid() -> None:
     assert run.status == "valid", run.message
 
 
-def test_axial_period_of_a_uniform_string() -> None:
-    """A uniform rod fixed at one end: four times the length over the speed of sound."""
+def test_a_string_rings_with_the_period_of_its_stretch() -> None:
+    """A uniform rod held at one end: four times the length over the speed of sound."""
     run, _ = begin_run(turning([[0, 0, 0], [600, 0, 0]]), Window(0.0, 1.0))
     assert axial_period(run) == pytest.approx(4 * 500 / np.sqrt(206.8e9 / 7850), rel=1e-3)
 
