@@ -1,3 +1,3 @@
-"""What everything costs."""
+"""Benchmarks of the engine, the references and the release gate."""
 
-import fctd  # noqa: F401 (it says where compiled code is kept, and the reference kernel imports nothing of it)
+import fctd  # noqa: F401 (fctd sets the folder of compiled code, and the reference kernel does not import fctd)

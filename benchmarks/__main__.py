@@ -1,4 +1,4 @@
-"""``python -m benchmarks``: the gate, this run against the last release, and a new record."""
+"""``python -m benchmarks``: the gate, a comparison of this run with the last release, and a new record."""
 
 from importlib.metadata import version
 from pathlib import Path
@@ -12,31 +12,31 @@ from fctd.case.errors import InputError
 from fctd.cli.main import run
 from fctd.cli.options import FAILED, messages, screen
 
-PROCESSES = 6  # of a record
+PROCESSES = 6  # processes measured for a record
 
 app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    help="What the kernels cost, against the last release.",
+    help="Cost of the kernels compared with the last release.",
 )
-History = Annotated[Path, typer.Option("--history", metavar="FOLDER", help="Where the records are.")]
+History = Annotated[Path, typer.Option("--history", metavar="FOLDER", help="Folder of the records.")]
 
 
-def tell(line: str) -> None:
-    """Progress, on standard error."""
+def report(line: str) -> None:
+    """Print progress on standard error."""
     messages.print(line)
 
 
 @app.command("gate")
 def gate_command(folder: History = history.HISTORY) -> None:
-    """Fail, naming the kernel, when one has become slower than in the last release by 15 % beyond noise."""
+    """Exit with code 1 and name the kernel if one is slower than in the last release by 15 % beyond noise."""
     last = history.last_release(folder)
     if last is None:
         screen.print("no release is recorded: nothing to compare with")
         return
     file, record = last
-    outcome = gate(record, file, tell)
+    outcome = gate(record, file, report)
     if not outcome.verdicts:
         screen.print(outcome.how)
         return
@@ -46,7 +46,7 @@ def gate_command(folder: History = history.HISTORY) -> None:
         if verdict.status == "slower":
             screen.print(
                 f"slower: {verdict.kernel} takes {verdict.change:.2f} times what it took"
-                f" (noise leaves {verdict.low:.2f} to {verdict.high:.2f})"
+                f" (80 % interval {verdict.low:.2f} to {verdict.high:.2f})"
             )
         elif verdict.status == "missing":
             screen.print(f"missing: {verdict.kernel} is no longer measured; record a new release")
@@ -56,7 +56,7 @@ def gate_command(folder: History = history.HISTORY) -> None:
 
 @app.command("compare")
 def compare_command(folder: History = history.HISTORY) -> None:
-    """Measure and print this run beside the last release."""
+    """Measure and print this run next to the last release."""
     last = history.last_release(folder)
     record = measured()
     why_not = "" if last is None else last[1].not_here(record.reference, record.processor, record.versions)
@@ -66,18 +66,18 @@ def compare_command(folder: History = history.HISTORY) -> None:
 @app.command("record")
 def record_command(
     folder: History = history.HISTORY,
-    release: Annotated[str, typer.Option("--release", help="Its name; default: the engine's version.")] = "",
+    release: Annotated[str, typer.Option("--release", help="Name of the release; default: FCTD's version.")] = "",
 ) -> None:
-    """Measure and keep a record, with which later runs are compared; the sources have to be committed."""
+    """Measure and store a record for comparison with later runs; the sources have to be committed."""
     changed = history.uncommitted()
     if changed:
-        raise InputError("everything committed: a record names its commit", key="git", value=changed)
+        raise InputError("everything committed, since a record names its commit", key="git", value=changed)
     screen.print(str(history.write(measured(release), folder)))
 
 
 def measured(release: str = "") -> history.Record:
-    """The record of a measurement, now."""
-    costs, subjects = measure.alone(PROCESSES, tell=tell)
+    """Measure the kernels; returns the record."""
+    costs, subjects = measure.alone(PROCESSES, report=report)
     return history.record_of(costs, subjects, release or version("fctd"))
 
 

@@ -1,4 +1,4 @@
-"""One step in everybody's engine, contact-free and in contact, each at its own step."""
+"""One step of every engine, contact-free and in contact, each with its own step length."""
 
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
@@ -10,11 +10,11 @@ from references.engines.free_bodies import FreeBodies
 from references.registry import absent
 from references.timing.workloads import moving
 
-# Steps a round.
+# Steps per round.
 STEPS = {"fctd": COMPILED // 60, "bullet": 10, "mujoco": 10, "mujoco_chain": 10, "elastica": 200}
 
 
-# The ball chain knows no wall.
+# The chain of ball joints has no contact.
 ENTRIES = [
     (name, state)
     for state in ("contact-free", "contact")
@@ -25,7 +25,7 @@ ENTRIES = [
 
 @pytest.mark.parametrize(("name", "state"), ENTRIES)
 def bench_engine(benchmark: BenchmarkFixture, name: str, state: str) -> None:
-    """60 segments of the curved chain turning, or hanging in the open; readings for our checks are off."""
+    """60 segments of the curved chain, turning in the hole or hanging freely; contacts are not read for checks."""
     if engines.installed_version(name) is None:
         pytest.skip(absent(engines.engine_class(name).distribution))
     case = hanging() if state == "contact-free" else chain()
@@ -33,7 +33,7 @@ def bench_engine(benchmark: BenchmarkFixture, name: str, state: str) -> None:
     stepper = engines.build(name).begin(run)
     if isinstance(stepper, FreeBodies):
         stepper.watch = False
-    if name == "mujoco_chain":  # it begins at rest: the first wave is to pass
+    if name == "mujoco_chain":  # it starts at rest: let the first wave pass the string
         stepper.advance(motion, 1.0)
     describe(benchmark, f"step of every engine, {state}", engine=name, does=engines.engine_class(name).does)
     time_steps(benchmark, lambda span: stepper.advance(motion, span), run, stepper.step, STEPS[name], rounds=9)

@@ -1,4 +1,4 @@
-"""The packed joint arithmetic by itself, springs and damping."""
+"""The packed joint loads alone, springs and damping."""
 
 from numba import njit
 from pytest_benchmark.fixture import BenchmarkFixture
@@ -13,13 +13,13 @@ JOINTS = 64
 
 @njit(error_model="numpy")
 def many_joint_loads(S, n, count):  # type: ignore[no-untyped-def]
-    """The loads of n joints, so many times."""
+    """The loads of n joints, ``count`` times."""
     for _ in range(count):
         update_joint_loads(S, n, 1e-5, 1e-3)
 
 
 def bench_joints(benchmark: BenchmarkFixture) -> None:
-    """64 joints of a turning chain of 60 segments; the rest are inert columns of the last packed operation."""
+    """64 joints of a turning chain of 60 segments; the other columns pad the last packed instruction."""
     run, _ = moving(chain(), LEAD)
     count = COMPILED // JOINTS
     describe(benchmark, "joints", joints=JOINTS)

@@ -1,7 +1,7 @@
-"""What a run, a contact method and an engine hold in memory; the times beside it are of the whole process.
+"""Memory of a run, a contact method and an engine; the times in these records are those of the whole process.
 
-``arrays_MB`` is exact, the sum of the run's own buffers.  ``peak_MB`` is the largest resident memory of a process
-that does nothing else, and ``growth_MB`` what building added to it once everything was imported.
+``arrays_MB`` is the exact sum of the run's buffers.  ``peak_MB`` is the largest resident memory of a process that does
+nothing else, and ``growth_MB`` its increase by building, after all imports.
 """
 
 import json
@@ -42,7 +42,7 @@ growth = resident() - before
 
 
 def process(program: str, answer: str) -> dict[str, float]:
-    """What a Python process tells at its end."""
+    """Run a program in a new Python process; returns the value of the expression ``answer`` at its end."""
     done = subprocess.run(
         [sys.executable, "-c", f"{program}{PEAK}print(json.dumps({answer}))"],
         check=True, capture_output=True, text=True, cwd=CASES.parents[1],

@@ -1,7 +1,7 @@
 """The paper's two timed cases: 150 m of vertical trip without contact, and the first build section in contact.
 
-FCTD runs them whole, records and ledger included.  Others run a window in the middle, from FCTD's state there, and
-their record is marked as extrapolated: ``whole_wall_s`` is what the whole trip would take.
+FCTD runs the whole trip, with records and ledger.  The others run a window in its middle, from FCTD's state there, and
+their records are marked as extrapolated: ``whole_wall_s`` is the estimated time of the whole trip.
 """
 
 from functools import cache
@@ -21,16 +21,16 @@ from references.engines.free_bodies import FreeBodies
 from references.timing.workloads import asking, copy_of, moving
 
 WINDOW = 0.1  # [s]
-# How the others are run: contact methods in FCTD's loop, engines whole.
+# Contact methods run in FCTD's loop, engines run the whole string.
 SWAPPED, ENGINES = ("fcl", "coal"), ("bullet", "mujoco", "elastica")
 VERTICAL, BUILD = "vertical, contact-free", "first build, in contact"
-# Without contact there is nothing to swap.
+# Without contact there is no contact method to compare.
 ENTRIES = [*((VERTICAL, name) for name in ENGINES), *((BUILD, name) for name in (*SWAPPED, *ENGINES))]
 
 
 @cache
 def the_case(name: str) -> Case:
-    """One of the two; 61 segments each, law coulomb, which all engines know."""
+    """One of the two cases; 61 segments each, friction law coulomb, which all engines have."""
     if name == VERTICAL:
         hole = {key.replace(".", "__"): value for key, value in OPEN.items()}
         return trip(1750.0, 1900.0, **hole, wellbore__survey=None)
@@ -39,7 +39,7 @@ def the_case(name: str) -> Case:
 
 @cache
 def halfway(name: str) -> tuple[Run, Motion, float]:
-    """The string in the middle of the trip, what the top drive does there, and the trip's whole time [s]."""
+    """The string in the middle of the trip, the motion of the top drive there, and the duration of the trip [s]."""
     case = the_case(name)
     operation = case.operations[0]
     whole = abs(operation.end_md - operation.start_md) / operation.speed + 2.0  # ramps of 2 s at both ends
@@ -68,13 +68,13 @@ def bench_fctd(benchmark: BenchmarkFixture, name: str) -> None:
 
 @pytest.mark.parametrize(("name", "engine"), ENTRIES)
 def bench_others(benchmark: BenchmarkFixture, name: str, engine: str) -> None:
-    """A window; its hook load is held against FCTD's over the same time."""
+    """A window; the record has the difference of its hook load from FCTD's in the same window."""
     registry = contact if engine in SWAPPED else engines
     if registry.installed_version(engine) is None:
         pytest.skip(f"the package of {engine} is not installed")
     start, motion, whole = halfway(name)
     own = copy_of(start)
-    truth = hookload_over(lambda span: own.advance(motion, span), own, WINDOW)
+    expected = hookload_over(lambda span: own.advance(motion, span), own, WINDOW)
     if engine in SWAPPED:
         run = asking(start, contact.build(engine, start.case))
         stepper: Any = engines.build("fctd").begin(run)
@@ -83,7 +83,7 @@ def bench_others(benchmark: BenchmarkFixture, name: str, engine: str) -> None:
         stepper = engines.build(engine).begin(run)
     if isinstance(stepper, FreeBodies):
         stepper.watch = False
-    off = hookload_over(lambda span: stepper.advance(motion, span), run, WINDOW) / truth - 1
+    off = hookload_over(lambda span: stepper.advance(motion, span), run, WINDOW) / expected - 1
     describe(
         benchmark, f"the paper's trip: {name}", engine=engine, segments=run.segments, step_ms=1e3 * stepper.step,
         window_s=WINDOW, whole_s=whole, hookload_off_percent=100 * off,

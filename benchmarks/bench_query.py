@@ -1,7 +1,7 @@
-"""What it costs to ask where a point touches: every contact method from Python, our own compiled as well.
+"""Cost of a contact query: every contact method from Python, and FCTD's compiled queries.
 
-Times are of a whole set of points beside the wall; ``ns_per_point`` is in the record, and the errors against the
-exact arcs of the hole.
+Times are those of a set of points near the wall; the record has ``ns_per_point`` and the errors relative to the exact
+arcs of the hole.
 """
 
 from typing import Any
@@ -20,31 +20,31 @@ from references.registry import absent
 from references.timing.workloads import find_walls, moving
 
 POINTS, RADIUS = 240, 0.051
-# Points are within this of touching [m].
+# Largest distance of points from contact [m].
 BAND = 0.015
 ROUNDS = 25
-COMPILED_CALLS = 40  # a round
+COMPILED_CALLS = 40  # per round
 
 
-def points_beside(count: int) -> NDArray[np.float64]:
-    """Seeded points beside the wall of the curved chain's hole, vertical, build and horizontal alike."""
+def points_near_wall(count: int) -> NDArray[np.float64]:
+    """Seeded points near the wall of the curved chain's hole, in its vertical, build and horizontal sections."""
     exact, rng = build_wellbore(chain(wellbore__geometry="arcs")), np.random.default_rng(7)
     md, angle = rng.uniform(1000.0, 2440.0, count), rng.uniform(0, 2 * np.pi, count)
     return exact.off_axis(md, angle, 0.1556 - RADIUS + rng.uniform(-BAND, BAND, count))
 
 
 def errors(penetration: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
-    """Largest error of penetration [m] and share of contacts missed, against the exact arcs."""
-    truth = find_contacts(build_wellbore(chain(wellbore__geometry="arcs")), points, RADIUS).penetration
+    """Largest error of penetration [m] and share of contacts missed [%], relative to the exact arcs."""
+    exact = find_contacts(build_wellbore(chain(wellbore__geometry="arcs")), points, RADIUS).penetration
     known = np.isfinite(penetration)
     return {
-        "penetration_error_m": float(np.abs(penetration - truth)[known].max()),
-        "missed_percent": 100 * float(((truth > 0) & ~(penetration > 0)).mean()),
+        "penetration_error_m": float(np.abs(penetration - exact)[known].max()),
+        "missed_percent": 100 * float(((exact > 0) & ~(penetration > 0)).mean()),
     }
 
 
 def note_cost(benchmark: BenchmarkFixture, points: int) -> None:
-    """Write down the median for one point."""
+    """Add the median time per point to the record."""
     if benchmark.stats is not None:
         benchmark.extra_info["ns_per_point"] = 1e9 * benchmark.stats.stats.median / points
 
@@ -54,7 +54,7 @@ def bench_query_from_python(benchmark: BenchmarkFixture, name: str) -> None:
     """One call for all points."""
     if contact.installed_version(name) is None:
         pytest.skip(absent(contact.method_class(name).distribution))
-    method, points = contact.build(name, chain()), points_beside(POINTS)
+    method, points = contact.build(name, chain()), points_near_wall(POINTS)
     radii = np.full(POINTS, RADIUS)
     describe(benchmark, "query from Python", points=POINTS, pieces=method.pieces)
     benchmark.extra_info |= errors(method.query(points, radii).penetration, points)
@@ -64,16 +64,16 @@ def bench_query_from_python(benchmark: BenchmarkFixture, name: str) -> None:
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def bench_query_compiled(benchmark: BenchmarkFixture, geometry: str) -> None:
-    """Compiled query of free points that remember their piece: what the steady solver and users call."""
-    hole, points = build_wellbore(chain(wellbore__geometry=geometry)), points_beside(POINTS)
+    """Compiled query of free points with the piece of the last call, as the steady solver and users call it."""
+    hole, points = build_wellbore(chain(wellbore__geometry=geometry)), points_near_wall(POINTS)
     owner, out = hole.owners(points), np.empty((POINTS, 7))
 
-    def ask() -> None:
+    def query() -> None:
         for _ in range(COMPILED_CALLS):
             query_walls(hole.pieces, hole.geometry, points, owner, out)
 
     describe(benchmark, "query compiled", points=POINTS, pieces=len(hole.pieces))
-    benchmark.pedantic(ask, rounds=ROUNDS, warmup_rounds=2)
+    benchmark.pedantic(query, rounds=ROUNDS, warmup_rounds=2)
     penetration = np.linalg.norm(out[:, :3], axis=1) - out[:, 3] + RADIUS
     benchmark.extra_info |= errors(penetration, points)
     note_cost(benchmark, POINTS * COMPILED_CALLS)
@@ -81,7 +81,7 @@ def bench_query_compiled(benchmark: BenchmarkFixture, geometry: str) -> None:
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def bench_query_in_step(benchmark: BenchmarkFixture, geometry: str) -> None:
-    """The same as a step does it: the piece of the last step, packed arithmetic."""
+    """The same query inside a step: the piece of the last step, packed arithmetic."""
     run, _ = moving(chain(wellbore__geometry=geometry), LEAD)
     times = 2000
     describe(benchmark, "query compiled", points=run.segments, pieces=len(run.hole.pieces))
@@ -90,9 +90,9 @@ def bench_query_in_step(benchmark: BenchmarkFixture, geometry: str) -> None:
 
 
 def bench_find_contacts(benchmark: BenchmarkFixture) -> None:
-    """``fctd.find_contacts`` as a user calls it: no memory, the piece of every point is searched."""
+    """``fctd.find_contacts`` as a user calls it: the piece of every point is searched anew."""
     hole: Any = build_wellbore(chain())
-    points = points_beside(POINTS)
+    points = points_near_wall(POINTS)
     describe(benchmark, "query from Python", points=POINTS, pieces=len(hole.pieces))
     hits = benchmark.pedantic(find_contacts, args=(hole, points, RADIUS), rounds=5, warmup_rounds=1)
     benchmark.extra_info |= errors(hits.penetration, points)

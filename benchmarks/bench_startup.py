@@ -1,4 +1,4 @@
-"""Processes from their start: Python itself, the import, the command line, and compiling everything afresh."""
+"""Time of whole processes: Python alone, the import, the command line, and compiling with an empty cache."""
 
 import os
 import subprocess
@@ -43,7 +43,7 @@ def bench_start(benchmark: BenchmarkFixture, name: str) -> None:
 
 @pytest.mark.parametrize("name", COMPILED)
 def bench_compile(benchmark: BenchmarkFixture, name: str, tmp_path: Path) -> None:
-    """A process with an empty cache, and the same again with what it left; ``compile_s`` is the difference."""
+    """A process with an empty cache, and again with the cache that it filled; ``compile_s`` is the difference."""
     describe(benchmark, "compile", what=name)
     benchmark.pedantic(start, args=(COMPILED[name],), kwargs={"NUMBA_CACHE_DIR": str(tmp_path)}, rounds=1)
     if benchmark.stats is None:

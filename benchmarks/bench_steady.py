@@ -1,4 +1,4 @@
-"""The steady solver: one bit depth, layout and all, and a whole chart."""
+"""The steady solver: one bit depth, layout included, and a whole chart."""
 
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
@@ -22,7 +22,7 @@ LONGER = {
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("segments", [61, 500])
 def bench_depth(benchmark: BenchmarkFixture, segments: int, kind: str) -> None:
-    """Paper-well with the bit at 2450 m; accuracy is what is left out of balance over the string's weight."""
+    """Paper-well with the bit at 2450 m; the record has the unbalanced force over the hook load."""
     case = trip(1750.0, BIT, **ON_BOTTOM, **({} if segments == 61 else LONGER))
     solver, rates = Solver(case), steady_rates(case, kind)
     describe(benchmark, f"steady depth, {segments} segments", pieces_of_hole=len(solver.hole.pieces))

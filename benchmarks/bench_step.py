@@ -1,4 +1,4 @@
-"""One step of the engine over segments, contact-free and in contact; the difference is what contact adds."""
+"""One step of FCTD over the number of segments, contact-free and in contact; the difference is the cost of contact."""
 
 from typing import Any
 
@@ -20,7 +20,7 @@ KINDS: dict[str, dict[str, Any]] = {
 @pytest.mark.parametrize("kind", ["contact-free", *KINDS])
 @pytest.mark.parametrize("segments", [60, 170, 500, 1000])
 def bench_step(benchmark: BenchmarkFixture, segments: int, kind: str) -> None:
-    """One step, compiled; contact-free the chain hangs in the open."""
+    """One step, compiled; without contact the chain hangs freely."""
     run, motion = moving(hanging(segments) if kind == "contact-free" else chain(segments, **KINDS[kind]), LEAD)
     before = energy_of(run.S, segments)
     describe(benchmark, "step over segments", kind=kind, touching_percent=100 * touching(run))

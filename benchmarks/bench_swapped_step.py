@@ -1,4 +1,4 @@
-"""One step of the same loop with every contact method in it, asked from Python once a step for all points."""
+"""One step of FCTD's loop with every contact method, called from Python once per step for all points."""
 
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
@@ -10,13 +10,13 @@ from references import contact
 from references.registry import absent
 from references.timing.workloads import NoWall, asking, energy_error, moving, without_wall
 
-# Steps a round: our own methods cost some hundred nanoseconds a point, libraries some ten microseconds or more.
+# Steps per round: FCTD's methods take some hundred nanoseconds per point, libraries ten microseconds or more.
 OWN, OTHERS = 300, 15
 
 
 @pytest.mark.parametrize("name", ["no contact", *contact.METHODS])
 def bench_swapped_step(benchmark: BenchmarkFixture, name: str) -> None:
-    """60 segments turning; ``no contact`` asks and finds nothing, the hole taken away."""
+    """60 segments turning; ``no contact`` is a query without contacts, in a run without the hole."""
     if name != "no contact" and contact.installed_version(name) is None:
         pytest.skip(absent(contact.method_class(name).distribution))
     start, motion = moving(chain(), LEAD)

@@ -1,11 +1,11 @@
-"""Behind the times of a session: what its records say of accuracy, cost of a step and real time."""
+"""Summary after the times of a session: accuracy, cost per step and real-time factor from its records."""
 
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
-# Entry of a record -> its heading; a record has some of them.
+# Entry of a record -> label; a record has some of these entries.
 SHOWN = {
     "ns_per_segment_step": "ns/segment-step",
     "ns_per_point": "ns/point",
@@ -24,17 +24,17 @@ SHOWN = {
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
-    """A line for each record that says more than its time."""
+    """Print a line for each record with entries other than its time."""
     session = getattr(config, "_benchmarksession", None)
-    lines = list(said(session.benchmarks)) if session is not None and not session.disabled else []
+    lines = list(summary_lines(session.benchmarks)) if session is not None and not session.disabled else []
     if lines:
-        terminalreporter.section("what the records hold beside the time")
+        terminalreporter.section("other results of the benchmarks")
         for line in lines:
             terminalreporter.write_line(line)
 
 
-def said(benchmarks: list[Any]) -> Iterator[str]:
-    """Name and shown entries of every finished benchmark."""
+def summary_lines(benchmarks: list[Any]) -> Iterator[str]:
+    """A line with name and SHOWN entries for every finished benchmark."""
     for bench in benchmarks:
         entries = bench.extra_info
         shown = [f"{heading} {entries[key]:.3g}" for key, heading in SHOWN.items() if key in entries]

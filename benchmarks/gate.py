@@ -1,9 +1,10 @@
-"""The gate: these sources against the last release's, by the strongest comparison that this machine allows.
+"""The gate: compare these sources with those of the last release, by the best method possible on this machine.
 
-1. The release's sources from the checkout's history, raced against these in pairs of processes: the same machine, the
-   same hour, the same libraries, whatever processor the release was recorded on.
-2. Without them, the release's recorded ratios to the reference kernel, if the processor and compiler are the same.
-3. Without either nothing is judged, and that is said.
+1. The release's sources from the checkout's history are raced against these in pairs of processes: same machine, same
+   hour and same libraries, independent of the processor on which the release was recorded.
+2. Without the release's sources, its recorded ratios to the reference kernel are used, if processor and compiler are
+   the same.
+3. Otherwise the gate makes no comparison, and reports why.
 """
 
 import time
@@ -19,17 +20,17 @@ from benchmarks.subjects import REFERENCE
 from benchmarks.verdict import Verdict, decide
 from benchmarks.worker import reference_digest
 
-PROCESSES = 4  # of each side to begin with
-MOST = 12
-# Another batch starts only before this, so that CI stays within two minutes [s].
+PROCESSES = 4  # per side and batch
+MOST = 12  # per side
+# No new batch starts after this time [s], so that CI stays within two minutes.
 TIME = 75.0
 
-Tell = Callable[[str], object]
+Report = Callable[[str], object]  # prints a line of progress
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the gate found: how it compared (or why not), a verdict per kernel, and this run's own ratios."""
+    """Result of the gate: the method (or why there is none), a verdict per kernel, and costs before and now."""
 
     how: str
     verdicts: list[Verdict]
@@ -42,39 +43,39 @@ class Outcome:
         return not any(verdict.fails for verdict in self.verdicts)
 
 
-def gate(record: Record, file: Path, tell: Tell, root: Path = ROOT) -> Outcome:
+def gate(record: Record, file: Path, report: Report, root: Path = ROOT) -> Outcome:
     """Compare the sources in ``root`` with a release."""
     if sources_of(root) == record.sources:
         return Outcome(f"the engine's sources are those of release {name_of(record)}: nothing to compare", [], {}, {})
     try:
         release = check_out(record, file, root)
     except NoSourcesError as missing:
-        return _recorded(record, str(missing), tell)
+        return _recorded(record, str(missing), report)
     how = f"raced against the sources of release {name_of(record)}"
-    tell(f"{how}; compiling both")
-    return sampled(how, lambda: measure.side_by_side(release, PROCESSES, root), tell)
+    report(f"{how}; compiling both")
+    return sampled(how, lambda: measure.side_by_side(release, PROCESSES, root), report)
 
 
-def _recorded(record: Record, missing: str, tell: Tell) -> Outcome:
-    """Compare with what the release recorded, where that says something about this machine."""
+def _recorded(record: Record, missing: str, report: Report) -> Outcome:
+    """Compare with the recorded ratios of the release, if processor, compiler and reference kernel are the same."""
     reason = record.not_here(reference_digest(), processor(), machine_versions())
     if reason:
-        how = f"not compared with release {name_of(record)}: {missing}, and its record is of {reason}"
+        how = f"not compared with release {name_of(record)}: {missing}, and the record is from {reason}"
         return Outcome(how, [], {}, {})
-    how = f"compared with what release {name_of(record)} recorded on such a processor ({missing})"
-    tell(how)
+    how = f"compared with the record of release {name_of(record)} from the same kind of processor ({missing})"
+    report(how)
 
     def more() -> tuple[Costs, Costs]:
         costs, _ = measure.alone(PROCESSES)
         return {}, measure.ratios(costs) | {REFERENCE: [1.0] * PROCESSES}
 
-    return sampled(how, more, tell, record.ratios)
+    return sampled(how, more, report, record.ratios)
 
 
-def sampled(how: str, more: Callable[[], tuple[Costs, Costs]], tell: Tell, before: Costs | None = None) -> Outcome:
-    """Verdicts on batches of processes: one batch where all is well, more where a kernel may be too slow.
+def sampled(how: str, more: Callable[[], tuple[Costs, Costs]], report: Report, before: Costs | None = None) -> Outcome:
+    """Verdicts from batches of processes: one batch if no kernel looks slower, more batches otherwise.
 
-    more : measures a batch, before and now.  A kernel is called slower only on a second batch's evidence.
+    more : measures a batch, before and now.  A kernel is slower only if a second batch confirms it.
     """
     began = time.monotonic()
     fixed = before is not None
@@ -88,17 +89,17 @@ def sampled(how: str, more: Callable[[], tuple[Costs, Costs]], tell: Tell, befor
         verdicts = decide(measure.judged(earlier), measure.judged(now))
         processes = len(now[REFERENCE])
         doubtful = [verdict.kernel for verdict in verdicts if verdict.open]
-        late = time.monotonic() - began > TIME and processes > PROCESSES
-        if not doubtful or processes >= MOST or late:
+        timed_out = time.monotonic() - began > TIME and processes > PROCESSES
+        if not doubtful or processes >= MOST or timed_out:
             return Outcome(f"{how}, {processes} processes", verdicts, earlier, now)
-        tell(f"measured again, since it may be slower: {', '.join(doubtful)}")
+        report(f"measuring again, since these kernels may be slower: {', '.join(doubtful)}")
 
 
 def joined(first: Costs, second: Costs) -> Costs:
-    """The samples of two batches."""
+    """The samples of two batches, joined per subject."""
     return {name: first.get(name, []) + taken for name, taken in second.items()}
 
 
 def name_of(record: Record) -> str:
-    """Release and commit, as one says it."""
+    """Release, commit and date as text."""
     return f"{record.release} ({record.commit or 'commit unknown'}, {record.date:%Y-%m-%d})"

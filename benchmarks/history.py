@@ -1,4 +1,4 @@
-"""What releases cost: one readable file each in benchmarks/history/, and the question whether two may be compared."""
+"""Records of releases: one readable file each in benchmarks/history/, and whether a record is comparable here."""
 
 import statistics
 import subprocess
@@ -16,7 +16,7 @@ from benchmarks.worker import reference_digest, sources_digest
 from fctd.case.errors import MISSING, InputError
 from references.timing.stopwatch import cpu_name, machine
 
-# What turns the sources into machine code.
+# Packages that compile the sources to machine code.
 COMPILER = ("python", "numba", "llvmlite")
 HISTORY = Path(__file__).parent / "history"
 
@@ -24,7 +24,7 @@ Cost = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
 
 class Kernel(BaseModel):
-    """One subject of a record: cost of a unit, absolute and over the reference kernel's in the same process.
+    """One subject of a record: cost per unit, absolute and relative to the reference kernel in the same process.
 
     samples : the ratio in each process; ratio, spread : their median and range.
     """
@@ -50,7 +50,7 @@ class Kernel(BaseModel):
 
 
 class Record(BaseModel):
-    """A release's costs, and what they depend on.
+    """Costs of a release, with machine, versions and sources.
 
     sources, reference : hashes of the engine's sources and of the reference kernel.  reference_ns : cost of the
     reference kernel's column [ns].
@@ -76,7 +76,7 @@ class Record(BaseModel):
         return {REFERENCE: [1.0] * processes} | found
 
     def not_here(self, reference: str, processor: str, versions: Mapping[str, str]) -> str:
-        """Why ratios measured here do not compare with these; empty where they do."""
+        """Why ratios measured here are not comparable with this record; empty if they are."""
         if self.reference != reference:
             return "another reference kernel"
         if self.processor != processor:
@@ -86,7 +86,7 @@ class Record(BaseModel):
 
 
 def processor() -> str:
-    """The processor's name and, since clouds hide it, the architecture for which code is compiled."""
+    """Name of the processor and, since virtual machines hide it, the architecture for which code is compiled."""
     return f"{cpu_name()}, {llvmlite.binding.get_host_cpu_name()}"
 
 
@@ -122,12 +122,12 @@ def record_of(costs: Costs, subjects: dict[str, Any], release: str) -> Record:
 
 
 def _round(value: float) -> float:
-    """Five digits, which a reader can take in."""
+    """Rounded to five digits, for readable files."""
     return float(f"{value:.5g}")
 
 
 def write(record: Record, folder: Path = HISTORY) -> Path:
-    """Keep a record; returns its file."""
+    """Store a record; returns its file."""
     path = folder / f"{record.date:%Y-%m-%d}-{record.release}-{record.commit or 'unknown'}.json"
     folder.mkdir(parents=True, exist_ok=True)
     path.write_text(record.model_dump_json(indent=1) + "\n", encoding="utf-8")
@@ -135,8 +135,8 @@ def write(record: Record, folder: Path = HISTORY) -> Path:
 
 
 def read(folder: Path = HISTORY) -> list[tuple[Path, Record]]:
-    """All records with their files, the oldest first; InputError for a file that is none, or no folder."""
-    if not folder.is_dir():  # a gate that compares with nothing passes
+    """All records with their files, oldest first; InputError for an invalid file or a missing folder."""
+    if not folder.is_dir():  # without this check the gate would pass for want of a record
         raise InputError("a folder of records", key="--history", value=folder)
     found = []
     for path in folder.glob("*.json"):
@@ -151,13 +151,13 @@ def read(folder: Path = HISTORY) -> list[tuple[Path, Record]]:
 
 
 def last_release(folder: Path = HISTORY) -> tuple[Path, Record] | None:
-    """The newest record by its own date: what this run is compared with."""
+    """The newest record by the date inside, with which this run is compared; None without records."""
     records = read(folder)
     return records[-1] if records else None
 
 
 def uncommitted() -> str:
-    """What differs from the commit in the folders that a record speaks of; InputError without git."""
+    """Uncommitted changes in the folders that a record depends on, as git reports them; InputError without git."""
     try:
         done = subprocess.run(
             ["git", "-C", str(ROOT), "status", "--porcelain", "--", "fctd", "references", "benchmarks/*.py"],

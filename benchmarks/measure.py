@@ -1,4 +1,4 @@
-"""Samples from fresh processes: of these sources alone, or of these and a release's, taking turns."""
+"""Samples from fresh processes: of these sources alone, or of these and a release's sources in turns."""
 
 import json
 import os
@@ -16,8 +16,8 @@ from benchmarks.worker import PROTOCOL, reference_digest, sources_digest
 from fctd.case.errors import InputError
 
 ROOT = Path(__file__).parents[1]
-ROUNDS = 8  # of a process; its processes differ by more than its rounds
-# The part of a step that contact adds, which a slower search or law shows most clearly.
+ROUNDS = 8  # per process; processes differ by more than the rounds of a process
+# The cost that contact adds to a step, where a slower search or friction law shows most clearly.
 ADDED = {"contact's addition, cylinders": CYLINDERS, "contact's addition, arcs": ARCS}
 
 Costs = dict[str, list[float]]  # subject -> cost in each process
@@ -44,34 +44,34 @@ class Worker:
         assert self._process.stdout is not None
         line = self._process.stdout.readline()
         if not line:
-            raise InputError("sources whose worker runs (its error is above)", key="release", value=self._root)
+            raise InputError("sources whose worker runs (its error is printed above)", key="release", value=self._root)
         answer: dict[str, Any] = json.loads(line)
         return answer
 
 
 def environment(root: Path) -> dict[str, str]:
-    """That of a process that measures the sources in ``root``: one thread, and compiled code of its own.
+    """Environment of a process that measures the sources in ``root``: one thread, and a separate compile cache.
 
-    One thread, as times are those of one core, by the clock of one thread.  What numba made of a release's
-    kernel may hang on what was compiled before it, in release 0.1.0 by 9 to 13 % in the joints' loads: in a cache of
-    their own all sources are compiled in the same order.
+    One thread, since times are measured with the clock of one thread.  The code that numba compiles for a kernel may
+    depend on the functions compiled before it, in release 0.1.0 by 9 to 13 % in the joint loads: with separate caches
+    all sources are compiled in the same order.
     """
     single = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
     try:
         own = {"NUMBA_CACHE_DIR": str(cache() / f"measured-{sources_digest(root)}")}
-    except RuntimeError:  # there is no home; the process has its parent's cache
+    except RuntimeError:  # without a home folder the process uses its parent's cache
         own = {}
     return {**os.environ, **single, **own, "PYTHONPATH": str(root)}
 
 
 def cache() -> Path:
-    """Folder of what is made once for a release or for sources; RuntimeError where there is no home."""
+    """Folder for the sources and compiled code of releases; RuntimeError without a home folder."""
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fctd"
 
 
 @contextmanager
 def workers(*roots: Path) -> Iterator[list[Worker]]:
-    """A fresh process for each folder of sources, all starting at once."""
+    """A fresh process for each folder of sources, all started at once."""
     with ExitStack() as stack:
         processes = [
             stack.enter_context(
@@ -91,15 +91,15 @@ def workers(*roots: Path) -> Iterator[list[Worker]]:
         yield [Worker(process, root) for process, root in zip(processes, roots, strict=True)]
 
 
-def alone(processes: int, root: Path = ROOT, tell: Callable[[str], object] = str) -> tuple[Costs, dict[str, Any]]:
-    """Costs in ``processes`` processes [ns per unit], each the median of its rounds; and what was measured.
+def alone(processes: int, root: Path = ROOT, report: Callable[[str], object] = str) -> tuple[Costs, dict[str, Any]]:
+    """Costs in ``processes`` processes [ns per unit], each the median of its rounds; unit and size of each subject.
 
-    The reference kernel is one of the subjects.
+    The reference kernel is one of the subjects.  report : prints a line of progress.
     """
     samples: list[dict[str, float]] = []
     hello: dict[str, Any] = {}
     for k in range(processes):
-        tell(f"process {k + 1} of {processes}")
+        report(f"process {k + 1} of {processes}")
         with workers(root) as (worker,):
             hello = worker.hello["subjects"]
             samples.append(medians([worker.round() for _ in range(ROUNDS)]))
@@ -109,8 +109,8 @@ def alone(processes: int, root: Path = ROOT, tell: Callable[[str], object] = str
 def side_by_side(release: Path, pairs: int, root: Path = ROOT) -> tuple[Costs, Costs]:
     """Costs of a release's sources and of these in ``pairs`` pairs of processes that take turns.
 
-    Both in units of the mean cost of the reference kernel in the same round of both processes: what the machine
-    does to a round falls out, and what a process does to its reference kernel falls on both sides alike.
+    Both are in units of the mean cost of the reference kernel in the same round of both processes: a disturbance of
+    the whole round cancels, and one of a single reference kernel affects both sides alike.
     """
     before: list[dict[str, float]] = []
     now: list[dict[str, float]] = []
@@ -136,25 +136,25 @@ def medians(rounds: Sequence[dict[str, float]]) -> dict[str, float]:
 
 
 def gathered(samples: Sequence[dict[str, float]]) -> Costs:
-    """Lists over processes from one dictionary for each."""
+    """Samples of all processes per subject, from one dictionary per process."""
     return {name: [sample[name] for sample in samples] for name in samples[0]}
 
 
 def ratios(costs: Costs) -> Costs:
-    """Costs over the reference kernel's in the same process."""
+    """Costs relative to the reference kernel in the same process."""
     return {name: _over(costs[name], costs[REFERENCE]) for name in costs if name != REFERENCE}
 
 
 def judged(costs: Costs) -> Costs:
-    """The kernels that a release answers for: FCTD's own, and what contact adds to a step."""
+    """The kernels on which the gate decides: FCTD's own, and the cost that contact adds to a step."""
     own = {name: taken for name, taken in costs.items() if name not in (REFERENCE, FCL)}
     for name, step in ADDED.items():
-        own[name] = [bent - free for bent, free in zip(costs[step], costs[FREE], strict=True)]
+        own[name] = [touching - free for touching, free in zip(costs[step], costs[FREE], strict=True)]
     return own
 
 
 def shown(costs: Costs) -> Costs:
-    """Ratios of kernels of one run, which are told but not judged: a faster denominator raises them too."""
+    """Ratios of kernels of one run, for information only: a faster denominator raises them too."""
     found = {"contact : contact-free, cylinders": _over(costs[CYLINDERS], costs[FREE])}
     found["contact : contact-free, arcs"] = _over(costs[ARCS], costs[FREE])
     if FCL in costs:

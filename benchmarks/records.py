@@ -1,4 +1,4 @@
-"""What every record carries beside its time, and how a round of steps is timed."""
+"""Entries of every record besides its time, and the timing of a round of steps."""
 
 from collections.abc import Callable
 from functools import cache
@@ -12,7 +12,7 @@ from fctd.mechanics.faults import UnstableError
 from fctd.simulation.run import Run
 from references.timing.stopwatch import machine
 
-# Segment-steps a round of compiled code; the number is fixed so that rounds of two sessions can be compared.
+# Segment-steps per round of compiled code, fixed so that rounds of two sessions are comparable.
 COMPILED = 200_000
 
 
@@ -23,7 +23,7 @@ def origin() -> dict[str, str]:
 
 
 def describe(benchmark: BenchmarkFixture, group: str, **facts: Any) -> None:
-    """Put a benchmark into its group and write down where it was run and what of."""
+    """Set the group of a benchmark, and record the machine, versions and ``facts``."""
     benchmark.group = group
     benchmark.extra_info |= origin() | {"extrapolated": False} | facts
 
@@ -31,21 +31,21 @@ def describe(benchmark: BenchmarkFixture, group: str, **facts: Any) -> None:
 def time_steps(
     benchmark: BenchmarkFixture, advance: Callable[[float], object], run: Run, step: float, count: int, rounds: int = 15
 ) -> None:
-    """Time rounds of ``count`` steps of ``step`` [s]; what is recorded of them is for one step.
+    """Time rounds of ``count`` steps of ``step`` [s]; the recorded costs are per step.
 
-    advance : moves the string of ``run`` on by so many seconds in equal steps.
+    advance : advances the string of ``run`` by a time [s] in equal steps.  Raises UnstableError.
     """
     began, hookload = float(run.top[topdrive.TOP_TIME]), float(run.top[topdrive.SUM_HOOKLOAD])
     benchmark.pedantic(advance, args=(count * step,), rounds=rounds, warmup_rounds=1)
     simulated = float(run.top[topdrive.TOP_TIME]) - began
     off = (float(run.top[topdrive.SUM_HOOKLOAD]) - hookload) / simulated / vertical_weight(run) - 1
     if not np.isfinite(off):
-        raise UnstableError("what was timed is no string any more: its hook load is no number")
+        raise UnstableError("the timed run is unstable, its hook load is not finite: take a shorter step")
     facts = {
         "segments": run.segments,
         "pieces_of_hole": len(run.hole.pieces),
         "step_ms": 1e3 * step,
-        "steps_a_round": count,
+        "steps_per_round": count,
         "simulated_s": simulated,
         "hookload_off_percent": 100 * off,
     }
@@ -56,7 +56,7 @@ def time_steps(
 
 
 def vertical_weight(run: Run) -> float:
-    """Weight of a uniform string over the vertical reach of its hole [N]: the exact hook load while it turns."""
+    """Weight of a uniform string over its vertical depth [N], the exact hook load while it rotates in place."""
     bottom = state.row(run.S, state.Z, run.segments)[-1]
     per_metre = float(run.string.of("weight")[0])
     half = 0.5 * run.string.length[-1] * state.row(run.S, state.AZ, run.segments)[-1]

@@ -1,4 +1,4 @@
-"""The sources of a release, taken out of the checkout's own history so that they can be raced against today's."""
+"""Extract the sources of a release from the checkout's history, to race them against the present sources."""
 
 import io
 import subprocess
@@ -8,25 +8,25 @@ from pathlib import Path
 from benchmarks.history import Record, sources_of
 from benchmarks.measure import ROOT, cache
 
-# What a worker needs of a release.
+# Folders of a release that a worker needs.
 FOLDERS = ("fctd", "references", "benchmarks", "validation/cases")
 
 
 class NoSourcesError(Exception):
-    """The checkout does not hold the sources of a release; its text says why."""
+    """The checkout does not hold the sources of a release; the text gives the reason."""
 
 
 def check_out(record: Record, file: Path, root: Path = ROOT) -> Path:
-    """Folder with the sources that a record measured; NoSourcesError where the checkout's history lacks them.
+    """Folder with the sources of a record; NoSourcesError if the checkout's history does not have them.
 
-    file : the record's own.  The folder is kept beside the compile cache, so that a release compiles once.
+    file : file of the record.  The folder is kept next to the compile cache, so that a release compiles once.
     """
     if Path(_git(root, "rev-parse", "--show-toplevel").decode().strip()) != root.resolve():
-        raise NoSourcesError("this folder is no checkout of its own")
+        raise NoSourcesError("this folder is not the top of a checkout")
     shallow = _git(root, "rev-parse", "--is-shallow-repository").strip() == b"true"
     commits = [record.commit]
     within = file.resolve().is_relative_to(root.resolve())
-    if within and not shallow:  # a commit rewritten since: the one that brought the record has the same sources
+    if within and not shallow:  # if the commit was rewritten, the commit that added the record has the same sources
         added = _git(root, "log", "--diff-filter=A", "--format=%H", "-1", "--", str(file.resolve()))
         commits.append(added.decode().strip())
     for commit in filter(None, commits):
@@ -38,8 +38,8 @@ def check_out(record: Record, file: Path, root: Path = ROOT) -> Path:
             folder = cache() / f"release-{record.sources}-{record.reference}"
             with tarfile.open(fileobj=io.BytesIO(archive)) as tar:
                 tar.extractall(folder, filter="data")
-        except (OSError, RuntimeError) as error:  # RuntimeError: there is no home
-            raise NoSourcesError(f"there is no cache folder to keep them in: {error}") from None
+        except (OSError, RuntimeError) as error:  # RuntimeError: no home folder
+            raise NoSourcesError(f"the cache folder cannot be written: {error}") from None
         if sources_of(folder) == record.sources:
             return folder
     raise NoSourcesError(

@@ -1,7 +1,6 @@
-"""What the gate measures: a fixed piece of work for every kernel, on one settled, turning string.
+"""The subjects of the gate: a fixed workload for every kernel, on one settled, turning string.
 
-A name stands for its work: who changes the work, or the meaning of a unit, gives it a new name, since the gate
-compares equal names of two releases.
+The gate compares equal names of two releases, so that changed work or a changed unit needs a new name.
 """
 
 from collections.abc import Callable, Mapping
@@ -30,13 +29,13 @@ FCL = "FCL query from Python"
 SEGMENTS = 60
 BIT_DEPTH = 2450.0  # [m]
 ROTATION = {"kind": "rotate_off_bottom", "at_md": BIT_DEPTH, "duration": 60.0, "rpm": 60.0, "ramp_time": 4.0}
-POINTS = 2_000  # of a compiled query
-JOINTS = 64  # whole packed operations
+POINTS = 2_000  # per compiled query
+JOINTS = 64  # a multiple of the width of packed instructions
 
 
 @dataclass(frozen=True)
 class Subject:
-    """One kernel's work: calling ``act`` does ``count`` units; size tells what one call works on."""
+    """The workload of one kernel: a call of ``act`` does ``count`` units; size describes the data of a call."""
 
     act: Callable[[], object]
     count: int
@@ -47,7 +46,7 @@ class Subject:
 def turning(segments: int, changes: Mapping[str, Any] = {}) -> tuple[Run, Motion]:
     """The curved chain, settled and turning.
 
-    Turned for 4 s first: ahead of the first wave velocities are denormal numbers, which take many times longer.
+    It has turned for 4 s: ahead of the first wave velocities are denormal numbers, which take many times longer.
     """
     case = load_case(CASE, {"string.components[0].segments": segments, "operations": [ROTATION], **changes})
     run, phases = prepare(case)
@@ -59,33 +58,37 @@ def turning(segments: int, changes: Mapping[str, Any] = {}) -> tuple[Run, Motion
 
 @njit(error_model="numpy", cache=True)
 def joint_loads(S, n, count):  # type: ignore[no-untyped-def]
-    """The packed joint arithmetic by itself, springs and damping."""
+    """The packed joint loads alone, springs and damping."""
     for _ in range(count):
         update_joint_loads(S, n, 1e-5, 1e-3)
 
 
 def subjects() -> dict[str, Subject]:
-    """Everything measured, the reference kernel first; FCL is left out where it is not installed."""
-    bent, motion = turning(SEGMENTS)
+    """All subjects, the reference kernel first; FCL only if it is installed."""
+    touching, motion = turning(SEGMENTS)
     free = replace(
-        bent, S=copy_state(bent.S), top=bent.top.copy(), owner=bent.owner.copy(), laws=bent.laws._replace(geometry=OPEN)
+        touching,
+        S=copy_state(touching.S),
+        top=touching.top.copy(),
+        owner=touching.owner.copy(),
+        laws=touching.laws._replace(geometry=OPEN),
     )
     arcs, _ = turning(SEGMENTS, {"wellbore.geometry": "arcs"})
     found = {
         REFERENCE: _reference(2_000),
         FREE: _steps(free, motion, 1_000),
-        CYLINDERS: _steps(bent, motion, 1_000),
+        CYLINDERS: _steps(touching, motion, 1_000),
         ARCS: _steps(arcs, motion, 1_000),
-        "joint loads": _joints(copy_state(bent.S), 3_000),
-        "query, cylinders": _query(bent, 60),
+        "joint loads": _joints(copy_state(touching.S), 3_000),
+        "query, cylinders": _query(touching, 60),
         "query, arcs": _query(arcs, 20),
-        "steady depth": _steady(bent, 2),
+        "steady depth": _steady(touching, 2),
     }
     try:
-        wall = contact.build("fcl", bent.case)
+        wall = contact.build("fcl", touching.case)
     except InputError:
         return found
-    points, radii = contact_points(bent.S, SEGMENTS), row(bent.S, RADIUS, SEGMENTS).copy()
+    points, radii = contact_points(touching.S, SEGMENTS), row(touching.S, RADIUS, SEGMENTS).copy()
     return found | {
         FCL: Subject(
             lambda: wall.query(points, radii), SEGMENTS, "point", f"{SEGMENTS} points, {wall.pieces} triangles"
@@ -111,7 +114,7 @@ def _joints(S: Any, count: int) -> Subject:
 
 
 def _query(run: Run, count: int) -> Subject:
-    """Points beside the wall all along the hole, each with its piece remembered."""
+    """Query of points near the wall along the whole hole, each with the piece of its last query."""
     hole = run.hole
     md = np.linspace(10.0, hole.total_depth - 10.0, POINTS)
     points = hole.at(md)[0] + 0.1 * np.stack([np.cos(md), np.sin(md), np.zeros(POINTS)], axis=1)

@@ -1,4 +1,4 @@
-"""What the commands print."""
+"""Tables that the commands print."""
 
 import statistics
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ STYLES = {"slower": "bold red", "missing": "bold red", "perhaps slower": "yellow
 
 
 def verdict_table(outcome: Outcome) -> Table:
-    """The gate's verdicts, a row a kernel; cost before and now in columns of the reference kernel."""
+    """The gate's verdicts, a row per kernel; costs before and now relative to the reference kernel."""
     table = Table(title=outcome.how, title_justify="left")
     table.add_column("kernel")
     for column in ("before", "now", "change", "80 % interval"):
@@ -34,8 +34,8 @@ def verdict_table(outcome: Outcome) -> Table:
 
 
 def shown_table(outcome: Outcome) -> Table:
-    """The ratios between kernels, which are told and not judged."""
-    table = Table(title="ratios within one run (told, not judged)", title_justify="left")
+    """Ratios between kernels, for information only."""
+    table = Table(title="ratios within one run (for information only)", title_justify="left")
     table.add_column("ratio")
     table.add_column("before", justify="right")
     table.add_column("now", justify="right")
@@ -46,19 +46,18 @@ def shown_table(outcome: Outcome) -> Table:
 
 
 def comparison(now: Record, last: Record | None, why_not: str) -> Table:
-    """A run beside the last release: time, ratio to the reference kernel with its range.
+    """A run next to the last release: time, ratio to the reference kernel with its range.
 
-    why_not : why ratios do not compare, empty where they do; the change is printed only then.
-
-    A row has two lines, so that it fits a screen of 80 columns.
+    why_not : why ratios are not comparable, or empty; the change is printed only if it is empty.  A row has two lines,
+    so that it fits a screen of 80 columns.
     """
-    title = "this run" if last is None else f"this run against release {name_of(last)}"
+    title = "this run" if last is None else f"this run and release {name_of(last)}"
     table = Table(
-        title=title + (f"; ratios do not compare: {why_not}" if why_not else ""), title_justify="left",
+        title=title + (f"; ratios are not comparable: {why_not}" if why_not else ""), title_justify="left",
         box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
     )  # fmt: skip
     table.add_column("kernel\nsize")
-    for column in ("ns a unit", "ratio\nrange", "released", "change\n80 % interval"):
+    for column in ("ns per unit", "ratio\nrange", "released", "change\n80 % interval"):
         table.add_column(column, justify="right")
     for name, kernel in now.kernels.items():
         old = None if last is None else last.kernels.get(name)
@@ -68,7 +67,7 @@ def comparison(now: Record, last: Record | None, why_not: str) -> Table:
             middle, low, high = change_of(old.samples, kernel.samples)
             change = f"{middle - 1:+.1%}\n{low - 1:+.0%} to {high - 1:+.0%}"
         table.add_row(
-            f"{name}, a {kernel.unit}\n{kernel.size}", _number(kernel.ns),
+            f"{name}, per {kernel.unit}\n{kernel.size}", _number(kernel.ns),
             f"{_number(kernel.ratio)}\n{_range(kernel.spread)}", released, change,
         )  # fmt: skip
     table.add_section()

@@ -1,9 +1,9 @@
-"""Whether a kernel has become slower: a pure function of what two releases' processes measured.
+"""Whether a kernel has become slower, as a pure function of the samples of two releases.
 
-A process lays its memory and its compiled code out anew, which moves a kernel's cost by several per cent for as long
-as the process lives, while rounds within a process agree to one.  A sample is therefore one process; the change is
-the median of all quotients of a sample now and a sample before (the estimate of Hodges and Lehmann), and what noise
-leaves open is its confidence interval of Mann and Whitney, which knows no distribution and no outlier.
+Every process places its memory and compiled code anew, which changes a kernel's cost by several per cent for the whole
+process, while rounds of one process agree to one per cent.  A sample is therefore one process.  The change is the
+median of all quotients of a sample now and a sample before (Hodges and Lehmann), with the confidence interval of Mann
+and Whitney, which assumes no distribution and is robust against outliers.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,20 +14,20 @@ import numpy as np
 THRESHOLD = 1.15
 # Standard deviations of the Mann–Whitney statistic: one-sided confidence of 90 %.
 CONFIDENCE = 1.2816
-# Fewer processes on either side show no spread.
+# With fewer processes on either side the interval has no meaning.
 LEAST_SAMPLES = 3
 
-Samples = Mapping[str, Sequence[float]]  # kernel -> cost in each process, in a unit that both sides share
+Samples = Mapping[str, Sequence[float]]  # kernel -> cost in each process, in the same unit on both sides
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """One kernel now against before.
+    """One kernel now, compared with before.
 
     status : ``slower`` (by the threshold, beyond noise), ``perhaps slower`` (by the threshold, within noise),
     ``faster`` (by the threshold, beyond noise), ``as before``, ``new``, ``missing`` (measured before, not now) or
     ``too few`` (samples).  change, low, high : cost now over cost before and its 80 % interval, NaN without one;
-    threshold : of the change that fails.
+    threshold : change at which a kernel fails.
     """
 
     kernel: str
@@ -39,12 +39,12 @@ class Verdict:
 
     @property
     def fails(self) -> bool:
-        """Whether this is not to be merged: slower, or no longer measured."""
+        """Whether the gate fails: the kernel is slower, or no longer measured."""
         return self.status in ("slower", "missing")
 
     @property
     def open(self) -> bool:
-        """Whether more processes are worth their time: a kernel that may be too slow for all that noise leaves open."""
+        """Whether more processes are needed: the interval reaches the threshold."""
         return self.high >= self.threshold
 
 
@@ -69,7 +69,7 @@ def _one(kernel: str, before: Sequence[float], now: Sequence[float], threshold: 
 
 
 def change_of(before: Sequence[float], now: Sequence[float]) -> tuple[float, float, float]:
-    """Cost now over cost before: estimate, lower and upper bound."""
+    """Cost now over cost before: estimate, lower and upper end of its 80 % interval."""
     quotients = np.divide.outer(np.asarray(now, float), np.asarray(before, float)).ravel()
     m, n = len(now), len(before)
     tail = max(0.5 - CONFIDENCE * ((m + n + 1) / (12 * m * n)) ** 0.5, 0.0)

@@ -1,8 +1,8 @@
-"""``python -m benchmarks.worker``: one process that measures on demand.  Two releases take turns through two of them.
+"""``python -m benchmarks.worker``: one process that measures on request; two of them let two releases take turns.
 
-It prints a line when it is ready, what it measures as JSON; then a line for every line it reads: cost of each
-subject [ns per unit] in a round.  A release is raced with the worker of its own sources, so that what is said here
-changes only together with PROTOCOL.
+When ready it prints its subjects as a line of JSON; then, for every line that it reads, a line with the cost of each
+subject [ns per unit] in a round.  A release runs the worker of its own sources, so that a change of these lines needs a
+new PROTOCOL.
 """
 
 import hashlib
@@ -17,12 +17,12 @@ from benchmarks.subjects import Subject, subjects
 from references.timing.stopwatch import turn
 
 PROTOCOL = 1
-# A round takes the shortest of so many calls of each subject: what disturbs a call only ever adds.
+# Calls of each subject per round, of which the shortest counts: a disturbance can only lengthen a call.
 CALLS = 3
 
 
 def digest(*files: Path) -> str:
-    """Hash of names and contents, which tells whether sources are the same."""
+    """Hash of names and contents of files."""
     found = hashlib.sha256()
     for file in sorted(files):
         found.update(file.name.encode() + file.read_bytes())
@@ -30,7 +30,7 @@ def digest(*files: Path) -> str:
 
 
 def sources_digest(root: Path) -> str:
-    """Hash of the engine's sources in a checkout: names relative to ``fctd/`` and contents, in rooms or all in one."""
+    """Hash of the engine's sources in a checkout: names relative to ``fctd/`` and contents, subfolders included."""
     folder, found = root / "fctd", hashlib.sha256()
     for file in sorted(folder.rglob("*.py")):
         found.update(file.relative_to(folder).as_posix().encode() + file.read_bytes())
@@ -38,12 +38,12 @@ def sources_digest(root: Path) -> str:
 
 
 def reference_digest() -> str:
-    """Hash of the reference kernel's source: costs in units of different kernels do not compare."""
+    """Hash of the reference kernel's source: costs relative to different kernels are not comparable."""
     return digest(Path(reference_kernel.__file__))
 
 
 def hello(found: dict[str, Subject]) -> dict[str, Any]:
-    """What the first line says."""
+    """The content of the first line."""
     return {
         "protocol": PROTOCOL,
         "reference": reference_digest(),
@@ -63,7 +63,7 @@ def one_round(found: dict[str, Subject], backwards: bool) -> dict[str, float]:
 
 
 def main() -> None:
-    """Build and compile everything, then answer."""
+    """Build and compile everything, then answer requests."""
     found = subjects()
     for one in found.values():
         one.act()

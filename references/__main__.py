@@ -1,4 +1,4 @@
-"""``python -m references``: the contact methods and string engines there are, and the loop with one of them."""
+"""``python -m references``: list contact methods and string engines, and run a case with one of them."""
 
 from typing import Annotated, Any
 
@@ -17,13 +17,13 @@ app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    help="What FCTD is set against: other contact methods in the same loop, other engines with the same string.",
+    help="Compare FCTD with other contact methods in the same loop and with other engines for the same string.",
 )
 
 
 @app.command("list")
 def list_command() -> None:
-    """Name the contact methods and the string engines: version, what they do, whether they are installed."""
+    """List the contact methods and string engines with package, version, description and options."""
     methods = {name: (contact.method_class(name), contact.installed_version(name)) for name in contact.METHODS}
     others = {name: (engines.engine_class(name), engines.installed_version(name)) for name in engines.ENGINES}
     for title, found in (("contact method", methods), ("string engine", others)):
@@ -53,7 +53,7 @@ def simulate_command(
     csv: Csv = False,
     quiet: Quiet = False,
 ) -> None:
-    """Run a case with another contact method in the engine's loop; friction, force law and step stay the same."""
+    """Run a case with another contact method in FCTD's loop; friction, force law and step stay the same."""
 
     def method(case: Case) -> ContactMethod:
         return build(contact, case, **_chosen(options))
@@ -71,7 +71,7 @@ def engine_command(
     overrides: Overrides = [],  # noqa: B006
     friction: Friction = None,
 ) -> None:
-    """Run a window of a case in another engine: its loads at the end, and the checks that it passed or failed."""
+    """Run a window of a case in another engine; print its final loads and the result of each check."""
     changes = dict(parse_override(text) for text in overrides) | ({} if friction is None else {"friction": friction})
     case = load_case(case_file, changes)
     run = engines.build(engine, **_chosen(options)).run(case, engines.Window(start, duration))
@@ -87,7 +87,7 @@ def engine_command(
 
 
 def _chosen(options: list[str]) -> dict[str, Any]:
-    """Options written KEY=VALUE; InputError for one that is not."""
+    """Options from texts KEY=VALUE; InputError for a text without a value."""
     chosen: dict[str, Any] = {}
     for text in options:
         key, given, _ = text.partition("=")

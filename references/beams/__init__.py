@@ -1,1 +1,1 @@
-"""Beams that are no chain of rigid segments: finite elements and a Cosserat rod."""
+"""Beam models other than a chain of rigid segments: finite elements and a Cosserat rod."""

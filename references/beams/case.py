@@ -1,4 +1,4 @@
-"""The beam of finite elements that a case describes: one pipe lowered into one planar hole."""
+"""The finite-element beam of a case: one pipe lowered into one planar hole."""
 
 from bisect import bisect_right
 from collections.abc import Callable
@@ -12,26 +12,26 @@ from fctd.case.load import Case
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import Section, lay_out, section_of
 from fctd.model.operations import schedule
-from references.beams.elements import Beam, Surroundings, fallen, statics
+from references.beams.elements import Beam, Surroundings, relaxed, statics
 from references.beams.planar_hole import PlanarHole
 
 Array = NDArray[np.float64]
 
-# The end of the pipe leans into the wall over a short length: elements there are a third as long.
+# The end of the pipe bends towards the wall over a short length, where elements are a third as long.
 END = 0.6  # [m]
 END_FINER = 3
-GUIDE_ELEMENT = 2.0  # [m], where the pipe hangs without touching
-BRAKE = 5.0  # [1/s] of a pipe that falls from the axis to where it rests
-SLIDING = 1.0  # [m/s], far beyond the creep of regularised friction
-RUBBING = (0.5, 1.0)  # shares of the friction factor on the way to all of it
+GUIDE_ELEMENT = 2.0  # [m], where the pipe hangs without contact
+DAMPING_RATE = 5.0  # [1/s], of a pipe that falls from the axis to its equilibrium
+SLIDING = 1.0  # [m/s], far above the creep speed of regularised friction
+FRICTION_SHARES = (0.5, 1.0)  # of the friction factor, in successive equilibria
 
 
 def beam_of(case: Case, element: float, fine: float, like_segments: bool = False) -> Beam:
-    """The whole string of a case at its deepest, in elements of length ``element`` [m].
+    """The whole string of a case at its greatest depth, in elements of length ``element`` [m].
 
-    fine [m] : length above the bit that has such elements; above them they are GUIDE_ELEMENT long.
-    like_segments : no shorter elements at the bit, and the wall is felt at the ends of elements alone.
-    Raises InputError for a case that is no single pipe in a planar hole of one size.
+    fine [m] : length above the bit with such elements; above it elements are GUIDE_ELEMENT long.
+    like_segments : no shorter elements at the bit, and contact at the ends of elements only.
+    Raises InputError for a case other than a single pipe in a planar hole of one size.
     """
     section, around = pipe_and_hole(case)
     length = max(operation.end_md for operation in case.operations) - case.string.top_md
@@ -46,16 +46,16 @@ def beam_of(case: Case, element: float, fine: float, like_segments: bool = False
 
 
 class Steady(NamedTuple):
-    """Of a string that lies in its hole: contact force [N] at rest without friction, hook load [N] sliding down."""
+    """Loads of a string in its hole: contact force [N] at rest without friction, hook load [N] while sliding down."""
 
     contact_force: float
     hookload: float
 
 
 def steady(case: Case, bit_depth: float, segments: int = 1) -> Steady:
-    """The string of a case with the bit at a depth, in elements of so many of its ``segments``.
+    """The string of a case with the bit at ``bit_depth`` [m]; each element is as long as ``segments`` segments.
 
-    It falls from the axis of the hole to where it rests; then all of it slides down.
+    The string falls from the axis of the hole to its equilibrium; then all of it slides down.
     Raises InputError as ``beam_of``, ConvergenceError.
     """
     section, around = pipe_and_hole(case)
@@ -63,26 +63,26 @@ def steady(case: Case, bit_depth: float, segments: int = 1) -> Steady:
     string = lay_out(case, bit_depth)
     ends = np.append(0.0, np.cumsum(string.length))
     nodes = np.append(ends[:-1:segments], ends[-1])
-    brake = BRAKE * section.mass
-    falling = Beam(nodes, section, around._replace(friction=0.0, lateral_damping=brake, axial_damping=brake))
+    damping = DAMPING_RATE * section.mass
+    falling = Beam(nodes, section, around._replace(friction=0.0, lateral_damping=damping, axial_damping=damping))
     along, numbers = falling.points()
     (z, x), tilt = around.hole.at(string.top_md + along)
-    start, held = np.empty(falling.strains.N), falling.dofs(0.0)
+    start, fixed = np.empty(falling.strains.N), falling.dofs(0.0)
     start[numbers] = np.stack([z, x, tilt], axis=1)
-    rest = fallen(falling, start, held)
+    rest = relaxed(falling, start, fixed)
     pressure = falling.wall_load(rest, np.zeros_like(rest)).pressure
     downhole = np.zeros_like(rest)
     downhole[numbers] = SLIDING * np.stack([np.cos(tilt), np.sin(tilt), 0 * tilt], axis=1)
-    for share in RUBBING:
+    for share in FRICTION_SHARES:
         sliding = Beam(nodes, section, around._replace(friction=share * around.friction))
-        rest = statics(sliding, rest, held, velocity=downhole)
+        rest = statics(sliding, rest, fixed, velocity=downhole)
     pulled = -sliding.resistance(rest, downhole)[0][numbers[0, :2]]
     along_hole = float(pulled @ [np.cos(tilt[0]), np.sin(tilt[0])])
     return Steady(float(np.abs(pressure * falling.wall.dx).sum()), along_hole)
 
 
 def pipe_and_hole(case: Case) -> tuple[Section, Surroundings]:
-    """The section of a case's only pipe, and what surrounds it; raises InputError as ``beam_of``."""
+    """The section of a case's only pipe, and its hole and mud; raises InputError as ``beam_of``."""
     parts, hole = case.string.components, case.wellbore
     sections = {section_of(part, case.mud.density) for part in parts}
     if len(sections) > 1:
@@ -113,8 +113,8 @@ def _count(length: float, element: float) -> int:
 
 
 def top_of(case: Case) -> tuple[Callable[[float], float], float]:
-    """Depth of the upper end of that string [m] as a function of time [s], and the duration of the case [s]."""
-    motions = [stretch.motion for stretch in schedule(case.operations)]
+    """Depth of the upper end of the string of ``beam_of`` [m] as a function of time [s]; duration of the case [s]."""
+    motions = [phase.motion for phase in schedule(case.operations)]
     starts = [motion.start for motion in motions]
     depths = [case.operations[0].start_md - max(operation.end_md for operation in case.operations)]
     for motion in motions:
@@ -128,7 +128,7 @@ def top_of(case: Case) -> tuple[Callable[[float], float], float]:
 
 
 def _fed(motion: Motion, after: float) -> float:
-    """Pipe fed within ``after`` [s] of the start of a stretch, whose speed goes as 3u² − 2u³ [m]."""
+    """Pipe fed within ``after`` [s] of the start of a phase [m]; the speed changes by 3u² − 2u³ of its gain."""
     u = min(max(after / motion.duration, 0.0), 1.0)
     gain = motion.feed_to - motion.feed_from
     return motion.duration * (motion.feed_from * u + gain * (u**3 - 0.5 * u**4))

@@ -1,7 +1,7 @@
-"""A Cosserat rod (PyElastica) at rest in a hole: another beam, in three dimensions, to hold the engine against.
+"""A Cosserat rod (PyElastica) at rest in a hole: a beam in three dimensions with which FCTD is compared.
 
-The rod is laid on the axis of the hole and relaxed by damping.  Its wall is the hole that it is given; the
-mechanics of the pipe is PyElastica's own (Gazzola and others 2018).
+The rod starts on the axis of the hole and is relaxed by damping.  The hole is FCTD's; the mechanics of the pipe is
+PyElastica's (Gazzola and others 2018).
 """
 
 from typing import Any, NamedTuple
@@ -15,17 +15,17 @@ from fctd.model.wellbore import Wellbore
 
 Array = NDArray[np.float64]
 
-# Share of the stable step that is taken, and how often forces are looked at [steps].
+# Step over the stable step, and steps between two checks of equilibrium.
 STEP_SHARE = 0.5
-LOOK = 2000
+CHECK_STEPS = 2000
 
 
 class UnsettledError(Exception):
-    """The rod did not come to rest; its text says how far it came."""
+    """The rod did not come to rest; the text gives the remaining imbalance."""
 
 
 class RestingRod(NamedTuple):
-    """A rod at rest: nodes (n + 1, 3) [m], the wall's force on each (n + 1, 3) [N]; step [s] and steps taken."""
+    """A rod at rest: nodes (n + 1, 3) [m], force of the wall on each (n + 1, 3) [N]; step [s], number of steps."""
 
     nodes: Array
     wall_force: Array
@@ -36,21 +36,21 @@ class RestingRod(NamedTuple):
 class _Surroundings(elastica.NoForces[Any]):
     """Wall, weight and clamp.
 
-    The wall is a penalty per metre at the nodes, each for the length of rod that is its own.  The clamp is half an
-    element of pipe above the middle of the first: PyElastica's own fixes that element, which is to clamp the pipe
-    half an element lower.
+    The wall is a penalty per metre at the nodes, each for its tributary length of rod.  The clamp is a bending spring,
+    half an element of pipe above the middle of the first element: PyElastica's own clamp fixes that element, which
+    clamps the pipe half an element too low.
     """
 
-    def __init__(self, hole: Wellbore, section: Section, stiffness: float, share: Array, held: Array) -> None:
+    def __init__(self, hole: Wellbore, section: Section, stiffness: float, share: Array, axis: Array) -> None:
         super().__init__()
-        self.held, self.clamp = held, section.EI / share[0]
+        self.axis, self.clamp = axis, section.EI / share[0]
         self.hole, self.radius, self.stiffness = hole, section.contact_radius, stiffness * share
         self.weight = section.weight * share
         self.owner = np.zeros(len(share), dtype=np.int64)
         self.force = np.zeros((3, len(share)))
 
     def find(self, nodes: Array) -> None:
-        """Update the wall's force on nodes (3, n + 1)."""
+        """Update the force of the wall on nodes (3, n + 1) [m]."""
         walls = self.hole.walls(nodes.T, self.owner)
         distance = np.sqrt((walls.offset**2).sum(axis=1))
         depth = np.maximum(distance - walls.radius + self.radius, 0.0)
@@ -63,13 +63,13 @@ class _Surroundings(elastica.NoForces[Any]):
         system.external_forces[2] += self.weight
 
     def apply_torques(self, system: Any, time: Any = 0.0) -> None:
-        """Add the clamp's moment to the first element, in its own frame (called by PyElastica)."""
+        """Add the moment of the clamp to the first element, in the element's frame (called by PyElastica)."""
         directors = system.director_collection[:, :, 0]
-        system.external_torques[:, 0] += directors @ (self.clamp * np.cross(directors[2], self.held))
+        system.external_torques[:, 0] += directors @ (self.clamp * np.cross(directors[2], self.axis))
 
 
 class _Simulator(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing, elastica.Damping):
-    """What the rod needs of PyElastica's modules."""
+    """The system of PyElastica with the modules that the rod needs."""
 
 
 def _rod(points: Array, length: float, section: Section) -> Any:
@@ -96,8 +96,8 @@ def _rod(points: Array, length: float, section: Section) -> Any:
         position=np.ascontiguousarray(points.T),
         directors=directors,
     )
-    # A hollow pipe.  Its rotary inertia is a rigid segment's about its middle: at rest it has no part, and the
-    # pipe's own would ask for steps a hundred times shorter.
+    # A hollow pipe.  Its rotary inertia is that of a rigid segment about its middle: it has no effect at rest, and that
+    # of the cross-section would need steps a hundred times shorter.
     element = length / count
     for matrix, values in (
         (rod.shear_matrix, (section.shear, section.shear, section.EA)),
@@ -120,10 +120,10 @@ def rest(
     tolerance: float,
     longest: float,
 ) -> RestingRod:
-    """Let pipe from ``top_md`` to ``bit_md`` [m] come to rest, clamped along the hole at its top.
+    """Relax a pipe from ``top_md`` to ``bit_md`` [m], clamped along the hole at its top, until it is at rest.
 
-    stiffness [N/m/m] of the wall; damping [1/s] of all motion; tolerance : largest force out of balance over the
-    weight; longest [s] : simulated time.  Raises UnsettledError.
+    stiffness [N/m/m] of the wall; damping [1/s] of all motion; tolerance : largest unbalanced force over the weight;
+    longest [s] : simulated time at most.  Raises UnsettledError.
     """
     length = bit_md - top_md
     element = length / elements
@@ -131,7 +131,7 @@ def rest(
     share = np.full(elements + 1, element)
     share[[0, -1]] *= 0.5
     rod = _rod(points, length, section)
-    # The fastest modes of a chain of such elements: axial, and the element's turning against shear.
+    # The fastest modes of a chain of such elements: axial, and rotation of elements against shear.
     fastest = np.sqrt(max(4 * section.EA, 12 * section.shear + 4 * stiffness * element**2) / section.mass) / element
     step = STEP_SHARE * 2 / float(fastest)
 
@@ -150,13 +150,13 @@ def rest(
     weight, imbalance, steps = section.weight * length, np.inf, 0
     probe = _Surroundings(*around)
     while steps * step < longest:
-        for _ in range(LOOK):
+        for _ in range(CHECK_STEPS):
             time = stepper.step(simulator, time, np.float64(step))
-        steps += LOOK
+        steps += CHECK_STEPS
         before = rod.velocity_collection.copy()
         time = stepper.step(simulator, time, np.float64(step))
         steps += 1
-        # What is out of balance moves the nodes: inertia, and the damping that holds it back.
+        # The unbalanced force on a node is the sum of its inertia and damping forces.
         pull = rod.mass * ((rod.velocity_collection - before) / step + damping * rod.velocity_collection)
         imbalance = float(np.abs(pull).max()) / weight
         if imbalance < tolerance:
@@ -164,4 +164,4 @@ def rest(
             return RestingRod(rod.position_collection.T.copy(), probe.force.T.copy(), step, steps)
         if not np.isfinite(imbalance):
             break
-    raise UnsettledError(f"forces are out of balance by {imbalance:.2g} of the weight after {steps * step:.3g} s")
+    raise UnsettledError(f"the largest unbalanced force is {imbalance:.2g} of the weight after {steps * step:.3g} s")

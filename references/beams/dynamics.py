@@ -1,6 +1,6 @@
-"""Lowering the beam of ``beam_fe`` into its hole, in time (generalised-α) or through equilibria.
+"""Lowering a finite-element beam into its hole, in time (generalised-α) or through a sequence of equilibria.
 
-The section at the top goes down as told, and is held sideways and against turning (§6.1).
+The top of the beam has a prescribed depth and is fixed laterally and in rotation (§6.1).
 """
 
 from collections.abc import Callable
@@ -16,12 +16,12 @@ from references.beams.elements import Beam, ConvergenceError, WallLoad, newton, 
 
 Array = NDArray[np.float64]
 
-# A step that Newton cannot solve is halved at most so often.
+# A step for which Newton's iteration fails is halved at most this many times.
 MOST_HALVINGS = 8
 
 
 class Scheme(NamedTuple):
-    """Chung and Hulbert's (1993) parameters: of inertia, of the other forces, and Newmark's γ and β."""
+    """Parameters of Chung and Hulbert (1993): of inertia, of the other forces, and Newmark's γ and β."""
 
     inertia: float
     force: float
@@ -30,7 +30,7 @@ class Scheme(NamedTuple):
 
 
 def generalised_alpha(high_frequency: float) -> Scheme:
-    """The scheme that leaves of the fastest modes the share ``high_frequency`` (0 to 1) a step."""
+    """The scheme with the spectral radius ``high_frequency`` (0 to 1) per step for the fastest modes."""
     inertia = (2 * high_frequency - 1) / (high_frequency + 1)
     force = high_frequency / (high_frequency + 1)
     return Scheme(inertia, force, 0.5 - inertia + force, 0.25 * (1 - inertia + force) ** 2)
@@ -38,11 +38,11 @@ def generalised_alpha(high_frequency: float) -> Scheme:
 
 @dataclass(frozen=True)
 class Lowered:
-    """What came of a lowering, a row for each of m recorded times.
+    """The result of a lowering, a row for each of m recorded times.
 
     time (m,) [s]; states (m, N) and depths of the Gauss points md (m, elements, points) [m] at that time;
     pressure (m, elements, points) [N/m], positive on the high side, mean since the record before; ledger : energies
-    [J] since the start; iterations : of Newton, in all.
+    [J] since the start; iterations : Newton iterations in all.
     """
 
     time: Array
@@ -55,7 +55,7 @@ class Lowered:
 
 @dataclass
 class _State:
-    """Where the beam is, how it moves, and the forces that act there but inertia."""
+    """Position, velocity and acceleration of the beam, and all forces but inertia."""
 
     time: float
     q: Array
@@ -74,7 +74,7 @@ def lower(
 ) -> Lowered:
     """Lower a beam that hangs at rest with its top at ``top(times[0])`` and record it at the later times.
 
-    top : depth of the top [m] at a time [s]; step [s] : at most; scheme : None follows equilibria.
+    top : depth of the top [m] at a time [s]; step [s] : longest step; scheme : None for a sequence of equilibria.
     Raises ConvergenceError.
     """
     return _Lowering(beam, top, times, step, scheme).run()
@@ -85,20 +85,20 @@ class _Lowering:
         self, beam: Beam, top: Callable[[float], float], times: Array, step: float, scheme: Scheme | None
     ) -> None:
         self.beam, self.top, self.times, self.step, self.scheme = beam, top, times, step, scheme
-        self.held = beam.dofs(float(beam.nodes[0]))
-        self.free = np.setdiff1d(np.arange(beam.strains.N), self.held)
+        self.fixed = beam.dofs(float(beam.nodes[0]))
+        self.free = np.setdiff1d(np.arange(beam.strains.N), self.fixed)
         self.tolerance = beam.tolerance(beam.around.weight * beam.length)
         self.iterations = 0
         self.sums = {"top_work_J": 0.0, "lost_mud_J": 0.0, "lost_friction_J": 0.0}
 
     def run(self) -> Lowered:
-        """Hang the beam, then go from record to record."""
+        """Find the equilibrium of the hanging beam, then advance from record to record."""
         beam = self.beam
         q = beam.straight(self.top(float(self.times[0])))
-        q, still = statics(beam, q, self.held), np.zeros_like(q)
+        q, still = statics(beam, q, self.fixed), np.zeros_like(q)
         force, _, load = beam.resistance(q, still)
         here = _State(float(self.times[0]), q, still, still.copy(), force, load)
-        start = self._held_energy(here)
+        start = self._energy(here)
         states, pressures, depths, ledger = [], [], [], []
         for end in self.times[1:]:
             begin = here.time
@@ -111,9 +111,10 @@ class _Lowering:
             states.append(here.q)
             pressures.append(pressure)
             depths.append(here.load.md)
-            held = {name: value - start[name] for name, value in self._held_energy(here).items()}
-            residual = sum(held.values()) + self.sums["lost_mud_J"] + self.sums["lost_friction_J"]
-            ledger.append({"time_s": here.time, **held, **self.sums, "residual_J": residual - self.sums["top_work_J"]})
+            stored = {name: value - start[name] for name, value in self._energy(here).items()}
+            residual = sum(stored.values()) + self.sums["lost_mud_J"] + self.sums["lost_friction_J"]
+            residual -= self.sums["top_work_J"]
+            ledger.append({"time_s": here.time, **stored, **self.sums, "residual_J": residual})
         return Lowered(
             self.times[1:],
             np.array(states),
@@ -124,7 +125,7 @@ class _Lowering:
         )
 
     def _advance(self, here: _State, end: float, halvings: int) -> _State:
-        """The state at time ``end``, in one step or, where Newton fails, in halves."""
+        """The state at time ``end``, in one step or, where Newton's iteration fails, in halves."""
         try:
             after, reaction = self._step(here, end)
         except ConvergenceError:
@@ -133,18 +134,18 @@ class _Lowering:
             middle = self._advance(here, 0.5 * (here.time + end), halvings - 1)
             return self._advance(middle, end, halvings - 1)
         beam, dt = self.beam, end - here.time
-        self.sums["top_work_J"] += float(reaction[self.held] @ (after.q - here.q)[self.held])
+        self.sums["top_work_J"] += float(reaction[self.fixed] @ (after.q - here.q)[self.fixed])
         for name, loss in (("lost_mud_J", "mud_loss"), ("lost_friction_J", "friction_loss")):
             power = 0.5 * (getattr(here.load, loss) + getattr(after.load, loss))
             self.sums[name] += dt * beam.integrate(power)
         return after
 
     def _step(self, here: _State, end: float) -> tuple[_State, Array]:
-        """One step; returns the state at its end and the force on the held dofs during it."""
+        """One step; returns the state at its end and the force on the fixed dofs during the step."""
         beam, dt, scheme = self.beam, end - here.time, self.scheme
         trial = here.q + dt * here.v
-        trial[self.held[0]] = self.top(end)
-        # Newton's evaluations: forces, their sum with inertia, wall. The last one is at the solution.
+        trial[self.fixed[0]] = self.top(end)
+        # Evaluations by Newton's iteration: forces, their sum with inertia, wall. The last one is at the solution.
         seen: list[tuple[Array, Array, WallLoad]] = []
 
         if scheme is None:
@@ -177,8 +178,8 @@ class _Lowering:
         force, total, load = seen[-1]
         return _State(end, q, v, a, force, load), total
 
-    def _held_energy(self, at: _State) -> dict[str, float]:
-        """Energy that the beam and the wall hold [J]."""
+    def _energy(self, at: _State) -> dict[str, float]:
+        """Energies stored in the beam and the wall [J]."""
         beam = self.beam
         kinetic = 0.5 * float(at.v @ (beam.mass @ at.v)) if self.scheme is not None else 0.0
         return {

@@ -4,9 +4,9 @@ Simo–Reissner beam (Simo 1985): position (z, x) and rotation θ of the section
 
     Γ₁ = z' cos θ + x' sin θ − 1,   Γ₂ = −z' sin θ + x' cos θ,   κ = θ',
 
-with EA, κGA and EI.  Quadratic elements; strains at two Gauss points, where a quadratic beam neither locks in
-shear nor has a mechanism.  The wall is a penalty per metre at Gauss points of its own against the exact bend, and
-friction acts at the wall's side of the pipe.  All tangents are exact derivatives.
+with EA, κGA and EI.  Quadratic elements; strains at two Gauss points, with which a quadratic beam neither
+locks in shear nor has a mechanism.  The wall is a penalty per metre at separate Gauss points, with the exact geometry
+of the bend, and friction acts at the surface of the pipe that touches the wall.  All tangents are exact derivatives.
 """
 
 from collections.abc import Callable
@@ -26,22 +26,22 @@ Array = NDArray[np.float64]
 # Components of a state.
 Z, X, TURN = 0, 1, 2
 STRAIN_POINTS = 3  # degree that two Gauss points integrate exactly
-WALL_POINTS = 9  # five Gauss points an element
+WALL_POINTS = 9  # degree that five Gauss points integrate exactly
 MOST_ITERATIONS = 25
-# Newton has converged when no force is out of balance by more than this share of the load, rounding permitting.
+# Newton's iteration has converged when the largest unbalanced force is below this share of the load, or rounding.
 CONVERGED = 1e-7
-# Steps of a fall [s].
+# Pseudo-time steps of a relaxation [s], and their growth.
 FIRST_STEP, SHORTEST_STEP, LAST_STEP, GROWTH = 0.01, 1e-6, 1e6, 4.0
 
 
 class ConvergenceError(Exception):
-    """Newton's iteration did not converge; its text says how far it came."""
+    """Newton's iteration did not converge; the text gives the remaining imbalance."""
 
 
 class Surroundings(NamedTuple):
-    """What acts on the beam along its length.
+    """Hole, mud and weight of the beam along its length.
 
-    hole : None in the open; clearance [m]; wall stiffness [N/m/m]; friction factor; contact radius [m];
+    hole : None without a hole; clearance [m]; wall stiffness [N/m/m]; friction factor; contact radius [m];
     creep [m/s] : sliding speed at which friction has reached tanh 1 of its limit;
     lateral, axial mud damping [N s/m^2]; weight [N/m], along +z.
     """
@@ -76,14 +76,14 @@ class WallLoad(NamedTuple):
 
 
 class _Points:
-    """Quadrature points of a basis: what a state is there, and the nodal forces of densities there.
+    """Quadrature points of a basis: values of a state at these points, and nodal forces of densities at them.
 
-    The forms of scikit-fem are called once for every pair of the nine functions of an element; on meshes of so few
-    elements that is all they cost.  Here its functions are tabulated, and all of them are multiplied at once.
+    scikit-fem calls a form once for every pair of the nine functions of an element, which takes most of the time on
+    meshes of few elements.  Here the functions are tabulated, and one product evaluates all of them.
     """
 
     def __init__(self, basis: Basis, slopes: list[int], values: list[int]) -> None:
-        """slopes, values : components of a state, 0 to 2, whose derivative, or which themselves, count: r in all."""
+        """slopes, values : components of a state (0 to 2) of which the derivative, or the value, is taken; r in all."""
         fields = [field for (field,) in basis.basis]
         table = [np.concatenate([field.grad[slopes, 0], np.asarray(field)[values]]) for field in fields]
         # (elements, points, r, functions)
@@ -100,7 +100,7 @@ class _Points:
         return found.reshape(self.table.shape[:3]).transpose(2, 0, 1)
 
     def forces(self, density: Array) -> Array:
-        """Nodal forces of a density (r, elements, points) against the components."""
+        """Nodal forces of a density (r, elements, points) that is conjugate to the components."""
         elements = self._weighted @ density.transpose(1, 2, 0).reshape(len(self.dofs), -1, 1)
         return np.asarray(np.bincount(self.dofs.ravel(), elements.ravel(), self.size), np.float64)
 
@@ -118,7 +118,7 @@ class _Points:
 
 
 class Beam:
-    """A beam of one section, its mesh and what surrounds it.
+    """A beam of one section, with its mesh and its surroundings.
 
     A state is a vector of z [m], x [m] and θ [rad] at the nodes, in scikit-fem's order.
     """
@@ -126,7 +126,7 @@ class Beam:
     def __init__(self, nodes: Array, section: Section, around: Surroundings, at_ends: bool = False) -> None:
         """nodes (n,) [m] : ends of the elements along the unstretched string, from the top.
 
-        at_ends : feel wall and mud at the ends of the elements alone, each for the length that is its own.
+        at_ends : wall and mud act only at the ends of the elements, each with its tributary length.
         """
         self.nodes, self.section, self.around = nodes, section, around
         mesh, element = MeshLine(nodes), ElementVector(ElementLineP2(), 3)
@@ -148,7 +148,7 @@ class Beam:
         return float(self.nodes[-1] - self.nodes[0])
 
     def tolerance(self, load: float) -> float:
-        """Largest force out of balance of a converged state [N]: a share of the load, or what rounding leaves."""
+        """Largest unbalanced force of a converged state [N]: a share of the load, or the rounding error."""
         finest = float(np.diff(self.nodes).min())
         rounding = 16 * np.finfo(float).eps * self.section.EA * self.length / finest
         return max(CONVERGED * load, rounding)
@@ -161,13 +161,13 @@ class Beam:
         return found
 
     def points(self) -> tuple[Array, NDArray[np.int64]]:
-        """All nodes along the string, middle ones too, (m,) [m], and their numbers in a state (m, 3)."""
+        """Positions of all nodes along the string, midpoints too, (m,) [m], and their numbers in a state (m, 3)."""
         s = self.strains.doflocs[0]
         order = np.argsort(s, kind="stable").reshape(-1, 3)
         return s[order[:, 0]], order
 
     def straight(self, top: float) -> Array:
-        """The state of the unstretched beam hanging down from z = ``top`` [m]."""
+        """The state of the unstretched, vertical beam with its top at z = ``top`` [m]."""
         s, numbers = self.points()
         q = np.zeros(self.strains.N)
         q[numbers[:, 0]] = top + s - self.nodes[0]
@@ -180,7 +180,7 @@ class Beam:
         return dz * cosine + dx * sine - 1, -dz * sine + dx * cosine, bend, cosine, sine
 
     def internal(self, q: Array) -> tuple[Array, Array]:
-        """Internal forces of state q and their exact tangents, element by element."""
+        """Internal forces of state q, and their exact tangents for each element."""
         stretch, shear, bend, c, s = self._strains(q)
         section = self.section
         n, v = section.EA * stretch, section.shear * shear
@@ -207,7 +207,7 @@ class Beam:
         return float((density * self.wall.dx).sum())
 
     def wall_load(self, q: Array, velocity: Array) -> WallLoad:
-        """Loads of wall and mud in state q that moves with ``velocity``."""
+        """Loads of wall and mud in state q with its ``velocity``."""
         at, v = self._touching.of(q), self._touching.of(velocity)
         around = self.around
         blank = np.zeros(at.shape[1:])
@@ -233,7 +233,7 @@ class Beam:
         return WallLoad(resistance, by_position, by_velocity, pressure, md, energy, loss, mud_loss)
 
     def resistance(self, q: Array, velocity: Array, rate: float = 0.0) -> tuple[Array, csc_matrix, WallLoad]:
-        """All forces but inertia that resist a state, less gravity, and their tangent.
+        """All forces but inertia that resist a state, less gravity; their tangent; the loads of wall and mud.
 
         rate [1/s] : change of velocity with q, from the time integration.
         """
@@ -270,9 +270,9 @@ def _add_friction(
     by_position: Array,
     by_velocity: Array,
 ) -> Array:
-    """Add regularised Coulomb friction against the sliding of the pipe's wall side; returns the power lost [W/m].
+    """Add regularised Coulomb friction opposite to the sliding of the pipe's surface; returns the power lost [W/m].
 
-    The wall touches the pipe a contact radius to the side of its axis, where rotation takes part in sliding.
+    The wall touches the pipe at a contact radius from its axis, so that rotation of the section contributes to sliding.
     """
     # Sliding speed is arm·(ż, ẋ, θ̇).
     arm = np.stack([t[0], t[1], -around.radius * side])
@@ -294,7 +294,7 @@ def _add_friction(
 def newton(
     residual: Callable[[Array], tuple[Array, csc_matrix]], q: Array, free: NDArray[np.int64], tolerance: float
 ) -> tuple[Array, int]:
-    """Solve ``residual(q) = (r, tangent)`` for the free dofs; returns the solution and the iterations it took.
+    """Solve ``residual(q) = (r, tangent)`` for the free dofs; returns the solution and the number of iterations.
 
     tolerance [N] : largest r of a solution.  Raises ConvergenceError.
     """
@@ -308,17 +308,17 @@ def newton(
         if size < tolerance:
             return q, iteration
         q[free] -= splu(tangent[free][:, free].tocsc()).solve(r[free])
-    raise ConvergenceError(f"forces are out of balance by {size:.2g} N after {MOST_ITERATIONS} iterations")
+    raise ConvergenceError(f"the largest unbalanced force is {size:.2g} N after {MOST_ITERATIONS} iterations")
 
 
 def statics(
-    beam: Beam, q: Array, held: NDArray[np.int64], load: Array | None = None, velocity: Array | None = None
+    beam: Beam, q: Array, fixed: NDArray[np.int64], load: Array | None = None, velocity: Array | None = None
 ) -> Array:
-    """Equilibrium nearest to q, its held dofs as they are, under gravity, wall and a nodal load.
+    """Equilibrium near q under gravity, wall and a nodal load; the ``fixed`` dofs keep their values.
 
-    velocity : with which the beam slides steadily, so that friction takes part.  Raises ConvergenceError.
+    velocity : steady sliding velocity, against which friction acts.  Raises ConvergenceError.
     """
-    free = np.setdiff1d(np.arange(len(q)), held)
+    free = np.setdiff1d(np.arange(len(q)), fixed)
     zero = np.zeros_like(q)
     extra, sliding = zero if load is None else load, zero if velocity is None else velocity
 
@@ -330,13 +330,13 @@ def statics(
     return newton(residual, q, free, beam.tolerance(carried))[0]
 
 
-def fallen(beam: Beam, q: Array, held: NDArray[np.int64]) -> Array:
-    """Equilibrium to which a beam falls from q, its held dofs as they are: q may be far from it.
+def relaxed(beam: Beam, q: Array, fixed: NDArray[np.int64]) -> Array:
+    """Equilibrium to which a damped beam moves from q, which may be far from it; the ``fixed`` dofs keep their values.
 
-    Against the mud, by implicit Euler in steps that grow until the mud does not matter (pseudo-transient
-    continuation): the beam has to be damped along and across.  Raises ConvergenceError.
+    Pseudo-transient continuation: implicit Euler with the damping of the mud, in steps that grow until damping is
+    negligible.  The beam has to be damped along and across.  Raises ConvergenceError.
     """
-    free = np.setdiff1d(np.arange(len(q)), held)
+    free = np.setdiff1d(np.arange(len(q)), fixed)
     tolerance = beam.tolerance(beam.around.weight * beam.length)
     step = FIRST_STEP
     while step < LAST_STEP:
@@ -352,4 +352,4 @@ def fallen(beam: Beam, q: Array, held: NDArray[np.int64]) -> Array:
             step /= GROWTH**2
             if step < SHORTEST_STEP:
                 raise
-    return statics(beam, q, held)
+    return statics(beam, q, fixed)

@@ -1,6 +1,6 @@
-"""A hole in one vertical plane as its exact circular arcs: the wall for beam finite elements.
+"""A hole in one vertical plane as exact circular arcs: the wall for beam finite elements.
 
-Nothing here is shared with the engine's cylinders or arcs: the stations are read, and the rest is plane geometry.
+No code is shared with FCTD's cylinders or arcs: the arcs are computed from the stations by plane geometry.
 Points are (depth z down, horizontal x along the azimuth of the hole) [m].
 """
 
@@ -17,7 +17,7 @@ class Axis(NamedTuple):
 
     offset (...) [m] : signed distance from the axis, positive to the high side (in the vertical: along x).
     tangent, normal (2, ...) : unit vectors downhole and to the high side.  Normal is the gradient of offset.
-    turn (...) [1/m] : κ/(1 − κ offset), by which tangent and normal turn for a metre along the hole.
+    turn (...) [1/m] : κ/(1 − κ offset), the rotation of tangent and normal per metre along the hole.
     md (...) [m] : measured depth.
     """
 
@@ -34,8 +34,8 @@ class PlanarHole:
     def __init__(self, stations: Array) -> None:
         """stations (n, 3) : measured depth [m], inclination and azimuth [rad].
 
-        Raises ValueError when the hole leaves its plane, or turns by more than 90° between two directions: the
-        planes that part one arc from the next would cut a far part of the hole.
+        Raises ValueError if the hole leaves its plane, or if any two directions differ by more than 90°: the planes
+        between one arc and the next would then cut a distant part of the hole.
         """
         md, inclination, azimuth = stations.T
         inclined = inclination > 0
@@ -92,7 +92,7 @@ class PlanarHole:
 
 
 def _arc(curvature: Array, length: Array) -> tuple[Array, Array]:
-    """How far arcs go along their first tangent and towards their centre [m]."""
+    """End points of arcs along their first tangent and towards their centre [m]."""
     half = 0.5 * curvature * length
     chord = length * np.sinc(half / np.pi)
     return chord * np.cos(half), chord * np.sin(half)

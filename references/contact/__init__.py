@@ -1,7 +1,7 @@
-"""What a contact method is, and the literal list of those there are.
+"""The interface of contact methods, and the registry of all of them.
 
-A method is built for the hole of a case and asked about points.  All share one signature, so that the engine's
-loop and the studies can swap them; what can be set is in the method's own ``Options``.
+A method is built for the hole of a case and queried with points.  All methods share one signature, so that the
+engine's loop and the studies can swap them; the settings of a method are its ``Options``.
 """
 
 from typing import Any, ClassVar, Protocol
@@ -31,7 +31,7 @@ METHODS: dict[str, str] = {
 class ContactMethod(Protocol):
     """A way to find where points of given radius touch the wall.
 
-    name : its key in METHODS.  distribution : the package that brings it.  does : one line for users.
+    name : its key in METHODS.  distribution : the package that provides it.  does : one line for users.
     gives_clearance : whether a penetration below 0 is the true clearance; otherwise it is −inf, and normal and
     md are nan.
     """
@@ -43,14 +43,14 @@ class ContactMethod(Protocol):
     Options: ClassVar[type[Table]]
 
     def __init__(self, case: Case, options: Any) -> None:
-        """Build what the method needs for the hole of ``case``; InputError for what cannot be built."""
+        """Prepare the method for the hole of ``case``; InputError where the hole or an option is not possible."""
 
     def query(self, points: Array, radii: Array) -> Contacts:
         """Contacts of points (n, 3) [m] with contact radii (n,) [m]; see ``fctd.model.wellbore.Contacts``."""
 
     @property
     def pieces(self) -> int:
-        """Cylinders, arcs or triangles that stand for the hole."""
+        """Number of cylinders, arcs or triangles that represent the hole."""
 
     def error_bound(self, curvature: float) -> tuple[float, float]:
         """Largest error of penetration [m] and of the normal's direction [rad] in a bend of this curvature

@@ -1,8 +1,8 @@
-"""A sphere against the tube mesh through a tree of boxes: compiled to be timed, and the same code to be counted.
+"""Contact of a sphere with the tube mesh through a tree of boxes; one source serves for timing and for counting.
 
-python-fcl and coal do not report their counts.  This tree halves the triangles in their order along and around the
-hole; its boxes are aligned with the global axes, whose test is the cheapest there is (an oriented box adds three
-dot products to it), so a count is a lower bound for a node of theirs.
+python-fcl and coal do not report how many nodes and triangles they test.  This tree halves the triangles in their
+order along and around the hole.  Its boxes are aligned with the global axes, which is the cheapest box test (an
+oriented box adds three dot products), so that an operation count is a lower bound for a node of fcl or coal.
 """
 
 import numpy as np
@@ -13,9 +13,9 @@ Array = NDArray[np.float64]
 
 
 class BoxTree:
-    """Boxes as a heap: node k has the children 2k + 1 and 2k + 2, the last level holds one triangle a leaf.
+    """Boxes as a heap: node k has the children 2k + 1 and 2k + 2, the last level holds one triangle per leaf.
 
-    corners (m, 9) [m] : of the triangles, in order.  low, high (nodes, 3) [m] : empty boxes have low > high.
+    corners (m, 9) [m] : corners of the triangles, in order.  low, high (nodes, 3) [m] : empty boxes have low > high.
     """
 
     def __init__(self, triangles: Array) -> None:
@@ -31,7 +31,7 @@ class BoxTree:
         self.first_leaf = leaves - 1
 
     def penetrations(self, points: Array, radii: Array) -> Array:
-        """``penetration`` of each of the spheres (n, 3), (n,) [m]."""
+        """Penetrations (n,) [m] of spheres with centres (n, 3) [m] and radii (n,) [m], see ``penetration``."""
         found = np.empty(len(points))
         _all(self.low, self.high, self.corners, self.first_leaf, np.ascontiguousarray(points), radii, found)
         return found
@@ -110,9 +110,9 @@ def _from_triangle(corners, k, x, y, z):  # type: ignore[no-untyped-def]
 
 @njit(error_model="numpy")
 def penetration(low, high, corners, first_leaf, x, y, z, radius):  # type: ignore[no-untyped-def]
-    """How deep a sphere reaches beyond the nearest triangle [m], −inf where it meets none; nodes and triangles tested.
+    """Depth of a sphere beyond the nearest triangle [m], −inf without contact; numbers of nodes and triangles tested.
 
-    low, high, corners, first_leaf : of the tree; the arrays may be `Counted`.
+    low, high, corners, first_leaf : attributes of the tree; the arrays may be `Counted`.
     """
     reach, meets, nodes, triangles = radius * radius, False, 0, 0
     waiting = [0]
@@ -128,7 +128,7 @@ def penetration(low, high, corners, first_leaf, x, y, z, radius):  # type: ignor
         triangles += 1
         away = _from_triangle(corners, k - first_leaf, x, y, z)
         if away <= reach:
-            reach, meets = away, True  # only what is nearer still matters
+            reach, meets = away, True  # from here on only nearer triangles matter
     return (radius - np.sqrt(reach) if meets else -np.inf), nodes, triangles
 
 

@@ -1,6 +1,7 @@
 """Bullet's collision detection through pybullet: closest points of a sphere and a concave mesh, no dynamics.
 
-Traps: a client left connected is never freed; a mesh has at most 174 762 triangles; the answer names no triangle.
+Traps: a client that stays connected is never freed; a mesh has at most 174 762 triangles; a result does not say
+which triangle was hit.
 """
 
 import weakref
@@ -13,19 +14,19 @@ from fctd.case.errors import InputError, Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
-from references.contact.tube_mesh import OnTube, Tube, TubeOptions, build_tube
+from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
-# The bindings take no more indices than this in one shape.
+# The bindings accept at most this many indices in one shape.
 MOST_TRIANGLES = 524_288 // 3
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 # Fields of a closest point: normal on the mesh towards the sphere, distance (negative is penetration).
 NORMAL, DISTANCE = 7, 8
 
 
-class Bullet(OnTube):
-    """A sphere body moved to each point and asked for its closest points on the tube."""
+class Bullet(MeshMethod):
+    """Move a sphere body to each point and query its closest points on the tube."""
 
     name = "bullet"
     distribution: ClassVar[str] = "pybullet"
@@ -58,7 +59,7 @@ class Bullet(OnTube):
         return Contacts(penetration, -normal, md)
 
     def _sphere(self, radius: float) -> int:
-        """A body that is a sphere of this radius, made once."""
+        """The body of a sphere of this radius, created on first use."""
         if radius not in self._spheres:
             shape = self._bullet.createCollisionShape(
                 self._bullet.GEOM_SPHERE, radius=radius, physicsClientId=self._client
@@ -70,11 +71,11 @@ class Bullet(OnTube):
 def wall_of(bullet: Any, client: int, vertices: Array, tube: Tube) -> int:
     """A fixed body of the tube's triangles, its vertices (n, 3) in Bullet's own units and axes.
 
-    Raises InputError for more triangles than Bullet takes.
+    Raises InputError for more triangles than Bullet accepts.
     """
     if tube.triangles > MOST_TRIANGLES:
         raise InputError(
-            f"at most the {MOST_TRIANGLES} triangles that bullet takes",
+            f"at most the {MOST_TRIANGLES} triangles that bullet accepts",
             key="facets",
             value=f"{tube.triangles} triangles",
         )

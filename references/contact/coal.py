@@ -1,7 +1,8 @@
 """coal, the faster successor of FCL.
 
-Traps: a sphere that penetrates gets the distance of the first triangle it overlaps, not of the deepest, so the
-query is for its centre; depths are negative; only trees of OBB or OBBRSS take a sphere against a mesh.
+Traps: for a penetrating sphere coal returns the distance of the first triangle that it overlaps, not of the deepest
+one, so the query is for the sphere's centre; depths are negative; only trees of OBB or OBBRSS can test a sphere
+against a mesh.
 """
 
 from typing import Any, ClassVar, Literal
@@ -14,7 +15,7 @@ from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
 from references.contact.fcl import MOST_CONTACTS, POINT
-from references.contact.tube_mesh import OnTube, Tube, TubeOptions, build_tube
+from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
@@ -25,7 +26,7 @@ class CoalOptions(TubeOptions):
     query: Literal["distance", "collide"] = "distance"
 
 
-class Coal(OnTube):
+class Coal(MeshMethod):
     """A sphere at each point against a bounding-volume tree over the tube; requests and results are reused."""
 
     name = "coal"
@@ -36,11 +37,11 @@ class Coal(OnTube):
     def __init__(self, case: Case, options: CoalOptions) -> None:
         self._coal = coal = need("coal", self.name)
         self.tube = build_tube(case, options)
-        # The tree is built for the query: OBB is the faster one to collide with, RSS bounds distances.
+        # The tree suits the query: OBB is faster for collisions, RSS bounds distances.
         self._collide = options.query == "collide"
         self.gives_clearance = not self._collide
         self._wall = wall_of(coal, self.tube, coal.BVHModelOBB() if self._collide else coal.BVHModelOBBRSS())
-        self._here, self._there = coal.Transform3s(), coal.Transform3s()
+        self._identity, self._placement = coal.Transform3s(), coal.Transform3s()
         self._spheres: dict[float, Any] = {}
         self._distance_request, self._distance = coal.DistanceRequest(True), coal.DistanceResult()
         self._request, self._result = coal.CollisionRequest(), coal.CollisionResult()
@@ -51,26 +52,26 @@ class Coal(OnTube):
         return self._by_collision(points, radii) if self._collide else self._by_distance(points, radii)
 
     def _by_distance(self, points: Array, radii: Array) -> Contacts:
-        distance, wall, here, there = self._coal.distance, self._wall, self._here, self._there
+        distance, wall, identity, placement = self._coal.distance, self._wall, self._identity, self._placement
         request, result, point = self._distance_request, self._distance, self._sphere(POINT)
         near, faces = np.empty((len(points), 3)), np.empty(len(points), np.int64)
         for k, place in enumerate(points):
-            there.setTranslation(place)
+            placement.setTranslation(place)
             result.clear()
-            distance(wall, here, point, there, request, result)
+            distance(wall, identity, point, placement, request, result)
             near[k], faces[k] = result.getNearestPoint1(), result.b1
         return self.tube.contacts(points, radii, near, faces)
 
     def _by_collision(self, points: Array, radii: Array) -> Contacts:
-        collide, wall, here, there = self._coal.collide, self._wall, self._here, self._there
+        collide, wall, identity, placement = self._coal.collide, self._wall, self._identity, self._placement
         request, result = self._request, self._result
         n = len(points)
         penetration, normal = np.full(n, -np.inf), np.full((n, 3), np.nan)
         faces = np.zeros(n, np.int64)
         for k, (place, radius) in enumerate(zip(points, radii, strict=True)):
-            there.setTranslation(place)
+            placement.setTranslation(place)
             result.clear()
-            if collide(wall, here, self._sphere(radius), there, request, result):
+            if collide(wall, identity, self._sphere(radius), placement, request, result):
                 for i in range(result.numContacts()):
                     contact = result.getContact(i)
                     if -contact.penetration_depth > penetration[k]:
@@ -78,14 +79,14 @@ class Coal(OnTube):
         return Contacts(penetration, -normal, np.where(penetration > 0, self.tube.md_of(faces, points), np.nan))
 
     def _sphere(self, radius: float) -> Any:
-        """A sphere of this radius, made once."""
+        """A sphere of this radius, created on first use."""
         if radius not in self._spheres:
             self._spheres[radius] = self._coal.Sphere(radius)
         return self._spheres[radius]
 
 
 def wall_of(coal: Any, tube: Tube, model: Any) -> Any:
-    """An empty tree of coal's filled with the tube."""
+    """Fill an empty tree of coal with the triangles of the tube; returns the tree."""
     vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
     for vertex in np.asarray(tube.mesh.vertices):
         vertices.append(vertex)

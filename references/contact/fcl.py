@@ -1,8 +1,8 @@
 """python-fcl, bindings of the Flexible Collision Library, which descends from RAPID, the contact code of Adams.
 
-Traps: a sphere that penetrates has no valid distance, so the query is for its centre; all contacts have to be
-asked for, since the first ones found are not the deepest; normals point into the hole, depths are negative;
-capsules on the long triangles of a tube report depths that are wrong by decimetres.
+Traps: a penetrating sphere has no valid distance, so the query is for its centre; all contacts have to be requested,
+since the first ones found are not the deepest; normals point into the hole, depths are negative; capsules on the
+long triangles of a tube report depths that are wrong by decimetres.
 """
 
 from typing import Any, ClassVar, Literal
@@ -14,13 +14,13 @@ from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
-from references.contact.tube_mesh import OnTube, Tube, TubeOptions, build_tube
+from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
-# A sphere stands for a point; a radius of 0 is not one to the library [m].
+# Radius of the sphere that represents a point [m]; the library does not accept 0.
 POINT = 1e-6
-# Triangles that one sphere can touch are fewer at any sensible resolution.
+# At any sensible resolution one sphere touches fewer triangles than this.
 MOST_CONTACTS = 1000
 
 
@@ -30,7 +30,7 @@ class FclOptions(TubeOptions):
     query: Literal["distance", "collide"] = "distance"
 
 
-class Fcl(OnTube):
+class Fcl(MeshMethod):
     """A sphere at each point against a bounding-volume tree over the tube."""
 
     name = "fcl"
@@ -78,14 +78,14 @@ class Fcl(OnTube):
         return Contacts(penetration, -normal, np.where(penetration > 0, self.tube.md_of(faces, points), np.nan))
 
     def _sphere(self, radius: float) -> Any:
-        """A sphere of this radius, made once."""
+        """A sphere of this radius, created on first use."""
         if radius not in self._spheres:
             self._spheres[radius] = self._fcl.CollisionObject(self._fcl.Sphere(radius), self._fcl.Transform())
         return self._spheres[radius]
 
 
 def wall_of(fcl: Any, tube: Tube) -> Any:
-    """The tube as FCL has it."""
+    """The tube as a collision object of FCL."""
     vertices, faces = np.asarray(tube.mesh.vertices), np.asarray(tube.mesh.faces)
     model = fcl.BVHModel()
     model.beginModel(len(faces), len(vertices))

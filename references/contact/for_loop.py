@@ -1,4 +1,4 @@
-"""The paper's own search for the owner of a point (§4.2): a FOR-loop over all cylinders from the top."""
+"""The paper's search for the cylinder that owns a point (§4.2): a FOR-loop over all cylinders from the top."""
 
 import numpy as np
 from numba import njit
@@ -44,7 +44,7 @@ def _test(C, points, owners, squares):  # type: ignore[no-untyped-def]
 def one_cylinder(
     pieces: NDArray[np.float64], points: NDArray[np.float64], owners: NDArray[np.int64]
 ) -> NDArray[np.float64]:
-    """|PT|² (n,) of Eqs 5 and 10 for each point (n, 3) and the one cylinder given (n,), inf above or below it [m²]."""
+    """|PT|² (n,) [m²] of Eqs 5 and 10 for points (n, 3), each with one given cylinder (n,); inf beyond its ends."""
     squares = np.empty(len(points))
     _test(pieces, np.ascontiguousarray(points, dtype=float), owners, squares)
     return squares

@@ -1,7 +1,8 @@
 """MuJoCo's collision detection: sphere bodies against the tube as a flex of the world, no dynamics.
 
-Traps: a mesh geom is replaced by its convex hull, a full bar in place of a hole, so the wall has to be a ``flex``;
-fixed and mocap bodies do not collide with the world, so the spheres have free joints that are set by hand.
+Traps: MuJoCo replaces a mesh geom by its convex hull, a solid bar in place of a hole, so the wall has to be a
+``flex``; fixed and mocap bodies do not collide with the world, so the spheres have free joints whose positions are
+set before each query.
 """
 
 from typing import ClassVar
@@ -13,18 +14,18 @@ from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
-from references.contact.tube_mesh import OnTube, Tube, TubeOptions, build_tube
+from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
 
 Array = NDArray[np.float64]
 
 BATCH = 64  # spheres in the model
-FACE_RADIUS = 1e-6  # a flex has a thickness, which cannot be 0 [m]
-MEETS_STRING = '<contact contype="2" conaffinity="1" selfcollide="none"/>'  # and nothing else
-PARKED = 1e5  # height above the well of spheres without a point [m]
+FACE_RADIUS = 1e-6  # half the thickness of the flex, which cannot be 0 [m]
+STRING_CONTACT = '<contact contype="2" conaffinity="1" selfcollide="none"/>'  # the wall collides with the string alone
+PARKED = 1e5  # height above the well at which unused spheres are kept [m]
 
 
-class MuJoCo(OnTube):
-    """Spheres moved to the points in batches; one collision pass a batch."""
+class MuJoCo(MeshMethod):
+    """Move spheres to the points in batches, with one collision pass per batch."""
 
     name = "mujoco"
     distribution: ClassVar[str] = "mujoco"
@@ -37,7 +38,7 @@ class MuJoCo(OnTube):
         self.tube = build_tube(case, options)
         self._model = mujoco.MjModel.from_xml_string(_model(self.tube))
         self._data = mujoco.MjData(self._model)
-        # Two views into the library's own memory: positions of the spheres, and their radii.
+        # A view of the library's own memory: positions of the spheres.
         self._places = self._data.qpos.reshape(BATCH, 7)[:, :3]
         self._park(0)
         mujoco.mj_fwdPosition(self._model, self._data)  # places the vertices of the flex, once
@@ -55,7 +56,7 @@ class MuJoCo(OnTube):
     def _collide(
         self, points: Array, radii: Array, penetration: Array, normal: Array, faces: NDArray[np.int64]
     ) -> None:
-        """Contacts of at most BATCH points, written into the last three."""
+        """Write the contacts of at most BATCH points into ``penetration``, ``normal`` and ``faces``."""
         mujoco, model, data, n = self._mujoco, self._model, self._data, len(points)
         self._places[:n] = points
         self._park(n)
@@ -63,7 +64,7 @@ class MuJoCo(OnTube):
         mujoco.mj_kinematics(model, data)
         mujoco.mj_collision(model, data)
         contacts = data.contact
-        # The last contact written of a point stays: the deepest, after sorting from shallow to deep.
+        # Sorted from shallow to deep: of several contacts of a point the deepest is written last and stays.
         order = np.argsort(-contacts.dist)
         point = contacts.geom[order, 0]
         penetration[point] = -contacts.dist[order] - FACE_RADIUS
@@ -71,15 +72,15 @@ class MuJoCo(OnTube):
         faces[point] = contacts.elem[order, 1]
 
     def _park(self, first: int) -> None:
-        """Put the spheres from ``first`` on out of the way, apart from each other."""
+        """Move the spheres from number ``first`` on away from the well, apart from each other."""
         self._places[first:] = 0.0
         self._places[first:, 2] = -PARKED * (1 + np.arange(BATCH - first))
 
 
 def _model(tube: Tube) -> str:
-    """MuJoCo's description of the spheres and the wall; contact bits let spheres meet the wall alone."""
+    """MuJoCo's description of the spheres and the wall; the spheres collide with the wall alone."""
     sphere = '<body><freejoint/><geom type="sphere" size="1" mass="1" contype="1" conaffinity="2"/></body>'
-    wall = wall_of(tube, MEETS_STRING)
+    wall = wall_of(tube, STRING_CONTACT)
     return f'<mujoco><size memory="64M"/><worldbody>{BATCH * sphere}</worldbody>{wall}</mujoco>'
 
 

@@ -1,4 +1,4 @@
-"""The engine's own ways to the wall, asked from Python like the others: cylinders, arcs, the paper's FOR-loop."""
+"""FCTD's own contact methods, called from Python like the others: cylinders, arcs, the paper's FOR-loop."""
 
 from typing import ClassVar, Literal
 
@@ -55,7 +55,7 @@ def _query_for_loop(C, points, radii, penetration, normal, md):  # type: ignore[
 
 
 class CylinderOptions(Table):
-    """Like the keys of [wellbore]; without them the case's own hold [m]."""
+    """Lengths [m] as the keys of [wellbore]; a missing one is taken from the case."""
 
     cylinder_length: units.PositiveLength | None = None
     chord_tolerance: units.PositiveLength | None = None
@@ -67,10 +67,10 @@ class ArcOptions(Table):
 
 
 def _hole(case: Case, geometry: Literal["cylinders", "arcs"], options: Table) -> Wellbore:
-    """The hole of a case in a geometry that need not be the case's own."""
+    """The hole of a case in the given geometry, which may differ from that of the case."""
     changes = {**options.model_dump(exclude_none=True), "geometry": geometry}
     spec = case.wellbore.model_dump(exclude_none=True)
-    if changes.keys() & {"cylinder_length", "chord_tolerance"}:  # the one replaces the other
+    if changes.keys() & {"cylinder_length", "chord_tolerance"}:  # only one of the two keys is allowed
         spec = {key: value for key, value in spec.items() if key not in ("cylinder_length", "chord_tolerance")}
     try:
         return build_wellbore(case.model_copy(update={"wellbore": WellboreSpec.model_validate(spec | changes)}))
@@ -82,8 +82,8 @@ def _empty(n: int) -> Contacts:
     return Contacts(np.empty(n), np.empty((n, 3)), np.empty(n))
 
 
-class _Remembered:
-    """Points that remember their piece of hole from query to query, as in the engine's loop."""
+class _CachedOwners:
+    """Methods that keep each point's piece of hole from one query to the next, as the engine's loop does."""
 
     distribution: ClassVar[str] = "fctd"
     gives_clearance = True
@@ -91,7 +91,7 @@ class _Remembered:
     def __init__(self, hole: Wellbore) -> None:
         self.hole = hole
         self._owner = np.empty(0, np.int64)
-        # Nothing of a string is this far outside its hole: the point has been exchanged for another [m].
+        # No point of a string is this deep in the wall [m]: a deeper one is a new point, whose piece is searched.
         self._wide = 2 * float(hole.intervals[:, RADIUS].max())
 
     def query(self, points: Array, radii: Array) -> Contacts:
@@ -107,15 +107,15 @@ class _Remembered:
 
     @property
     def pieces(self) -> int:
-        """Rows of the table."""
+        """Number of cylinders or arcs."""
         return len(self.hole.pieces)
 
 
-class Cylinders(_Remembered):
-    """The paper's cylinders with overlap (§4.2–4.4), the owner remembered."""
+class Cylinders(_CachedOwners):
+    """The paper's cylinders with overlap (§4.2–4.4); each point keeps its cylinder from one query to the next."""
 
     name = "cylinders"
-    does: ClassVar[str] = "point in cylinder with overlap, each point remembers its cylinder"
+    does: ClassVar[str] = "point in cylinder with overlap, each point keeps its cylinder between queries"
     Options: ClassVar[type[Table]] = CylinderOptions
 
     def __init__(self, case: Case, options: CylinderOptions) -> None:
@@ -126,23 +126,23 @@ class Cylinders(_Remembered):
         return chord_error(self.hole, curvature)
 
 
-class Arcs(_Remembered):
+class Arcs(_CachedOwners):
     """Exact closest points on the arcs of minimum curvature."""
 
     name = "arcs"
-    does: ClassVar[str] = "closest point on circular arcs, each point remembers its arc"
+    does: ClassVar[str] = "closest point on circular arcs, each point keeps its arc between queries"
     Options: ClassVar[type[Table]] = ArcOptions
 
     def __init__(self, case: Case, options: ArcOptions) -> None:
         super().__init__(_hole(case, "arcs", options))
 
     def error_bound(self, curvature: float) -> tuple[float, float]:
-        """Arcs are the hole."""
+        """No error: the arcs are the hole itself."""
         return 0.0, 0.0
 
 
 class ForLoop:
-    """The paper's search: the first cylinder from the top whose slab holds the point."""
+    """The paper's search: the first cylinder from the top between whose end planes the point lies."""
 
     name = "for_loop"
     distribution: ClassVar[str] = "fctd"
@@ -154,7 +154,7 @@ class ForLoop:
         self.hole = _hole(case, "cylinders", options)
 
     def query(self, points: Array, radii: Array) -> Contacts:
-        """See ``ContactMethod.query``; a point in no slab at all has no contact."""
+        """See ``ContactMethod.query``; a point between the end planes of no cylinder has no contact."""
         hits = _empty(len(points))
         _query_for_loop(self.hole.pieces, points, radii, *hits)
         return hits
@@ -165,14 +165,14 @@ class ForLoop:
         return len(self.hole.pieces)
 
     def error_bound(self, curvature: float) -> tuple[float, float]:
-        """As for ``cylinders`` where the loop finds the right one, which past 90° it may not."""
+        """As for ``cylinders``, where the loop finds the right cylinder; in a hole that turns past 90° it may not."""
         return chord_error(self.hole, curvature)
 
 
 def chord_error(hole: Wellbore, curvature: float) -> tuple[float, float]:
-    """Error of penetration [m] and direction [rad] of the longest cylinder that stands for a bend.
+    """Error of penetration κℓ²/8 [m] and of direction κℓ/2 [rad] of the longest cylinder (length ℓ) in a bend.
 
-    κℓ²/8 and κℓ/2; the cylinders of straight hole, which do not turn against both neighbours, do not count.
+    Only cylinders that turn against both neighbours count; those of a straight hole do not.
     """
     turns = np.linalg.norm(np.diff(hole.directions[:-1], axis=0), axis=1) > 1e-9
     bent = np.append(False, turns) & np.append(turns, False)

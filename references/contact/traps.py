@@ -1,6 +1,6 @@
-"""What goes wrong when the libraries are asked in the obvious way, each measured on a short bent tube.
+"""Errors of the libraries when they are used in the obvious way, each measured on a short bent tube.
 
-Every function returns one number that would be 0 if the obvious way worked.
+Every function returns one number, which would be 0 if the obvious way worked.
 """
 
 from collections.abc import Callable
@@ -36,7 +36,7 @@ class Scene(NamedTuple):
 
 
 class Trap(NamedTuple):
-    """What was tried, the package it concerns, how to measure it, the unit, and what is done instead."""
+    """The call that fails, the contact method, a function that measures the error, its unit, and the remedy."""
 
     tried: str
     method: str
@@ -76,7 +76,7 @@ def fcl_capsule(fcl: Any, at: Scene) -> float:
 
 
 def fcl_first_contact(fcl: Any, at: Scene) -> float:
-    """Largest error [mm] of the depth when only one contact is asked for, which is the default."""
+    """Largest error [mm] of the depth when only one contact is requested, which is the default."""
     wall, worst = fcl_method.wall_of(fcl, at.tube), 0.0
     sphere = fcl.CollisionObject(fcl.Sphere(RADIUS), fcl.Transform())
     for point, depth in zip(at.points, at.depth, strict=True):
@@ -100,18 +100,18 @@ def fcl_penetrating_distance(fcl: Any, at: Scene) -> float:
 def coal_penetrating_distance(coal: Any, at: Scene) -> float:
     """Largest error [mm] of the distance of a penetrating sphere."""
     model = coal_method.wall_of(coal, at.tube, coal.BVHModelOBBRSS())
-    sphere, there, worst = coal.Sphere(RADIUS), coal.Transform3s(), 0.0
+    sphere, placement, worst = coal.Sphere(RADIUS), coal.Transform3s(), 0.0
     for point, depth in zip(at.points, at.depth, strict=True):
-        there.setTranslation(point)
+        placement.setTranslation(point)
         found = coal.distance(
-            model, coal.Transform3s(), sphere, there, coal.DistanceRequest(True), coal.DistanceResult()
+            model, coal.Transform3s(), sphere, placement, coal.DistanceRequest(True), coal.DistanceResult()
         )
         worst = max(worst, abs(-found - depth))
     return 1e3 * worst
 
 
 def bullet_offset_sphere(bullet: Any, at: Scene) -> float:
-    """Share [%] of touching spheres that are missed when the sphere stands 5 m off its body's origin."""
+    """Share [%] of touching spheres that are missed when the sphere is 5 m from the origin of its body."""
     client = bullet.connect(bullet.DIRECT)
     try:
         wall = bullet_method.wall_of(bullet, client, np.asarray(at.tube.mesh.vertices), at.tube)

@@ -1,4 +1,4 @@
-"""trimesh's own proximity query: an R-tree over the triangles, all points in one call."""
+"""trimesh's proximity query: an R-tree over the triangles, all points in one call."""
 
 from typing import ClassVar
 
@@ -9,14 +9,14 @@ from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
-from references.contact.tube_mesh import OnTube, TubeOptions, build_tube
+from references.contact.tube_mesh import MeshMethod, TubeOptions, build_tube
 from references.registry import import_optional
 
 Array = NDArray[np.float64]
 
 
-class TriMesh(OnTube):
-    """Closest points on the tube."""
+class TriMesh(MeshMethod):
+    """Closest points on the tube mesh."""
 
     name = "trimesh"
     distribution: ClassVar[str] = "trimesh"
@@ -28,7 +28,7 @@ class TriMesh(OnTube):
         import_optional("rtree", "rtree", self.name, "contact")
         self._proximity = need("trimesh.proximity", self.name)
         self.tube = build_tube(case, options)
-        # The tree is made at first use: here, so that no query pays for it.
+        # trimesh builds the tree on first use: build it here, so that no query includes the time.
         assert self.tube.mesh.triangles_tree is not None
 
     def query(self, points: Array, radii: Array) -> Contacts:

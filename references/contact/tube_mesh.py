@@ -1,7 +1,7 @@
-"""The hole as a triangle mesh: a tube of flat facets between rings on the hole's own axis.
+"""The hole as a triangle mesh: a tube of flat facets between rings on the axis of the hole.
 
-Vertices lie on the wall, so facets lie inside it: by the sagitta r(1 − cos π/n) across and by κℓ²/8 along the
-outside of a bend.  Normals point out of the hole, both ends are open.
+Vertices lie on the wall, so facets lie inside it: by the sagitta r(1 − cos π/n) across the hole and by κℓ²/8 along
+the outside of a bend.  Normals point out of the hole, both ends are open.
 """
 
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ MOST_TRIANGLES = 20_000_000
 
 
 class TubeOptions(Table):
-    """Facets around the hole; the largest distance between rings [m]; how far facets may cut through a bend [m]."""
+    """Facets around the hole; largest distance between rings [m]; largest error of the facets in a bend [m]."""
 
     facets: Annotated[int, units.Whole(at_least=3)] = 48
     ring_spacing: units.PositiveLength = 2.0
@@ -36,7 +36,8 @@ class Tube:
     """A mesh of a hole and the axis it was built on.
 
     mesh : trimesh.Trimesh, faces in order of depth, 2 · facets between two rings.
-    options : what it was built with.  md (k,) [m], centres (k, 3) [m] : the rings.  radius : largest hole radius [m].
+    options : options of the mesh.  md (k,) [m], centres (k, 3) [m] : depths and centres of the rings.
+    radius : largest hole radius [m].
     """
 
     mesh: Any
@@ -60,7 +61,7 @@ class Tube:
         return len(self.mesh.faces)
 
     def error_bound(self, curvature: float) -> tuple[float, float]:
-        """Sagitta of facet and of ring spacing [m]; half the angle of a facet and of a ring spacing [rad]."""
+        """Sagitta of facet and ring spacing together [m]; half of their angles together [rad]."""
         half, spacing = np.pi / self.facets, float(_spacing(self.options, curvature))
         sagitta = self.radius * (1 - np.cos(half)) + curvature * spacing**2 / 8
         return float(sagitta), float(np.hypot(half, 0.5 * curvature * spacing))
@@ -73,7 +74,7 @@ class Tube:
         return np.asarray(self.md[ring] + share * (self.md[ring + 1] - self.md[ring]))
 
     def md_near(self, points: Array) -> Array:
-        """Measured depths (n,) [m] of points (n, 3) of which no face is known."""
+        """Measured depths (n,) [m] of points (n, 3) whose faces are not known."""
         _, ring = self._rings.query(points)
         before = np.clip(ring - 1, 0, None)
         start = self.centres[ring]
@@ -99,8 +100,8 @@ class Tube:
         return np.asarray(self.mesh.face_normals)
 
 
-class OnTube:
-    """What contact methods that ask a mesh share."""
+class MeshMethod:
+    """Common part of the contact methods that query the tube mesh."""
 
     tube: Tube
 
@@ -110,7 +111,7 @@ class OnTube:
         return self.tube.triangles
 
     def error_bound(self, curvature: float) -> tuple[float, float]:
-        """The mesh's own."""
+        """Errors of the mesh, see ``Tube.error_bound``."""
         return self.tube.error_bound(curvature)
 
 
@@ -149,12 +150,12 @@ def check_tube(tube: Tube) -> None:
     """Raise InputError unless the lateral surface is closed and its normals point out of the hole."""
     mesh, n = tube.mesh, tube.facets
     edges = np.sort(mesh.edges, axis=1)
-    # As one number each: rows would be sorted several times slower.
+    # One number per edge: sorting rows takes several times longer.
     _, counts = np.unique(edges[:, 0] * len(mesh.vertices) + edges[:, 1], return_counts=True)
     open_edges = int((counts == 1).sum())
     if open_edges != 2 * n or (counts > 2).any():
         raise InputError(
-            f"a tube closed but for the {2 * n} edges of its two ends", key="mesh", value=f"{open_edges} open edges"
+            f"a tube with {2 * n} open edges, those of its two ends", key="mesh", value=f"{open_edges} open edges"
         )
     faces = np.arange(len(mesh.faces))
     ring = faces // (2 * n)
@@ -176,7 +177,7 @@ def curvature_at(hole: Wellbore, md: Array) -> Array:
 
 
 def _spacing(options: TubeOptions, curvature: Array | float) -> Array:
-    """Largest distance of rings [m] in bends of these curvatures [1/m]: a chord ℓ misses its arc by κℓ²/8."""
+    """Largest distance between rings [m] at these curvatures [1/m]: a chord of length ℓ is κℓ²/8 off its arc."""
     if options.chord_tolerance is None:
         return np.full_like(curvature, options.ring_spacing)
     chord = np.sqrt(8 * options.chord_tolerance / np.maximum(curvature, 1e-12))
@@ -188,7 +189,7 @@ def _ring_depths(hole: Wellbore, options: TubeOptions) -> Array:
     knots = hole.wall_along()[:, TO_MD]
     inside = knots[(knots > hole.md[0]) & (knots < hole.md[-1])]
     breaks = np.union1d(hole.md, inside)
-    # Depths a rounding error apart would make triangles without area.
+    # Depths that differ by a rounding error would give triangles without area.
     breaks = breaks[np.concatenate([[True], np.diff(breaks) > 1e-6])]
     breaks = np.concatenate([[breaks[0] - RUN_OUT], breaks, [breaks[-1] + RUN_OUT]])
     # A piece is a straight cylinder or an arc that may go on for hundreds of metres.
@@ -199,11 +200,11 @@ def _ring_depths(hole: Wellbore, options: TubeOptions) -> Array:
 
 
 def _ring_frames(hole: Wellbore, md: Array) -> tuple[Array, Array, Array]:
-    """Centres and two unit vectors across the hole (k, 3), carried along the axis without twist."""
+    """Centres and two unit vectors across the hole (k, 3), transported along the axis without twist."""
     inside = np.clip(md, hole.md[0], hole.md[-1])
     centres, tangents = hole.at(inside)
     centres = centres + (md - inside)[:, None] * tangents
-    # Between straight pieces a ring stands halfway between their directions.
+    # A ring between two straight pieces is normal to the mean of their directions.
     before = np.vstack([tangents[:1], np.diff(centres, axis=0)])
     before /= np.linalg.norm(before, axis=1, keepdims=True)
     after = np.vstack([before[1:], before[-1:]])

@@ -1,7 +1,8 @@
-"""What a string engine is, the literal list of those there are, and the one way in which all of them are run.
+"""The interface of string engines, the registry of all of them, and the types of a run.
 
-An engine advances the whole string of a case: inertia, contact and friction are its own (``does`` says what is
-not).  All start from the same state, which FCTD's stepper has reached, and are read by the same recorder.
+An engine advances the whole string of a case with its own inertia, contact and friction (``does`` names the
+exceptions).  All engines start from the same state, which FCTD's stepper has reached, and the same recorder reads
+them.
 """
 
 from typing import Any, ClassVar, NamedTuple, Protocol
@@ -27,11 +28,12 @@ ENGINES: dict[str, str] = {
 
 
 class EngineRun(NamedTuple):
-    """What came of a window.
+    """The result of a window.
 
-    status : ``valid``, or ``invalid`` when a check failed; message says which, and what broke off the run.  note : what
-    a reader of its loads must know.  history, profile, energy : tables as of ``fctd.SimulationResult``.  checks : a row
-    per check of engine_checks.  step [s], steps; wall_s : time spent.
+    status : ``valid``, or ``invalid`` when a check failed; message names the failed checks and the error that ended
+    the run.  note : a limitation of the loads, or empty.  history, profile, energy : tables as in
+    ``fctd.SimulationResult``.  checks : a row per check of ``checks.examine``.  step [s], steps; wall_s [s] : time of
+    the run.
     """
 
     history: pd.DataFrame
@@ -47,7 +49,7 @@ class EngineRun(NamedTuple):
 
 
 class Stepper(Protocol):
-    """A string inside an engine, begun from the state of a ``Run``."""
+    """A string inside an engine, started from the state of a ``Run``."""
 
     step: float
 
@@ -55,22 +57,22 @@ class Stepper(Protocol):
         """Advance by ``duration`` [s] in equal steps no longer than ``step``; adds to sums and losses of the run."""
 
     def sync(self) -> None:
-        """Bring poses and velocities of the run up to the present."""
+        """Update poses and velocities of the run to the present time."""
 
     def energy(self) -> Energy:
-        """What the string holds at present, after ``sync``."""
+        """Energy of the string at present, after ``sync``."""
 
     def note(self) -> str:
-        """What a reader of the loads must know, or nothing."""
+        """A limitation of the loads, or an empty text."""
 
     def close(self) -> None:
-        """Give back what the engine holds."""
+        """Release the resources of the engine."""
 
 
 class StringEngine(Protocol):
-    """Somebody's engine with the string of a case.
+    """A physics engine that can run the string of a case.
 
-    name : its key in ENGINES.  distribution : the package that brings it.  does : one line for users.
+    name : its key in ENGINES.  distribution : the package that provides it.  does : one line for users.
     """
 
     name: ClassVar[str]
@@ -102,13 +104,13 @@ def build(name: str, **options: Any) -> StringEngine:
 
 
 class StepOptions(Table):
-    """The step [s]; without one the engine's own best."""
+    """The step [s]; by default the engine's best step."""
 
     step: units.PositiveTime | None = None
 
 
 def check_coulomb(case: Case, engine: str) -> None:
-    """Raise InputError for a case whose wall an engine with Coulomb friction of its own cannot represent."""
+    """Raise InputError for a case whose friction an engine with its own Coulomb friction cannot represent."""
     if not case.contact.enabled:
         return
     if case.contact.friction_law != "coulomb":
@@ -127,7 +129,7 @@ def check_coulomb(case: Case, engine: str) -> None:
 
 
 def check_no_mud(case: Case, engine: str) -> None:
-    """Raise InputError for mud that damps, which no engine but the own one knows."""
+    """Raise InputError for damping by mud, which only FCTD's engine models."""
     for key in ("axial_damping", "lateral_damping", "rotational_damping"):
         if getattr(case.mud, key):
             raise InputError(f"0 with {engine}, which has no mud", key=f"mud.{key}", value=getattr(case.mud, key))

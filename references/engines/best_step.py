@@ -1,7 +1,8 @@
-"""An engine's own best step, by one definition for all.
+"""The best step of an engine, by one definition for all engines.
 
-It is the largest step of a ladder that halves from FCTD's own, which is as long as its springs and inertia let any
-explicit stepper go, whose run passes every check and whose loads are within CLOSE of those of the next finer step.
+Runs are made with FCTD's step, near the stability limit of any explicit stepper for these springs and masses, and
+with its successive halves.  The best step is the largest whose run passes every check and whose loads are within
+TOLERANCE of those of the next finer step.
 """
 
 from typing import Any
@@ -14,17 +15,17 @@ from references import engines
 from references.engines import Window
 from references.engines.run import late
 
-CLOSE = 0.01
+TOLERANCE = 0.01  # relative
 LOADS = ("hookload_N", "surface_torque_N_m")
 
 
 def ladder(
     name: str, case: Case, window: Window, longest: float, rungs: int, seconds: float, **options: Any
 ) -> pd.DataFrame:
-    """Run a window of a case with steps ``longest`` [s] and its halves, a row per step.
+    """Run a window of a case with the step ``longest`` [s] and its successive halves, ``rungs`` in all; a row per step.
 
-    Columns: step_s, status, failed, hookload_N and surface_torque_N_m (means of the last ``seconds``), off (the larger
-    difference of the two from the next finer step, relative; none for the finest), energy_error, wall_s.
+    Columns: step_s, status, failed, hookload_N and surface_torque_N_m (means of the last ``seconds`` [s]), off (the
+    larger relative difference of the two from the next finer step; NaN for the finest), energy_error, wall_s.
     """
     rows = []
     for k in range(rungs):
@@ -42,6 +43,6 @@ def ladder(
 
 
 def best_step(table: pd.DataFrame) -> float:
-    """The best step [s] of a ladder; nan where no rung but the finest will do, which nothing vouches for."""
-    good = table[(table["status"] == "valid") & (table["off"] <= CLOSE)]
+    """The best step [s] of a ladder; nan if there is none.  The finest has no finer step to confirm it."""
+    good = table[(table["status"] == "valid") & (table["off"] <= TOLERANCE)]
     return float(good["step_s"].max()) if len(good) else float("nan")

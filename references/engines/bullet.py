@@ -1,15 +1,15 @@
-"""The string in Bullet (pybullet): free bodies under our joint wrenches, Bullet's own contact with the concave tube.
+"""The string in Bullet (pybullet): free bodies under FCTD's joint wrenches, Bullet's contact with the concave tube.
 
-Traps: chains of Bullet's own constraints sag by metres; a sphere off its body's origin in the body's own shape
-rattles on a concave mesh, so that each body carries a fixed link with the sphere; damping and sleeping are on by
-default.
+Traps: chains of Bullet's constraints sag by metres; a sphere that is part of the body's shape, away from its origin,
+rattles on a concave mesh, so each body has a fixed link with the sphere; damping and sleeping are on by default.
 
-Friction leans.  Bullet solves it along two directions that follow from the wall's normal and its own axes alone
-(btPlaneSpace1), each over the effective mass of the body along it, and clips the pair to μN: what comes out opposes
-M·v, not the sliding v (bullet3 pull request 4539 says so too).  A pipe gives way to a push across it five times as
-easily as along it, so that its friction leans by up to 30° where the hole lies between those directions and not at all
-where it lies along one.  With Bullet's z across the plane of the hole it lies along one wherever the wall's normal is
-within 45° of that plane; ``fair`` settings turn the scene so for the lower end of the string.
+The direction of friction is wrong.  Bullet solves friction along two directions that depend only on the wall's normal
+and on the global axes (btPlaneSpace1), each with the effective mass of the body in that direction, and limits the
+resultant to μN.  Friction then opposes M·v, not the sliding velocity v (bullet3 pull request 4539 reports the same).
+The effective mass of a pipe is five times smaller across it than along it, so that friction deviates by up to 30°
+where the hole lies between the two directions, and not at all where it lies along one of them.  With Bullet's z axis
+across the plane of the hole, one direction lies along the hole wherever the wall's normal is within 45° of that plane.
+The ``fair`` settings rotate the scene in this way for the lower end of the string.
 """
 
 from typing import Any, ClassVar, Literal
@@ -30,25 +30,25 @@ from references.engines.run import InWindows
 
 Array = NDArray[np.float64]
 
-# Share of FCTD's own step, by the ladder of best_step.py: Bullet turns bodies explicitly, and at all of it a spinning
-# string gains energy until it leaves the hole.
+# Share of FCTD's step, found by the ladder of best_step.py: Bullet integrates rotation explicitly, and with the whole
+# step a spinning string gains energy until it leaves the hole.
 SHARE = 0.5
-# Distance beyond which Bullet forgets a contact point [m]: its own, 20 mm, holds points that have moved on.
-FORGET = 1e-3
+# Distance beyond which Bullet drops a contact point [m]; its default, 20 mm, keeps points that have moved away.
+BREAKING_DISTANCE = 1e-3
 ITERATIONS = 50
-# Bits of the collision filter: the wall and the string meet each other and nothing else.
+# Bits of the collision filter: wall and string collide with each other and with nothing else.
 WALL, STRING = 1, 2
-LINK = 0  # of a body: the one that carries its sphere
-# Fields of a contact point.
+LINK = 0  # link of a body that has its sphere
+# Fields of a contact point of Bullet.
 BODY, PLACE, FORCE, FRICTION = 1, 6, 9, (10, 12)
 
 
 class BulletOptions(FreeBodyOptions):
-    """What can be set.
+    """Options of Bullet.
 
     settings : ``fair``, the wall's stiffness and damping of the case, or ``default``, Bullet's hard contact with
-    every parameter as it comes.  unit [m] : the length that Bullet is told to be 1.  axes : of Bullet, z across the
-    plane of the ``string`` (fair), or the ``global`` ones (default).
+    every parameter at its default.  unit [m] : Bullet's unit of length.  axes : Bullet's axes, z across the plane of
+    the ``string`` (with fair), or the ``global`` axes (with default).
     """
 
     settings: Literal["fair", "default"] = "fair"
@@ -57,9 +57,12 @@ class BulletOptions(FreeBodyOptions):
 
 
 class _Bodies:
-    """The bodies in a client of pybullet, lengths in ``unit``, vectors along its own axes."""
+    """The bodies in a client of pybullet, lengths in ``unit``, vectors along Bullet's axes."""
 
-    lean = "Bullet solves it along two fixed directions and leans along a hole that turns, which takes from the torque"
+    friction_error = (
+        "Bullet solves friction along two fixed directions, so that it deviates from the sliding direction where the "
+        "hole turns, and the torque is too low"
+    )
 
     def __init__(self, bullet: Any, run: Run, tube: Tube | None, options: BulletOptions) -> None:
         self._bullet, self._scale, self._dt = bullet, 1.0 / options.unit, 0.0
@@ -71,7 +74,7 @@ class _Bodies:
         if fair:
             bullet.setPhysicsEngineParameter(
                 numSolverIterations=ITERATIONS, solverResidualThreshold=0, enableConeFriction=1,
-                contactBreakingThreshold=FORGET * self._scale, physicsClientId=self._client,
+                contactBreakingThreshold=BREAKING_DISTANCE * self._scale, physicsClientId=self._client,
             )  # fmt: skip
         friction = run.case.wellbore.intervals[0].friction
         poses, stiffness = _turned_poses(poses_of(run), self._axes), wall_stiffness(run)
@@ -94,7 +97,7 @@ class _Bodies:
         return wall
 
     def _add_body(self, run: Run, j: int, pose: Array, fair: bool) -> int:
-        """Segment j with the inertia of the engine, and on its fixed link the sphere of its contact point."""
+        """Segment j with FCTD's inertia, and on its fixed link the sphere of its contact point."""
         bullet, client, u = self._bullet, self._client, self._scale
         mass, across, along, arm, radius = (
             float(run.S[row + 1 + j])
@@ -117,7 +120,7 @@ class _Bodies:
             localInertiaDiagonal=(u * u * across, u * u * across, u * u * along),
         )  # fmt: skip
         if fair:
-            # Velocities are cut at 100 units a second unless told otherwise.
+            # The default limits velocities to 100 units per second.
             bullet.changeDynamics(body, -1, maxJointVelocity=1e12, physicsClientId=client)
         bullet.resetBaseVelocity(body, (u * pose[7:10]).tolist(), pose[10:13].tolist(), physicsClientId=client)
         return body
@@ -162,19 +165,19 @@ class _Bodies:
         return np.array(bodies, np.int64), found
 
     def close(self) -> None:
-        """Disconnect the client, which nothing else frees."""
+        """Disconnect the client; pybullet does not free it otherwise."""
         self._bullet.disconnect(self._client)
 
 
 def _axes_of(run: Run) -> Array:
-    """Rows x, y, z (3, 3): y down, z across the vertical plane in which the lower end of the string lies."""
+    """Axes as rows x, y, z (3, 3): y down, z normal to the vertical plane of the lower end of the string."""
     heading = np.arctan2(run.S[state.AY + run.segments], run.S[state.AX + run.segments])
     c, s = np.cos(heading), np.sin(heading)
     return np.array([[c, s, 0.0], [0.0, 0.0, 1.0], [s, -c, 0.0]])
 
 
 def _turned_poses(poses: Array, axes: Array) -> Array:
-    """Poses (n, 13) seen along axes, rows (3, 3)."""
+    """Poses (n, 13) in a frame whose axes are the rows (3, 3)."""
     turned = Rotation.from_matrix(axes) * Rotation.from_quat(poses[:, 3:7], scalar_first=True)
     place, speed, spin = (poses[:, k : k + 3] @ axes.T for k in (0, 7, 10))
     return np.hstack([place, turned.as_quat(scalar_first=True), speed, spin])
@@ -185,7 +188,7 @@ class Bullet(InWindows):
 
     name: ClassVar[str] = "bullet"
     distribution: ClassVar[str] = "pybullet"
-    does: ClassVar[str] = "free bodies under our joint wrenches; inertia, contact with a mesh and friction are Bullet's"
+    does: ClassVar[str] = "free bodies under FCTD's joint wrenches; Bullet's inertia, contact with a mesh and friction"
     Options: ClassVar[type[Table]] = BulletOptions
 
     def __init__(self, options: BulletOptions) -> None:

@@ -1,7 +1,7 @@
-"""Checks that catch an engine that gives numbers without having kept the string: each a value and a bound.
+"""Checks on the run of any engine, each a value and a bound.
 
-A friendly status is no evidence.  What every valid run has kept: a finite state, its points in the hole, its length,
-its energy, and a hook load that no longer drifts.
+An engine can report success for a string that has come apart or left the hole.  A valid run has a finite state, points
+inside the hole, the right length, a closed energy balance and a hook load that does not drift.
 """
 
 import numpy as np
@@ -13,14 +13,14 @@ from fctd.mechanics.energy import penetration
 from fctd.results import ledger
 from fctd.simulation.run import Run, contact_points
 
-# Largest depth in the wall over the clearance there; the stiffest wall of a case is pressed in by less than 2 %.
+# Largest depth in the wall over the clearance there; less than 2 % with the stiffest wall of a case.
 DEEPEST = 0.2
-# Length of the chain against its segments stretched by its own tension, relative: a third of what hanging stretches
-# a kilometre of pipe by.
+# Relative error of the length of the chain, compared with its segments stretched by their tension: a third of the
+# strain of a kilometre of hanging pipe.
 LENGTH = 1e-4
-# Energy that came from nowhere or went there, over the energy that was turned over.
+# Residual of the energy balance over the energy converted in the run.
 ENERGY = 0.05
-# Hook load at the end of a window against that before it, over hook load or contact force.
+# Difference between the hook load at the end of a window and before, over hook load or contact force.
 DRIFT = 0.01
 
 
@@ -29,7 +29,7 @@ def examine(
 ) -> pd.DataFrame:
     """A row per check: check, value, bound, passed.
 
-    start [s] : of the window; broken : how the run ended early, or nothing.
+    start [s] : start of the window; broken : the error that ended the run early, or empty.
     """
     values = {
         "finite state": (_not_finite(run, history) + bool(broken), 0.0),
@@ -46,7 +46,7 @@ def examine(
 
 
 def _not_finite(run: Run, history: pd.DataFrame) -> float:
-    """How many numbers of the last state and of the history are none."""
+    """Number of values in the last state and in the history that are not finite."""
     rows = [state.row(run.S, k, run.segments) for k in (state.X, state.Y, state.Z, state.VX, state.VY, state.VZ)]
     loads = history[["hookload_N", "surface_torque_N_m", "total_contact_force_N"]].to_numpy()
     return float((~np.isfinite(np.stack(rows))).sum() + (~np.isfinite(loads)).sum())
@@ -61,7 +61,7 @@ def _deepest(run: Run) -> float:
 
 
 def _length_error(run: Run, profile: pd.DataFrame) -> float:
-    """Length through the end points against the segments stretched by the tension of the joints, relative."""
+    """Relative error of the length through the end points, compared with segments stretched by their joint tension."""
     n = run.segments
     ends = np.vstack([run.S[[state.X, state.Y, state.Z]], contact_points(run.S, n)])
     measured = np.linalg.norm(np.diff(ends, axis=0), axis=1).sum()
@@ -73,9 +73,9 @@ def _length_error(run: Run, profile: pd.DataFrame) -> float:
 
 
 def axial_period(run: Run) -> float:
-    """Longest period [s] with which the string rings along itself, held at the top, free at the bit, no friction.
+    """Longest period [s] of axial vibration of the string, fixed at the top, free at the bit, without friction.
 
-    A string that slides rings on: Coulomb friction is the same at any speed of sliding and takes nothing from it.
+    A sliding string keeps vibrating: Coulomb friction does not depend on speed and does not damp the vibration.
     """
     mass, spring = state.row(run.S, state.MASS, run.segments), state.row(run.S, state.K_AXIAL, run.segments)
     diagonal = (spring + np.append(spring[1:], 0.0)) / mass
@@ -85,16 +85,16 @@ def axial_period(run: Run) -> float:
 
 
 def drift(start: float, history: pd.DataFrame, period: float) -> float:
-    """Mean hook load of the last period against that of all whole periods before it in a window, relative.
+    """Relative difference between the mean hook load of the last period and of all whole periods before it in a window.
 
-    In a window without two periods its halves are compared, and ringing counts as drift.
+    In a window shorter than two periods its halves are compared, and vibration counts as drift.
     """
     times = np.append(start, history["time_s"])
     if len(times) < 3 or history["hookload_N"].isna().any():
         return np.nan
     summed = np.append(0.0, np.cumsum(history["hookload_N"].to_numpy() * np.diff(times)))
     end, length = times[-1], times[-1] - start
-    # Rows are means: what the sum is between their ends is a matter of the record interval.
+    # Rows are means over record intervals: between their ends the sum is interpolated.
     periods = int(length / period * (1 + 1e-9))
     last = period if periods >= 2 else 0.5 * length
     first = end - periods * period if periods >= 2 else start

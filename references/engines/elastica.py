@@ -1,8 +1,9 @@
-"""The string as a Cosserat rod in PyElastica: its own beam and integrator, our wall test and friction at its nodes.
+"""The string as a Cosserat rod in PyElastica: PyElastica's beam and integrator, FCTD's wall test and friction at nodes.
 
 Elements are the segments: PyElastica's rod has its springs in the elements (stretch, shear) and between them (bending,
-twist).  Rotary inertia across the rod is a rigid segment's, mL²/12; with the pipe's own the step would be hundreds of
-times shorter.  PyElastica has no tube to touch and no friction on one, so both are written here as external forces.
+twist).  Rotary inertia across the rod is that of a rigid segment, mL²/12; with that of the pipe's cross-section the
+step would be hundreds of times shorter.  PyElastica has no contact with a tube and no friction on it, so both are
+external forces that are computed here.
 """
 
 from types import ModuleType
@@ -24,8 +25,8 @@ from references.engines.run import InWindows
 
 Array = NDArray[np.float64]
 
-# Share of the stable step that is taken, by the ladder of best_step.py: PyElastica's gyroscopic moments are explicit
-# and feed a spinning rod, at twice this share a sixth of the work within ten seconds.
+# Step over the stable step, found by the ladder of best_step.py: PyElastica's gyroscopic moments are explicit and add
+# energy to a spinning rod, with twice this step a sixth of the work within ten seconds.
 STEP_SHARE = 0.13
 
 
@@ -33,7 +34,8 @@ STEP_SHARE = 0.13
 def _touch(S, n, walls, mass, place, speed, directors, omega, force, torque, damping, dt):  # type: ignore[no-untyped-def]
     """Add the wall's force at nodes 1..n and its moment on the element above; update sums and losses in S.
 
-    walls (n, 7) beside the nodes; arrays as PyElastica has them: (3, nodes), (3, 3, elements), (3, elements).
+    walls (n, 7) : nearest wall of each node, as of ``query_walls``; other arrays in PyElastica's layout: (3, nodes),
+    (3, 3, elements), (3, elements).
     """
     for j in range(1, n + 1):
         wall = walls[j - 1]
@@ -48,7 +50,7 @@ def _touch(S, n, walls, mass, place, speed, directors, omega, force, torque, dam
         into = vx * nx + vy * ny + vz * nz
         normal = max(stiffness * depth + damping * into, 0.0)
         k = j - 1
-        # Spin of the element above, global.
+        # Angular velocity of the element above, global.
         wx, wy, wz = 0.0, 0.0, 0.0
         for i in range(3):
             wx += directors[i, 0, k] * omega[i, k]
@@ -59,7 +61,7 @@ def _touch(S, n, walls, mass, place, speed, directors, omega, force, torque, dam
         along = sx * nx + sy * ny + sz * nz
         sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
         slip = np.sqrt(sx * sx + sy * sy + sz * sz) + state.TINY
-        # An implicit clamp as in the engine: at most what stops the point within the step.
+        # Implicit limit as in FCTD: friction at most stops the point within the step.
         response = 1 / mass[j] + radius * radius * S[state.INVERSE_JA + j]
         limit = wall[5] * normal
         friction = min(limit, slip / (dt * response))
@@ -79,7 +81,7 @@ def _touch(S, n, walls, mass, place, speed, directors, omega, force, torque, dam
 
 
 class _Surroundings:
-    """Wall, weight and what the engine's recorder wants summed; called by PyElastica in the middle of each step."""
+    """Wall, weight and the sums that FCTD's recorder reads; called by PyElastica in the middle of each step."""
 
     def __init__(self, run: Run) -> None:
         n = run.segments
@@ -87,15 +89,15 @@ class _Surroundings:
         # A long segment hangs half by its lower end, like any other element by its two nodes.
         weight = run.string.of("weight") * _lengths(run)
         self.weight = 0.5 * (np.append(weight, 0.0) + np.append(0.0, weight))
-        self.axis = run.S[[state.AX, state.AY, state.AZ]].copy()  # of the top drive
-        # The held end starts as the first segment moves; pipe that is fed does so over its whole length.
+        self.axis = run.S[[state.AX, state.AY, state.AZ]].copy()  # axis of the top drive
+        # The driven end starts with the velocity of the first segment if pipe is fed: the whole segment then moves.
         first = run.S[[state.VX + 1, state.VY + 1, state.VZ + 1]]
         self.feed = float(first @ self.axis) if run.string.long_segment else 0.0
         self.dt, self.rate = 0.0, float(run.S[state.WZ + 1])
-        self.gained = (0.0, 0.0)  # of feed and rate over the step
+        self.gained = (0.0, 0.0)  # change of feed and rate over the step
 
     def apply(self, rod: Any) -> None:
-        """Add external forces and torques of the present step."""
+        """Add the external forces and torques of the present step to the rod, and the sums of the recorder."""
         run, dt = self.run, self.dt
         S, n = run.S, run.segments
         if run.laws.geometry != state.OPEN:
@@ -108,8 +110,8 @@ class _Surroundings:
             )  # fmt: skip
         rod.external_forces[2] += self.weight
         tension = rod.internal_stress[2]
-        # PyElastica's stress acts over its stretch.  The held node and element are the top drive's to carry and move,
-        # with the friction of the node below, which turns that element.
+        # PyElastica's internal stress has to be divided by the stretch.  The top drive carries and accelerates the
+        # driven node and element, against the friction of the node below, which acts on that element.
         pull = rod.director_collection[:, :, 0].T @ rod.internal_stress[:, 0] / rod.dilatation[0]
         hanging = float(self.axis @ pull + self.axis[2] * self.weight[0])
         hookload = hanging - float(rod.mass[0]) * self.gained[0] / dt
@@ -124,7 +126,7 @@ class _Surroundings:
 
 
 class _Stepper:
-    """A rod of PyElastica, begun from the bodies of a run."""
+    """A rod of PyElastica, started from the bodies of a run."""
 
     def __init__(self, elastica: ModuleType, run: Run, step: float | None, rotary: str) -> None:
         self._run, self._around = run, _Surroundings(run)
@@ -151,8 +153,8 @@ class _Stepper:
             run.top[topdrive.TOP_LENGTH] += around.dt * around.feed
         run.steps += steps
 
-    def hold(self, rod: Any) -> None:
-        """Keep the upper end where the top drive has it: velocity of the first node, spin of the first element."""
+    def drive(self, rod: Any) -> None:
+        """Set the motion of the upper end by the top drive: velocity of the first node, spin of the first element."""
         rod.velocity_collection[:, 0] = self._around.feed * self._around.axis
         rod.omega_collection[:, 0] = 0.0, 0.0, self._around.rate
 
@@ -172,13 +174,13 @@ class _Stepper:
             state.row(S, (state.X, state.Y, state.Z)[k], n)[:] = middle[:, k]
             state.row(S, (state.VX, state.VY, state.VZ)[k], n)[:] = mean[:, k]
             state.row(S, (state.WX, state.WY, state.WZ)[k], n)[:] = spins[k]
-        # One sign along the string: neighbours differ by little.
+        # One sign of the quaternions along the string, so that neighbours differ little.
         turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0, -1.0, 1.0))[:, None]
         for k, row in enumerate((state.QW, state.QX, state.QY, state.QZ)):
             state.row(S, row, n)[:] = turns[:, k]
 
     def energy(self) -> Energy:
-        """See ``Stepper.energy``: of the rod, in its own measure of strain."""
+        """See ``Stepper.energy``: energy of the rod, in PyElastica's measure of strain."""
         run, rod = self._run, self._rod
         rod.compute_internal_forces_and_torques(self._time)
         stretch = 0.5 * (rod.internal_stress * rod.sigma * rod.rest_lengths).sum()
@@ -205,11 +207,11 @@ class _Stepper:
         return ""
 
     def close(self) -> None:
-        """Nothing is held beyond memory."""
+        """PyElastica holds nothing but memory."""
 
 
 def _lengths(run: Run) -> Array:
-    """Lengths of the segments (n,) [m] at present, a long one's as it has been fed."""
+    """Present lengths of the segments (n,) [m]; the pipe fed so far is part of a long segment."""
     length = run.string.length.copy()
     if run.string.long_segment:
         length[0] = run.top[topdrive.TOP_LENGTH]
@@ -217,7 +219,7 @@ def _lengths(run: Run) -> Array:
 
 
 def _rod(elastica: ModuleType, run: Run, rotary: str) -> Any:
-    """A rod whose elements are the segments of a run, in its pose and motion."""
+    """A rod whose elements are the segments of a run, with their poses and velocities."""
     S, n, string = run.S, run.segments, run.string
     length = _lengths(run)
     columns = [
@@ -237,15 +239,15 @@ def _rod(elastica: ModuleType, run: Run, rotary: str) -> Any:
     speeds = np.vstack([S[[state.VX, state.VY, state.VZ]], speed + np.cross(spin, bottom * axis)])
     frames = Rotation.from_quat(turn, scalar_first=True).as_matrix()  # columns: the axes of the body
     directors = np.ascontiguousarray(frames.transpose(2, 1, 0))
-    # A joint opens between its segments; the rod stretches in its elements, so that its nodes stand in the middle of
-    # the open joints.  The joint below a long segment is all of the segment below it.
+    # A joint opens between its segments, while the rod stretches in its elements: its nodes are in the middle of the
+    # open joints.  The joint below a long segment belongs to the segment below it.
     open_joint = (centre - state.row(S, state.ARM_TOP, n)[:, None] * axis)[1:] - nodes[1:-1]
     if string.long_segment:
         open_joint[0] = 0.0
     nodes[1:-1] += 0.5 * open_joint
     tangent = np.diff(nodes, axis=0)
     distance = np.linalg.norm(tangent, axis=1)
-    # PyElastica wants directors along its elements to begin with; the true ones lean by the shear.
+    # PyElastica's constructor needs directors along its elements; the true ones, set below, are inclined by shear.
     tangent /= distance[:, None]
     side = frames[:, :, 0] - (frames[:, :, 0] * tangent).sum(axis=1, keepdims=True) * tangent
     side /= np.linalg.norm(side, axis=1, keepdims=True)
@@ -292,16 +294,16 @@ def _fastest(run: Run, rod: Any) -> float:
 
 
 def _simulator(elastica: ModuleType, stepper: _Stepper) -> Any:
-    """PyElastica's collection of the rod, its held end and its surroundings."""
+    """PyElastica's system of the rod, its driven end and its external forces."""
 
-    class Held(elastica.ConstraintBase):  # type: ignore[name-defined,misc]
+    class DrivenEnd(elastica.ConstraintBase):  # type: ignore[name-defined,misc]
         def constrain_values(self, system: Any, time: Any) -> None:
             """Position and direction follow from the rates."""
 
         def constrain_rates(self, system: Any, time: Any) -> None:
-            stepper.hold(system)
+            stepper.drive(system)
 
-    class Around(elastica.NoForces):  # type: ignore[name-defined,misc]
+    class ExternalForces(elastica.NoForces):  # type: ignore[name-defined,misc]
         def apply_forces(self, system: Any, time: Any = 0.0) -> None:
             stepper._around.apply(system)
 
@@ -310,40 +312,40 @@ def _simulator(elastica: ModuleType, stepper: _Stepper) -> Any:
 
     simulator = Simulator()
     simulator.append(stepper._rod)
-    simulator.constrain(stepper._rod).using(Held)
-    simulator.add_forcing_to(stepper._rod).using(Around)
+    simulator.constrain(stepper._rod).using(DrivenEnd)
+    simulator.add_forcing_to(stepper._rod).using(ExternalForces)
     simulator.finalize()
     return simulator
 
 
 def _check_contact_points(run: Run) -> None:
-    """Raise InputError for a segment that touches at its middle: a rod is asked at its nodes."""
+    """Raise InputError for a segment with contact at its middle: the rod has contact only at its nodes."""
     middle = np.flatnonzero(run.string.mid_contact())
     if len(middle):
         k = int(run.string.component[middle[0]])
         raise InputError(
-            "a component as long as the segments beside it with elastica, which touches at their ends alone",
+            "a component as long as the segments beside it with elastica, whose contact points are at segment ends",
             key=f"string.components[{k}].length",
             value=f"{run.string.length[middle[0]]:g} m",
         )
 
 
 class ElasticaOptions(StepOptions):
-    """What can be set.
+    """Options of PyElastica.
 
-    rotary : inertia of an element about its cross axes, a rigid ``segment``'s, mL²/12, or the ``pipe``'s own, which
-    is PyElastica's and limits the step.
+    rotary : inertia of an element about its cross axes: that of a rigid ``segment``, mL²/12, or that of the
+    cross-section of the ``pipe``, which is PyElastica's default and limits the step.
     """
 
     rotary: Literal["segment", "pipe"] = "segment"
 
 
 class Elastica(InWindows):
-    """A Cosserat rod of PyElastica in the engine's hole."""
+    """A Cosserat rod of PyElastica in FCTD's hole."""
 
     name: ClassVar[str] = "elastica"
     distribution: ClassVar[str] = "pyelastica"
-    does: ClassVar[str] = "Cosserat rod; beam and integrator are PyElastica's, wall test and friction ours"
+    does: ClassVar[str] = "Cosserat rod; PyElastica's beam and integrator, FCTD's wall test and friction"
     Options: ClassVar[type[Table]] = ElasticaOptions
 
     def __init__(self, options: ElasticaOptions) -> None:

@@ -1,7 +1,7 @@
-"""A string of free rigid bodies in somebody else's engine, held together by our joint wrenches.
+"""A string of free rigid bodies in another engine, coupled by FCTD's joint wrenches.
 
-Every step the wrenches of joints and weight are computed by the engine's own compiled code from the bodies' present
-poses and handed over; inertia, contact and friction are the other engine's.  Top drive and fed pipe are ours.
+In every step FCTD's compiled code computes the wrenches of joints and weight from the present poses of the bodies and
+hands them over; the other engine computes inertia, contact and friction.  Top drive and fed pipe are FCTD's.
 """
 
 from typing import Protocol
@@ -25,23 +25,25 @@ from references.engines import StepOptions
 
 Array = NDArray[np.float64]
 
-# Error of the triangles over the clearance of the string, at most: beyond it the string lies in the wrong hole.
-MOST_WRONG = 0.5
-# How far facets cut through an arc [m]: about as little as across a hole.  A string handed over on the arc is pressed
-# into them by that much; 2 mm of a wall of 1e7 N/m hold a tenth of what the curved chain turns over in half a second.
+# Largest error of the triangles over the clearance of the string; with more the string lies in another hole.
+LARGEST_ERROR = 0.5
+# Largest error of facets in an arc [m], about that across a hole.  A string that FCTD hands over on the arc is pressed
+# into the facets by this depth; 2 mm of a wall of 1e7 N/m store a tenth of the energy that the curved chain converts
+# in half a second.
 CHORD = 5e-4
-# A contact point faster than this slides [m/s]; friction against that, over μN, below which the loads need a note.
+# A contact point faster than this slides [m/s]; if friction opposite to sliding is below this share of μN, the run
+# gets a note.
 SLIDING, LEAST_SHARE = 1e-2, 0.98
 
 
 class Bodies(Protocol):
-    """What another engine does with the bodies.
+    """The bodies of a string in another engine.
 
-    lean : why its friction may not oppose the sliding.  Poses (n, 13) : centre of mass [m], quaternion (body to
+    friction_error : why its friction may not oppose sliding.  Poses (n, 13) : centre of mass [m], quaternion (body to
     global, scalar first), velocity [m/s], spin [rad/s], all global.
     """
 
-    lean: str
+    friction_error: str
 
     def step(self, poses: Array, wrenches: Array, dt: float) -> Array:
         """Poses after a step of dt [s] under wrenches (n, 6): force [N], moment [N m] about the centres of mass."""
@@ -51,11 +53,11 @@ class Bodies(Protocol):
         force on the body [N]."""
 
     def close(self) -> None:
-        """Give back what the engine holds."""
+        """Release the resources of the engine."""
 
 
 class FreeBodyOptions(StepOptions, TubeOptions):
-    """Step, and the tube: cylinders as they are, arcs by chords within the tolerance [m]."""
+    """Step and tube: cylinders exactly, arcs by chords within the tolerance [m]."""
 
     ring_spacing: units.PositiveLength = LONGEST_CYLINDER
     chord_tolerance: units.PositiveLength | None = CHORD
@@ -64,27 +66,27 @@ class FreeBodyOptions(StepOptions, TubeOptions):
 def tube_of(run: Run, options: FreeBodyOptions) -> Tube | None:
     """The hole of a run as triangles, None where contact is off; axes and walls of the run have to be up to date.
 
-    Raises InputError for triangles that miss the wall by more than the string has room.
+    Raises InputError if the error of the triangles exceeds LARGEST_ERROR of the clearance.
     """
     if not run.case.contact.enabled:
         return None
     tube = build_tube(run.case, options)
     n = run.segments
     clearance = float((state.row(run.S, state.HOLE, n) - state.row(run.S, state.RADIUS, n)).min())
-    wrong, _ = tube.error_bound(float(curvature_at(run.hole, tube.md).max()))
-    if wrong > MOST_WRONG * clearance:
+    error, _ = tube.error_bound(float(curvature_at(run.hole, tube.md).max()))
+    if error > LARGEST_ERROR * clearance:
         raise InputError(
-            f"triangles that miss the wall by at most {MOST_WRONG:g} of the clearance of {1e3 * clearance:.3g} mm: "
+            f"triangles that miss the wall by at most {LARGEST_ERROR:g} of the clearance of {1e3 * clearance:.3g} mm: "
             "more facets, a smaller ring_spacing or chord_tolerance",
             key="facets, ring_spacing, chord_tolerance",
-            value=f"{1e3 * wrong:.3g} mm",
+            value=f"{1e3 * error:.3g} mm",
         )
     return tube
 
 
 @njit(error_model="numpy", cache=True)
 def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untyped-def]
-    """Loads of the present poses; out (n, 6) force and moment about the centre of mass; returns feed and rotation."""
+    """Loads at the present poses; out (n, 6) force and moment about the centre of mass; returns feed and spin rate."""
     update_axes(S, padded_columns(n))
     update_joint_loads(S, padded_columns(n), laws.joint_damping, dt)
     feed, rate = drive_top(S, top, motion, pipe, dt)
@@ -105,7 +107,7 @@ def _store(S, top, n, pipe, feed, rate, dt, poses):  # type: ignore[no-untyped-d
     for j in range(1, n + 1):
         p = poses[j - 1]
         w, x, y, z = state.quaternion(S, j)
-        # An orientation has two quaternions: the nearer one, since twist is read off it.
+        # Of the two quaternions of an orientation the one nearer to the last: twist is computed from it.
         sign = 1.0 if w * p[3] + x * p[4] + y * p[5] + z * p[6] > 0 else -1.0
         w, x, y, z = sign * p[3], sign * p[4], sign * p[5], sign * p[6]
         S[state.X + j], S[state.Y + j], S[state.Z + j] = p[0], p[1], p[2]
@@ -122,7 +124,7 @@ def _store(S, top, n, pipe, feed, rate, dt, poses):  # type: ignore[no-untyped-d
 def _sum_contacts(S, body, contacts, before, poses, dt, slid):  # type: ignore[no-untyped-def]
     """Update sums and losses from contacts (c, 7) of the step from poses ``before`` to ``poses``.
 
-    slid (2,) [N s] : impulses of friction against the sliding, and of μN, of the points that slide.
+    slid (2,) [N s] : impulses of friction opposite to sliding, and of μN, summed over the points that slide.
     """
     for k in range(len(body)):
         j = body[k]
@@ -131,11 +133,11 @@ def _sum_contacts(S, body, contacts, before, poses, dt, slid):  # type: ignore[n
         rx, ry, rz = c[0] - p[0], c[1] - p[1], c[2] - p[2]
         normal, fx, fy, fz = c[3], c[4], c[5], c[6]
         mx, my, mz = ry * fz - rz * fy, rz * fx - rx * fz, rx * fy - ry * fx
-        # What the impulses of a step take is their product with the velocity after them, as in the engine's ledger.
+        # Power of the friction impulses with the velocity after the step, as in FCTD's ledger.
         power = fx * q[7] + fy * q[8] + fz * q[9] + mx * q[10] + my * q[11] + mz * q[12]
         limit = S[state.FRICTION + j] * normal
         vx, vy, vz = q[7] + q[11] * rz - q[12] * ry, q[8] + q[12] * rx - q[10] * rz, q[9] + q[10] * ry - q[11] * rx
-        # A point that bounces moves along the normal too, which is what of the lever stands across the axis.
+        # The normal is the part of the lever across the axis; motion along it (bouncing) is not sliding.
         arm = rx * ax + ry * ay + rz * az
         nx, ny, nz = rx - arm * ax, ry - arm * ay, rz - arm * az
         into = (vx * nx + vy * ny + vz * nz) / np.sqrt(nx * nx + ny * ny + nz * nz)
@@ -150,7 +152,7 @@ def _sum_contacts(S, body, contacts, before, poses, dt, slid):  # type: ignore[n
 
 
 def poses_of(run: Run) -> Array:
-    """Poses (n, 13) of the bodies of a run, as of ``Bodies``; axes have to be up to date."""
+    """Poses (n, 13) of the bodies of a run, as in ``Bodies``; axes have to be up to date."""
     n = run.segments
     rows = (
         state.X, state.Y, state.Z, state.QW, state.QX, state.QY, state.QZ,
@@ -162,7 +164,7 @@ def poses_of(run: Run) -> Array:
 class FreeBodies:
     """Steps a run through another engine's bodies.
 
-    watch : whether contacts are read after every step, for sums and ledger; a race goes without.
+    watch : whether contacts are read after every step, for sums and ledger; timings switch it off.
     """
 
     def __init__(self, run: Run, bodies: Bodies, step: float) -> None:
@@ -187,19 +189,20 @@ class FreeBodies:
         run.steps += steps
 
     def sync(self) -> None:
-        """The run is brought up to date in every step."""
+        """Nothing to do: every step updates the run."""
 
     def energy(self) -> Energy:
         """See ``Stepper.energy``."""
         return energy_of(self._run.S, self._run.segments)
 
     def note(self) -> str:
-        """See ``Stepper.note``: by how much friction misses Coulomb's law, where it does."""
+        """See ``Stepper.note``: the error of friction where it deviates from Coulomb's law."""
         against, limit = self._slid
         if limit == 0 or against > LEAST_SHARE * limit:
             return ""
         return (
-            f"friction against the sliding is {against / limit:.1%} of μN, 100 % by Coulomb's law: {self._bodies.lean}"
+            f"friction opposite to sliding is {against / limit:.1%} of μN, 100 % by Coulomb's law: "
+            f"{self._bodies.friction_error}"
         )
 
     def close(self) -> None:
@@ -208,5 +211,5 @@ class FreeBodies:
 
 
 def wall_stiffness(run: Run) -> Array:
-    """Stiffness of the wall at the bodies' contact points (n,) [N/m]: the stiffest of the hole."""
+    """Stiffness of the wall at the contact points (n,) [N/m]: that of the stiffest interval of the hole."""
     return np.asarray(run.hole.stiffest_wall * state.row(run.S, state.TRIBUTARY, run.segments))

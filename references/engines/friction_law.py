@@ -1,7 +1,7 @@
-"""Coulomb's law put to an engine by itself: a pipe that turns in a straight, horizontal hole.
+"""Test of an engine's friction by Coulomb's law: a pipe that turns in a straight, horizontal hole.
 
-Every point of it slides across the hole, so that friction has to be μN in size and to stand across the hole in
-direction, whatever the engine makes of N and whichever way the hole heads.  FCTD takes no part but in the start.
+Every point slides across the hole, so that friction has to be μN and to act across the hole, for any N that the engine
+finds and any azimuth of the hole.  FCTD computes only the initial state.
 """
 
 from typing import Any, NamedTuple
@@ -16,14 +16,14 @@ from references.engines import Window
 from references.engines.run import late
 
 SEGMENTS, LENGTH, FACTOR, CONTACT_RADIUS = 4, 100.0, 0.2, 0.051
-LEAD = 6.0  # [s]
+LEAD = 6.0  # [s], from rest until the pipe turns steadily
 
 
 class Sliding(NamedTuple):
-    """What an engine makes of sliding friction.
+    """Sliding friction of an engine.
 
-    share : friction over μN, 1 by Coulomb's law.  lean [rad] : of friction off the sliding, towards up the hole, 0 by
-    Coulomb's law.  status, failed : of the run.
+    share : friction over μN, 1 by Coulomb's law.  lean [rad] : angle between friction and the direction opposite to
+    sliding, positive up the hole, 0 by Coulomb's law.  status, failed : status and message of the run.
     """
 
     share: float
@@ -33,7 +33,7 @@ class Sliding(NamedTuple):
 
 
 def straight(azimuth: float) -> Case:
-    """The pipe turning in its hole, azimuth [deg]."""
+    """The case of a turning pipe in a straight, horizontal hole with this azimuth [deg]."""
     pipe = {"name": "pipe", "outer_diameter": 2 * CONTACT_RADIUS, "inner_diameter": 0.06, "length": LENGTH}
     return Case.model_validate(
         {
@@ -50,20 +50,20 @@ def straight(azimuth: float) -> Case:
 
 
 def sliding(name: str, azimuth: float, duration: float = 2.0, **options: Any) -> Sliding:
-    """Friction of the pipe in an engine; azimuth of the hole [deg]."""
+    """Friction of the pipe in engine ``name``; azimuth of the hole [deg], duration of the window [s]."""
     run = engines.build(name, **options).run(straight(azimuth), Window(LEAD, duration))
     mean = late(run)
-    # The hook load is all the friction there is along the hole: weight acts across it.
+    # The hook load is the friction along the hole: weight acts across it.
     along, across = mean["hookload_N"], mean["sum_r_ft_N_m"] / CONTACT_RADIUS
     share = np.hypot(along, across) / (FACTOR * mean["total_contact_force_N"])
     return Sliding(float(share), float(np.arctan2(along, across)), run.status, run.message)
 
 
 def lean_of_two_directions(azimuth: float) -> float:
-    """Lean [rad] of friction that opposes M·v, M the effective masses along north and east alone: Bullet's.
+    """Lean [rad] of friction that opposes M·v, M the effective masses along north and east, as Bullet solves it.
 
-    azimuth [deg].  A body of the pipe touches at its end: it gives way to a push across the hole by its mass, by
-    turning over its middle and by turning about its axis, to one along the hole by its mass alone.
+    azimuth [deg].  A body of the pipe touches at its end.  A force across the hole moves its mass, tilts it about its
+    middle and turns it about its axis; a force along the hole moves its mass and tilts it.
     """
     S = prepare(straight(azimuth))[0].S
     mass, arm, radius, tilt, spin = (
@@ -72,6 +72,6 @@ def lean_of_two_directions(azimuth: float) -> float:
     along, across = 1 / mass + radius**2 / tilt, 1 / mass + arm**2 / tilt + radius**2 / spin
     c, s = np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth))
     north, east = c * c * along + s * s * across, s * s * along + c * c * across
-    # Sliding across the hole is (−s, c); what comes out, taken apart along (c, s) and across (−s, c).
+    # Sliding across the hole is (−s, c); friction is resolved along the hole (c, s) and across it (−s, c).
     first, second = -s / north, c / east
     return float(np.arctan2(first * c + second * s, second * c - first * s))

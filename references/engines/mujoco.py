@@ -1,10 +1,10 @@
-"""The string in MuJoCo: free bodies under our joint wrenches, MuJoCo's own contact with the tube as a ``flex``.
+"""The string in MuJoCo: free bodies under FCTD's joint wrenches, MuJoCo's contact with the tube as a ``flex``.
 
-MuJoCo's friction is a soft constraint: a sliding point is lifted off its wall and falls back, and where a blow stops
-it within the step friction is less than μN.  Its default cone is a pyramid, whose corners pull aside.  The ``fair``
-settings are those that return Coulomb's law to a pipe turning in a straight hole (``references/friction_law.py``,
-measured in the study engines_agree): an elliptic cone, a wall of at most STIFFNESS, and of the impedances the nearest
-to MuJoCo's own 0.9 that keeps friction within half a percent of μN.
+MuJoCo's friction is a soft constraint: a sliding point is lifted off its wall and falls back, and where an impact stops
+it within the step friction is less than μN.  Its default friction cone is a pyramid, whose corners turn friction away
+from the sliding direction.  The ``fair`` settings give a pipe that turns in a straight hole friction by Coulomb's law
+(``references/engines/friction_law.py``, measured in the study engines_agree): an elliptic cone, a wall stiffness of at
+most STIFFNESS, and the impedance nearest to MuJoCo's default 0.9 that keeps friction within half a percent of μN.
 """
 
 from typing import Annotated, Any, ClassVar, Literal
@@ -16,7 +16,7 @@ from fctd.case import units
 from fctd.case.errors import Table
 from fctd.mechanics import state
 from fctd.simulation.run import Run
-from references.contact.mujoco import MEETS_STRING, wall_of
+from references.contact.mujoco import STRING_CONTACT, wall_of
 from references.contact.tube_mesh import Tube
 from references.engines import check_coulomb, check_no_mud, need
 from references.engines.free_bodies import FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
@@ -24,18 +24,18 @@ from references.engines.run import InWindows
 
 Array = NDArray[np.float64]
 
-# Share of FCTD's own step, by the ladder of best_step.py: MuJoCo turns bodies explicitly, and at all of it a spinning
-# string gains energy until it leaves the hole.
+# Share of FCTD's step, found by the ladder of best_step.py: MuJoCo integrates rotation explicitly, and with the whole
+# step a spinning string gains energy until it leaves the hole.
 SHARE = 0.5
-# Impedance and stiffness [N/m] of the fair contact, chosen as above; a stiffer wall chatters.
+# Impedance and stiffness [N/m] of the fair contact, chosen as above; contact with a stiffer wall chatters.
 IMPEDANCE, STIFFNESS = 0.3, 1e6
 
 
 class MuJoCoOptions(FreeBodyOptions):
-    """What can be set.
+    """Options of MuJoCo.
 
-    settings : ``fair`` as above, with an elliptic cone, or ``default``: contact and cone as they come.  stiffness
-    [N/m] of a point of the wall at most, and impedance of a contact, both of ``fair``.
+    settings : ``fair`` as above, with an elliptic cone, or ``default``, MuJoCo's default contact and cone.  stiffness
+    [N/m] : largest at a contact point, and impedance of a contact, both used by ``fair``.
     """
 
     settings: Literal["fair", "default"] = "fair"
@@ -46,7 +46,9 @@ class MuJoCoOptions(FreeBodyOptions):
 class _Bodies:
     """The bodies in a model of MuJoCo."""
 
-    lean = "MuJoCo's friction is a soft constraint, and its default cone a pyramid whose corners pull aside"
+    friction_error = (
+        "MuJoCo's friction is a soft constraint, and its default cone a pyramid whose corners deviate from sliding"
+    )
 
     def __init__(self, mujoco: Any, run: Run, tube: Tube | None, options: MuJoCoOptions) -> None:
         self._mujoco, poses = mujoco, poses_of(run)
@@ -62,7 +64,7 @@ class _Bodies:
         self._model.opt.timestep = dt
         self._data.xfrc_applied[1:] = wrenches
         self._mujoco.mj_step(self._model, self._data)
-        spin = _turned(self._place[:, 3:], self._speed[:, 3:])  # MuJoCo keeps it in the frame of the body
+        spin = _turned(self._place[:, 3:], self._speed[:, 3:])  # MuJoCo stores it in the frame of the body
         return np.hstack([self._place, self._speed[:, :3], spin])
 
     def contacts(self) -> tuple[NDArray[np.int64], Array]:
@@ -71,23 +73,23 @@ class _Bodies:
         rows, force = np.empty((len(found.dist), 7)), np.zeros(6)
         for k, frame in enumerate(found.frame.reshape(-1, 3, 3)):
             self._mujoco.mj_contactForce(self._model, self._data, k, force)
-            # Acts on the second of the two, which is the wall.
+            # The force acts on the second body, which is the wall.
             rows[k] = *found.pos[k], force[0], *(-force[1] * frame[1] - force[2] * frame[2])
         return self._model.geom_bodyid[found.geom[:, 0]].astype(np.int64), rows
 
     def close(self) -> None:
-        """Nothing is held beyond memory."""
+        """MuJoCo holds nothing but memory."""
 
 
 def _turned(quaternions: Array, vectors: Array) -> Array:
-    """Vectors (n, 3) turned by quaternions (n, 4), scalar first."""
+    """Vectors (n, 3) rotated by quaternions (n, 4), scalar first."""
     axis = quaternions[:, 1:]
     twice = 2 * np.cross(axis, vectors)
     return np.asarray(vectors + quaternions[:, :1] * twice + np.cross(axis, twice))
 
 
 def _model(run: Run, tube: Tube | None, options: MuJoCoOptions) -> str:
-    """MuJoCo's description of string and wall."""
+    """The model of string and wall in MuJoCo's XML."""
     fair = options.settings == "fair"
     friction = run.case.wellbore.intervals[0].friction
     per_point = np.minimum(wall_stiffness(run), options.stiffness)
@@ -99,7 +101,7 @@ def _model(run: Run, tube: Tube | None, options: MuJoCoOptions) -> str:
         )
         soft = ""
         if fair:
-            # MuJoCo's stiffness is an acceleration per metre: N/m times what the contact point gives way to a force.
+            # MuJoCo's stiffness is an acceleration per metre: N/m over the effective mass of the contact point.
             rate = float(per_point[j]) * (1 - options.impedance) * (1 / mass + arm * arm / across)
             soft = f'solref="{-rate!r} {-2 * rate**0.5!r}" solimp="{options.impedance} {options.impedance} 0.001"'
         place, turn = " ".join(map(repr, pose[:3].tolist())), " ".join(map(repr, pose[3:7].tolist()))
@@ -109,7 +111,7 @@ def _model(run: Run, tube: Tube | None, options: MuJoCoOptions) -> str:
             f'<geom type="sphere" size="{radius!r}" pos="0 0 {arm!r}" {soft} '
             f'friction="{friction!r} 0 0" condim="3" priority="1" contype="1" conaffinity="2"/></body>'
         )
-    wall = "" if tube is None else wall_of(tube, MEETS_STRING)
+    wall = "" if tube is None else wall_of(tube, STRING_CONTACT)
     cone = 'cone="elliptic" integrator="implicit"' if fair else ""
     return (
         f'<mujoco><compiler balanceinertia="false" boundmass="0" boundinertia="0"/><size memory="256M"/>'
@@ -122,7 +124,7 @@ class MuJoCo(InWindows):
 
     name: ClassVar[str] = "mujoco"
     distribution: ClassVar[str] = "mujoco"
-    does: ClassVar[str] = "free bodies under our joint wrenches; inertia, contact with a mesh and friction are MuJoCo's"
+    does: ClassVar[str] = "free bodies under FCTD's joint wrenches; MuJoCo's inertia, contact with a mesh and friction"
     Options: ClassVar[type[Table]] = MuJoCoOptions
 
     def __init__(self, options: MuJoCoOptions) -> None:

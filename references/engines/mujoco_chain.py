@@ -1,7 +1,7 @@
-"""MuJoCo's own way with a string: nested rigid bodies on ball joints, its springs and integrator, no contact.
+"""MuJoCo's native model of a string: nested rigid bodies on ball joints, its springs and integrator, no contact.
 
-Made for strings that hang free.  A ball joint has one stiffness for bending and twist, here that of twist, and does
-not stretch; the chain hangs from a body that the top drive turns.  With contact it is no model of a string: nested
+For freely hanging strings.  A ball joint has one stiffness for bending and twist, here that of twist, and does not
+stretch; the chain hangs from a body that the top drive turns.  With contact it cannot represent a string: nested
 bodies leave the hole.
 """
 
@@ -17,12 +17,12 @@ from fctd.simulation.run import Run
 from references.engines import StepOptions, check_no_mud, need
 from references.engines.run import InWindows
 
-# Share of the step at which the twist of the chain would be unstable.
+# Step over the stability limit of the chain's twist.
 SHARE = 0.5
 
 
 class _Stepper:
-    """A chain in MuJoCo, begun straight and untwisted below the top drive of a run."""
+    """A chain in MuJoCo that starts straight and untwisted below the top drive of a run."""
 
     def __init__(self, mujoco: Any, run: Run, step: float | None) -> None:
         self._mujoco, self._run = mujoco, run
@@ -61,7 +61,7 @@ class _Stepper:
         return np.asarray((twist + np.pi) % (2 * np.pi) - np.pi)
 
     def _loads(self) -> tuple[float, float]:
-        """Torque of the first joint [N m] and the force by which the chain hangs [N]."""
+        """Torque of the first joint [N m] and hook load of the chain [N]."""
         self._mujoco.mj_rnePostConstraint(self._model, self._data)
         first = self._angles()[0]
         return -float(self._twist[0] * first), -float(self._data.cfrc_int[1, 5])
@@ -71,7 +71,7 @@ class _Stepper:
         run, data, n = self._run, self._data, self._run.segments
         velocity = np.zeros(6)
         for j in range(1, n + 1):
-            body = j + 1  # the first is where the chain hangs
+            body = j + 1  # body 1 is the one from which the chain hangs
             for k, row in enumerate((state.X, state.Y, state.Z)):
                 run.S[row + j] = data.xipos[body, k]
             for k, row in enumerate((state.QW, state.QX, state.QY, state.QZ)):
@@ -81,7 +81,7 @@ class _Stepper:
                 run.S[row + j] = velocity[k]
 
     def energy(self) -> Energy:
-        """See ``Stepper.energy``: MuJoCo's own, its springs about all axes alike."""
+        """See ``Stepper.energy``: MuJoCo's energies; its springs have the same stiffness about all axes."""
         self._mujoco.mj_energyPos(self._model, self._data)
         self._mujoco.mj_energyVel(self._model, self._data)
         spring = 0.5 * float((self._twist * self._angles() ** 2).sum())
@@ -92,11 +92,11 @@ class _Stepper:
         return ""
 
     def close(self) -> None:
-        """Nothing is held beyond memory."""
+        """MuJoCo holds nothing but memory."""
 
 
 def _model(run: Run) -> str:
-    """MuJoCo's description of the chain: buoyed weight as gravity on the steel's mass."""
+    """The chain in MuJoCo's XML: buoyed weight as gravity on the mass of the steel."""
     S, n = run.S, run.segments
     gravity = state.row(S, state.WEIGHT, n).sum() / state.row(S, state.MASS, n).sum()
     inside = ""
@@ -117,11 +117,11 @@ def _model(run: Run) -> str:
 
 
 class MuJoCoChain(InWindows):
-    """Nested bodies on ball joints, hanging free."""
+    """Nested bodies on ball joints, hanging freely."""
 
     name: ClassVar[str] = "mujoco_chain"
     distribution: ClassVar[str] = "mujoco"
-    does: ClassVar[str] = "nested bodies on ball joints, all MuJoCo's own; free, vertical strings without a wall"
+    does: ClassVar[str] = "nested bodies on ball joints, MuJoCo's native model; freely hanging strings without a wall"
     Options: ClassVar[type[Table]] = StepOptions
 
     def __init__(self, options: StepOptions) -> None:

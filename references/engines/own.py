@@ -1,4 +1,4 @@
-"""FCTD's own stepper behind the interface of the others: the row that they are compared with."""
+"""FCTD's own stepper with the interface of the other engines, which are compared with it."""
 
 from typing import ClassVar
 
@@ -19,21 +19,21 @@ class _Stepper:
         self._run.advance(motion, duration)
 
     def sync(self) -> None:
-        """The run is the state."""
+        """Nothing to do: the stepper works on the run itself."""
 
     def energy(self) -> Energy:
         return energy_of(self._run.S, self._run.segments)
 
     def note(self) -> str:
-        """Its loads need none."""
+        """See ``Stepper.note``."""
         return ""
 
     def close(self) -> None:
-        """Nothing is held."""
+        """Nothing to release."""
 
 
 class Fctd(InWindows):
-    """The compiled stepper of the engine."""
+    """FCTD's compiled stepper."""
 
     name: ClassVar[str] = "fctd"
     distribution: ClassVar[str] = "fctd"

@@ -1,4 +1,4 @@
-"""The one way in which every string engine is run: the same start, the same recorder, the same checks."""
+"""Running a window of a case in any string engine: the same start, recorder and checks for all."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
@@ -53,7 +53,7 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
 
 
 class InWindows(ABC):
-    """What all engines share: they are run by ``run_window``."""
+    """Common part of all engines: ``run_window`` runs them."""
 
     @abstractmethod
     def begin(self, run: Run) -> Stepper:
@@ -65,7 +65,7 @@ class InWindows(ABC):
 
 
 def late(run: EngineRun, seconds: float = np.inf) -> pd.Series:
-    """Means of the history under a Hann window, of its last seconds."""
+    """Means of the last ``seconds`` [s] of the history under a Hann window."""
     history = run.history[run.history["time_s"] > run.history["time_s"].max() - seconds]
     return hann_means(history)
 
@@ -73,7 +73,7 @@ def late(run: EngineRun, seconds: float = np.inf) -> pd.Series:
 def hann_means(rows: pd.DataFrame) -> pd.Series:
     """Means of the columns of numbers under a Hann window over the rows.
 
-    A plain mean keeps a share of whatever swings about it; the window leaves next to none.
+    A plain mean over part of a period keeps a share of an oscillation; the window suppresses it.
     """
     numbers = rows.select_dtypes("number")
     weights = np.hanning(len(numbers) + 2)[1:-1]

@@ -1,8 +1,8 @@
-"""The 1000:1 model of the paper's §6.3 in the three ways in which its text can be read.
+"""The 1000:1 model of the paper's §6.3 in three readings of its text.
 
 ``similar`` : geometric, kinematic and dynamic similitude at the same gravity and density: lengths by s, time by √s,
-hence forces by s³, moduli by s, a point's wall stiffness by s².  ``relabelled`` : the same string with its lengths
-written in millimetres.  ``naive`` : lengths by s and nothing else.
+hence forces by s³, moduli by s, wall stiffness of a contact point by s².  ``relabelled`` : the same string with
+its lengths written in millimetres.  ``naive`` : lengths by s and nothing else.
 """
 
 from typing import Any, NamedTuple
@@ -15,7 +15,7 @@ SCALE = 1e-3
 
 
 class Factors(NamedTuple):
-    """What quantities are multiplied by: length, time, modulus, stiffness of a wall point, its damping, force."""
+    """Scale factors of length, time, modulus, wall stiffness and damping of a contact point, and force."""
 
     length: float
     time: float
@@ -26,7 +26,7 @@ class Factors(NamedTuple):
 
 
 def factors(reading: str, scale: float = SCALE) -> Factors:
-    """The factors of a reading; forces are those that follow for the weight."""
+    """The factors of a reading; that of force is the factor of the weight."""
     if reading == "similar":
         return Factors(scale, scale**0.5, scale, scale**2, scale**2.5, scale**3)
     if reading == "naive":
@@ -35,7 +35,7 @@ def factors(reading: str, scale: float = SCALE) -> Factors:
 
 
 def scaled(case: Case, reading: str, scale: float = SCALE) -> Case:
-    """The case in one reading; its stations are written out.  Raises InputError where the result is no case."""
+    """The case in one reading, its survey as stations.  Raises InputError if the result is not a valid case."""
     by = factors(reading, scale)
 
     def length(value: float) -> Any:

@@ -1,17 +1,17 @@
 """Closed forms of the soft string for one section of hole: vertical, hold, build, drop, side turn, capstan.
 
 Derived here from the differential form in `soft_string` (Sheppard, Wick & Burgess 1987); Aadnøy & Andersen 2001
-treat the same sections for pick-up and slack-off.  Every function climbs one section of constant weight w [N/m],
-curvature 1/R and friction from its lower to its upper end:
+treat the same sections for pick-up and slack-off.  Every function integrates one section of constant weight w
+[N/m], curvature 1/R and friction from its lower to its upper end:
 
     tension_below, drag, geometry  →  Climb(tension_above, load),
 
 where ``drag`` is the signed axial friction per load across the hole (`sliding.Friction.drag`): μ picking up, −μ
-slacking off, 0 rotating in place, less than that where the string turns as well and the law is ``coulomb``.
+slacking off, 0 rotating in place, smaller where the string also rotates and the law is ``coulomb``.
 ``load`` is ∫|q| ds [N]; contact force is Friction.normal times it, torque is radius × Friction.turning times it:
-rotating, μ for law ``paper`` and μ/√(1 + μ²) for ``coulomb``.  `sum_up` does that for a whole string.
+rotating, μ for law ``paper`` and μ/√(1 + μ²) for ``coulomb``.  `sum_up` evaluates a whole string.
 
-Each form is exact where it is valid, and where it is not it raises: InputError for geometry, and
+Each form is exact where it is valid, and raises an error elsewhere: InputError for wrong geometry, and
 `SideChangeError` for a build or drop in which the load across the hole passes through zero.
 Tensions are effective [N], < 0 in compression; lengths [m]; angles [rad]; inclination 0 is down, > π/2 upwards.
 """
@@ -25,8 +25,8 @@ from scipy.optimize import brentq
 from fctd.case.errors import InputError
 from references.soft_string.sliding import Friction
 
-# Below this part of its terms the load across the hole is rounding, and has no side.
-NO_SIDE = 1e-9
+# A load across the hole below this share of its terms is a rounding error, without a sign.
+SIDE_TOLERANCE = 1e-9
 
 
 class Climb(NamedTuple):
@@ -49,10 +49,10 @@ class Loads(NamedTuple):
 
 
 class SideChangeError(ValueError):
-    """A bend is outside its closed form: within it the wall force passes from one side of the hole to the other.
+    """The closed form of a bend is not valid, since the wall force changes from one side of the hole to the other.
 
-    inclination [rad], tension [N] : at the place where it changes;
-    above_lower_end [m] : how far up along the hole that is; load [N] : ∫|q| ds from the lower end to there.
+    inclination [rad], tension [N] : where it changes; above_lower_end [m] : distance of that place along the hole from
+    the lower end; load [N] : ∫|q| ds from the lower end to that place.
     """
 
     def __init__(self, inclination: float, tension: float, above_lower_end: float, load: float) -> None:
@@ -60,12 +60,12 @@ class SideChangeError(ValueError):
         self.above_lower_end, self.load = above_lower_end, load
         super().__init__(
             f"the wall force changes side {above_lower_end:.6g} m above the lower end of the bend, at "
-            f"{np.degrees(inclination):.6g} deg with {tension:.6g} N: use one closed form on either side"
+            f"{np.degrees(inclination):.6g} deg with {tension:.6g} N: use bend_in_parts"
         )
 
 
 def vertical(tension_below: float, drag: float = 0.0, *, weight: float, length: float) -> Climb:
-    """T₁ = T₂ + wL: nothing presses a soft string to the wall of a vertical hole."""
+    """T₁ = T₂ + wL: a soft string has no wall force in a vertical hole."""
     return hold(tension_below, drag, weight=weight, length=length, inclination=0.0)
 
 
@@ -87,7 +87,7 @@ def build(
 ) -> Climb:
     """Bend in a vertical plane, inclination larger at the lower end, radius R > 0 [m].
 
-    The load is |T/R − w sin I|: tension lifts the string to the high side, weight keeps it low.  With
+    The load is |T/R − w sin I|: tension pulls the string to the high side, weight to the low side.  With
     a = drag on the high side and −drag on the low side, dT/dI = −wR cos I − a (T − wR sin I), so
 
         T(I) = A sin I + B cos I + C e^(−aI),   A = −wR (1 − a²)/(1 + a²),   B = −2a wR/(1 + a²),
@@ -119,7 +119,7 @@ def drop(
 
 
 def side_turn(tension_below: float, drag: float, *, weight: float, radius: float, turn: float) -> Climb:
-    """Turn in the horizontal plane (inclination π/2 throughout) by an angle ``turn`` [rad], to either hand.
+    """Turn in the horizontal plane (inclination π/2 throughout) by an angle ``turn`` [rad], to the left or right.
 
     The load is √(T²/R² + w²); with T = wR sinh x the equation is dx = drag dφ:
     T₁ = wR sinh(asinh(T₂/wR) + drag φ), load wR (sinh x₁ − sinh x₂)/drag.
@@ -155,7 +155,7 @@ def bend_in_parts(
     inclination_below: float,
     inclination_above: float,
 ) -> Climb:
-    """A build or drop by as many closed forms as the wall force has sides, one after the other."""
+    """A build or drop by successive closed forms, a new one where the wall force changes side."""
     below, load = inclination_below, 0.0
     while True:
         try:
@@ -183,7 +183,7 @@ def sum_up(
 
 
 class _Bend(NamedTuple):
-    """One side of a vertical bend: T(I) from the lower end on, with scale = wR (build) or −wR (drop) and a."""
+    """The part of a vertical bend up to a change of side: T(I) with scale = wR (build) or −wR (drop), and a."""
 
     below: float
     tension_below: float
@@ -201,7 +201,7 @@ class _Bend(NamedTuple):
         return float(self.free(inclination) + (self.tension_below - self.free(self.below)) * decay)
 
     def lift(self, inclination: float) -> float:
-        """T ∓ wR sin I [N]: > 0 where tension wins against weight."""
+        """T ∓ wR sin I [N]: > 0 where tension exceeds the weight across the hole."""
         return float(self.tension(inclination) - self.scale * np.sin(inclination))
 
     def load(self, inclination: float) -> float:
@@ -223,17 +223,17 @@ def _bend(
     sense = 1.0 if below > above else -1.0
     scale = sense * weight * radius
     lift = tension_below - scale * np.sin(below)
-    if abs(lift) <= NO_SIDE * (abs(tension_below) + abs(scale)):
-        # No load at the lower end: from dL/dI = −2 (±wR) cos I there, above it tension wins below π/2.
+    if abs(lift) <= SIDE_TOLERANCE * (abs(tension_below) + abs(scale)):
+        # No load at the lower end: there dL/dI = −2 (±wR) cos I, so above it tension exceeds weight for I < π/2.
         lift = np.cos(below + 1e-6 * (above - below))
-    winner = 1.0 if lift > 0 else -1.0
-    bend = _Bend(below, tension_below, scale, drag * winner * sense)
-    # By the same equation all zeros of the lift on one side of π/2 go one way, so that equal signs at both ends
-    # of a stretch on one side mean none in between.
+    sign = 1.0 if lift > 0 else -1.0
+    bend = _Bend(below, tension_below, scale, drag * sign * sense)
+    # By the same equation the lift has the same slope at all its zeros on one side of π/2, so that equal signs at
+    # both ends of a part on one side exclude a zero between them.
     stops = [0.5 * np.pi, above] if (below - 0.5 * np.pi) * (above - 0.5 * np.pi) < 0 else [above]
     start = below
     for stop in stops:
-        if winner * bend.lift(stop) < -NO_SIDE * (abs(bend.tension(stop)) + abs(scale)):
+        if sign * bend.lift(stop) < -SIDE_TOLERANCE * (abs(bend.tension(stop)) + abs(scale)):
             place = float(brentq(bend.lift, start, stop, xtol=1e-15))
             raise SideChangeError(place, bend.tension(place), radius * abs(below - place), bend.load(place))
         start = stop
@@ -241,7 +241,7 @@ def _bend(
 
 
 def _check(**given: float) -> None:
-    """Refuse a number that is not finite or negative, a radius of nothing, an inclination beyond π."""
+    """Raise InputError for a number that is not finite or negative, a zero radius, or an inclination above π."""
     for key, value in given.items():
         most = np.pi * (1 + 1e-12) if key.startswith("inclination") else np.inf
         least = "above" if key == "radius" else "at least"

@@ -5,18 +5,18 @@ the hole that the wall has to carry is the vector
 
     q = T t′ + w (e − (e·t) t),          e straight down,
 
-the turn of the hole times tension plus the weight across it, whatever plane they lie in.  Counted from the bit
-upwards, with the factors of `sliding.Friction`,
+tension times the curvature of the hole plus the weight across it, in any plane.  From the bit upwards, with the
+factors of `sliding.Friction`,
 
     −dT/ds = w e·t + drag |q|,    −dM/ds = r turning |q|,    contact force per metre N = normal |q|.
 
-Two ways to sum it up: the recursion of Johancsik, Friesen & Dawson 1984 over short elements, its side force
-written with vectors, and the differential form of Sheppard, Wick & Burgess 1987, integrated.  Both start at
-the bit with −WOB and the bit torque while drilling, and with nothing off bottom.
+Two methods: the recursion of Johancsik, Friesen & Dawson 1984 over short elements, its side force written with
+vectors, and numerical integration of the differential form of Sheppard, Wick & Burgess 1987.  Both start at the bit
+with −WOB and the bit torque while drilling, and with zero tension and torque off bottom.
 
 In a plane build in slack-off the two parts of q oppose each other and the wall force changes side, where |q|
-has a kink.  A law that gives the wall force a side friction (``coulomb`` while turning) lets the string climb
-the wall until both balance q; without clearance that moves nothing, so only the factors change.
+has a kink.  With friction around the hole (law ``coulomb`` while turning) the string climbs the wall until wall
+force and friction balance q; without clearance this changes only the factors.
 """
 
 from collections.abc import Callable, Iterator
@@ -34,13 +34,13 @@ from fctd.model.drillstring import lay_out
 from references.soft_string.sliding import Friction, loads_at_bit, motion_of, split_friction
 
 Array = NDArray[np.float64]
-# Tangent and its derivative (…, 3) at measured depths (…) [m] of a course between stations.
+# Tangent and its derivative (…, 3) at measured depths (…) [m] in a course between two stations.
 Axis = Callable[[Array | float, int], tuple[Array, Array]]
 
 ELEMENT = 1.0  # [m]
 DOWN = np.array([0.0, 0.0, 1.0])
 RELATIVE, ABSOLUTE = 1e-11, 1e-6  # tolerances of the integration; [N], [N m]
-STRAIGHT = 1e-9  # [rad]: less turn than this is rounding
+STRAIGHT = 1e-9  # [rad], a smaller turn is a rounding error
 SAME_DEPTH = 1e-6  # [m]
 
 
@@ -63,9 +63,9 @@ class SoftString(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """A stretch where all is smooth: no station, interval or component ends inside.
+    """A part of the hole without an end of a course, interval or component inside.
 
-    top, bottom [m]; course: between which stations; weight [N/m]; radius [m].
+    top, bottom [m]; course : number of the station above; weight [N/m]; radius [m] : contact radius.
     """
 
     top: float
@@ -85,11 +85,11 @@ def soft_string(
     rpm: float | None = None,
     element: float = ELEMENT,
 ) -> SoftString:
-    """Johancsik's recursion from the bit upwards, in elements of at most ``element`` [m]; second order in it.
+    """Johancsik's recursion from the bit upwards, in elements of at most ``element`` [m]; error of second order.
 
-    An element's load is taken with the tension in its middle, which depends on the load: a quadratic equation.
+    The load of an element depends on the tension in its middle, which depends on the load: a quadratic equation.
     speed [m/s] and rpm [1/min] as in `sliding.motion_of`.
-    Raises InputError for what `motion_of` and `lay_out` refuse, and for a depth beyond survey or intervals.
+    Raises InputError as `motion_of` and `lay_out`, and for a depth beyond survey or intervals.
     """
     axis = _axis(case)
     tension, torque = loads_at_bit(case, operation)
@@ -118,9 +118,9 @@ def soft_string(
 def soft_string_ode(
     case: Case, operation: str, bit_depth: float, *, speed: float | None = None, rpm: float | None = None
 ) -> SoftString:
-    """The differential form, integrated from the bit upwards, arguments and errors as `soft_string`.
+    """The differential form, integrated from the bit upwards; arguments and errors as `soft_string`.
 
-    Piece by piece where all is smooth, and within a piece anew from where the wall force changes side.
+    The integration restarts at every end of a piece, and where the wall force changes side.
     """
     axis = _axis(case)
     state = np.array([*loads_at_bit(case, operation), 0.0])
@@ -140,7 +140,7 @@ def soft_string_ode(
 
 
 def _climb(piece: Piece, axis: Axis, state: Array) -> Iterator[Any]:
-    """Integrate tension, torque and contact force (3,) up a piece: scipy's result between changes of side."""
+    """Integrate tension, torque and contact force (3,) up a piece; yields a scipy result per side of the hole."""
     normal, drag, turning = piece.friction
 
     def slope(md: float, state: Array) -> Array:
@@ -149,15 +149,15 @@ def _climb(piece: Piece, axis: Axis, state: Array) -> Iterator[Any]:
         return -np.array([along + drag * load, piece.radius * turning * load, normal * load])
 
     def side(md: float, state: Array) -> float:
-        """Load towards the inside of the bend: the wall force changes side where it changes sign."""
+        """Load towards the inside of the bend; the wall force changes side at its zeros."""
         return float(_load_across(piece, axis, md, state[0]) @ axis(md, piece.course)[1])
 
     start, length = piece.bottom, piece.bottom - piece.top
     events = None
     if float(np.linalg.norm(axis(start, piece.course)[1])) * length > STRAIGHT:
-        # The side a hair above the lower end: at the end itself the load may be nothing.
-        hair = 1e-6 * length
-        side.direction = -np.sign(side(start - hair, state - hair * slope(start, state)))  # type: ignore[attr-defined]
+        # The side just above the lower end, since the load may be zero at the end itself.
+        offset = 1e-6 * length
+        side.direction = -np.sign(side(start - offset, state - offset * slope(start, state)))  # type: ignore[attr-defined]
         side.terminal = True  # type: ignore[attr-defined]
         events = side
     while start > piece.top:
@@ -187,7 +187,7 @@ def _divide(piece: Piece, element: float) -> Array:
 
 
 def _pieces(case: Case, operation: str, bit_depth: float, speed: float | None, rpm: float | None) -> list[Piece]:
-    """Smooth pieces of hole and string from top to bit."""
+    """Pieces of hole and string from top to bit."""
     motion = motion_of(case, operation, speed, rpm)
     stations = case.wellbore.trajectory[:, 0]
     to_md = np.array([interval.to_md for interval in case.wellbore.intervals])

@@ -1,13 +1,13 @@
-"""How friction splits along and around a string that slides, turns, or both: one set of factors for each law.
+"""Friction along and around a string that slides, rotates, or both: a set of factors for each law.
 
-The wall carries the load across the hole q [N/m]: tension times turn of the hole, plus the weight across it.
+The wall carries the load across the hole q [N/m]: tension times curvature of the hole, plus the weight across it.
 With the contact moving along the hole at V and around it at rΩ, tan ψ = rΩ/V:
 
-- law ``coulomb``: one force μN against the sliding velocity.  Its part around the hole, μN sin ψ, stands
-  across the hole as well and at right angles to the wall's N, so q² = N² + (μN sin ψ)²:
+- law ``coulomb``: one force μN opposite to the sliding velocity.  Its component around the hole, μN sin ψ, also acts
+  across the hole, at right angles to the wall force N, so q² = N² + (μN sin ψ)²:
       N = q/√(1 + μ² sin²ψ),   drag = μ cos ψ N,   side friction = μ sin ψ N.
   Sliding gives N = q and drag μq; rotating in place N = q/√(1 + μ²) and torque r μq/√(1 + μ²).
-- law ``paper`` (Eqs 15–16): N = q, drag μN when it slides, torque rμN when it turns, each in full.
+- law ``paper`` (Eqs 15–16): N = q, drag μN when it slides and torque rμN when it rotates, both at once in full.
 """
 
 from typing import NamedTuple
@@ -31,10 +31,10 @@ TURNING = ("rotate_off_bottom", "back_ream", "drill_rotating")
 
 
 class Friction(NamedTuple):
-    """What a load q across the hole gives, each per q.
+    """Wall force and friction per load q across the hole.
 
     normal : wall force N; drag : axial friction, > 0 where it adds to tension upwards (pick-up);
-    turning : friction around the hole, > 0, torque over radius.
+    turning : friction around the hole, > 0, equal to torque over radius.
     """
 
     normal: float
@@ -64,9 +64,9 @@ def split_friction(law: str, factor: float, motion: Motion, radius: float) -> Fr
 def motion_of(case: Case, operation: str, speed: float | None = None, rpm: float | None = None) -> Motion:
     """The motion of an operation, from the arguments or else from the case's first operation of that kind.
 
-    speed [m/s]; rpm [1/min].  Friction depends on the direction of sliding alone, so what slides without
-    turning, or turns without sliding, needs no number; a trip turns only where something says so.
-    Raises InputError for an unknown operation, and for a speed or rpm that is missing or not the operation's.
+    speed [m/s]; rpm [1/min].  Friction depends only on the direction of sliding, so an operation that slides without
+    rotation, or rotates without sliding, needs no value; a trip rotates only if the arguments or the case say so.
+    Raises InputError for an unknown operation, and for a speed or rpm that is missing or does not fit the operation.
     """
     if operation not in DRAG_SIGN:
         raise InputError(nearest(operation, DRAG_SIGN, "operation"), key="operation", value=operation)
@@ -88,7 +88,7 @@ def motion_of(case: Case, operation: str, speed: float | None = None, rpm: float
 
 
 def _check(key: str, value: float | None, *, needed: bool, allowed: bool) -> None:
-    """Refuse a speed or rpm that is missing, no number, zero where it is needed, or not zero where it is not."""
+    """Raise InputError for a speed or rpm that is missing, not finite, negative, or does not fit the operation."""
     expected = "0 for this operation" if not allowed else f"a number {'above' if needed else 'at least'} 0"
     if value is None:
         raise InputError(f"{expected}, as an argument or in an operation of the case", key=key)

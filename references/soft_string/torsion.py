@@ -1,8 +1,8 @@
-"""A string that twists and rubs, and does nothing else: discs on torsion springs with dry friction.
+"""A string with torsion and friction only: discs on torsion springs with dry friction.
 
-Each segment is a spring GJ/ℓ with half of its moment of inertia at either end, so that a long one is a spring with
-half its inertia at its lower end.  Dry friction stops a disc before it turns one; its limits come from the soft
-string.  Nothing here is the engine's: no contact, no bending, no axial motion.
+Each segment is a spring GJ/ℓ with half of its moment of inertia at each end; a long segment thus is a spring with half
+its inertia at its lower end.  Dry friction can stop a disc but not reverse it; its limits come from the soft string.
+No code is shared with FCTD's stepper: no contact, no bending, no axial motion.
 """
 
 from collections.abc import Callable
@@ -18,9 +18,10 @@ Array = NDArray[np.float64]
 
 
 def twisted(case: Case, bit_depth: float, angle: Callable[[Array], Array], duration: float, step: float) -> Array:
-    """Torque at the top [N m] after every step of a string that lies untwisted at rest and is turned at its top.
+    """Torque at the top [N m] after every step, for a string that starts untwisted at rest and is turned at its top.
 
-    angle : of the top drive [rad] at times [s]; step [s] : the discs' shortest period has to be longer than π of it.
+    angle : function of times [s] to angles of the top drive [rad]; duration [s]; step [s] : stable below 1/π of the
+    shortest period of the discs.
     """
     string = lay_out(case, bit_depth)
     sections = [string.sections[k] for k in string.component]
@@ -29,11 +30,11 @@ def twisted(case: Case, bit_depth: float, angle: Callable[[Array], Array], durat
     inertia = half + np.append(half[1:], 0.0)
     ends = string.top_md + np.cumsum(string.length)
     middles = ends - 0.5 * string.length
-    # What a disc can be held by: what the soft string's torque gains between the middles of its two segments.
+    # Largest friction torque on a disc: increase of the soft string's torque between the middles of its two segments.
     soft = soft_string(case, "rotate_off_bottom", bit_depth).profile
-    held = -np.diff(np.interp(middles, soft.md, soft.torque), append=0.0)
-    # Angles of the top drive and of the discs; the most that friction takes of a disc's rate in a step.
-    angles, rate, most = np.zeros(len(ends) + 1), np.zeros(len(ends)), step * held / inertia
+    limit = -np.diff(np.interp(middles, soft.md, soft.torque), append=0.0)
+    # Angles of the top drive and of the discs; largest change of a disc's rate by friction in a step.
+    angles, rate, most = np.zeros(len(ends) + 1), np.zeros(len(ends)), step * limit / inertia
     torque = np.empty(round(duration / step))
     for k, drive in enumerate(angle(np.arange(1, len(torque) + 1) * np.float64(step))):
         angles[0] = drive

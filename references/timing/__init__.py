@@ -1,1 +1,1 @@
-"""What speed is measured on, and the one stopwatch."""
+"""Workloads and the stopwatch of all timings."""

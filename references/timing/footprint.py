@@ -1,4 +1,4 @@
-"""Memory and time that building a contact method takes, measured in a process of its own."""
+"""Memory and time for building a contact method, measured in a separate process."""
 
 import json
 import subprocess
@@ -13,11 +13,11 @@ from references.contact import build
 
 
 def footprint(name: str, case: Case, **options: Any) -> tuple[float, float]:
-    """Growth of resident memory [MB] and time [s] of building a method for a case, its imports done before.
+    """Growth of resident memory [MB] and time [s] of building a method for a case, without imports.
 
-    Memory is nan where the system does not tell (it does on Linux).  Raises InputError as ``build`` does.
+    Memory is nan on systems without /proc.  Raises InputError as ``build`` does.
     """
-    build(name, case, **options)  # what is wrong with it is told here
+    build(name, case, **options)  # raises errors here, not in the other process
     request = json.dumps({"name": name, "case": case.model_dump(mode="json"), "options": options})
     done = subprocess.run(
         [sys.executable, "-m", "references.timing.footprint"],
@@ -37,7 +37,7 @@ def resident() -> float:
 
 
 def _measure() -> None:
-    """Build once for a short straight hole, so that everything is imported and compiled, then measure."""
+    """Build once for a short straight hole, which imports and compiles everything, then measure."""
     request = json.load(sys.stdin)
     case = Case.model_validate(request["case"])
     short = case.model_copy(

@@ -1,4 +1,4 @@
-"""Arithmetic that counts itself: the engine's compiled helpers, run as plain Python on numbers that keep a tally."""
+"""Operation counts: FCTD's compiled functions, run as plain Python on numbers that count their operations."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ARITHMETIC = ("add", "subtract", "multiply", "divide", "root")
 class Number:
     """A real number whose sums, products, roots and comparisons are added to ``tally``.
 
-    A change of sign is free: it is part of the operation that takes it up.
+    A change of sign is not counted: it is part of the operation that uses the result.
     """
 
     __array_priority__ = 1000.0  # a numpy scalar on the left leaves the operation to this class
@@ -29,11 +29,11 @@ class Number:
 
     @property
     def real(self) -> Number:
-        """Itself: the helpers also take complex numbers."""
+        """The number itself; the compiled functions also accept complex numbers."""
         return self
 
     def sqrt(self) -> Number:
-        """What ``np.sqrt`` calls."""
+        """Square root; ``np.sqrt`` calls this method."""
         self.tally["root"] += 1
         return Number(float(np.sqrt(self.value)))
 
@@ -74,14 +74,14 @@ for _symbol in ("lt", "le", "gt", "ge"):
 
 
 class Counted:
-    """An array that hands out numbers that count and takes them back; nothing is copied."""
+    """A view of an array whose elements are read as ``Number``; nothing is copied."""
 
     def __init__(self, values: NDArray[np.float64]) -> None:
         self.values = values
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Of the array."""
+        """Shape of the array."""
         return self.values.shape
 
     def __getitem__(self, at: Any) -> Number:
@@ -92,7 +92,7 @@ class Counted:
 
 
 def interpreted(compiled: Any) -> Callable[..., Any]:
-    """A compiled helper as plain Python, and so every compiled helper that it calls."""
+    """A compiled function as plain Python, together with all compiled functions that it calls."""
     return _Interpreter()(compiled)
 
 
@@ -114,17 +114,17 @@ class _Interpreter:
 
 
 def operations_of(function: Callable[..., Any], *arguments: Any) -> Counter[str]:
-    """What a call does with numbers that count: add, subtract, multiply, divide, root, compare."""
+    """Number of operations in a call: add, subtract, multiply, divide, root, compare."""
     return counted(function, *arguments)[1]
 
 
 def counted(function: Callable[..., Any], *arguments: Any) -> tuple[Any, Counter[str]]:
-    """What a call returns, and its operations."""
+    """The result of a call and its operations."""
     Number.tally.clear()
     result = function(*arguments)
     return result, Counter(Number.tally)
 
 
 def arithmetic(tally: Counter[str]) -> int:
-    """Sums, products, quotients and roots; comparisons are told apart."""
+    """Number of sums, products, quotients and roots; comparisons are not included."""
     return sum(tally[name] for name in ARITHMETIC)

@@ -1,7 +1,7 @@
-"""The one stopwatch of all comparisons: interleaved rounds, medians, ratios, nothing of compiling or building.
+"""The stopwatch of all comparisons: interleaved rounds, medians and ratios, without the time to compile or build.
 
-On a machine that others use too, times drift by factors within seconds.  Competitors therefore take turns within
-every round, in alternating order, and a ratio is the median of the ratios of the rounds.
+On a shared machine times drift by factors within seconds.  All actions are therefore called in every round, in
+alternating order, and a ratio is the median of the ratios of the rounds.
 """
 
 import os
@@ -22,9 +22,9 @@ Action = Callable[[], object]
 
 
 def units_for(work: Callable[[int], object], aim: float) -> int:
-    """How many units ``work`` has to be told to do for a call of about ``aim`` [s]; it is warm afterwards.
+    """Number of units with which a call ``work(units)`` takes about ``aim`` [s]; ``work`` is compiled afterwards.
 
-    By the processor's time: on a busy machine the wall clock would choose calls that are far too short.
+    Measured in CPU time: on a busy machine wall-clock time would give calls that are far too short.
     """
     units = 1
     work(units)
@@ -40,12 +40,12 @@ def units_for(work: Callable[[int], object], aim: float) -> int:
 def race(
     actions: Mapping[str, Action], counts: Mapping[str, float], rounds: int, baseline: str | Mapping[str, str]
 ) -> pd.DataFrame:
-    """Time each action once a round, after one round that is not counted.
+    """Time each action once per round, after one round that is not counted.
 
-    counts : how many units (points, segment-steps, simulated seconds) a call of each action works through.
-    baseline : the action to which ratios are, of all or of each.
+    counts : number of units (points, segment-steps, simulated seconds) in a call of each action.
+    baseline : the action that is the denominator of the ratios, one for all or one for each action.
     Returns a row per action: name, units, rounds, ns (median per unit), ns_low, ns_high (quartiles), ns_least (the
-    fastest round, least disturbed by others on the machine), and ratio, ratio_low, ratio_high to the baseline, from
+    fastest round, least disturbed by other processes), and ratio, ratio_low, ratio_high to the baseline, from
     the ratios within the rounds.
     """
     order = list(actions)
@@ -71,7 +71,7 @@ def race(
 def turn(
     actions: Mapping[str, Action], counts: Mapping[str, float], clock: Callable[[], float], backwards: bool
 ) -> dict[str, float]:
-    """One round: what a call of each action in turn takes by ``clock`` [s], in ns per unit."""
+    """One round: time of a call of each action in turn, by ``clock`` [s], in ns per unit."""
     taken = {}
     for name in reversed(list(actions)) if backwards else actions:
         began = clock()
@@ -81,7 +81,7 @@ def turn(
 
 
 def machine() -> dict[str, str]:
-    """What timings depend on: processor, cores, and the versions of everything that was timed."""
+    """Properties of the machine on which timings depend: processor, cores and versions of all packages timed."""
     found = {"processor": cpu_name(), "cores": str(os.cpu_count()), **versions()}
     for name in METHODS:
         found[method_class(name).distribution] = installed_version(name) or "not installed"
@@ -91,12 +91,12 @@ def machine() -> dict[str, str]:
 
 
 def machine_table() -> pd.DataFrame:
-    """The same as a table: what, value."""
+    """``machine`` as a table with the columns what and value."""
     return pd.DataFrame(machine().items(), columns=["what", "value"])
 
 
 def cpu_name() -> str:
-    """The processor's own name where Linux tells it; elsewhere what Python knows."""
+    """Name of the processor from /proc/cpuinfo; where there is none, from Python's ``platform``."""
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():
         for line in cpuinfo.read_text().splitlines():

@@ -1,7 +1,7 @@
-"""What speed is measured on: strings in motion, the bare contact query, and how true what was timed is.
+"""Workloads for timings: strings in motion, the contact query alone, and the energy error of a timed run.
 
-Work is timed in a state that a user would meet.  Ahead of the first wave velocities are denormal numbers, which
-many processors add many times slower than others, so that nothing is timed right after a start.
+States are those of ordinary runs.  Ahead of the first wave velocities are denormal numbers, which many processors add
+many times more slowly, so that nothing is timed right after a start.
 """
 
 from collections.abc import Callable
@@ -29,17 +29,17 @@ from fctd.simulation.simulate import Simulation
 
 Array = NDArray[np.float64]
 
-# Rate at which a string that was laid on the axis is braked while it falls onto the wall [1/s].
+# Damping rate of a string while it falls from the axis of the hole onto the wall [1/s].
 BRAKE = 5.0
 
 
 class NoWall:
-    """A query that finds nothing: what is left is the price of asking from Python."""
+    """A contact method without contacts: its time is that of the call from Python."""
 
     name = "none"
 
     def query(self, points: Array, radii: Array) -> Contacts:
-        """Never a contact."""
+        """No contact at any point; see ``ContactMethod.query``."""
         n = len(points)
         return Contacts(np.full(n, -np.inf), np.empty((n, 3)), np.empty(n))
 
@@ -52,9 +52,9 @@ def moving(case: Case, after: float) -> tuple[Run, Motion]:
 
 
 def fallen(case: Case, seconds: float) -> tuple[Run, Motion]:
-    """The string laid on the axis of its hole, left to fall for some seconds, braked, and then turning all along.
+    """The string after a damped fall of ``seconds`` from the axis of its hole, with all segments turning.
 
-    For segments in thousands, which would take minutes to settle.
+    For thousands of segments, which would take minutes to settle.
     """
     run, phases = prepare(case)
     run.refresh()
@@ -68,12 +68,12 @@ def fallen(case: Case, seconds: float) -> tuple[Run, Motion]:
 
 
 def copy_of(run: Run, **changes: Any) -> Run:
-    """The same state in a buffer of its own."""
+    """A copy of a run, with ``changes``, that shares no state with it."""
     return replace(run, S=state.copy_state(run.S), top=run.top.copy(), owner=run.owner.copy(), **changes)
 
 
 def without_wall(run: Run) -> Run:
-    """The same state with the hole taken away."""
+    """A copy of a run without the hole."""
     return copy_of(run, laws=run.laws._replace(geometry=state.OPEN))
 
 
@@ -83,7 +83,7 @@ def asking(run: Run, method: Any) -> Run:
 
 
 def touching(run: Run) -> float:
-    """Share of the contact points that touch."""
+    """Share of the contact points that touch the wall."""
     return float((penetration(run.S, run.segments) > 0).mean())
 
 
@@ -100,13 +100,13 @@ def _walls(S, owner, n, packed, C, geometry, times):  # type: ignore[no-untyped-
 
 
 def find_walls(run: Run, times: int) -> None:
-    """The engine's contact query of all points as in its steps, so many times."""
+    """FCTD's contact query of all points as in its steps, ``times`` times."""
     n = run.segments
     _walls(run.S, run.owner, n, padded_columns(n), run.hole.pieces, run.laws.geometry, times)
 
 
 def free_query(run: Run) -> Callable[[int], None]:
-    """What asks so many times for the wall beside all contact points of a run, as of free points that remember."""
+    """A function of a number of times that queries the wall at all contact points of a run as free points."""
     n = run.segments
     points = np.ascontiguousarray(contact_points(run.S, n))
     owner, out = run.owner[1 : n + 1].copy(), np.empty((n, WALL_COLUMNS))

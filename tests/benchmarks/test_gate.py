@@ -1,4 +1,4 @@
-"""Which comparison the gate makes, and what its commands say and return."""
+"""The comparison that the gate makes, and the output and exit codes of its commands."""
 
 from pathlib import Path
 
@@ -19,8 +19,8 @@ FILE = Path("record.json")
 COSTS = {measure.REFERENCE: [1.0] * 4, measure.FREE: [5.0] * 4, measure.CYLINDERS: [8.0] * 4, measure.ARCS: [9.0] * 4}
 
 
-def here(**changes: object) -> Record:
-    """A record of this machine, of other sources."""
+def record_here(**changes: object) -> Record:
+    """A record of this machine with other sources."""
     kernels = {
         name: Kernel(unit="segment-step", size="60 segments", ns=4 * taken[0], samples=tuple(taken))
         for name, taken in COSTS.items() if name != measure.REFERENCE
@@ -41,14 +41,14 @@ def measuring(monkeypatch: pytest.MonkeyPatch, costs: measure.Costs) -> None:
     monkeypatch.setattr(measure, "alone", lambda processes: ({k: [4 * c for c in v] for k, v in costs.items()}, {}))
 
 
-def test_the_same_sources_need_no_race() -> None:
+def test_the_same_sources_are_not_raced() -> None:
     outcome = gate(a_record(sources=history.sources_of(measure.ROOT)), FILE, str)
     assert outcome.passed
     assert "nothing to compare" in outcome.how
 
 
 def test_the_release_is_raced_where_the_checkout_has_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Whatever machine the record is of."""
+    """Independent of the machine of the record."""
     monkeypatch.setattr(module, "check_out", lambda *_: tmp_path)
     slower = COSTS | {measure.FREE: [6.5] * 4}
     monkeypatch.setattr(measure, "side_by_side", lambda release, pairs, root: (COSTS, slower))
@@ -58,20 +58,20 @@ def test_the_release_is_raced_where_the_checkout_has_it(monkeypatch: pytest.Monk
 
 
 @pytest.mark.usefixtures("no_sources")
-def test_without_sources_the_record_of_such_a_processor_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_sources_the_record_of_the_same_processor_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
     measuring(monkeypatch, COSTS)
-    outcome = gate(here(), FILE, str)
+    outcome = gate(record_here(), FILE, str)
     assert outcome.passed
     assert len(outcome.verdicts) == 5
-    assert "recorded on such a processor (this shallow clone" in outcome.how
+    assert "from the same kind of processor (this shallow clone" in outcome.how
     measuring(monkeypatch, COSTS | {measure.ARCS: [12.0] * 4})
-    failed = {verdict.kernel for verdict in gate(here(), FILE, str).verdicts if verdict.fails}
+    failed = {verdict.kernel for verdict in gate(record_here(), FILE, str).verdicts if verdict.fails}
     assert failed == {measure.ARCS, "contact's addition, arcs"}
 
 
 @pytest.mark.usefixtures("no_sources")
-def test_the_record_of_another_machine_judges_nothing_and_says_so() -> None:
-    outcome = gate(here(processor="abacus"), FILE, str)
+def test_the_record_of_another_machine_is_not_compared_and_the_reason_is_reported() -> None:
+    outcome = gate(record_here(processor="abacus"), FILE, str)
     assert outcome.passed
     assert not outcome.verdicts
     assert "not compared" in outcome.how
@@ -87,7 +87,7 @@ def invoke(*arguments: str) -> tuple[int, str]:
 
 def test_the_command_fails_and_names_the_kernel(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     assert invoke("gate", "--history", str(tmp_path)) == (0, "no release is recorded: nothing to compare with\n")
-    history.write(here(), tmp_path)
+    history.write(record_here(), tmp_path)
 
     def with_costs(now: measure.Costs) -> tuple[int, str]:
         verdicts = decide(measure.judged(COSTS), measure.judged(now))
@@ -107,17 +107,17 @@ def test_the_command_fails_and_names_the_kernel(monkeypatch: pytest.MonkeyPatch,
     assert "missing: x is no longer measured" in text
 
 
-def test_a_run_beside_the_last_release(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_a_run_next_to_the_last_release(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(commands.screen, "_width", 80)
-    monkeypatch.setattr(commands, "measured", lambda release="": here(release="now"))
-    history.write(here(), tmp_path)
+    monkeypatch.setattr(commands, "measured", lambda release="": record_here(release="now"))
+    history.write(record_here(), tmp_path)
     code, text = invoke("compare", "--history", str(tmp_path))
     assert code == 0
-    assert "this run against release 1.0" in text
+    assert "this run and release 1.0" in text
     assert "+0.0%" in text
     assert "contact :" in text
     assert "…" not in text
-    history.write(here(processor="abacus", release="2.0", date=here().date.replace(year=2027)), tmp_path)
+    history.write(record_here(processor="abacus", release="2.0", date=record_here().date.replace(year=2027)), tmp_path)
     _, text = invoke("compare", "--history", str(tmp_path))
     assert "another processor, abacus" in text
     assert "+0.0%" not in text
@@ -125,14 +125,14 @@ def test_a_run_beside_the_last_release(monkeypatch: pytest.MonkeyPatch, tmp_path
 
 def test_a_measurement_becomes_a_record(monkeypatch: pytest.MonkeyPatch) -> None:
     subject = {name: {"unit": "segment-step", "size": "60 segments"} for name in COSTS}
-    monkeypatch.setattr(measure, "alone", lambda processes, tell: (COSTS, subject))
+    monkeypatch.setattr(measure, "alone", lambda processes, report: (COSTS, subject))
     record = commands.measured("4.0")
     assert (record.release, record.ratios) == ("4.0", COSTS)
     assert record.not_here(history.reference_digest(), history.processor(), history.machine_versions()) == ""
 
 
 def test_a_record_needs_committed_sources(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(commands, "measured", lambda release="": here(release=release))
+    monkeypatch.setattr(commands, "measured", lambda release="": record_here(release=release))
     monkeypatch.setattr(history, "uncommitted", lambda: " M fctd/joints.py")
     with pytest.raises(InputError, match="everything committed"):
         invoke("record", "--history", str(tmp_path))

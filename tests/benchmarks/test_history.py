@@ -1,4 +1,4 @@
-"""Records: readable files, the newest of them, and when one says something about this machine."""
+"""Records: readable files, the newest of them, and when one is comparable on this machine."""
 
 import json
 from datetime import UTC, datetime
@@ -23,7 +23,7 @@ def a_record(**changes: object) -> Record:
     return Record.model_validate(known | changes)
 
 
-def test_a_record_survives_its_file(tmp_path: Path) -> None:
+def test_a_record_is_read_back_from_its_file(tmp_path: Path) -> None:
     record = a_record()
     path = history.write(record, tmp_path)
     assert path.name == "2026-01-02-1.0-abc1234.json"
@@ -49,7 +49,7 @@ def test_the_last_release_is_the_newest_by_its_own_date(tmp_path: Path) -> None:
     assert found[1].release == "1.1"
 
 
-def test_a_file_that_is_no_record_is_named(tmp_path: Path) -> None:
+def test_an_invalid_record_file_is_named(tmp_path: Path) -> None:
     (tmp_path / "x.json").write_text('{"release": "1.0"}')
     with pytest.raises(InputError, match=r"x\.json: date is missing: expected a record"):
         history.read(tmp_path)
@@ -61,14 +61,14 @@ def test_a_file_that_is_no_record_is_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("key", "value"),
     [
-        ("date", "2026-01-02T00:00:00"),  # of no time zone: not to be sorted
+        ("date", "2026-01-02T00:00:00"),  # without a time zone dates cannot be sorted
         ("commit", "--output=here"),  # git would take it for an option
         ("kernels", {}),
         ("kernels", {"joint loads": {"unit": "joint", "size": "64", "ns": 8.0, "samples": []}}),
         ("kernels", {"joint loads": {"unit": "joint", "size": "64", "ns": 8.0, "samples": [float("nan")]}}),
     ],
 )
-def test_a_record_that_nothing_compares_with_is_refused(key: str, value: object, tmp_path: Path) -> None:
+def test_a_record_with_invalid_values_is_refused(key: str, value: object, tmp_path: Path) -> None:
     path = history.write(a_record(), tmp_path)
     path.write_text(json.dumps(json.loads(path.read_text()) | {key: value}))
     with pytest.raises(InputError, match=rf"\.json: {key}.*expected a record"):
@@ -85,11 +85,11 @@ def test_a_record_that_nothing_compares_with_is_refused(key: str, value: object,
         ("r", "P", {"numba": "0.69"}, "another numba 0.68.1"),
     ],
 )
-def test_when_ratios_compare(reference: str, processor: str, changed: dict[str, str], reason: str) -> None:
+def test_when_ratios_are_comparable(reference: str, processor: str, changed: dict[str, str], reason: str) -> None:
     assert a_record().not_here(reference, processor, VERSIONS | changed) == reason
 
 
-def test_the_kept_history_is_of_the_present_yardstick() -> None:
+def test_the_last_record_is_in_units_of_the_present_reference_kernel() -> None:
     """The gate needs a release whose worker measures in the same units."""
     found = history.last_release()
     assert found is not None

@@ -1,4 +1,4 @@
-"""Samples: what falls out of them, and the talk with the processes that take them."""
+"""Samples: which disturbances cancel, and the exchange with the processes that measure."""
 
 from pathlib import Path
 
@@ -9,15 +9,15 @@ from benchmarks.subjects import ARCS, CYLINDERS, FCL, FREE, REFERENCE, Subject
 from fctd.case.errors import InputError
 
 
-def test_the_machine_and_the_process_fall_out_of_a_round() -> None:
-    """A slow moment doubles all costs; a badly placed reference kernel does not change what is compared."""
+def test_disturbances_of_machine_and_process_cancel_in_a_round() -> None:
+    """All costs doubled by load, or a slower reference kernel, do not change the compared ratios."""
     quiet = measure.in_units([{REFERENCE: 4.0, FREE: 20.0}, {REFERENCE: 6.0, FREE: 22.0}])
     loaded = measure.in_units([{REFERENCE: 8.0, FREE: 40.0}, {REFERENCE: 12.0, FREE: 44.0}])
     assert quiet == loaded
     assert quiet[1][FREE] / quiet[0][FREE] == pytest.approx(22 / 20)
 
 
-def test_what_is_judged_and_what_is_told() -> None:
+def test_kernels_of_the_gate_and_ratios_for_information() -> None:
     costs = {REFERENCE: [1.0, 1.0], FREE: [5.0, 6.0], CYLINDERS: [8.0, 9.0], ARCS: [10.0, 9.0], FCL: [4000.0, 4500.0]}
     assert measure.judged(costs) == {
         FREE: [5.0, 6.0], CYLINDERS: [8.0, 9.0], ARCS: [10.0, 9.0],
@@ -49,7 +49,7 @@ for k, _ in enumerate(sys.stdin):
 
 
 def sources(root: Path, cost: float, protocol: int = worker.PROTOCOL, reference: str = "") -> Path:
-    """Sources whose worker says what it is told to."""
+    """Sources whose worker returns the given costs and handshake."""
     package = root / "benchmarks"
     package.mkdir(parents=True)
     (package / "__init__.py").touch()
@@ -69,9 +69,9 @@ def test_two_releases_take_turns_in_pairs_of_processes(tmp_path: Path) -> None:
 
 
 def test_sources_are_compiled_into_a_cache_of_their_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not into the one that tests and studies have filled in whatever order."""
+    """Not into the cache that tests and studies have filled in any order."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "of tests"))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "tests"))
     folders = set()
     for text in ("1", "2"):
         (tmp_path / text / "fctd").mkdir(parents=True)
@@ -81,14 +81,14 @@ def test_sources_are_compiled_into_a_cache_of_their_own(tmp_path: Path, monkeypa
     assert {Path(folder).parent for folder in folders} == {tmp_path / "fctd"}
     monkeypatch.delenv("XDG_CACHE_HOME")
     monkeypatch.setattr(Path, "home", lambda: (_ for _ in ()).throw(RuntimeError("no home")))
-    assert measure.environment(tmp_path)["NUMBA_CACHE_DIR"] == str(tmp_path / "of tests")
+    assert measure.environment(tmp_path)["NUMBA_CACHE_DIR"] == str(tmp_path / "tests")
 
 
-def test_a_worker_that_fails_or_measures_otherwise_is_told(tmp_path: Path) -> None:
+def test_a_worker_that_fails_or_measures_in_other_units_is_an_error(tmp_path: Path) -> None:
     for name, changes in {"old": {"protocol": 0}, "other": {"reference": "another"}}.items():
         with pytest.raises(InputError, match="same reference kernel and protocol"):
             measure.alone(1, sources(tmp_path / name, 1.0, **changes))
     broken = sources(tmp_path / "broken", 1.0)
-    (broken / "benchmarks" / "worker.py").write_text("raise SystemExit('told')")
+    (broken / "benchmarks" / "worker.py").write_text("raise SystemExit('failed')")
     with pytest.raises(InputError, match="whose worker runs"):
         measure.alone(1, broken)

@@ -1,4 +1,4 @@
-"""What a benchmark writes down beside its time, and what is printed of it."""
+"""Entries of a benchmark's record besides its time, and the printed summary."""
 
 from types import SimpleNamespace
 
@@ -28,20 +28,20 @@ def test_a_record_names_machine_versions_and_commit():
     assert benchmark.extra_info["extrapolated"] is False
 
 
-def test_steps_are_counted_and_the_hook_load_is_held_against_the_weight(benchmark):
+def test_steps_are_counted_and_the_hook_load_is_compared_with_the_weight(benchmark):
     run, motion = moving(chain(20), 6.0)
     records.time_steps(benchmark, lambda span: run.advance(motion, span), run, run.step, 50)
     noted = benchmark.extra_info
     assert noted["segments"] == 20
-    assert noted["steps_a_round"] == 50
+    assert noted["steps_per_round"] == 50
     assert noted["simulated_s"] >= 50 * run.step * 0.999
     assert abs(noted["hookload_off_percent"]) < 5
 
 
-def test_a_string_that_blew_up_has_no_record(benchmark):
+def test_an_unstable_run_has_no_record(benchmark):
     run, motion = moving(chain(20), 1.0)
-    run.step *= 3  # past what symplectic Euler bears
-    with pytest.raises(UnstableError, match="no string any more"):
+    run.step *= 3  # above the stability limit of symplectic Euler
+    with pytest.raises(UnstableError, match="take a shorter step"):
         records.time_steps(benchmark, lambda span: run.advance(motion, span), run, run.step, 2000)
 
 
@@ -51,8 +51,8 @@ def test_the_trips_of_the_paper_have_its_segments():
     assert case.operations[0].speed == 0.5
 
 
-def test_lines_are_printed_for_what_records_say():
-    told = SimpleNamespace(name="a", has_error=False, extra_info={"real_time_factor": 1234.5, "extrapolated": True})
+def test_a_summary_line_is_printed_for_each_record_with_shown_entries():
+    shown = SimpleNamespace(name="a", has_error=False, extra_info={"real_time_factor": 1234.5, "extrapolated": True})
     silent = SimpleNamespace(name="b", has_error=False, extra_info={"segments": 60})
     broken = SimpleNamespace(name="c", has_error=True, extra_info={"real_time_factor": 1.0})
-    assert list(conftest.said([told, silent, broken])) == ["a: × real time 1.23e+03  (extrapolated)"]
+    assert list(conftest.summary_lines([shown, silent, broken])) == ["a: × real time 1.23e+03  (extrapolated)"]

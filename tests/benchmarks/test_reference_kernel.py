@@ -1,4 +1,4 @@
-"""The yardstick: that nobody edits it unknowingly, and that it measures arithmetic and nothing else."""
+"""The reference kernel: its source is unchanged, and it measures arithmetic only."""
 
 import os
 import re
@@ -12,17 +12,17 @@ from numba import njit
 from benchmarks import reference_kernel as kernel
 from benchmarks.worker import reference_digest
 
-# Every record in benchmarks/history/ is in units of this source.  A new yardstick needs new records.
+# Every record in benchmarks/history/ is in units of this source.  A new reference kernel needs new records.
 SOURCE = "306194ad3d1aa4e0"
 ROOT = Path(__file__).parents[2]
 
 
-def test_nobody_has_edited_it() -> None:
+def test_its_source_is_unchanged() -> None:
     assert reference_digest() == SOURCE
 
 
-def test_its_compiled_code_lies_where_the_engine_keeps_its_own() -> None:
-    """And not beside its source, which another user may not write."""
+def test_its_compiled_code_is_in_the_cache_folder_of_fctd() -> None:
+    """Not next to its source, where another user may have no write permission."""
     program = "from benchmarks import reference_kernel as k; print(k.reference_kernel.stats.cache_path)"
     done = subprocess.run(
         [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True,
@@ -32,7 +32,7 @@ def test_its_compiled_code_lies_where_the_engine_keeps_its_own() -> None:
 
 
 def test_values_stay_normal_and_of_order_one() -> None:
-    """Denormal numbers take many times longer, and would make the unit depend on how long it has run."""
+    """Denormal numbers take many times longer, and would make the unit depend on the number of passes."""
     S = kernel.new_buffer()
     kernel.reference_kernel(S, 20_000)
     used = S.reshape(kernel.ROWS, kernel.STRIDE)[:, kernel.FIRST : kernel.FIRST + kernel.COLUMNS]

@@ -1,4 +1,4 @@
-"""The sources of a release out of the checkout's history: found, or the reason why not."""
+"""The sources of a release from the checkout's history, or the reason why there are none."""
 
 import subprocess
 from pathlib import Path
@@ -41,20 +41,20 @@ def released(folder: Path) -> str:
     return (folder / "fctd" / "one.py").read_text()
 
 
-def test_by_the_commit_of_the_record(checkout: tuple[Path, Record, Path]) -> None:
+def test_sources_are_found_by_the_commit_of_the_record(checkout: tuple[Path, Record, Path]) -> None:
     root, record, file = checkout
     folder = check_out(record, file, root)
     assert released(folder) == "released"
     assert all((folder / name / "one.py").exists() for name in FOLDERS)
 
 
-def test_by_the_commit_that_brought_the_record(checkout: tuple[Path, Record, Path]) -> None:
-    """A branch that was rebased: the recorded commit has gone."""
+def test_sources_are_found_by_the_commit_that_added_the_record(checkout: tuple[Path, Record, Path]) -> None:
+    """On a rebased branch the recorded commit no longer exists."""
     root, record, file = checkout
     assert released(check_out(record.model_copy(update={"commit": "0123abc"}), file, root)) == "released"
 
 
-def test_a_record_may_lie_elsewhere(
+def test_a_record_may_be_in_another_folder(
     checkout: tuple[Path, Record, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     root, record, file = checkout
@@ -74,7 +74,7 @@ def test_a_commit_with_other_sources_is_refused(checkout: tuple[Path, Record, Pa
         check_out(record.model_copy(update={"sources": "others"}), file, root)
 
 
-def test_a_shallow_clone_says_so(checkout: tuple[Path, Record, Path], tmp_path: Path) -> None:
+def test_a_shallow_clone_is_reported(checkout: tuple[Path, Record, Path], tmp_path: Path) -> None:
     root, record, file = checkout
     clone = tmp_path / "clone"
     git(tmp_path, "clone", "--quiet", "--depth", "1", root.as_uri(), str(clone))
@@ -82,9 +82,9 @@ def test_a_shallow_clone_says_so(checkout: tuple[Path, Record, Path], tmp_path: 
         check_out(record, clone / file.relative_to(root), clone)
 
 
-def test_a_folder_that_is_no_checkout_says_so(checkout: tuple[Path, Record, Path], tmp_path: Path) -> None:
+def test_a_folder_that_is_no_checkout_is_reported(checkout: tuple[Path, Record, Path], tmp_path: Path) -> None:
     root, record, file = checkout
-    with pytest.raises(NoSourcesError, match="no checkout of its own"):
+    with pytest.raises(NoSourcesError, match="not the top of a checkout"):
         check_out(record, file, root / "benchmarks")
     with pytest.raises(NoSourcesError, match="not a git repository"):
         check_out(record, file, tmp_path)

@@ -1,7 +1,7 @@
-"""The decision, on samples of real processes.
+"""The decision of the gate on samples of real processes.
 
-recorded.json holds what pairs of processes of the same sources measured on two cores that had five to ten other
-processes to serve, and pairs of which one had its contact slowed on purpose.
+recorded.json has the samples of pairs of processes with the same sources, on two cores shared with five to ten other
+processes, and of pairs of which one had a deliberately slower contact.
 """
 
 import json
@@ -22,7 +22,7 @@ KERNELS = list(measure.judged(RECORDED["unchanged"]["now"]))
 
 
 def draws(count: int) -> Iterator[tuple[Costs, Costs]]:
-    """The pairs of processes of the same sources in any order, each with its sides in either."""
+    """The pairs of processes with the same sources in random order, each with its sides swapped at random."""
     chance = np.random.default_rng(1)
     first, second = (RECORDED["unchanged"][side] for side in ("before", "now"))
     for _ in range(count):
@@ -36,7 +36,7 @@ def draws(count: int) -> Iterator[tuple[Costs, Costs]]:
 
 
 def gated(before: Costs, now: Costs, kernel: str = "", factor: float = 1.0) -> dict[str, Verdict]:
-    """The gate on recorded samples instead of processes, one kernel slowed by a factor."""
+    """The gate on recorded samples instead of processes, with one kernel slower by a factor."""
     before, now = measure.judged(before), measure.judged(now)
     if kernel:
         now[kernel] = [factor * cost for cost in now[kernel]]
@@ -49,14 +49,14 @@ def cut(costs: Costs, processes: int) -> Costs:
     return {name: taken[:processes] for name, taken in costs.items()}
 
 
-def test_unchanged_sources_pass_whatever_the_load() -> None:
+def test_unchanged_sources_pass_under_load() -> None:
     for before, now in draws(200):
         statuses = {verdict.status for verdict in gated(before, now).values()}
         assert "slower" not in statuses
 
 
 def share_caught(factor: float, kernels: list[str], count: int) -> float:
-    """Share of gates that fail, and name that kernel alone, when one kernel is so many times slower."""
+    """Share of gates that fail and name only the slower kernel, when one kernel is slower by ``factor``."""
     found = []
     for before, now in draws(count):
         for kernel in kernels:
@@ -65,7 +65,7 @@ def share_caught(factor: float, kernels: list[str], count: int) -> float:
 
 
 def test_slower_kernels_are_caught_and_named() -> None:
-    """A fifth is little above the threshold, and noise has to fit between; contact's addition is thrice as noisy."""
+    """Slower by a fifth is close to the threshold for this noise; contact's addition is three times as noisy."""
     own = [name for name in KERNELS if "addition" not in name]
     assert share_caught(1.2, own, 20) > 0.85
     assert share_caught(1.25, own, 20) > 0.98
@@ -80,8 +80,8 @@ def test_kernels_slower_below_the_threshold_pass(factor: float) -> None:
             assert not any(gated(before, now, kernel, factor)[kernel].fails for before, now in draws(30))
 
 
-def test_contact_slowed_on_purpose_was_caught_by_name() -> None:
-    """The slower of the two copies of benchmarks/README.md, raced once more with its samples kept."""
+def test_deliberately_slower_contact_is_caught_by_name() -> None:
+    """Samples of a race of the slower of the two copies in benchmarks/README.md."""
     slowed = RECORDED["slowed"]
     found = decide(measure.judged(slowed["before"]), measure.judged(slowed["now"]))
     caught = {verdict.kernel for verdict in found if verdict.fails}
@@ -89,7 +89,7 @@ def test_contact_slowed_on_purpose_was_caught_by_name() -> None:
     assert caught <= {"contact's addition, cylinders", "contact's addition, arcs", measure.CYLINDERS, measure.ARCS}
 
 
-def test_missing_and_new_kernels_are_told() -> None:
+def test_missing_and_new_kernels_are_reported() -> None:
     before, now = {"a": [1.0] * 3, "gone": [1.0] * 3}, {"a": [1.0] * 3, "fresh": [9.0] * 3}
     found = {verdict.kernel: verdict for verdict in decide(before, now)}
     assert list(found) == ["a", "gone", "fresh"]
@@ -109,7 +109,7 @@ def test_each_status_at_its_side_of_the_threshold() -> None:
     assert status([1.0, 1.0], 2.0) == "too few"
 
 
-def test_the_change_is_that_of_two_samples_and_knows_no_outlier() -> None:
+def test_the_change_is_the_ratio_of_two_samples_and_robust_against_outliers() -> None:
     before, now = [4.0, 4.1, 3.9, 4.0, 40.0], [6.0, 6.1, 5.9, 0.6, 6.0]
     change, low, high = change_of(before, now)
     assert change == pytest.approx(1.5, rel=0.03)
@@ -117,16 +117,16 @@ def test_the_change_is_that_of_two_samples_and_knows_no_outlier() -> None:
     assert change_of([4.0] * 5, [6.0] * 5) == (1.5, 1.5, 1.5)
 
 
-def test_the_interval_covers_as_often_as_it_says() -> None:
-    """80 % of intervals of lognormal samples hold the true change, with few processes and with many."""
+def test_the_interval_has_its_nominal_coverage() -> None:
+    """80 % of the intervals of lognormal samples contain the true change, with few processes and with many."""
     chance = np.random.default_rng(2)
     for count in (4, 8, 12):
-        held = []
+        covered = []
         for _ in range(800):
             before, now = np.exp(0.05 * chance.standard_normal((2, count)))
             _, low, high = change_of(before, 1.2 * now)
-            held.append(low <= 1.2 <= high)
-        assert 0.74 < np.mean(held) < 0.90
+            covered.append(low <= 1.2 <= high)
+        assert 0.74 < np.mean(covered) < 0.90
 
 
 def test_more_processes_narrow_the_interval() -> None:
@@ -139,7 +139,7 @@ def test_more_processes_narrow_the_interval() -> None:
 
 
 def batches(factors: list[float]) -> tuple[list[float], Iterator[tuple[Costs, Costs]]]:
-    """Batches of processes whose cylinders cost so many times what they did; what is left of the list was not used."""
+    """Batches whose cylinders are slower by the given factors; factors that remain in the list were not used."""
     base = {measure.REFERENCE: [1.0] * PROCESSES, measure.FREE: [5.0] * PROCESSES, measure.ARCS: [9.0] * PROCESSES}
 
     def one() -> Iterator[tuple[Costs, Costs]]:
@@ -153,16 +153,16 @@ def batches(factors: list[float]) -> tuple[list[float], Iterator[tuple[Costs, Co
     return factors, one()
 
 
-def test_the_gate_measures_again_what_looks_slower_and_only_that() -> None:
+def test_the_gate_measures_again_only_if_a_kernel_looks_slower() -> None:
     left, taken = batches([1.0, 1.0])
     outcome = sampled("raced", lambda: next(taken), str)
     assert outcome.passed
     assert len(left) == 1
-    told: list[str] = []
+    reported: list[str] = []
     left, taken = batches([1.5, 1.0, 1.0, 1.0])
-    outcome = sampled("raced", lambda: next(taken), told.append)
-    assert outcome.passed  # a fluke of the first batch
-    assert "step, cylinders" in told[0]
+    outcome = sampled("raced", lambda: next(taken), reported.append)
+    assert outcome.passed  # an outlier in the first batch
+    assert "step, cylinders" in reported[0]
     left, taken = batches([1.5] * 9)
     outcome = sampled("raced", lambda: next(taken), str)
     assert not outcome.passed

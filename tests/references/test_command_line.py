@@ -1,4 +1,4 @@
-"""``python -m references`` as a user meets it: the list, a run, messages, exit codes."""
+"""``python -m references`` from the command line: the list, a run, messages, exit codes."""
 
 from pathlib import Path
 
@@ -29,7 +29,7 @@ def test_the_list_names_every_method(monkeypatch: pytest.MonkeyPatch, capsys: py
         assert name in printed
 
 
-def test_simulate_writes_what_the_engine_writes(
+def test_simulate_writes_the_same_files_as_fctd(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     arguments = ("--contact", "cylinders", "--option", "cylinder_length=1 m", "--friction", "0.3", "--csv")
@@ -66,7 +66,7 @@ def test_bad_input_is_one_message_and_exit_code_2(
     assert "Traceback" not in message
 
 
-def test_a_missing_package_is_exit_code_2_and_stands_in_the_list(
+def test_a_missing_package_is_exit_code_2_and_is_listed(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     method = contact.method_class("fcl")
@@ -86,7 +86,7 @@ def test_interrupted_is_exit_code_130(monkeypatch: pytest.MonkeyPatch, tmp_path:
     assert call(monkeypatch, "simulate", CASE, "--contact", "cylinders", "--out", tmp_path) == 130
 
 
-def test_an_engine_runs_a_window_and_tells_its_checks(
+def test_an_engine_runs_a_window_and_prints_its_checks(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     window = ("--start", "6", "--duration", "1", "--set", "record.interval=0.1 s")

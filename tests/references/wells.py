@@ -1,4 +1,4 @@
-"""The hole that every contact method is asked about, and points beside its wall."""
+"""The hole for the tests of all contact methods, and points near its wall."""
 
 from typing import Any
 
@@ -18,11 +18,11 @@ REGIONS = {"straight": (5.0, 55.0), "build": (62.0, 118.0), "turn": (122.0, 178.
 
 
 def bent_case(**wellbore: Any) -> Case:
-    """The hole above, of exact arcs unless told otherwise."""
+    """The case of the hole above, with exact arcs by default; ``wellbore`` overrides its keys."""
     return make_case(STATIONS, [pipe(200, 20)], wellbore={"geometry": "arcs", "cylinder_length": 2.0} | wellbore)
 
 
-def beside_the_wall(region: str, count: int, seed: int = 7) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def points_near_wall(region: str, count: int, seed: int = 7) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Points (n, 3) [m] within 15 mm of touching, from exact arcs, and their distance from the axis (n,) [m]."""
     rng = np.random.default_rng(seed)
     md, angle = rng.uniform(*REGIONS[region], count), rng.uniform(0, 2 * np.pi, count)

@@ -1,4 +1,4 @@
-"""From a case to the beam of finite elements that it describes."""
+"""The finite-element beam of a case."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ from references.beams.case import beam_of, steady, top_of
 from validation.cases import load
 
 
-def test_beam_is_the_whole_string_at_its_deepest():
+def test_beam_is_the_whole_string_at_its_greatest_depth():
     case = load("scaled_section")
     beam = beam_of(case, 0.3, 20.0)
     assert beam.length == pytest.approx(44.0)
@@ -32,7 +32,7 @@ def test_elements_like_segments():
     assert beam.wall.dx.shape[1] == 2
 
 
-def test_top_goes_down_as_the_engine_feeds():
+def test_top_moves_down_as_fctd_feeds_pipe():
     top, duration = top_of(load("scaled_section"))
     assert duration == pytest.approx(25.0)  # 12 m at 0.5 m/s, and half of the ramp of 2 s
     assert top(0.0) == pytest.approx(-12.0)
@@ -68,7 +68,7 @@ def test_several_operations_follow_each_other():
         ),
     ],
 )
-def test_other_cases_are_refused(overrides, key):
+def test_unsuitable_cases_are_refused(overrides, key):
     with pytest.raises(InputError) as refused:
         beam_of(load("scaled_section", **overrides), 0.3, 20.0)
     assert refused.value.key == key
@@ -80,15 +80,15 @@ def test_a_fine_mesh_longer_than_the_string_is_refused():
 
 
 def slanted(**changes):
-    """A straight hole at 60 deg of 40 m, filled by its pipe."""
+    """A straight hole of 40 m at 60 deg, with pipe over its whole length."""
     hole = {"wellbore__stations": [[0, 60, 0], [40, 60, 0]], "operations": None, "wellbore__intervals__0__to_md": 40.0}
     even = {"string__components__1__segments": None, "string__components__1__segment_length": 0.6}
     return load("scaled_section", **hole, **even, wellbore__intervals__0__friction=0.25, **changes)
 
 
 @pytest.mark.parametrize("segments", [1, 3])
-def test_a_pipe_laid_down_presses_with_its_weight_and_slides_with_its_friction(segments, monkeypatch):
-    """W sin I less what the clamp carries, ⅔ wL with L⁴ = 72 EI c/w of weight across; W cos I less μ of it."""
+def test_contact_force_is_the_weight_across_and_hook_load_has_the_friction(segments, monkeypatch):
+    """Contact force W sin I less ⅔ wL at the clamp (L⁴ = 72 EI c/w, w across); hook load W cos I less μ times it."""
     section = beam_of(load("scaled_section"), 0.3, 20.0).section
     across = section.weight * np.sin(np.pi / 3)
     clamp = 2 / 3 * across * (72 * section.EI * 0.025 / across) ** 0.25
@@ -105,7 +105,7 @@ def test_a_pipe_laid_down_presses_with_its_weight_and_slides_with_its_friction(s
     assert found.hookload == pytest.approx(20 * section.weight - 0.25 * found.contact_force, rel=2e-3)
 
 
-def test_a_fall_that_does_not_converge_says_so(monkeypatch):
+def test_a_relaxation_that_does_not_converge_is_an_error(monkeypatch):
     monkeypatch.setattr(elements, "MOST_ITERATIONS", 1)
     with pytest.raises(elements.ConvergenceError):
         steady(slanted(), 40.0)

@@ -52,13 +52,13 @@ def test_scheme_damps_the_fastest_modes_and_is_second_order(share):
 
     assert np.abs(np.linalg.eigvals(amplification(1e6))).max() == pytest.approx(share, abs=2e-2)
     slow = 0.01
-    # Two of the roots are the oscillation, the third is the scheme's own.
+    # Two of the roots are the oscillation, the third is spurious.
     phases = np.abs(np.angle(np.linalg.eigvals(amplification(slow))))
     phase = phases[(phases > 1e-6) & (phases < 1)].mean()
     assert phase == pytest.approx(slow, rel=2e-4)
 
 
-def test_energy_of_the_dynamic_beam_is_accounted_for():
+def test_energy_balance_of_the_dynamic_beam_closes():
     model = pipe(friction=0.2, creep=0.05, lateral_damping=50.0, axial_damping=20.0)
     ledgers = [lowered(model, 1.0, steps, 1.0).ledger for steps in (50, 100)]
     last = ledgers[-1].iloc[-1]
@@ -67,17 +67,17 @@ def test_energy_of_the_dynamic_beam_is_accounted_for():
     assert last["strain_J"] > 10
     left = [ledger["residual_J"].abs().max() / work(ledger) for ledger in ledgers]
     assert left[-1] < 5e-4
-    # Second order but for the instants at which contact begins.
+    # Second order except at the instants at which contact begins.
     assert left[-1] < left[0] / 2.5
 
 
-def test_a_force_left_out_shows_in_the_ledger():
-    """The ledger would see an error of the size of the mud's loss."""
+def test_a_missing_force_would_show_in_the_ledger():
+    """The residual is far below the loss to the mud."""
     ledger = lowered(pipe(lateral_damping=50.0, axial_damping=20.0), 1.0, 100, 1.0).ledger
     assert ledger["lost_mud_J"].iloc[-1] > 10 * ledger["residual_J"].abs().max()
 
 
-def test_static_work_is_stored_or_rubbed_off():
+def test_static_work_is_stored_or_lost_to_friction():
     model = pipe(friction=0.2, creep=1e-3)
     ledger = lowered(model, 1.0, 100).ledger
     assert (ledger["kinetic_J"] == 0).all()
@@ -87,14 +87,14 @@ def test_static_work_is_stored_or_rubbed_off():
 
 
 def test_slow_lowering_tends_to_equilibrium():
-    """The states along the way, within 1 % of the clearance in the end, first order in the speed."""
+    """Difference of the states of first order in the speed, below 1 % of the clearance at the lowest speed."""
     still, slowed = lowered(pipe(), 1.0, 20).states, pipe(lateral_damping=20.0)
     away = [np.abs(lowered(slowed, speed, 100, 0.8).states - still).max() for speed in (4, 1, 0.25)]
     assert away[0] > 3 * away[1] > 9 * away[2]
     assert away[2] < 0.01 * 0.025
 
 
-def test_held_top_follows_and_is_held_sideways():
+def test_top_follows_its_path_and_stays_fixed_laterally():
     model = pipe()
     top = model.dofs(0.0)
     states = lowered(model, 2.0, 50, 0.8).states

@@ -1,4 +1,4 @@
-"""The beam of finite elements against exact answers, at its theoretical order."""
+"""The finite-element beam converges to exact solutions with its theoretical order."""
 
 import numpy as np
 import pytest
@@ -50,7 +50,7 @@ def test_tangent_is_the_derivative_of_the_forces():
 
 
 def test_tables_assemble_as_the_forms_of_scikit_fem():
-    """Nodal forces, tangents and masses that one product of tables makes are those of scikit-fem's own loops."""
+    """Nodal forces, tangents and masses from the tables equal those of scikit-fem's own assembly."""
     model = Beam(np.array([0.0, 0.6, 1.0]), section(1e4, 50.0, 4e3), Surroundings(weight=3.0))
     rng = np.random.default_rng(2)
     q = rng.standard_normal(model.strains.N)
@@ -162,7 +162,7 @@ def test_pipe_lies_on_the_low_side_of_an_inclined_hole():
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_friction_acts_where_the_pipe_touches(side):
-    """A section that turns about the point at the wall slides not, and one that turns in place is held back."""
+    """A section that rotates about its point at the wall does not slide; one that rotates in place does."""
     hole = PlanarHole(np.array([[0, 30, 0], [40, 30, 0]], dtype=float))
     radius, turning, deep = 0.3, 0.7, 1e-3
     around = Surroundings(hole, 0.05, 1e3, friction=0.5, radius=radius, creep=1e-4)
@@ -183,7 +183,7 @@ def test_friction_acts_where_the_pipe_touches(side):
     assert model.wall_load(q, rolling).friction_loss == pytest.approx(0.0, abs=1e-9)
 
 
-def test_a_wall_at_the_ends_alone_is_the_trapezoidal_rule():
+def test_a_wall_at_the_ends_of_elements_is_the_trapezoidal_rule():
     hole = PlanarHole(np.array([[0, 0, 0], [40, 0, 0]], dtype=float))
     around = Surroundings(hole, clearance=0.05, stiffness=1e3, weight=3.0)
     coarse = Beam(np.array([0.0, 0.6, 1.0]), section(1e4, 1.0, 4e3), around, at_ends=True)
@@ -196,7 +196,7 @@ def test_a_wall_at_the_ends_alone_is_the_trapezoidal_rule():
     assert coarse.mass.toarray() == pytest.approx(fine.mass.toarray())
 
 
-def test_newton_says_when_it_fails():
+def test_failed_newton_iteration_is_an_error():
     model = beam(2)
-    with pytest.raises(ConvergenceError, match="out of balance"):
+    with pytest.raises(ConvergenceError, match="unbalanced force"):
         newton(lambda q: (q * 0 + np.nan, model.mass), model.straight(0.0), np.array([4, 5]), 1.0)

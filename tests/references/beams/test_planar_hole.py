@@ -13,7 +13,7 @@ STATIONS = to_radians(np.array([[0, 0, 0], [32, 0, 0], [50, 36, 0], [70, 20, 0],
 
 
 @given(st.floats(1.0, 88.0), st.floats(-0.5, 0.5))
-def test_a_point_beside_the_axis_is_found_again(md, offset):
+def test_coordinates_of_a_point_near_the_axis_are_recovered(md, offset):
     hole = PlanarHole(STATIONS)
     (point,), (tangent,) = survey.along_courses(survey.minimum_curvature(STATIONS), np.array([md]))
     along = np.array([tangent[2], tangent[0]])
@@ -52,12 +52,12 @@ def test_normal_and_turn_are_derivatives_of_the_offset(md, offset):
     ("stations", "words"),
     [([[0, 0, 0], [30, 10, 0], [60, 20, 30]], "one azimuth"), ([[0, 0, 0], [100, 95, 0]], "90 deg")],
 )
-def test_other_holes_are_refused(stations, words):
+def test_holes_off_one_plane_or_past_90_degrees_are_refused(stations, words):
     with pytest.raises(ValueError, match=words):
         PlanarHole(to_radians(np.array(stations, dtype=float)))
 
 
-def test_one_plane_is_one_plane_whatever_its_azimuth_is_called():
+def test_azimuths_0_and_360_are_the_same_plane():
     stations = STATIONS.copy()
     stations[3:, 2] = 2 * np.pi
     point = np.array([60.0, 5.0])

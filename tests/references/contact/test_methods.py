@@ -1,4 +1,4 @@
-"""One contract for every contact method: the exact tube within the method's own geometric error."""
+"""One contract for all contact methods: the exact hole within the geometric error of the method."""
 
 import numpy as np
 import pytest
@@ -8,11 +8,11 @@ from fctd.model.wellbore import build_wellbore, find_contacts
 from references import contact
 from references.contact.tube_mesh import curvature_at
 from references.registry import absent
-from tests.references.wells import HOLE, RADIUS, REGIONS, bent_case, beside_the_wall
+from tests.references.wells import HOLE, RADIUS, REGIONS, bent_case, points_near_wall
 from validation.cases import load
 
 CASE = bent_case()
-# Mesh methods are asked twice, so that an error that ignores the resolution shows.
+# Mesh methods are tested with two resolutions, to show an error that does not depend on it.
 MESHES = ("fcl", "coal", "bullet", "mujoco", "trimesh")
 SETTINGS = [("cylinders", {}), ("cylinders", {"cylinder_length": "6 m"}), ("arcs", {}), ("for_loop", {})]
 SETTINGS += [
@@ -25,7 +25,7 @@ BUILT: dict[str, contact.ContactMethod] = {}
 
 @pytest.fixture(params=zip(IDS, SETTINGS, strict=True), ids=IDS)
 def method(request: pytest.FixtureRequest) -> contact.ContactMethod:
-    """A method built for the case; skipped by name where its package is missing."""
+    """A method built for the case; skipped, with the name of its package, where that is missing."""
     key, (name, options) = request.param
     if contact.installed_version(name) is None:
         pytest.skip(f"package {absent(contact.method_class(name).distribution)}")
@@ -39,7 +39,7 @@ def truth(points):
 
 
 def curvature(region):
-    """Of the arcs of the hole itself [1/m]."""
+    """Curvature of the arcs of the hole [1/m]."""
     hole = build_wellbore(CASE)
     md = np.linspace(*REGIONS[region], 500)
     turn = np.linalg.norm(np.diff(hole.at(md)[1], axis=0), axis=1)
@@ -47,12 +47,12 @@ def curvature(region):
 
 
 @pytest.mark.parametrize("region", REGIONS)
-def test_the_exact_tube_within_the_geometric_error(method: contact.ContactMethod, region: str) -> None:
-    points, offset = beside_the_wall(region, 120)
+def test_the_exact_hole_within_the_geometric_error(method: contact.ContactMethod, region: str) -> None:
+    points, offset = points_near_wall(region, 120)
     exact = truth(points)
     hits = method.query(points, np.full(len(points), RADIUS))
     depth, turn = method.error_bound(curvature(region))
-    # A bend between chords is cut once along the axis and once, for mesh rings and overlaps, at its ends.
+    # Two per cent more for the errors of mesh rings and overlaps at the ends of a bend.
     depth, rounding = 1.02 * depth, 1e-6
 
     touching = hits.penetration > 0
@@ -63,7 +63,7 @@ def test_the_exact_tube_within_the_geometric_error(method: contact.ContactMethod
     error = hits.penetration - exact.penetration
     assert np.abs(error[known]).max() <= depth + rounding
     direction = np.arccos(np.clip(np.sum(hits.normal * exact.normal, axis=1)[known], -1, 1))
-    # What shifts the wall sideways turns the direction by the shift over the distance from the axis.
+    # A lateral shift of the wall turns the normal by the shift over the distance from the axis.
     assert (direction <= turn + (depth + rounding) / offset[known] + 1e-6).all()
     assert np.allclose(np.linalg.norm(hits.normal[known], axis=1), 1, atol=1e-9)
     shift = curvature(region) * offset.max() * 3.0 + 1e-3
@@ -73,7 +73,7 @@ def test_the_exact_tube_within_the_geometric_error(method: contact.ContactMethod
 @pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
 @pytest.mark.parametrize("name", contact.METHODS)
 def test_bends_of_hundreds_of_metres_between_two_stations(name: str, geometry: str) -> None:
-    """A course is one arc or many cylinders; a mesh has rings enough within either."""
+    """A course is one arc or many cylinders; a mesh has enough rings in both."""
     if contact.installed_version(name) is None:
         pytest.skip(f"package {absent(contact.method_class(name).distribution)}")
     case, exact = load("s_shape", wellbore__geometry=geometry), build_wellbore(load("s_shape"))
@@ -93,8 +93,8 @@ def test_bends_of_hundreds_of_metres_between_two_stations(name: str, geometry: s
     assert np.abs(hits.penetration - truth.penetration)[known].max() <= depth
 
 
-def test_contacts_only_say_nothing_of_a_clear_point(method: contact.ContactMethod) -> None:
-    points, _ = beside_the_wall("build", 60)
+def test_methods_without_clearance_return_no_values_for_clear_points(method: contact.ContactMethod) -> None:
+    points, _ = points_near_wall("build", 60)
     hits = method.query(points, np.full(60, RADIUS))
     clear = hits.penetration <= 0
     assert clear.any()
@@ -109,9 +109,9 @@ def test_contacts_only_say_nothing_of_a_clear_point(method: contact.ContactMetho
 
 
 def test_points_beyond_the_wall_are_deeper_than_their_radius(method: contact.ContactMethod) -> None:
-    """A distance has no sign of its own.  Methods that report contacts alone see the overlap of two surfaces: for
-    them a sphere is deepest while its centre is still inside."""
-    points, _ = beside_the_wall("build", 30)
+    """A distance has no sign.  Methods without clearance compute the overlap of two surfaces, which is largest while
+    the centre of the sphere is still inside the hole."""
+    points, _ = points_near_wall("build", 30)
     exact = truth(points)
     wanted = np.maximum(0.08, 0.08 + exact.penetration) if method.gives_clearance else np.full(30, 0.7 * RADIUS)
     beyond = points + (wanted - exact.penetration)[:, None] * exact.normal
@@ -122,8 +122,8 @@ def test_points_beyond_the_wall_are_deeper_than_their_radius(method: contact.Con
 
 
 @pytest.mark.parametrize("name", ["cylinders", "arcs"])
-def test_points_that_jump_in_a_well_past_90_degrees_are_looked_up_anew(name: str) -> None:
-    """The slab of a far piece holds them too, and a walk from a piece they remember would stop there."""
+def test_points_that_jump_in_a_well_past_90_degrees_are_searched_anew(name: str) -> None:
+    """They also lie between the end planes of a distant piece, where a search from their last piece would stop."""
     far = bent_case(
         stations=[[0, 0, 0], [450, 120, 0], [1000, 120, 0]],
         intervals=[{"to_md": 1000, "diameter": 2 * HOLE, "friction": 0.2}],
@@ -137,7 +137,7 @@ def test_points_that_jump_in_a_well_past_90_degrees_are_looked_up_anew(name: str
 
 
 def test_each_point_has_its_own_radius(method: contact.ContactMethod) -> None:
-    points, _ = beside_the_wall("turn", 60)
+    points, _ = points_near_wall("turn", 60)
     radii = np.where(np.arange(60) % 2, RADIUS, RADIUS + 0.02)
     hits, same = method.query(points, radii), method.query(points, np.full(60, RADIUS + 0.02))
     wide = radii > RADIUS
@@ -147,9 +147,9 @@ def test_each_point_has_its_own_radius(method: contact.ContactMethod) -> None:
     np.testing.assert_allclose((same.penetration - hits.penetration)[both], 0.02, atol=2e-6)
 
 
-def test_answers_do_not_depend_on_what_was_asked_before(method: contact.ContactMethod) -> None:
-    points, _ = beside_the_wall("build", 50)
-    others, _ = beside_the_wall("turn", 50, seed=8)
+def test_results_do_not_depend_on_earlier_queries(method: contact.ContactMethod) -> None:
+    points, _ = points_near_wall("build", 50)
+    others, _ = points_near_wall("turn", 50, seed=8)
     radii = np.full(50, RADIUS)
     first = method.query(points, radii)
     method.query(others, radii)
@@ -157,8 +157,8 @@ def test_answers_do_not_depend_on_what_was_asked_before(method: contact.ContactM
         np.testing.assert_allclose(after, before, atol=1e-12)
 
 
-def test_one_point_and_points_of_another_number(method: contact.ContactMethod) -> None:
-    points, _ = beside_the_wall("build", 70)
+def test_a_query_with_another_number_of_points(method: contact.ContactMethod) -> None:
+    points, _ = points_near_wall("build", 70)
     many = method.query(points, np.full(70, RADIUS))
     one = method.query(points[3:4], np.full(1, RADIUS))
     assert one.penetration.shape == (1,)
@@ -167,7 +167,7 @@ def test_one_point_and_points_of_another_number(method: contact.ContactMethod) -
 
 
 @pytest.mark.parametrize("name", contact.METHODS)
-def test_every_name_of_the_registry_is_the_class_it_says(name: str) -> None:
+def test_every_class_has_the_name_of_its_registry_entry(name: str) -> None:
     assert contact.method_class(name).name == name
 
 
@@ -183,16 +183,16 @@ def test_every_name_of_the_registry_is_the_class_it_says(name: str) -> None:
             {"ring_spacing": "300 m"},
             'ring_spacing = "300 m": expected at most the length of the hole, 240 m',
         ),
-        ("bullet", {"facets": 400, "ring_spacing": 0.5}, "at most the 174762 triangles that bullet takes"),
+        ("bullet", {"facets": 400, "ring_spacing": 0.5}, "at most the 174762 triangles that bullet accepts"),
         ("fcl", {"query": "guess"}, "fcl.query"),
         ("fcl", {"ring": 1}, "ring_spacing"),
         ("arcs", {"facets": 4}, "facets"),
         ("cylinders", {"cylinder_length": "0.1 m"}, "overlap"),
     ],
 )
-def test_bad_options_are_told(name: str, options: dict, expected: str) -> None:
+def test_bad_options_are_an_input_error(name: str, options: dict, expected: str) -> None:
     if name in contact.METHODS and contact.installed_version(name) is None:
         pytest.skip(f"package {absent(contact.method_class(name).distribution)}")
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as error:
         contact.build(name, CASE, **options)
-    assert expected in str(told.value)
+    assert expected in str(error.value)

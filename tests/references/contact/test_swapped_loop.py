@@ -1,4 +1,4 @@
-"""Another contact method in the engine's loop: the same run where it is the same wall, and a fault that stops one."""
+"""Another contact method in FCTD's loop: the same run for the same wall, and a fault that ends a run."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ def turning(geometry: str = "cylinders", **sections) -> Case:
 )
 @pytest.mark.parametrize("law", ["coulomb", "paper"])
 def test_the_same_wall_gives_the_same_run(name: str, geometry: str, law: str) -> None:
-    """Two sizes of hole and of friction, too: what the method does not know is taken from the case."""
+    """With two hole sizes and friction factors: stiffness and friction come from the case, not from the method."""
     case = turning(geometry, contact={"friction_law": law})
     own, swapped = simulate(case), simulate(case, contact=contact.build(name, case))
     assert swapped.status == "completed"
@@ -39,13 +39,13 @@ def test_the_same_wall_gives_the_same_run(name: str, geometry: str, law: str) ->
     assert own.run["contact"] == geometry
     assert swapped.run["step_s"] == own.run["step_s"]
     scale = own.history.select_dtypes("number").abs().max()
-    # What is left is the different start: the swapped run settles a little longer.
+    # The remaining difference is that of the start: the run with the other method settles a little longer.
     difference = (own.history.select_dtypes("number") - swapped.history.select_dtypes("number")).abs().max()
     assert (difference <= 2e-3 * scale + 1e-9).all()
     assert own.history["contact_count"].max() > 5
 
 
-def test_the_compiled_for_loop_is_the_engine_where_no_slab_is_crossed_twice() -> None:
+def test_the_compiled_for_loop_equals_fctd_where_its_cylinder_is_unique() -> None:
     case = turning()
     (run, phases), (loop, _) = prepare(case), prepare(case)
     motion, steps = phases[0].motion, 400
@@ -59,7 +59,7 @@ def test_the_compiled_for_loop_is_the_engine_where_no_slab_is_crossed_twice() ->
     assert state.row(loop.S, state.SUM_NORMAL, run.segments).sum() > 0
 
 
-def test_fcl_turns_the_string_like_the_engine() -> None:
+def test_loads_of_a_turning_string_with_fcl_are_those_of_fctd() -> None:
     pytest.importorskip("fcl")
     case = turning()
     own = simulate(case).history.iloc[-1]
@@ -69,42 +69,42 @@ def test_fcl_turns_the_string_like_the_engine() -> None:
 
 
 class Faulty:
-    """Cylinders whose answer is spoiled after some queries."""
+    """Cylinders whose result is changed by ``spoil`` after 1000 queries."""
 
     name = "faulty"
 
     def __init__(self, case: Case, spoil) -> None:
-        self.good, self.spoil, self.asked = contact.build("cylinders", case), spoil, 0
+        self.good, self.spoil, self.queries = contact.build("cylinders", case), spoil, 0
 
     def query(self, points, radii) -> Contacts:
-        self.asked += 1
+        self.queries += 1
         hits = self.good.query(points, radii)
-        return self.spoil(hits) if self.asked > 1000 else hits
+        return self.spoil(hits) if self.queries > 1000 else hits
 
 
-def test_a_method_that_answers_nonsense_stops_the_run_and_keeps_its_rows() -> None:
+def test_a_method_with_results_that_are_not_finite_ends_the_run_and_keeps_its_rows() -> None:
     case = turning()
 
-    nowhere = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)))
-    result = simulate(case, contact=nowhere)
+    faulty = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)))
+    result = simulate(case, contact=faulty)
     assert result.status == "unstable"
     assert "not finite" in result.message
     assert len(result.history) > 0
 
 
-def test_an_answer_of_the_wrong_shape_is_an_error() -> None:
+def test_a_result_of_the_wrong_shape_is_an_error() -> None:
     case = turning()
     with pytest.raises(ValueError, match=r"faulty.*25 points"):
         simulate(case, contact=Faulty(case, lambda hits: hits._replace(md=hits.md[:-1])))
 
 
-def test_no_wall_and_another_contact_method_exclude_each_other() -> None:
+def test_another_contact_method_without_contact_is_an_error() -> None:
     case = turning(contact={"enabled": False})
     with pytest.raises(InputError, match=r"contact\.enabled"):
         simulate(case, contact=contact.build("cylinders", case))
 
 
-def test_the_wall_along_the_hole_leads_from_one_size_to_the_next() -> None:
+def test_the_wall_along_the_hole_changes_from_one_size_to_the_next() -> None:
     wall = build_wellbore(turning()).wall_along()
     np.testing.assert_allclose(wall[:, :2], [[350, 0.12], [350.2, 0.10795]])
     np.testing.assert_allclose(wall[:, 3], [0.3, 0.2])

@@ -1,4 +1,4 @@
-"""The traps are there as they are told of, so that nobody has to believe it; a release that mends one shows here."""
+"""Each trap is present in the installed library; a release that corrects one makes its test fail."""
 
 import pytest
 
@@ -9,7 +9,7 @@ from references.registry import absent
 
 pytest.importorskip("trimesh")
 
-# Least number found where the obvious way fails: far above what geometry explains (2 mm of facets and chords).
+# Least error where the obvious way fails, far above that of the geometry (2 mm of facets and chords).
 FAILS = {
     ("fcl", "a capsule along the string"): 0.1,
     ("fcl", "one contact asked for (the default)"): 4.0,
@@ -20,7 +20,7 @@ FAILS = {
 
 
 @pytest.mark.parametrize("trap", traps.TRAPS, ids=[f"{trap.method}-{trap.tried}" for trap in traps.TRAPS])
-def test_the_obvious_way_fails_or_is_known_not_to(trap: traps.Trap) -> None:
+def test_the_obvious_way_fails_as_recorded(trap: traps.Trap) -> None:
     if contact.installed_version(trap.method) is None:
         pytest.skip(f"package {absent(contact.method_class(trap.method).distribution)}")
     found = traps.measure(trap, traps.scene(40))
@@ -30,7 +30,7 @@ def test_the_obvious_way_fails_or_is_known_not_to(trap: traps.Trap) -> None:
         assert found == 0
 
 
-def test_a_trap_of_a_missing_package_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_trap_of_a_missing_package_is_an_input_error(monkeypatch: pytest.MonkeyPatch) -> None:
     at = traps.scene(2)
     monkeypatch.setitem(__import__("sys").modules, "fcl", None)
     with pytest.raises(InputError, match="python-fcl, which is not installed"):

@@ -1,4 +1,4 @@
-"""The tube: closed but for its ends, normals out of the hole, vertices on the wall, errors of second order."""
+"""The tube mesh: closed except at its ends, normals out of the hole, vertices on the wall, second-order errors."""
 
 import dataclasses
 
@@ -35,15 +35,15 @@ def test_vertices_lie_on_the_wall_of_the_exact_hole() -> None:
     tube = tube_of()
     vertices = np.asarray(tube.mesh.vertices)
     depth = find_contacts(build_wellbore(CASE), vertices, 0.0).penetration
-    # A ring where two bends meet stands halfway between their chords, tilted by at most κℓ/2.
+    # A ring between two bends is normal to the mean of their chords, tilted by at most κℓ/2.
     tilt = np.radians(12) / 30 * 3.0 / 2
     assert np.abs(depth).max() < 1.1 * HOLE * tilt**2 / 2
     assert tube.md[[0, -1]] == pytest.approx([-RUN_OUT, 240 + RUN_OUT])
     assert np.diff(tube.md).max() <= 3.0 + 1e-9
 
 
-def test_facets_are_wrong_by_the_sagitta_and_by_the_chord() -> None:
-    """Second order in both; the numbers of a 311 mm hole are 1.3 mm with 24 facets and 0.08 mm with 96."""
+def test_errors_of_facets_are_the_sagittas_of_facet_and_chord() -> None:
+    """Both of second order; for a 311 mm hole the error is 1.3 mm with 24 facets and 0.08 mm with 96."""
     for facets, sagitta in ((24, 1.33e-3), (96, 0.083e-3)):
         tube = dataclasses.replace(tube_of(facets), radius=0.1556)
         assert tube.error_bound(0.0)[0] == pytest.approx(sagitta, rel=0.01)

@@ -1,4 +1,4 @@
-"""The string in other engines: the same loads as FCTD, checks that catch one that lies, clear refusals."""
+"""The string in other engines: loads as FCTD's, checks that detect wrong results, and refusals."""
 
 import re
 import sys
@@ -33,14 +33,14 @@ CONTACT = ("bullet", "mujoco", "elastica")
 
 
 def needs(name: str) -> None:
-    """Skip, by name, a test of an engine whose package is missing."""
+    """Skip the test of an engine whose package is missing, and name the package."""
     if engines.installed_version(name) is None:
         pytest.skip(f"package {absent(engines.engine_class(name).distribution)}")
 
 
 @pytest.fixture(autouse=True)
 def installed(request: pytest.FixtureRequest) -> None:
-    """A test's parameter ``name`` is an engine."""
+    """Skip a test whose parameter ``name`` is an engine that is not installed."""
     callspec = getattr(request.node, "callspec", None)
     if callspec is not None and "name" in callspec.params:
         needs(callspec.params["name"])
@@ -88,13 +88,13 @@ def test_the_same_string_gives_the_same_loads(name: str, own: EngineRun) -> None
     assert len(run.profile) == 17
 
 
-S_WINDOW = Window(4.0, 1.2)  # three periods of its ringing
+S_WINDOW = Window(4.0, 1.2)  # three axial periods
 GEOMETRIES = ("cylinders", "arcs")
 
 
 @pytest.fixture(scope="module")
 def s_shape() -> Callable[[str, str], EngineRun]:
-    """A run of the well that no engine was set by, by engine and geometry, each run once."""
+    """A run by engine and geometry, each made once, in a well for which no engine's settings were chosen."""
 
     @cache
     def run(name: str, geometry: str) -> EngineRun:
@@ -109,7 +109,7 @@ def s_shape() -> Callable[[str, str], EngineRun]:
 def test_a_well_that_turns_below_an_inclined_top(
     name: str, geometry: str, s_shape: Callable[[str, str], EngineRun]
 ) -> None:
-    """In arcs the tube used to cut through its bends, and PyElastica took vertical tops alone."""
+    """In arcs the tube once cut through its bends, and PyElastica once accepted vertical tops only."""
     own, run = s_shape("fctd", geometry), s_shape(name, geometry)
     assert run.status == "valid", run.message
     assert run.note == ""
@@ -120,17 +120,17 @@ def test_a_well_that_turns_below_an_inclined_top(
 
 @BULLET
 @pytest.mark.parametrize("geometry", GEOMETRIES)
-def test_bullet_says_why_its_torque_is_low_where_the_hole_turns(
+def test_bullet_notes_why_its_torque_is_low_where_the_hole_turns(
     geometry: str, s_shape: Callable[[str, str], EngineRun]
 ) -> None:
-    """What its note says of friction, measured on its contacts alone, is what its torque lacks of FCTD's."""
+    """The friction share in its note, from its contacts alone, equals the share of its torque in FCTD's."""
     own, run = s_shape("fctd", geometry), s_shape("bullet", geometry)
     assert run.status == "valid", run.message
     assert mean(run, "hookload_N") == pytest.approx(mean(own, "hookload_N"), rel=0.01)
     assert mean(run, "total_contact_force_N") == pytest.approx(mean(own, "total_contact_force_N"), rel=0.05)
-    said = re.match(r"friction against the sliding is (.*)% of μN.*two fixed directions", run.note)
-    assert said is not None
-    share = float(said[1]) / 100
+    noted = re.match(r"friction opposite to sliding is (.*)% of μN.*two fixed directions", run.note)
+    assert noted is not None
+    share = float(noted[1]) / 100
     assert share < 0.95
     own_share = mean(own, "sum_r_ft_N_m") / mean(own, "sum_r_mu_fn_N_m")
     assert own_share == pytest.approx(1, abs=0.01)
@@ -139,19 +139,19 @@ def test_bullet_says_why_its_torque_is_low_where_the_hole_turns(
 
 @pytest.mark.parametrize("name", ["bullet", "mujoco"])
 @pytest.mark.parametrize("options", [{"chord_tolerance": "20 mm"}, {"facets": 4}])
-def test_triangles_that_cut_through_the_room_of_the_string_are_refused(name: str, options: dict[str, Any]) -> None:
+def test_triangles_with_errors_beyond_half_the_clearance_are_refused(name: str, options: dict[str, Any]) -> None:
     with pytest.raises(InputError, match=r"miss the wall by at most 0\.5 of the clearance of 23\.8 mm"):
         engines.build(name, **options).run(load("s_shape"), Window(0.0, 0.1))
 
 
 @BULLET
-def test_more_triangles_than_bullet_takes_are_refused() -> None:
+def test_more_triangles_than_bullet_accepts_are_refused() -> None:
     with pytest.raises(InputError, match="174762 triangles"):
         engines.build("bullet", facets=600).run(load("s_shape", wellbore__geometry="cylinders"), Window(0.0, 0.1))
 
 
-def test_pipe_that_is_being_fed_weighs_in_an_engine_that_feeds_none() -> None:
-    """PyElastica lowers its upper end, but its string is as long as FCTD's is by then."""
+def test_weight_of_pipe_that_is_being_fed_in_an_engine_without_feed() -> None:
+    """PyElastica's string is as long as FCTD's at the start of the window, and its upper end moves down."""
     trip = {"kind": "trip_in", "from_md": 480, "to_md": 500, "speed": 1.0, "ramp_time": 4.0}
     case = make_case(STATIONS, [pipe(None, None, segment_length=40.0)], [trip], record={"interval": 0.1})
     reference, run = (engines.build(name).run(case, Window(16.0, 1.0)) for name in ("fctd", "elastica"))
@@ -169,8 +169,8 @@ def test_a_rod_begins_pressed_into_the_wall_as_deep_as_the_segments_were() -> No
 
 
 @pytest.mark.parametrize(("name", "least"), [("fctd", 0.9999), ("bullet", 0.98), ("mujoco", 0.995)])
-def test_friction_obeys_coulomb_wherever_the_hole_heads(name: str, least: float) -> None:
-    """Exact, and without FCTD's loads: μN against the sliding, which is across a straight hole."""
+def test_friction_obeys_coulomb_at_an_oblique_azimuth(name: str, least: float) -> None:
+    """Exact, without FCTD's loads: μN opposite to sliding, which is across a straight hole."""
     found = sliding(name, 30.0, 1.0)
     assert found.status == "valid", found.failed
     assert least < found.share < 1.005
@@ -179,8 +179,8 @@ def test_friction_obeys_coulomb_wherever_the_hole_heads(name: str, least: float)
 
 @BULLET
 @pytest.mark.parametrize("azimuth", [15.0, 60.0])
-def test_bullet_friction_leans_as_two_fixed_directions_do(azimuth: float) -> None:
-    """Why Bullet is given the hole along its own x."""
+def test_bullet_friction_deviates_as_computed_from_two_fixed_directions(azimuth: float) -> None:
+    """The reason why the ``fair`` settings turn the hole into Bullet's own plane."""
     lean = lean_of_two_directions(azimuth)
     assert abs(np.degrees(lean)) > 15
     assert sliding("bullet", azimuth, 1.0, axes="global").lean == pytest.approx(lean, abs=np.radians(2))
@@ -188,7 +188,7 @@ def test_bullet_friction_leans_as_two_fixed_directions_do(azimuth: float) -> Non
 
 def test_the_lean_of_two_directions_is_that_of_a_uniform_pipe() -> None:
     outer, inner, length, azimuth = 0.051, 0.03, 25.0, np.radians(30)
-    spin = (outer**2 + inner**2) / 2  # of a mass of 1
+    spin = (outer**2 + inner**2) / 2  # for a mass of 1
     tilt = length**2 / 12 + spin / 2
     yields = np.diag([1 + outer**2 / tilt, 1 + (length / 2) ** 2 / tilt + outer**2 / spin])
     turn = np.array([[np.cos(azimuth), -np.sin(azimuth)], [np.sin(azimuth), np.cos(azimuth)]])
@@ -198,14 +198,14 @@ def test_the_lean_of_two_directions_is_that_of_a_uniform_pipe() -> None:
 
 
 @pytest.mark.parametrize("name", ["bullet", "mujoco", "mujoco_chain", "elastica"])
-def test_a_string_without_a_wall_hangs_and_winds_up_alike(name: str) -> None:
+def test_a_freely_hanging_string_has_the_same_hook_load_and_torque(name: str) -> None:
     case = turning([[0, 0, 0], [600, 0, 0]], contact={"enabled": False})
     window = Window(0.0, 1.0)
     own, run = (engines.build(each).run(case, window) for each in ("fctd", name))
     assert run.status == "valid", run.message
     torque, reference = (each.history["surface_torque_N_m"].to_numpy() for each in (run, own))
     assert np.abs(reference).max() > 50
-    # The clamp of PyElastica's rod is at its first element, half a segment stiffer.
+    # PyElastica's rod is clamped at its first element, so that it is half a segment shorter.
     np.testing.assert_allclose(torque, reference, atol=0.08 * np.abs(reference).max())
     assert mean(run, "hookload_N") == pytest.approx(mean(own, "hookload_N"), rel=2e-3)
 
@@ -219,39 +219,39 @@ def test_a_string_without_a_wall_hangs_and_winds_up_alike(name: str) -> None:
         ("elastica", {"step": "8 ms"}, "chain length"),
     ],
 )
-def test_a_bad_option_is_caught_by_the_check_that_is_for_it(name: str, options: dict[str, str], failed: str) -> None:
+def test_a_bad_option_fails_the_check_for_its_error(name: str, options: dict[str, str], failed: str) -> None:
     run = engines.build(name, **options).run(turning(), Window(5.0, 0.5))
     assert run.status == "invalid"
     assert re.search(rf"{failed} \(.*, at most", run.message)
     assert not run.checks.set_index("check").loc[failed, "passed"]
 
 
-class Liar:
-    """FCTD's stepper, and after every advance a word that is not true."""
+class FaultyStepper:
+    """FCTD's stepper, with a fault added to the run after every advance."""
 
-    def __init__(self, run: Run, lie: Callable[[Run], None]) -> None:
-        self._honest, self._run, self._lie = Fctd(Fctd.Options()).begin(run), run, lie
+    def __init__(self, run: Run, fault: Callable[[Run], None]) -> None:
+        self._stepper, self._run, self._fault = Fctd(Fctd.Options()).begin(run), run, fault
         self.step = run.step
 
     def advance(self, motion: Any, duration: float) -> None:
-        self._honest.advance(motion, duration)
-        self._lie(self._run)
+        self._stepper.advance(motion, duration)
+        self._fault(self._run)
 
     def sync(self) -> None:
-        self._honest.sync()
+        self._stepper.sync()
 
     def energy(self) -> Energy:
-        return self._honest.energy()
+        return self._stepper.energy()
 
     def note(self) -> str:
-        return self._honest.note()
+        return self._stepper.note()
 
     def close(self) -> None:
-        self._honest.close()
+        self._stepper.close()
 
 
 def through_the_wall(run: Run) -> None:
-    """Half way through its clearance again."""
+    """Move the bit into the wall by half of its clearance."""
     n = run.segments
     walls = np.stack([state.row(run.S, row, n)[-1] for row in (state.PX, state.PY, state.PZ)])
     clearance = run.S[state.HOLE + n] - run.S[state.RADIUS + n]
@@ -259,7 +259,7 @@ def through_the_wall(run: Run) -> None:
         run.S[row + n] += 0.5 * clearance * part
 
 
-def out_of_nowhere(run: Run) -> None:
+def gained_energy(run: Run) -> None:
     for row in (state.VX, state.VY, state.VZ, state.WZ):
         state.row(run.S, row, run.segments)[:] *= 1.2
 
@@ -270,33 +270,33 @@ def longer(run: Run) -> None:
         run.S[place + n] += 0.2 * run.S[axis + n]
 
 
-def no_number(run: Run) -> None:
+def not_finite(run: Run) -> None:
     run.top[topdrive.SUM_HOOKLOAD] = np.nan
 
 
-def creeping(run: Run) -> None:
+def drifting(run: Run) -> None:
     run.top[topdrive.SUM_HOOKLOAD] *= 1 + 0.05 * (float(run.top[topdrive.TOP_TIME]) - WINDOW.start)
 
 
 @pytest.mark.parametrize(
-    ("lie", "failed"),
+    ("fault", "failed"),
     [
         (through_the_wall, "end points inside the hole"),
-        (out_of_nowhere, "energy"),
+        (gained_energy, "energy"),
         (longer, "chain length"),
-        (no_number, "finite state"),
-        (creeping, "settled hook load"),
+        (not_finite, "finite state"),
+        (drifting, "settled hook load"),
     ],
 )
-def test_a_lying_engine_is_caught_by_the_check_that_is_for_it(lie: Callable[[Run], None], failed: str) -> None:
-    run = run_window(turning(), WINDOW, lambda start: Liar(start, lie))
+def test_a_fault_fails_the_check_for_it(fault: Callable[[Run], None], failed: str) -> None:
+    run = run_window(turning(), WINDOW, lambda start: FaultyStepper(start, fault))
     assert run.status == "invalid"
     assert failed in run.message
     assert not run.checks.set_index("check").loc[failed, "passed"]
 
 
-def test_an_engine_that_blows_up_at_once_is_invalid_and_says_so() -> None:
-    """Past its stable step, before the first record."""
+def test_an_engine_that_is_unstable_at_once_is_invalid_with_a_message() -> None:
+    """With a step above the stability limit, before the first record."""
     case = turning(wellbore={"geometry": "arcs"})
     run = engines.build("fctd", step=3 * prepare(case)[0].step).run(case, Window(0.0, 1.0))
     assert run.status == "invalid"
@@ -304,8 +304,8 @@ def test_an_engine_that_blows_up_at_once_is_invalid_and_says_so() -> None:
     assert not run.checks.set_index("check").loc[["finite state", "energy"], "passed"].any()
 
 
-def test_the_same_engine_telling_the_truth_is_valid() -> None:
-    run = run_window(turning(), WINDOW, lambda start: Liar(start, lambda run: None))
+def test_the_same_engine_without_a_fault_is_valid() -> None:
+    run = run_window(turning(), WINDOW, lambda start: FaultyStepper(start, lambda run: None))
     assert run.status == "valid", run.message
 
 
@@ -316,8 +316,8 @@ def test_a_string_rings_with_the_period_of_its_stretch() -> None:
 
 
 @pytest.mark.parametrize(("duration", "expected"), [(4.0, 0.0), (6.1, 0.0), (2.5, 0.03054), (1.0, 0.06366)])
-def test_ringing_is_no_drift_in_a_window_of_two_periods(duration: float, expected: float) -> None:
-    """Exact means over rows of a sine of 5 % about 1 with a period of 2 s; where it has no two of them, halves."""
+def test_vibration_is_no_drift_in_a_window_of_two_periods(duration: float, expected: float) -> None:
+    """Exact row means of a sine about 1 with a period of 2 s; a window below two periods is compared in halves."""
     time = np.arange(1, round(duration / 0.05) + 1) * 0.05
     ring = (np.cos(np.pi * (time - 0.05)) - np.cos(np.pi * time)) / np.pi
     history = pd.DataFrame({"time_s": 7 + time, "hookload_N": 1 + ring, "total_contact_force_N": 0.0})
@@ -328,7 +328,7 @@ def test_ringing_is_no_drift_in_a_window_of_two_periods(duration: float, expecte
     assert drift(7.0, rising, 2.0) > 0.009
 
 
-def test_the_best_step_is_the_largest_sound_one_whose_loads_a_finer_one_confirms() -> None:
+def test_the_best_step_is_the_largest_valid_one_with_loads_near_the_next_finer() -> None:
     rungs = pd.DataFrame(
         {
             "step_s": [8.0, 4.0, 2.0, 1.0],
@@ -359,14 +359,16 @@ def test_a_ladder_halves_the_step_and_compares_each_rung_with_the_next() -> None
         ("elastica", {"components": [pipe(450, 15), pipe(10, 1), pipe(40, 1)]}, "string.components[1].length"),
     ],
 )
-def test_what_an_engine_cannot_represent_is_an_input_error(name: str, sections: dict[str, Any], key: str) -> None:
+def test_a_case_that_an_engine_cannot_represent_is_an_input_error(
+    name: str, sections: dict[str, Any], key: str
+) -> None:
     with pytest.raises(InputError) as error:
         engines.build(name).run(turning(**sections), Window(0.0, 0.1))
     assert error.value.key == key
 
 
 @BULLET
-def test_two_frictions_are_refused_by_engines_with_one() -> None:
+def test_two_friction_factors_are_refused_by_engines_with_one() -> None:
     intervals = [
         {"to_md": 300, "diameter": 0.2159, "friction": f} | ({"to_md": 600} if f > 0.2 else {}) for f in (0.2, 0.3)
     ]
@@ -395,7 +397,7 @@ def test_a_missing_package_is_named(name: str, module: str, monkeypatch: pytest.
     assert error.value.key == "engine"
 
 
-def test_pybullet_is_to_be_had_in_two_ways_where_it_has_no_wheels(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_two_ways_to_install_pybullet_are_named_where_it_has_no_wheels(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pybullet", None)
     monkeypatch.setattr(packages, "NO_PYBULLET", sys.version_info[:2])
     with pytest.raises(InputError, match=r"run on Python 3\.11, or build it by 'make bullet'"):

@@ -1,4 +1,4 @@
-"""The 1000:1 model: similitude keeps the loads, relabelling keeps everything, lengths alone do not."""
+"""The 1000:1 model: similitude and relabelling keep the loads, scaling of lengths alone does not."""
 
 import pytest
 
@@ -24,8 +24,8 @@ def test_loads_scale_back(reading: str) -> None:
     assert point.surface_torque / by.force / by.length == pytest.approx(full.surface_torque, rel=1e-6)
 
 
-def test_similitude_is_a_matter_of_dimensions() -> None:
-    """Every factor from those of length, time and force; Froude's number keeps gravity."""
+def test_factors_of_similitude_follow_from_dimensions() -> None:
+    """Every factor follows from those of length, time and force; gravity is kept (Froude number)."""
     by = factors("similar", 0.01)
     assert by.length / by.time**2 == pytest.approx(1.0)
     assert by.modulus == pytest.approx(by.force / by.length**2)
@@ -34,7 +34,7 @@ def test_similitude_is_a_matter_of_dimensions() -> None:
 
 
 def test_lengths_alone_make_a_stiffer_string() -> None:
-    """Similar by a tenth but for the modulus is a string ten times as stiff: the naive model at a tenth."""
+    """The naive model at 1:10 equals the similar model of a string with ten times the modulus."""
     by, naive = factors("naive", 0.1), scaled(turning(), "naive", 0.1)
     stiffer = turning()
     component = stiffer.string.components[0].model_copy(update={"youngs_modulus": 2068e9})

@@ -1,4 +1,4 @@
-"""Closed forms against both summations of the soft string in the same well, and where they have to refuse."""
+"""Closed forms agree with both methods of the soft string in the same well, and raise errors where not valid."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -41,8 +41,8 @@ def bend(from_inclination: float, to_inclination: float, length: float) -> dict[
     return {"radius": length / abs(below - above), "inclination_above": above, "inclination_below": below}
 
 
-# Stations, and the sections from the bit upwards without their weight.  Every bend keeps its side in all motions:
-# tension wins in the build above a hold, weight in the one that ends at the bit.
+# Stations, and the sections from the bit upwards without their weight.  The wall force keeps its side in every bend and
+# motion: tension exceeds weight in the build above a hold, weight exceeds tension in the build at the bit.
 WELLS: dict[str, tuple[list[list[float]], list[tuple[Any, dict[str, float]]]]] = {
     "vertical": ([[0, 0, 0], [1000, 0, 0]], [(vertical, {"length": 1000})]),
     "hold": ([[0, 60, 300], [1000, 60, 300]], [(hold, {"length": 1000, "inclination": 60 * DEG})]),
@@ -87,7 +87,7 @@ def case_of(stations: list[list[float]], law: str) -> Case:
 
 
 def closed(case: Case, sections: list[tuple[Any, dict[str, float]]], motion: Any) -> closed_forms.Loads:
-    """The closed forms' answer for a case of one pipe and one friction factor."""
+    """The loads by closed forms for a case of one pipe and one friction factor."""
     section = section_of(case.string.components[0], case.mud.density)
     friction = split_friction(
         case.contact.friction_law, case.wellbore.intervals[0].friction, motion, section.contact_radius
@@ -97,7 +97,7 @@ def closed(case: Case, sections: list[tuple[Any, dict[str, float]]], motion: Any
 
 
 def extrapolated(*arguments: Any, **motion: float) -> Sequence[float]:
-    """Johancsik's recursion, its second order (`test_soft_string`) taken out of two element lengths."""
+    """Johancsik's recursion, extrapolated from two element lengths (error of second order, `test_integration`)."""
     coarse = np.array(soft_string(*arguments, **motion, element=STEP)[:3])
     fine = np.array(soft_string(*arguments, **motion, element=0.5 * STEP)[:3])
     return [float(value) for value in (4 * fine - coarse) / 3]
@@ -132,11 +132,11 @@ def test_a_build_whose_wall_force_changes_side_is_refused_and_done_in_two_parts(
     change = refusal.value
     assert change.above_lower_end == pytest.approx((90 * DEG - change.inclination) * curve["radius"])
     answer = soft_string_ode(case, operation, 1150.0, speed=speed, rpm=rpm)
-    # The place is where the integrated side force is nothing, and no other in the bend is.
+    # At this place, and at no other in the bend, the integrated side force is zero.
     inside = (answer.profile.md > 500) & (answer.profile.md < 950)
     nearest = answer.profile.md[inside][np.argmin(answer.profile.side_force[inside])]
     assert 950 - change.above_lower_end == pytest.approx(nearest, abs=0.5)
-    # Two closed forms, each on its side of the place.
+    # Two closed forms, one on each side of the place.
     weight = section_of(case.string.components[0], case.mud.density).weight
     parts: list[tuple[Any, dict[str, float]]] = [
         (build, curve | {"inclination_above": change.inclination}),
@@ -144,12 +144,12 @@ def test_a_build_whose_wall_force_changes_side_is_refused_and_done_in_two_parts(
     ]
     expected = closed(case, [horizontal, *parts, kick_off], motion)
     assert closed(case, [horizontal, (bend_in_parts, curve), kick_off], motion) == pytest.approx(expected, rel=1e-12)
-    # Measured: 2e-10 at worst where the integration begins anew at the kink, 9e-10 across it.
+    # Measured: at most 2e-10 with a restart of the integration at the kink, 9e-10 without.
     assert answer[:3] == pytest.approx(expected, rel=5e-10, abs=1e-6)
-    # The kink spoils the recursion's expansion, not its order: elements short enough agree as well.
+    # The kink rules out extrapolation of the recursion, not its order: with short elements it agrees too.
     fine = soft_string(case, operation, 1150.0, speed=speed, rpm=rpm, element=0.25)
     assert fine[:3] == pytest.approx(expected, rel=1e-6, abs=1e-6)
-    # The refused form's own tension and load up to the place are those of the lower part.
+    # Tension and load in the error are those of the lower part.
     lower = build(hold(0.0, -0.25, weight=weight, length=200, inclination=90 * DEG)[0], -0.25, weight=weight,
                   **(curve | {"inclination_above": change.inclination}))  # fmt: skip
     if name == "slack-off":
@@ -157,7 +157,7 @@ def test_a_build_whose_wall_force_changes_side_is_refused_and_done_in_two_parts(
 
 
 def test_without_friction_the_side_changes_at_half_the_sine_of_the_bit() -> None:
-    """By hand: T = wR (sin I₂ − sin I), so the load T/R − w sin I is nothing where sin I = ½ sin I₂; its
+    """By hand: T = wR (sin I₂ − sin I), so the load T/R − w sin I is zero where sin I = ½ sin I₂; its
     integral is wR [2 cos I + I sin I₂] on either side."""
     w, radius, below, above = 200.0, 300.0, 80 * DEG, 10 * DEG
     place = np.arcsin(0.5 * np.sin(below))
@@ -177,7 +177,7 @@ def test_without_friction_the_side_changes_at_half_the_sine_of_the_bit() -> None
 
 
 def test_a_drop_in_compression_and_a_build_beyond_horizontal_may_change_side_more_than_once() -> None:
-    """In compression weight and tension meet in a drop; past 90 deg the load may vanish, return and vanish again."""
+    """A drop in compression can have a zero of the load, a build that starts past 90 deg two zeros."""
     steep = {"weight": 200.0, "radius": 300.0, "inclination_below": 5 * DEG, "inclination_above": 80 * DEG}
     with pytest.raises(SideChangeError):
         drop(-30e3, -0.2, **steep)
@@ -213,7 +213,7 @@ def test_a_capstan_is_any_bend_without_weight() -> None:
 
 @pytest.mark.parametrize("tension", [40e3, 90e3])
 def test_forms_with_no_friction_are_the_limit_of_little(tension: float) -> None:
-    """The load of a bend has a quotient by the drag, with a limit of its own at none."""
+    """The load of a bend is a quotient by the drag, for which the forms use its limit at zero drag."""
     curve = {"weight": 200.0, "radius": 300.0, "inclination_below": 80 * DEG, "inclination_above": 55 * DEG}
     for form, geometry in ((bend_in_parts, curve), (side_turn, {"weight": 200.0, "radius": 300.0, "turn": 1.0})):
         none, little = form(tension, 0.0, **geometry), form(tension, 1e-9, **geometry)
@@ -246,7 +246,7 @@ def test_coulomb_friction_balances_the_load_and_is_the_factor_times_the_wall_for
         assert drag / turning == pytest.approx(sign * speed / (0.08 * 2 * np.pi))
 
 
-def test_weight_on_bit_and_bit_torque_start_a_string_that_drills_and_no_other() -> None:
+def test_weight_on_bit_and_bit_torque_act_only_while_drilling() -> None:
     case = make_case(bit={"weight_on_bit": "50 kN", "torque": "3 kN*m"})
     for operation in ("drill_rotating", "drill_sliding"):
         assert loads_at_bit(case, operation) == (-50e3, 3e3)

@@ -1,4 +1,4 @@
-"""The two summations of the soft string against each other, by hand, in any hole, and on a published example."""
+"""The two methods of the soft string agree in any hole, with hand calculations and with published numbers."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ from references.soft_string.integration import SoftString, soft_string, soft_str
 from tests.cases import make_case, pipe, trip
 from validation.cases import load
 
-# What an operation needs beside its name.
+# Arguments that an operation needs besides its name.
 MOTIONS: dict[str, dict[str, float]] = {
     "trip_in": {},
     "trip_out": {},
@@ -30,7 +30,7 @@ SPATIAL = [[0, 5, 350], [400, 30, 20], [800, 60, 340], [1200, 40, 10], [1700, 95
 
 
 def well(stations: list[list[float]], law: str = "coulomb", top_md: float = 0.0, **more: Any) -> Case:
-    """Two pipes in two kinds of hole, with something for the bit to do."""
+    """A case of two pipes in two hole intervals, with loads at the bit."""
     end = stations[-1][0]
     hole = {
         "intervals": [
@@ -98,7 +98,7 @@ def test_profiles_agree_and_end_at_bit_and_surface(operation: str) -> None:
 
 
 @pytest.mark.parametrize(("operation", "pull"), [("trip_out", 1.0), ("trip_in", -1.0), ("rotate_off_bottom", 0.0)])
-def test_the_formulas_as_johancsik_printed_them(operation: str, pull: float) -> None:
+def test_the_formulas_as_published_by_johancsik(operation: str, pull: float) -> None:
     """Inclination θ and azimuth α in place of vectors: F² = (T Δα sin θ)² + (T Δθ + w Δs sin θ)², T at the lower end
     and Δ counted upwards; first order in Δs, hence the small elements."""
     case = make_case(
@@ -123,8 +123,8 @@ def test_the_formulas_as_johancsik_printed_them(operation: str, pull: float) -> 
 
 @pytest.mark.parametrize("survey_method", ["minimum_curvature", "average_angle"])
 @pytest.mark.parametrize("summation", [soft_string, soft_string_ode])
-def test_north_is_a_direction_like_any_other(summation: Any, survey_method: str) -> None:
-    """The same well turned by 123 deg, through which no azimuth wraps, carries the same loads."""
+def test_loads_do_not_depend_on_azimuths_that_pass_north(summation: Any, survey_method: str) -> None:
+    """The same well turned by 123 deg, so that no azimuth passes north, has the same loads."""
     turned = [[md, inc, (azi + 123) % 360] for md, inc, azi in SPATIAL]
     assert max(np.abs(np.diff(np.array(turned)[:, 2]))) < 180 < max(np.abs(np.diff(np.array(SPATIAL)[:, 2])))
     answers = [summation(well(s, survey_method=survey_method), "trip_out", 1700.0) for s in (SPATIAL, turned)]
@@ -152,10 +152,10 @@ def holes(draw: st.DrawFn) -> dict[str, Any]:
 
 @settings(max_examples=25)
 @given(holes(), st.floats(0.3, 1.0), st.floats(0.0, 0.2))
-def test_rotating_in_place_the_hook_carries_the_weight_of_the_vertical_reach(
+def test_hook_load_rotating_in_place_is_the_weight_over_the_vertical_depth(
     hole: dict[str, Any], part: float, top: float
 ) -> None:
-    """Friction has no part along the hole then: Σ w ΔTVD of the two pipes, whatever the contact."""
+    """Friction then has no axial component: Σ w ΔTVD of the two pipes, for any contact."""
     end = hole["stations"][-1][0]
     case = well(**hole | {"survey_method": "minimum_curvature"}, top_md=top * end)
     depth = part * end
@@ -176,15 +176,15 @@ def test_in_any_hole_both_summations_agree(hole: dict[str, Any], operation: str,
     depth = part * hole["stations"][-1][0]
     a = soft_string(case, operation, depth, **MOTIONS[operation])
     b = soft_string_ode(case, operation, depth, **MOTIONS[operation])
-    # An element in which the wall force changes side is wrong by its own share of the load: no order to assert here,
-    # but a bound for either length.
+    # An element in which the wall force changes side has an error of its share of the load, so that the error has no
+    # order but a bound for each element length.
     assert scaled_difference(a, b) < 5e-5
     half = soft_string(case, operation, depth, element=0.5, **MOTIONS[operation])
     assert scaled_difference(half, b) < 1e-5
 
 
-def test_turning_takes_the_drag_away_with_law_coulomb_alone() -> None:
-    """Faster turning lowers the drag of law ``coulomb`` towards none; ``paper`` keeps it."""
+def test_rotation_reduces_drag_only_with_law_coulomb() -> None:
+    """Faster rotation reduces drag towards zero with law ``coulomb``, and does not change it with ``paper``."""
     stations = [[0, 0, 0], [500, 60, 0], [1500, 60, 0]]
     for law, falls in (("coulomb", True), ("paper", False)):
         case = well(stations, law)
@@ -210,16 +210,16 @@ def test_bit_loads_pass_to_the_surface() -> None:
 
 
 @pytest.mark.parametrize("summation", [soft_string, soft_string_ode])
-def test_every_metre_has_the_friction_of_its_hole_and_the_weight_and_radius_of_its_pipe(summation: Any) -> None:
+def test_friction_follows_the_hole_and_weight_and_radius_follow_the_pipe(summation: Any) -> None:
     """Slant at 60 deg, by hand: shoe at 400 m, joint of the pipes at 630 m with the bit at 930 m of 1000 m."""
     case = well([[0, 60, 0], [1000, 60, 0]], "paper")
     pipe_below, pipe_above = (section_of(component, 1300.0) for component in case.string.components)
     # metres, pipe, friction: from the bit upwards
-    stretches = [(300, pipe_below, 0.3), (230, pipe_above, 0.3), (400, pipe_above, 0.15)]
+    parts = [(300, pipe_below, 0.3), (230, pipe_above, 0.3), (400, pipe_above, 0.15)]
     across = np.sin(np.pi / 3)
-    weight = sum(length * part.weight * 0.5 for length, part, _ in stretches)
-    drag = sum(length * part.weight * across * factor for length, part, factor in stretches)
-    arm = sum(length * part.weight * across * factor * part.contact_radius for length, part, factor in stretches)
+    weight = sum(length * part.weight * 0.5 for length, part, _ in parts)
+    drag = sum(length * part.weight * across * factor for length, part, factor in parts)
+    arm = sum(length * part.weight * across * factor * part.contact_radius for length, part, factor in parts)
     assert pipe_below.contact_radius == 0.085
     expected = {
         "trip_out": (weight + drag, 0.0),
@@ -264,7 +264,7 @@ WRONG: list[tuple[str, float, dict[str, float], str, str]] = [
 
 
 @pytest.mark.parametrize(("operation", "depth", "more", "key", "expected"), WRONG)
-def test_what_cannot_be_summed_up_is_named(
+def test_wrong_arguments_are_named(
     operation: str, depth: float, more: dict[str, float], key: str, expected: str
 ) -> None:
     with pytest.raises(InputError, match=expected) as refusal:
@@ -287,8 +287,8 @@ def test_johancsiks_third_example() -> None:
         assert summation(case, "rotate_off_bottom", 3718.0).surface_torque == pytest.approx(35.2e3, rel=0.005)
 
 
-def test_what_johancsiks_third_example_rules_out() -> None:
-    """What the case file says of the readings that do not meet the published numbers."""
+def test_other_readings_of_johancsiks_third_example_miss_the_published_numbers() -> None:
+    """The numbers in the comments of the case file for other readings of the example."""
     buoyed = load("johancsik3", mud__density=0.0)
     assert soft_string_ode(buoyed, "rotate_off_bottom", 3718.0).hookload == pytest.approx(1094e3, rel=5e-4)
     climbing = load("johancsik3", contact__friction_law="coulomb")
@@ -298,7 +298,7 @@ def test_what_johancsiks_third_example_rules_out() -> None:
 
 
 def test_johancsiks_third_example_is_a_case_for_the_stiff_engine() -> None:
-    """It fits its hole, in segments of about 10 m, and weighs what is printed."""
+    """The string fits its hole, in segments of about 10 m, and has the published weight."""
     case = load("johancsik3")
     string = lay_out(case, 3718.0)
     check_fit(case, string, build_wellbore(case), 3718.0)

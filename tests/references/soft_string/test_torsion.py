@@ -1,4 +1,4 @@
-"""Discs on torsion springs against the wave equation, and their dry friction against the soft string's torque."""
+"""Discs on torsion springs agree with the wave equation, and their dry friction with the torque of the soft string."""
 
 import numpy as np
 import pytest
@@ -12,12 +12,12 @@ SPIN, STEP = 2.0, 0.0005  # [rad/s], [s]
 
 
 def turned(time):
-    """An angle that grows evenly, from the first step on."""
+    """An angle that grows at a constant rate from the first step on."""
     return SPIN * time
 
 
-def test_a_free_string_turned_at_once_answers_with_its_impedance():
-    """Until the wave is back from the free end: torque Ω √(GJ · ρJ); from then on, until it is back again, −that."""
+def test_torque_of_a_free_string_turned_at_once_is_given_by_its_impedance():
+    """Torque Ω √(GJ · ρJ) until the wave returns from the free end, then the negative value until it returns again."""
     case = make_case([[0, 0, 0], [1000, 0, 0]], [pipe(1000, 200)], [rotation(1000, 1, ramp=1)])
     part = section_of(case.string.components[0], 0.0)
     back = 2 * 1000 / np.sqrt(part.GJ / part.axial_inertia)
@@ -32,16 +32,16 @@ def test_a_free_string_turned_at_once_answers_with_its_impedance():
 def test_a_string_turned_slowly_needs_the_soft_string_s_torque():
     case = make_case([[0, 0, 0], [100, 0, 0], [400, 60, 0], [600, 60, 0]], [pipe(600, 24)], [rotation(600, 1, ramp=1)])
     steady = soft_string(case, "rotate_off_bottom", 600.0).surface_torque
-    # The swing that the start leaves has a zero mean.
+    # The oscillation after the start has a zero mean.
     torque = twisted(case, 600.0, lambda time: 0.2 * time, 60.0, 0.002)
     assert torque[len(torque) // 2 :].mean() == pytest.approx(steady, rel=0.01)
-    # Less than friction holds does not reach the bit: it is stored in the twist and comes back as pulled.
-    held = twisted(case, 600.0, lambda time: np.minimum(0.01 * time, 0.01), 20.0, 0.002)
-    assert 0 < held[-1] < 0.5 * steady
+    # A twist below the friction limit does not reach the bit: it remains stored in the string.
+    torque = twisted(case, 600.0, lambda time: np.minimum(0.01 * time, 0.01), 20.0, 0.002)
+    assert 0 < torque[-1] < 0.5 * steady
 
 
-def test_what_lies_beside_the_clamp_is_held_by_it():
-    """Of a straight hole two segments leave a quarter to the top: friction acts between their middles and the bit."""
+def test_friction_next_to_the_top_drive_is_left_out():
+    """With two segments in a straight hole friction acts only below the middle of the first, on three quarters."""
     case = make_case([[0, 60, 0], [600, 60, 0]], [pipe(600, 2)], [rotation(600, 1, ramp=1)])
     whole = soft_string(case, "rotate_off_bottom", 600.0).surface_torque
     torque = twisted(case, 600.0, lambda time: 0.2 * time, 60.0, 0.002)

@@ -1,4 +1,4 @@
-"""Numbers that count their operations, and the box tree they are set to work on."""
+"""Numbers that count their operations, and the box tree whose operations are counted."""
 
 import math
 
@@ -39,7 +39,7 @@ def test_operations_with_plain_numbers_count_on_either_side():
     assert tally == {"subtract": 2, "divide": 1, "multiply": 1, "add": 1}
 
 
-def test_walking_one_cylinder_on_costs_two_distances_more():
+def test_the_search_tests_two_distances_with_and_without_a_change_of_cylinder():
     pieces = np.zeros((3, contact.COLUMNS))
     pieces[:, contact.START + 2] = [0.0, 10.0, 20.0]
     pieces[:, contact.DIRECTION + 2] = 1.0
@@ -52,8 +52,8 @@ def test_walking_one_cylinder_on_costs_two_distances_more():
 
     (stays, near), (moves, far) = count(1, 15.0), count(0, 15.0)
     assert (stays, moves) == (1, 1)
-    assert near == 2 * 8  # the cylinder before, and its own
-    assert far == 2 * 8  # its own at the start, and the next
+    assert near == 2 * 8  # its own cylinder and the one before
+    assert far == 2 * 8  # the cylinder at the start and the next one
 
 
 def test_box_tree_finds_the_nearest_triangle():
@@ -72,7 +72,7 @@ def test_box_tree_finds_the_nearest_triangle():
     assert compiled == pytest.approx(np.where(distance < 0.4, 0.4 - distance, -np.inf))
 
 
-def test_box_tree_answers_as_coal_does():
+def test_box_tree_has_the_same_penetrations_as_coal():
     pytest.importorskip("coal")
     from fctd import load_case
     from references.contact.tube_mesh import TubeOptions, build_tube

@@ -1,4 +1,4 @@
-"""The stopwatch: what it counts, in which order, and that drift of the machine leaves ratios alone."""
+"""The stopwatch: units, order of calls, and ratios that do not depend on drift of the machine."""
 
 import pytest
 
@@ -11,7 +11,7 @@ def test_turns_alternate_and_the_first_round_does_not_count(monkeypatch: pytest.
     def acts(name: str, cost: float):
         def act() -> None:
             called.append(name)
-            # The machine slows down by a tenth with every call; compiling makes the first calls slow.
+            # The machine becomes slower by a tenth with every call; compiling makes the first calls slow.
             clock[0] += cost * 1.1 ** len(called) + (100.0 if called.count(name) == 1 else 0.0)
 
         return act
@@ -61,13 +61,14 @@ def test_each_has_its_own_baseline(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("cost", [1e-7, 3e-4, 0.2])
 def test_units_fill_a_call(cost: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    clock, asked = [0.0], []
+    clock, calls = [0.0], []
 
     def work(units: int) -> None:
-        asked.append(units)
-        clock[0] += 2e-6 + cost * units + (1.0 if len(asked) == 1 else 0.0)  # a call has its price, the first compiles
+        # A fixed cost per call, and compilation in the first.
+        calls.append(units)
+        clock[0] += 2e-6 + cost * units + (1.0 if len(calls) == 1 else 0.0)
 
     monkeypatch.setattr(stopwatch.time, "process_time", lambda: clock[0])
     units = stopwatch.units_for(work, 0.01)
     assert units == 1 if cost > 0.01 else 0.005 < units * cost < 0.015
-    assert len(asked) < 20
+    assert len(calls) < 20

@@ -1,4 +1,4 @@
-"""What speed is measured on is what it says: states in motion, honest queries, a ledger that catches a loss."""
+"""Workloads of timings: states in motion, queries with correct results, a ledger that detects a missing loss."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ def turning():
     return moving(chain(20), 6.0)
 
 
-def test_a_moving_string_turns_all_along(turning):
+def test_a_moving_string_turns_over_its_whole_length(turning):
     run, motion = turning
     spin = rows.row(run.S, rows.WZ, run.segments)
     assert motion.spin_to == pytest.approx(2 * np.pi)
@@ -32,7 +32,7 @@ def test_a_fallen_string_lies_on_the_wall_and_turns():
     assert run.S[rows.LOST_FRICTION + 1] == 0
 
 
-def test_a_copy_leaves_the_original_alone(turning):
+def test_a_copy_does_not_change_the_original(turning):
     run, motion = turning
     before = run.S.copy()
     copy_of(run).advance(motion, 0.1)
@@ -41,14 +41,14 @@ def test_a_copy_leaves_the_original_alone(turning):
 
 def test_an_empty_query_is_the_step_without_a_wall(turning):
     run, motion = turning
-    compiled, asked = without_wall(run), asking(without_wall(run), NoWall())
+    compiled, queried = without_wall(run), asking(without_wall(run), NoWall())
     compiled.advance(motion, 0.2)
-    asked.advance(motion, 0.2)
-    np.testing.assert_allclose(compiled.S[: rows.AX], asked.S[: rows.AX], rtol=1e-9, atol=1e-9)
+    queried.advance(motion, 0.2)
+    np.testing.assert_allclose(compiled.S[: rows.AX], queried.S[: rows.AX], rtol=1e-9, atol=1e-9)
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
-def test_the_timed_queries_answer_as_find_contacts_does(geometry, monkeypatch):
+def test_the_timed_queries_have_the_same_results_as_find_contacts(geometry, monkeypatch):
     run, _ = moving(chain(20, wellbore__geometry=geometry), 1.0)
     n, radius = run.segments, rows.row(run.S, rows.RADIUS, run.segments)
     points = contact_points(run.S, n)
@@ -65,7 +65,7 @@ def test_the_timed_queries_answer_as_find_contacts_does(geometry, monkeypatch):
     assert np.linalg.norm(wall[:3], axis=0) - wall[3] + radius == pytest.approx(truth, abs=1e-9)
 
 
-def test_the_ledger_closes_and_catches_what_is_lost(turning):
+def test_the_ledger_closes_and_detects_a_missing_loss(turning):
     run, motion = copy_of(turning[0]), turning[1]
     before = energy_of(run.S, run.segments)
     run.advance(motion, 2.0)
