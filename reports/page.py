@@ -46,7 +46,7 @@ class Printed:
 class Section:
     """The section of one study; without a record, the study has not been run.
 
-    changed : what the result rests on and has changed since it was stored; empty where it is up to date.
+    changed : the input that has changed since the result was stored; empty where it is up to date.
     """
 
     study: str

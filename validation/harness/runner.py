@@ -244,7 +244,7 @@ def run_one(
 
 
 def outdated(name: str, now: Inputs, rules: Run) -> str:
-    """Why a study has to be run: ``kept`` when it has not, nothing when there is no result yet."""
+    """Why a study has to be run: ``kept`` when it has not, empty when there is no result yet."""
     folder = rules.results / name
     try:
         kept = store.read(folder)
@@ -277,7 +277,7 @@ def changes(names: Iterable[str], results: Path, sources: Sources) -> dict[str, 
             # What it declares cannot be asked, for want of a package or by an edit: the rest tells which.
             code = before.code | sources.used_by(STUDIES[name])
         around = surroundings(before.around.get(fingerprint.LENGTH) == "quick", sources.root)
-        # Where the data lie is for the runner to know; here the files that were read tell.
+        # The folder of the data is no input here; the files that were read are.
         around = around | {key: value for key, value in before.around.items() if key == DATA}
         if changed := Inputs(code, around).changed_since(before, sources.root):
             found[name] = changed
@@ -321,7 +321,7 @@ def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
     _say(console, f"{run.study}: {run.summary}  ({when}{why})", style)
     if run.message:
         _say(console, f"  {run.message}")
-    for note in run.notes if not run.checks else ():  # why there are none
+    for note in run.notes if not run.checks else ():  # the notes say why there are no checks
         _say(console, f"  {note}")
     for judged in run.checks:
         check = judged.check
@@ -354,5 +354,5 @@ class Bars:
 
 
 def _say(console: Console, text: str, style: str = "") -> None:
-    """Print as it stands: check names may hold brackets, messages anything, and a log must not wrap."""
+    """Print unchanged: check names may hold brackets, messages anything, and a log must not wrap."""
     console.print(Text(printable_lines(text), style), soft_wrap=True)
