@@ -52,7 +52,7 @@ def heading(column: str) -> tuple[str, str]:
 
 
 def name(identifier: str) -> str:
-    """An operation in the driller's words; other names unchanged."""
+    """An operation in the driller's words; other names as they stand."""
     return OPERATION_NAMES.get(identifier, identifier)
 
 

@@ -1,4 +1,4 @@
-"""Distance of cylinders from the arc that they represent, over their length."""
+"""How far cylinders are from the arc they stand for, over their length: the largest geometric error."""
 
 import numpy as np
 import pandas as pd

@@ -50,7 +50,7 @@ def average_angle(stations: Array) -> Array:
 
 
 def engines_average_angle(stations: Array) -> Array:
-    """The same by the engine, which uses it for cylinders."""
+    """The same by the engine, which takes it for cylinders."""
     points: Array = survey.average_angle(survey.to_radians(stations))
     return points
 
@@ -62,7 +62,7 @@ def minimum_curvature(stations: Array) -> Array:
 
 
 def integrated(md: Array) -> Array:
-    """The same from the direction at each depth, integrated by Simpson's rule every metre."""
+    """The same by the direction at each depth alone, summed up by Simpson's rule every metre."""
     stations = load("paper_well").wellbore.read_stations()
     each = np.arange(0.0, TOTAL + 0.5, 1.0)
     inclination, azimuth = np.radians(np.interp(each, stations[:, 0], stations[:, 1])), np.radians(AZIMUTH)
