@@ -8,7 +8,7 @@ from fctd.case.errors import InputError
 from validation.claims.judgement import Judgement, judge_all
 from validation.claims.ledger import Verdict
 
-# Verdict -> its class in the style sheet and its sign, which tells it apart without colour.
+# Verdict -> its class in the style sheet and its sign, which distinguishes it without colour.
 LOOKS: dict[Verdict, tuple[str, str]] = {
     "holds": ("good", "✓"),
     "holds with limits": ("known", "◐"),
@@ -21,7 +21,7 @@ LOOKS: dict[Verdict, tuple[str, str]] = {
 
 @dataclass(frozen=True)
 class Claims:
-    """The judgement, or the problem that kept it from being made."""
+    """The judgement, or the problem that prevented it."""
 
     judgement: Judgement
     problem: str = ""

@@ -25,7 +25,7 @@ TEMPLATES = Path(__file__).parent / "templates"
 
 @dataclass(frozen=True)
 class Picture:
-    """A drawn figure: carried inside the page (``source``), and beside it as files to take away."""
+    """A drawn figure: embedded in the page (``source``), and as files beside it for download."""
 
     caption: str
     source: str
@@ -44,9 +44,9 @@ class Printed:
 
 @dataclass
 class Section:
-    """What the page says about one study; without a record, that it has not been run.
+    """The section of one study; without a record, the study has not been run.
 
-    changed : what the result rests on and has changed since it was stored; empty where it is up to date.
+    changed : the input that has changed since the result was stored; empty where it is up to date.
     """
 
     study: str
@@ -58,12 +58,12 @@ class Section:
 
     @property
     def question(self) -> str:
-        """The study's question; its name while the question is not known."""
+        """The study's question; its name where the question is not known."""
         return self.record.question or self.study if self.record else self.study
 
     @property
     def summary(self) -> str:
-        """What came of it, in a few words."""
+        """The outcome, in a few words."""
         return self.record.summary if self.record else "not run"
 
 
@@ -107,7 +107,7 @@ def render(
 
 
 def _section(folder: Path, out: Path) -> Section:
-    """Read one study's result and draw what belongs to it."""
+    """Read one study's result and draw its figures."""
     section = Section(folder.name)
     if not (folder / "verdict.json").exists():
         return section
@@ -120,12 +120,12 @@ def _section(folder: Path, out: Path) -> Section:
     if found.status != "finished":
         return section
     section.tables = [_print(tables[name], caption) for name, caption in found.display.items()]
-    # A study whose package is missing finishes with nothing but a note that says so.
+    # A study whose package is missing finishes with a note only.
     for figure in figures.of_study(section.study) if tables or found.checks else []:
         try:
             section.pictures.append(_draw(section.study, figure, tables, out))
         except Exception as error:
-            # A figure that cannot be drawn must not cost the reader the rest of the page.
+            # A figure that cannot be drawn must not prevent the rest of the page.
             print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
             section.problems.append(f"figure {figure.name!r} could not be drawn: {type(error).__name__}: {error}")
     return section
@@ -137,9 +137,9 @@ def _draw(study: str, figure: figures.Figure, tables: figures.Tables, out: Path)
     with mpl.rc_context(style.RC):
         canvas = figure.draw(tables)
         canvas.savefig(out / svg, metadata={"Date": None})
-        canvas.set_layout_engine("none")  # what was laid out stays; half of the time of a drawing is its layout
+        canvas.set_layout_engine("none")  # keeps the layout for the second file; the layout takes half of the time
         canvas.savefig(out / png)
-    # As a data address, each drawing keeps its identifiers to itself and the page is one file.
+    # As a data address, the identifiers of a drawing stay separate and the page is one file.
     source = "data:image/svg+xml;base64," + base64.b64encode((out / svg).read_bytes()).decode()
     return Picture(figure.caption, source, svg, png)
 

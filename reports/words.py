@@ -77,7 +77,7 @@ def quantity(value: float, unit: str) -> str:
 
 
 def column(values: "pd.Series[Any]") -> list[str]:
-    """A table's column: numbers share their decimals where their sizes allow it, so that they compare."""
+    """A table's column: numbers have equal decimals where their sizes allow it, for comparison."""
     if pd.api.types.is_bool_dtype(values):
         return ["yes" if value else "no" for value in values]
     if not pd.api.types.is_numeric_dtype(values):

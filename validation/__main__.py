@@ -23,24 +23,25 @@ def main(
     every: Annotated[bool, typer.Option("--all", help="Run every study.")] = False,
     reproduce: Annotated[bool, typer.Option("--reproduce", help="Run what `make reproduce` runs.")] = False,
     quick: Annotated[bool, typer.Option("--quick", help="Shorten each study; the checks stay.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="Repeat also what is kept and up to date.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Repeat also studies that are up to date.")] = False,
     audit: Annotated[
         bool, typer.Option("--audit", help="As --force; a study fails that reads a file it does not declare.")
     ] = False,
 ) -> None:
-    """Run studies; each leaves its tables and its verdict in validation/results/NAME/.
+    """Run studies; each stores its tables and its verdict in validation/results/NAME/.
 
-    A result is kept, and its study not repeated, until its code, the files it read, a package or the processor
-    changes; a quick result is none for a full run, nor the other way round. An interrupted run goes on where it was.
-    At the end of --all and --reproduce, and by the name of claims, the paper's claims are judged by what is stored.
+    A result is kept, and its study not repeated, until its code, the files it read, a package or the processor changes;
+    a quick result does not count for a full run, nor a full result for a quick run. An interrupted run continues with
+    the studies that are not stored. At the end of --all and --reproduce, and by the name claims, the paper's claims are
+    judged by the stored results.
 
     Exit code 0: each check as recorded in expected.toml or better, each verdict as recorded in claims.toml. 1: worse
-    than recorded, another verdict, or a study failed. 2: bad usage. 130: interrupted; what had finished is kept.
+    than recorded, another verdict, or a study failed. 2: bad usage. 130: interrupted; finished studies are kept.
     """
     if show:
         for name in STUDIES:
             typer.echo(printable_lines(_line(name)))
-        typer.echo(f"{CLAIMS:<20} What of the paper holds, by how much, and where does it end?  [reproduce]")
+        typer.echo(f"{CLAIMS:<20} Which claims of the paper hold, by how much, and within which limits?  [reproduce]")
         return
     names = names or []
     claims = every or reproduce or CLAIMS in names
@@ -48,7 +49,7 @@ def main(
         sources = fingerprint.Sources()  # before any study is imported: a later edit is repeated by the next run
         chosen = _choose([name for name in names if name != CLAIMS], every, reproduce)
         if not chosen and not claims:
-            raise runner.UsageError("nothing to run: name a study, or say --all, --reproduce or --list")
+            raise runner.UsageError("nothing to run: name a study, or use --all, --reproduce or --list")
         expected = runner.read_expected(runner.EXPECTED)
         runner.check_results(study.RESULTS)
     except (runner.UsageError, SourceSyntaxError) as error:
@@ -89,7 +90,7 @@ def _line(name: str) -> str:
     try:
         found = runner.load(name)
     except Exception as error:
-        # The list must show the others, and that this one is broken.
+        # The list must show the others too.
         return f"{name:<20} cannot be loaded: {type(error).__name__}: {error}"
     marks = [*(["reproduce"] if found.reproduce else []), *(f"needs {need}" for need in found.needs)]
     return f"{name:<20} {found.question}" + (f"  [{', '.join(marks)}]" if marks else "")

@@ -6,7 +6,7 @@ from reports.figures import Figure, Tables, style
 
 
 def errors(tables: Tables) -> Canvas:
-    """Distance from beam theory against segment length, a line a beam."""
+    """Difference from beam theory against segment length, a line for each beam."""
     table = tables["beams"]
     canvas = style.figure(3.8)
     ax = canvas.subplots()
@@ -14,7 +14,7 @@ def errors(tables: Tables) -> Canvas:
         of_beam = table[table["beam"] == beam].sort_values("segment_m")
         ax.plot(of_beam["segment_m"], of_beam["off_percent"].abs(), **style.marked(index), label=beam)
     ax.axhline(1.0, **style.BOUND)
-    ax.set(xscale="log", yscale="log", xlabel="segment length, m", ylabel="off beam theory, %")
+    ax.set(xscale="log", yscale="log", xlabel="segment length, m", ylabel="difference from beam theory, %")
     style.plain_log_ticks(ax.xaxis)
     style.legend_outside(canvas, ax)
     return canvas
@@ -23,8 +23,8 @@ def errors(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "errors",
-        "Short beams against beam theory: the distance falls with the square of the segment length until what beam "
-        "theory leaves out shows (shear, a wall that gives way). The dashed line is 1 %.",
+        "Short beams against beam theory: the difference falls with the square of the segment length until effects "
+        "that beam theory neglects remain (shear, the elastic wall). The dashed line is 1 %.",
         errors,
     )
 ]

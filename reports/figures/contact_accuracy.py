@@ -5,7 +5,7 @@ from matplotlib.figure import Figure as Canvas
 
 from reports.figures import Figure, Tables, style
 
-# Exact answers have no place on a logarithmic axis; they stand on a line of their own below it.
+# Zero has no place on a logarithmic axis; exact answers are drawn on a line below it.
 FLOOR = 0.3
 
 
@@ -21,7 +21,7 @@ def error_and_cost(tables: Tables) -> Canvas:
             smallest = cost.loc[cost[column] > 1e-5, column].min()
             ax.plot(chosen["ns_per_point"], chosen[column].clip(lower=FLOOR * smallest), **look, label=method)
     for ax, label in ((depth, "largest error of penetration, mm"), (angle, "largest error of direction, °")):
-        ax.set(xscale="log", yscale="log", xlabel="cost of a point, ns", ylabel=label)
+        ax.set(xscale="log", yscale="log", xlabel="cost per point, ns", ylabel=label)
         style.plain_log_ticks(ax.yaxis)
     for ax, column in ((depth, "max_penetration_error_mm"), (angle, "max_angle_error_deg")):
         _exact_line(ax, FLOOR * cost.loc[cost[column] > 1e-5, column].min())
@@ -38,7 +38,7 @@ FIGURES = [
     Figure(
         "error_and_cost",
         "Largest error of penetration (left) and of the wall's direction (right) over all points in bends, against "
-        "the time a point takes when asked from Python. Lines lead from coarse to fine: cylinders and FOR-loop by "
+        "the time per point of a query from Python. Lines lead from coarse to fine: cylinders and FOR-loop by "
         "length, meshes by facets and ring spacing. Points on the dotted line are exact.",
         error_and_cost,
     )

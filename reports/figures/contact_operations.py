@@ -16,7 +16,7 @@ def operations(tables: Tables) -> Canvas:
         height = np.flatnonzero(some) + 0.14 * (2 * index - 1)
         label = "sums, products, roots" if column == "arithmetic" else "comparisons"
         ax.plot(table.loc[some, column], height, **style.dots(index, filled=not index), markersize=6, label=label)
-    ax.set(xscale="log", xlabel="operations of a point, number")
+    ax.set(xscale="log", xlabel="operations per point, –")
     style.rows_downwards(ax, list(table["what"]))
     style.legend_outside(canvas, ax)
     return canvas
@@ -26,7 +26,8 @@ FIGURES = [
     Figure(
         "operations",
         "Operations of one contact point on the paper's well, counted by running the engine's own helpers. The paper "
-        "counts thirteen for one cylinder; its search asks a few hundred of them, the engine remembers the last one.",
+        "counts thirteen for one cylinder; its search tests a few hundred cylinders, while the engine remembers the "
+        "last one.",
         operations,
     )
 ]

@@ -1,4 +1,4 @@
-"""The loop with each contact method, the trip of Fig. 13, and what facets do to the torque."""
+"""The loop with each contact method, the trip of Fig. 13, and the effect of facets on the torque."""
 
 import numpy as np
 from matplotlib.figure import Figure as Canvas
@@ -16,14 +16,14 @@ def costs(tables: Tables) -> Canvas:
         at = chosen.set_index("loop").reindex(loops)
         height = np.arange(len(loops)) + 0.14 * (2 * index - 1)
         ax.plot(at["ns_per_segment_step"], height, **style.dots(index), markersize=6, label=f"{segments} segments")
-    ax.set(xscale="log", xlabel="one segment and step, ns")
+    ax.set(xscale="log", xlabel="cost per segment and step, ns")
     style.rows_downwards(ax, loops)
     style.legend_above(ax)
     return canvas
 
 
 def figure_13(tables: Tables) -> Canvas:
-    """Σ rμF_n over depth: the engine's whole trip, both in the windows; below, the difference in the windows."""
+    """Σ rμF_n over depth: the engine's whole trip, both methods in windows; below, their difference."""
     windows, trip = tables["figure_13"], tables["trip"]
     canvas = style.figure(4.6)
     above, below = canvas.subplots(2, 1, sharex=True, height_ratios=[2, 1])
@@ -67,7 +67,7 @@ def facets(tables: Tables) -> Canvas:
         **style.marked(1),
         label="|mesh − cylinders|",
     )
-    ax.set(xscale="log", yscale="log", xlabel="facets around the hole, number", ylabel="difference of Σ rμFₙ, %")
+    ax.set(xscale="log", yscale="log", xlabel="number of facets, –", ylabel="difference of Σ rμFₙ, %")
     style.plain_log_ticks(ax.xaxis)
     style.plain_log_ticks(ax.yaxis)
     ax.set_xticks(meshes["facets"].to_list())
@@ -91,8 +91,8 @@ def torques(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "costs",
-        "What one segment costs in one step of the same loop with each contact method, by number of segments. "
-        "Compiled loops need no call from Python; the row that asks and finds nothing is what such calls cost.",
+        "Cost of one segment and step in the same loop with each contact method, by number of segments. Compiled "
+        "loops need no call from Python; the row with an empty query is the cost of such calls.",
         costs,
     ),
     Figure(
@@ -104,15 +104,15 @@ FIGURES = [
     ),
     Figure(
         "torques",
-        "The curved chain rotating against the wall of every contact method at its default options: how far the sum is "
-        "from that with the engine's own cylinders.",
+        "The curved chain rotating against the wall of every contact method at its default options: difference of "
+        "the sum from that with the engine's own cylinders.",
         torques,
     ),
     Figure(
         "facets",
-        "Why a mesh gives more torque: a string that rests in the corner between two facets is held by both of them. "
-        "The wide grey line is the excess of two facets at an angle of 2π/n over a round wall; a string on the "
-        "flat of a facet has none.",
+        "Why a mesh gives more torque: two facets support a string that rests in the corner between them. The wide "
+        "grey line is the excess of two facets at an angle of 2π/n over a round wall; a string on the flat of a "
+        "facet has no excess.",
         facets,
     ),
 ]

@@ -1,4 +1,4 @@
-"""A chain of segments through one bend: how far stiff and soft string differ, and where the chain touches."""
+"""A chain of segments through one bend: differences of stiff and soft string, and where the chain touches."""
 
 import itertools
 
@@ -11,7 +11,7 @@ from reports.figures import Figure, Tables, style
 
 
 def differences(tables: Tables) -> Canvas:
-    """A dot for each run: its distance from the soft string in hook load and in torque."""
+    """A dot for each run: its difference from the soft string in hook load and in torque."""
     numbers = tables["numbers"]
     laws = list(numbers["law"].unique())
     geometries = list(numbers["geometry"].unique())
@@ -31,7 +31,7 @@ def differences(tables: Tables) -> Canvas:
                 chosen = numbers[
                     (numbers["operation"] == operation) & (numbers["geometry"] == geometry) & (numbers["law"] == law)
                 ]
-                # Laws are set apart by shape and a little by height, since they often agree.
+                # Laws differ by marker and slightly by height, since they often agree.
                 shift = 0.16 * (index - (len(laws) - 1) / 2)
                 ax.plot(
                     chosen[column],
@@ -75,7 +75,7 @@ def contact(tables: Tables) -> Canvas:
     grid[0][0].set_ylim(0, 1.05 * touched["contact_force_N"].max() / 1e3)
     for ax in grid[-1]:
         ax.set_xlabel("measured depth, m")
-        # Above the first contact there is nothing to see.
+        # Nothing touches above the first contact.
         ax.set_xlim(touched["md_m"].min() - 50, profiles["md_m"].max() + 20)
     style.legend_outside(canvas, grid[0][0], columns=3)
     return canvas
@@ -86,12 +86,12 @@ FIGURES = [
         "differences",
         "Stiff string against soft string: the difference in hook load and in surface torque for each "
         "operation, wellbore geometry and friction law. A dot on the line at zero agrees with the soft "
-        "string. Where the soft string needs no torque there is no dot.",
+        "string. Where the soft string has no torque there is no dot.",
         differences,
     ),
     Figure(
         "contact",
-        "Contact force (left) and the side of the hole that is touched (right) along the chain. 0° is "
+        "Contact force (left) and the side of the hole that the chain touches (right) along the chain. 0° is "
         "the high side, 90° is to the right looking downhole; end points without contact have no angle.",
         contact,
     ),

@@ -1,4 +1,4 @@
-"""What it costs to build a bend from straight cylinders."""
+"""The error of a bend built from straight cylinders."""
 
 from matplotlib.figure import Figure as Canvas
 

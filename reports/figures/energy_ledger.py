@@ -1,4 +1,4 @@
-"""Whether the energy that goes in is accounted for, and how the rest shrinks with the time step."""
+"""The residual of the energy ledger over the time step."""
 
 import numpy as np
 from matplotlib.figure import Figure as Canvas
@@ -7,7 +7,7 @@ from reports.figures import Figure, Tables, style
 
 
 def closure(tables: Tables) -> Canvas:
-    """What is left over in the ledger against the step, with lines of first and second order beside it."""
+    """Residual of the ledger against the step, with lines of first and second order."""
     table = tables["closure"]
     canvas = style.figure(4.0)
     ax = canvas.subplots()
@@ -30,7 +30,7 @@ def closure(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "closure",
-        "What the energy ledger cannot account for, as a share of the work done, against the time step. "
+        "Residual of the energy ledger, as a share of the work done, against the time step. "
         "The grey lines fall with the first and the second power of the step.",
         closure,
     )

@@ -35,7 +35,7 @@ def loads(tables: Tables) -> Canvas:
 
 
 def contact(tables: Tables) -> Canvas:
-    """Contact force along the turning chain, one line for each engine that is at its best."""
+    """Contact force along the turning chain, one line for each engine at its best configuration."""
     profiles = tables["profiles"]
     turning = profiles[(profiles["operation"] == "rotate_off_bottom") & (profiles["hole"] == "planar")]
     names = [name for name in turning["engine"].unique() if "default" not in name]
@@ -51,7 +51,7 @@ def contact(tables: Tables) -> Canvas:
 
 
 def friction(tables: Tables) -> Canvas:
-    """How far friction leans off the sliding over the azimuth of a straight hole, and what two directions give."""
+    """Angle of friction to the sliding over the azimuth of a straight hole, and that of two fixed directions."""
     table = tables["friction"]
     canvas = style.figure(3.2)
     ax = canvas.subplots()
@@ -62,7 +62,7 @@ def friction(tables: Tables) -> Canvas:
         given["azimuth_deg"], given["two_directions_lean_deg"], color=style.QUIET, linestyle="none", marker="o",
         markersize=12, markerfacecolor="none", label="against M·v, north and east",
     )  # fmt: skip
-    ax.set(xlabel="azimuth of the hole, °", ylabel="lean of friction, °")
+    ax.set(xlabel="azimuth of the hole, °", ylabel="angle of friction to sliding, °")
     style.legend_above(ax, columns=3)
     return canvas
 
@@ -70,8 +70,8 @@ def friction(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "loads",
-        "The curved chain in other engines, from the same state over the same window: how far hook load and torque "
-        "are from FCTD's. An open dot is a run that failed a check; where no torque is needed there is no dot.",
+        "The curved chain in other engines, from the same state over the same window: differences of hook load and "
+        "torque from FCTD's. An open dot is a run that failed a check; where FCTD has no torque there is no dot.",
         loads,
     ),
     Figure(
@@ -82,9 +82,9 @@ FIGURES = [
     ),
     Figure(
         "friction",
-        "A pipe turning in a straight, horizontal hole: how far friction leans off the sliding, up the hole, over the "
-        "direction in which the hole heads. By Coulomb's law it does not. Rings are what friction against M·v gives, "
-        "M the effective masses along two fixed directions.",
+        "A pipe turning in a straight, horizontal hole: angle of friction to the sliding, positive up the hole, over "
+        "the azimuth of the hole. By Coulomb's law it is zero. Rings: friction opposite to M·v, with M the effective "
+        "masses along two fixed directions.",
         friction,
     ),
 ]

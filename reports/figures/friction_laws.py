@@ -33,9 +33,9 @@ def straight(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "straight",
-        "A pipe pulled out of 1000 m of straight hole at 60° while it turns at 60 rev/min, over the ratio of its axial "
-        "to its tangential speed at the wall. Coulomb's law shares one force between drag and torque; the paper's "
-        "gives both in full.",
+        "A pipe pulled out of 1000 m of straight hole at 60° while it turns at 60 rev/min, over the ratio of its "
+        "axial to its tangential speed at the wall. Coulomb's law divides one force between drag and torque; the "
+        "paper's law gives both in full.",
         straight,
     )
 ]

@@ -28,7 +28,7 @@ def start_up(tables: Tables) -> Canvas:
 
 
 def frequencies(tables: Tables) -> Canvas:
-    """How far the lowest frequencies are from those of the continuous string."""
+    """Differences of the lowest frequencies from those of the continuous string."""
     table = tables["frequencies"]
     canvas = style.figure(3.0)
     axes = canvas.subplots(1, 2, sharey=True)
@@ -40,7 +40,7 @@ def frequencies(tables: Tables) -> Canvas:
                 rows["continuous_Hz"], rows[f"{column}_off_percent"], **style.dots(index), markersize=7, label=label
             )
         ax.set(xlabel=f"{kind} frequency of the continuous string, Hz")
-    axes[0].set_ylabel("frequency off, %")
+    axes[0].set_ylabel("frequency difference, %")
     style.legend_outside(canvas, axes[0])
     return canvas
 
@@ -49,13 +49,14 @@ FIGURES = [
     Figure(
         "start_up",
         "The paper's string with the bit at 2450 m started in 2 s: torque when it starts to turn (above), hook load "
-        "when it starts to go in (below). Steady loads are equal to a millionth; the long segment bends the waves.",
+        "when it starts to go in (below). Steady loads agree within a millionth; the long segment changes the waves.",
         start_up,
     ),
     Figure(
         "frequencies",
-        "The four lowest axial and torsional frequencies of the hanging string, off those of a continuous string with "
-        "the same pipe and collars. With one long segment for the uppermost 750 m the higher ones are up to 10 % off.",
+        "The four lowest axial and torsional frequencies of the hanging string, as differences from those of a "
+        "continuous string with the same pipe and collars. With one long segment for the uppermost 750 m the higher "
+        "ones are up to 10 % off.",
         frequencies,
     ),
 ]

@@ -36,8 +36,8 @@ FIGURES = [
         "figure_13b",
         "Paper's Fig. 13 in reading (b): the string rotates off bottom under law coulomb, contact with FCL on a mesh "
         "and in cylinders; above Σ rμFₙ, in rotation the torque of friction, over the last seconds of short windows. "
-        "Below: differences, also of the surface torque, which in such a window still swings. Reading (a) stands with "
-        "the study contact_swap.",
+        "Below: differences, also of the surface torque, which still swings in such a window. The study contact_swap "
+        "shows reading (a).",
         figure_13b,
     )
 ]

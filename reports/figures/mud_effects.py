@@ -1,4 +1,4 @@
-"""How the twisting of a turning string dies in mud."""
+"""Decay of the twisting of a rotating string in mud."""
 
 from matplotlib.figure import Figure as Canvas
 
@@ -24,8 +24,8 @@ def decay(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "decay",
-        "The paper's string started to turn within 2 s with the bit at 2450 m. Coulomb's friction, whose torque does "
-        "not grow with the rate, leaves the twisting to swing; the mud's damping lets it die.",
+        "The paper's string starts to turn within 2 s with the bit at 2450 m. Coulomb's friction, whose torque does "
+        "not grow with speed, does not damp the twisting; the mud does.",
         decay,
     )
 ]

@@ -1,4 +1,4 @@
-"""A point dragged through a bend, with cylinders that overlap and cylinders that only meet."""
+"""A point dragged through a bend, with cylinders that overlap and cylinders that do not."""
 
 from matplotlib.figure import Figure as Canvas
 
@@ -6,11 +6,11 @@ from reports.figures import Figure, Tables, style
 
 
 def drag(tables: Tables) -> Canvas:
-    """Contact force and direction along the way, with overlap and without."""
+    """Contact force and direction over the distance dragged, with overlap and without."""
     table = tables["drag"]
     canvas = style.figure(4.6)
     force, direction = canvas.subplots(2, 1, sharex=True)
-    # The run without overlap lies thin over the other; dashes would be lost in its jumps.
+    # The run without overlap is a thin line over the other; dashes would not show in its jumps.
     for index, overlap in enumerate(sorted(table["overlap"].unique(), reverse=True)):
         ordered = table[table["overlap"] == overlap].sort_values("s_m")
         look = {"color": style.COLOURS[index], "linewidth": (3.2, 1.0)[index], "alpha": (0.55, 1.0)[index]}
@@ -28,9 +28,9 @@ def drag(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "drag",
-        "A point pressed against the outer wall and dragged through a bend. Where cylinders only meet, "
-        "their joint leaves a gap on the outside of the bend in which no cylinder owns the point; the "
-        "overlap closes it and blends one cylinder into the next.",
+        "A point pressed against the outer wall and dragged through a bend. Without overlap the seam between two "
+        "cylinders leaves a gap on the outside of the bend in which no cylinder owns the point; the overlap closes "
+        "the gap and blends one cylinder into the next.",
         drag,
     )
 ]

@@ -13,7 +13,7 @@ BIT_DEPTHS_M = (1750.0, 2450.0)
 
 
 def torque(tables: Tables) -> Canvas:
-    """The paper's Fig. 12 in both readings of what it plots."""
+    """The paper's Fig. 12 in both readings of its model curve."""
     canvas = style.figure(3.9)
     ax = canvas.subplots()
     _series(ax, tables["trip_in"], "sum_r_mu_fn_N_m", 0, "(a)", "law paper, tripping in: Σ rμFₙ")
@@ -53,14 +53,14 @@ def contact(tables: Tables) -> Canvas:
             ax.set_title(f"{words.name(operation)}, bit at {depth:.0f} m")
     for ax in grid[-1]:
         ax.set_xlabel("measured depth, m")
-        # Above the first contact there is nothing to see, and the bends need the room.
+        # Nothing touches above the first contact, and the bends need the room.
         ax.set_xlim(touching["md_m"].min() - 50, depths[-1] + 50)
     canvas.supylabel("contact force, kN (up: high side, down: low side)", fontsize=9.5)
     return canvas
 
 
 def _series(ax: Axes, table: pd.DataFrame, column: str, index: int, reading: str, what: str) -> None:
-    """One reading for the well, and thinner for its variant b."""
+    """One reading for the well, and as a thinner line for its variant b."""
     for variant, label, look in (
         (WELL, f"{reading} {what}", {}),
         (WELL_B, f"{reading} well b", {"linewidth": 0.9, "alpha": 0.85}),
@@ -95,7 +95,7 @@ def _first_middle_last(depths: "pd.Series[float]") -> list[float]:
 FIGURES = [
     Figure(
         "torque",
-        "Paper's Fig. 12, drawn once for each reading of what its model curve may be: (a) "
+        "Paper's Fig. 12, for both readings of its model curve: (a) "
         "friction law “paper” while tripping in, the sum of rμFₙ over all contacts; (b) law “coulomb”, "
         "the torque at the surface while rotating off bottom at each depth. Thin lines: well b, with "
         "both builds at 16° per 100 m. The measured points of the paper are not public.",
@@ -103,8 +103,8 @@ FIGURES = [
     ),
     Figure(
         "hook_load",
-        "Hook load over the same depths, going in and rotating off bottom. Thin lines: well b. It swings where its "
-        "collars pass the joints of the hole's cylinders in time with the string, an artefact of the cylinders.",
+        "Hook load over the same depths, going in and rotating off bottom. Thin lines: well b. It swings where all "
+        "collars pass seams between cylinders at a natural frequency of the string, an artefact of the cylinders.",
         hook_load,
     ),
     Figure(

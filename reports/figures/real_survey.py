@@ -1,4 +1,4 @@
-"""A surveyed well: what the rig would read over time, and where the string touches."""
+"""A surveyed well: surface loads over time, and where the string touches."""
 
 from matplotlib.figure import Figure as Canvas
 
@@ -42,7 +42,7 @@ FIGURES = [
     ),
     Figure(
         "contact",
-        "Contact force (left) and the side of the hole that is touched (right) at the end of the run, "
+        "Contact force (left) and the side of the hole that the string touches (right) at the end of the run, "
         "against measured depth. 0° is the high side, 90° is to the right looking downhole.",
         contact,
     ),

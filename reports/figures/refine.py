@@ -1,4 +1,4 @@
-"""Graded strings beside uniform ones, and where ``fctd refine`` landed."""
+"""Graded and uniform strings, and the errors of ``fctd refine``."""
 
 from matplotlib.figure import Figure as Canvas
 
@@ -8,7 +8,7 @@ LAYOUTS = ("uniform", "graded")
 
 
 def layouts(tables: Tables) -> Canvas:
-    """A column a well: torque above, hook load below."""
+    """A column for each well: torque above, hook load below."""
     table = tables["layouts"]
     wells = list(table["well"].unique())
     canvas = style.figure(5.0)
@@ -28,7 +28,7 @@ def layouts(tables: Tables) -> Canvas:
             if column == 0:
                 ax.set_ylabel(f"error of {label}, %")
         axes[0, column].set_title(well)
-        axes[1, column].set_xlabel("segments, count")
+        axes[1, column].set_xlabel("number of segments, –")
     style.legend_outside(canvas, axes[0, 0])
     return canvas
 
@@ -62,7 +62,7 @@ FIGURES = [
     ),
     Figure(
         "landed",
-        "Where fctd refine landed for three operations at once: the error it estimated, and the largest difference "
+        "Errors of fctd refine for three operations at once: the error it estimated, and the largest difference "
         "from a run with segments and cylinders a quarter as long.",
         landed,
     ),

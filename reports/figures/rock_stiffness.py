@@ -1,4 +1,4 @@
-"""What changes with the stiffness of the rock: loads, penetration, the stepper's step."""
+"""Loads, penetration and the stepper's step over the stiffness of the rock."""
 
 from matplotlib.figure import Figure as Canvas
 
@@ -33,7 +33,7 @@ def stiffness(tables: Tables) -> Canvas:
     right.set(ylabel="ratio, –")
     none = table.loc[table["without_answer"] > 0, "stiffness_N_per_m"]
     for ax in (left, right):
-        ax.set(xscale="log", yscale="log", xlabel="wall stiffness of a point, N/m")
+        ax.set(xscale="log", yscale="log", xlabel="wall stiffness per point, N/m")
         if len(none):
             ax.axvspan(none.min(), none.max(), color=style.SHADE, linewidth=0, zorder=0)
         style.legend_above(ax, columns=1)
@@ -44,8 +44,8 @@ FIGURES = [
     Figure(
         "stiffness",
         "The paper's well with walls of every stiffness. Left: largest change of hook load, torque and contact force "
-        "over four operations and all depths, against 10¹⁰ N/m; dashed: 1 %. Right: how deep the string lies in the "
-        "wall, and how long a step of the stepper may be. Shaded: the string leaves the hole somewhere, no answer.",
+        "over four operations and all depths, against 10¹⁰ N/m; dashed: 1 %. Right: penetration of the wall, and the "
+        "longest stable step of the stepper. Shaded: the string leaves the hole somewhere, no solution.",
         stiffness,
     )
 ]

@@ -1,4 +1,4 @@
-"""The scaled curved section: contact force, displacement, and how the difference falls with shorter segments."""
+"""The scaled curved section: contact force, displacement, and differences over the number of segments."""
 
 from matplotlib.figure import Figure as Canvas
 
@@ -13,11 +13,11 @@ SIDES = {
 
 
 def force(tables: Tables) -> Canvas:
-    """Fig. 9: contact force against time, in all and on each side."""
+    """Fig. 9: contact force against time, total and on each side."""
     table = tables["force"]
     canvas = style.figure(6.4)
     grid = canvas.subplots(2, 2, sharex=True)
-    panels = {"total_N": "in all", **SIDES}
+    panels = {"total_N": "total", **SIDES}
     for ax, (column, title) in zip(grid.flat, panels.items(), strict=True):
         for index, model in enumerate(_models(tables)):
             rows = table[table["model"] == model]
@@ -76,7 +76,7 @@ def convergence(tables: Tables) -> Canvas:
     right.axhline(1.0, **style.BOUND)
     right.set_ylabel("displacement, % of the clearance")
     for ax in (left, right):
-        ax.set(xscale="log", yscale="log", xlabel="segments, count")
+        ax.set(xscale="log", yscale="log", xlabel="number of segments, –")
         style.plain_log_ticks(ax.xaxis)
         style.plain_log_ticks(ax.yaxis)
         ax.set_xticks(own["segments"], [str(count) for count in own["segments"]])
@@ -97,7 +97,7 @@ def _shown(tables: Tables) -> float:
 
 
 def _look(index: int) -> dict[str, object]:
-    """The finite elements lie broad and pale under the others."""
+    """The finite elements are a broad pale line under the others."""
     if index == 0:
         return {"color": style.COLOURS[3], "linewidth": 4.0}
     return style.line((1, 2)[index - 1])
@@ -106,7 +106,7 @@ def _look(index: int) -> dict[str, object]:
 FIGURES = [
     Figure(
         "force",
-        "Paper's Fig. 9, with numbers: contact force while the string is lowered, in all and on each side, from "
+        "Paper's Fig. 9, with numbers: contact force while the string is lowered, total and on each side, from "
         "finite elements and from rigid segments.",
         force,
     ),
@@ -118,7 +118,7 @@ FIGURES = [
     ),
     Figure(
         "convergence",
-        "Difference from the finite elements with more and more segments, at equal wall stiffness per metre. Dashed "
+        "Difference from the finite elements over the number of segments, at equal wall stiffness per metre. Dashed "
         "lines are the targets, 3 % and 1 %.",
         convergence,
     ),

@@ -16,7 +16,7 @@ LIMITS = (1.0, 0.1)
 
 
 def errors(tables: Tables) -> Canvas:
-    """A panel a well: every quantity's error, and lines of first and second order."""
+    """A panel for each well: every quantity's error, and lines of first and second order."""
     table = tables["counts"]
     wells = list(table["well"].unique())
     rows = (len(wells) + 2) // 3
@@ -39,7 +39,7 @@ def errors(tables: Tables) -> Canvas:
     for ax in axes[len(wells) :]:
         ax.remove()
     for ax in axes[: len(wells)][-3:]:
-        ax.set_xlabel("segments, count")
+        ax.set_xlabel("number of segments, –")
         ax.tick_params(labelbottom=True)
     for ax in axes[::3]:
         ax.set_ylabel("error, %")
@@ -59,14 +59,14 @@ def cost(tables: Tables) -> Canvas:
         axes[0].plot(of_well["segments"], of_well["cost_ms"], **look, label=well)
         run = stepped[stepped["well"] == well].dropna()
         axes[1].plot(run["segments"], run["ms_per_simulated_s"], **look)
-    # Where the grey lines begin and end, below all others.
+    # Ends of the grey lines, below all others.
     for ax, orders, at in ((axes[0], (1,), (40.0, 640.0)), (axes[1], (1, 2), (120.0, 960.0))):
         start = 0.4 * min(np.interp(at[0], *line.get_data()) for line in ax.get_lines() if len(line.get_xdata()))
         for order in orders:
             label = ("linear", "quadratic")[order - 1]
             values = [start * (x / at[0]) ** order for x in at]
             ax.plot(at, values, **style.ZERO | {"linestyle": style.ORDERS[order]}, label=label)
-        ax.set(xscale="log", yscale="log", xlabel="segments, count")
+        ax.set(xscale="log", yscale="log", xlabel="number of segments, –")
         style.plain_log_ticks(ax.xaxis)
         ax.set_xticks([5, 20, 60, 160, 640] if ax is axes[0] else [15, 60, 240, 960])
     axes[0].set(ylabel="a steady string, ms", title="Steady solver")
@@ -78,7 +78,7 @@ def cost(tables: Tables) -> Canvas:
 
 
 def cylinders(tables: Tables) -> Canvas:
-    """Loads against how far a cylinder misses the hole, and moment against its length."""
+    """Errors of side force over the miss of the longest cylinder, and of moment over its length."""
     table = tables["cylinders"]
     canvas = style.figure(3.9)
     axes = canvas.subplots(1, 2)
@@ -104,7 +104,7 @@ FIGURES = [
         "errors",
         "Error of the steady string against its number of segments. Torque, side force (its sum from the top down) and "
         "moment turning off bottom, hook load picking up; grey lines are 1 % and 0.1 %, dashed ones first and second "
-        "order. Where a line is broken the string has no answer.",
+        "order. Where a line is broken the string has no solution.",
         errors,
     ),
     Figure(
@@ -115,9 +115,9 @@ FIGURES = [
     ),
     Figure(
         "cylinders",
-        "What the length of the cylinders does to one string of 320 segments, against the same string in exact arcs: "
-        "side force over how far the longest cylinder misses the sharpest bend, in clearances (left), and moment over "
-        "the length of a cylinder (right).",
+        "Errors from the length of the cylinders for a string of 320 segments, against the same string in exact "
+        "arcs: side force over the distance between the longest cylinder and the sharpest bend, in clearances "
+        "(left), and moment over the length of a cylinder (right).",
         cylinders,
     ),
 ]

@@ -1,4 +1,4 @@
-"""How the stiff string becomes the soft one."""
+"""The stiff string on its way to the soft limit."""
 
 from matplotlib.figure import Figure as Canvas
 
@@ -8,7 +8,7 @@ ALLOWED = 0.2  # percent
 
 
 def ladder(tables: Tables) -> Canvas:
-    """Largest difference of each rung, a line an operation."""
+    """Largest difference at each rung, a line for each operation."""
     table = tables["ladder"]
     canvas = style.figure(3.4)
     axes = canvas.subplots(1, 2, sharey=True)
@@ -35,7 +35,7 @@ FIGURES = [
     Figure(
         "ladder",
         "Largest difference between the stiff string and the closed forms of the soft string, over five wells and "
-        "two laws, as clearance and then bending stiffness are taken away.",
+        "two laws, as clearance and then bending stiffness are removed.",
         ladder,
     )
 ]

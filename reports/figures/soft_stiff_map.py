@@ -1,4 +1,4 @@
-"""Maps of what the soft string misses."""
+"""Maps of the difference between stiff and soft string."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -49,9 +49,9 @@ def _map(ax: Axes, rows: DataFrame) -> None:
 FIGURES = [
     Figure(
         "contact_force",
-        "Total contact force of the stiff string over the soft string's, in percent, for a 60° build of every severity "
-        "and clearance; below, of strings with little weight under the bend. The darker, the further off is the soft "
-        "string; right of the dashed line the paper advises against it.",
+        "Total contact force of the stiff string over the soft string's, in percent, for a 60° build over severity "
+        "and clearance; below, strings with little weight below the bend. Darker cells have larger differences; "
+        "right of the dashed line the paper advises against the soft string.",
         contact_force,
     )
 ]

@@ -1,4 +1,4 @@
-"""What a simulated second costs in each engine, and what a segment-step costs in FCTD with more and more of them."""
+"""Cost of a simulated second in each engine, and cost of a segment-step in FCTD over the number of segments."""
 
 import numpy as np
 from matplotlib.figure import Figure as Canvas
@@ -39,8 +39,8 @@ def scaling(tables: Tables) -> Canvas:
     ax.plot(table["segments"], table["ns_least"], **style.marked(0))
     ax.set(
         xscale="log",
-        xlabel="segments, number",
-        ylabel="one segment and step, ns",
+        xlabel="number of segments, –",
+        ylabel="cost per segment and step, ns",
         ylim=(0, 1.15 * table["ns_least"].max()),
     )
     style.plain_log_ticks(ax.xaxis)
@@ -51,17 +51,17 @@ def scaling(tables: Tables) -> Canvas:
 FIGURES = [
     Figure(
         "seconds",
-        "Wall time of a simulated second of the curved chain, turning in contact (circles) or hanging in the open "
-        "(squares), at each engine's own step (filled) and at the shortest of those for all (open). Same string, same "
-        "state at the start, the fastest of rounds in turn; nothing is extrapolated. The dashed "
-        "line is real time. In our loop another contact method answers for the wall, asked from Python; without "
-        "contact that loop asks for nothing.",
+        "Wall time of a simulated second of the curved chain, turning in contact (circles) or hanging free "
+        "(squares), at each engine's own step (filled) and at the shortest of all steps (open). Same string and "
+        "initial state, fastest of several rounds; nothing is extrapolated. The dashed line is real time. “In our "
+        "loop”: another contact method in FCTD's loop, called from Python; without contact its query is empty.",
         seconds,
     ),
     Figure(
         "scaling",
-        "FCTD's cost of one segment and step over the number of segments, in contact, fastest round. A level line is a "
-        "cost in proportion to the number; the stable step shrinks with the segments on top of that.",
+        "FCTD's cost of one segment and step over the number of segments, in contact, fastest round. A level line "
+        "means a cost proportional to the number of segments; in addition the stable step shrinks with the length of "
+        "the segments.",
         scaling,
     ),
 ]

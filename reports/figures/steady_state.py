@@ -1,4 +1,4 @@
-"""A chart of the paper's well by the steady solver, the stepper's answers beside it."""
+"""A chart of the paper's well by the steady solver, with the stepper's loads."""
 
 from matplotlib.figure import Figure as Canvas
 
@@ -22,7 +22,7 @@ FIGURES = [
     Figure(
         "chart",
         "The paper's well by the steady solver: hook load (left) and surface torque (right), every 10 m; drilling with "
-        "50 kN on the bit and 3 kN·m. Plus signs are the stepper's answers at the same depths.",
+        "50 kN on the bit and 3 kN·m. Plus signs are the stepper's loads at the same depths.",
         chart,
     )
 ]

@@ -1,4 +1,4 @@
-"""One look for all figures: fonts, lines told apart in grey and by the colour-blind, axes with units."""
+"""One style for all figures: fonts, lines that differ in grey and for the colour-blind, axes with units."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -16,7 +16,7 @@ from fctd import plots
 
 WIDTH_IN = 7.2  # the page's column
 
-# The engine's own look, larger and greyer for the page.
+# The style of the engine's own plots, larger and greyer for the page.
 RC: dict[RcKeyType, Any] = plots.RC | {
     "font.size": 9.5,
     "axes.titlesize": 9.5,
@@ -40,19 +40,19 @@ MARKERS = ["o", "s", "^", "D", "v", "P"]
 # A friction law looks the same in every figure.
 LAWS = {"paper": 0, "coulomb": 1, "karnopp": 2}
 
-# Grey lines: where nothing differs, and what is allowed.
+# Grey lines: zero difference, and bounds.
 ZERO: dict[str, Any] = {"color": QUIET, "linewidth": 1}
 BOUND: dict[str, Any] = ZERO | {"linestyle": (0, (4, 2))}
-# Dashes of the powers that errors and costs follow.
+# Dashes of the lines of first and second order.
 ORDERS: dict[int, Any] = {1: (0, (1, 1.5)), 2: (0, (6, 2, 1, 2))}
 
-# Contact angles run from -90° to 270°, so that neither the high nor the low side falls on the seam.
+# Contact angles run from -90° to 270°, so that neither the high nor the low side is at the ends of the axis.
 SIDES = [-90, 0, 90, 180, 270]
 SIDE_LABELS = ["left", "0°\nhigh", "90°\nright", "180°\nlow", "left"]
 
 
 def line(index: int) -> dict[str, Any]:
-    """The look of the series number ``index`` drawn as a line."""
+    """The style of series number ``index`` drawn as a line."""
     return {"color": COLOURS[index % 6], "linestyle": DASHES[index % 6]}
 
 
@@ -62,7 +62,7 @@ def marked(index: int) -> dict[str, Any]:
 
 
 def dots(index: int, *, filled: bool = True) -> dict[str, Any]:
-    """The look of the series number ``index`` drawn as separate points."""
+    """The style of series number ``index`` drawn as separate points."""
     colour = COLOURS[index % 6]
     return {
         "color": colour,

@@ -62,7 +62,7 @@ def render(tmp_path):
 
 
 def words_of(html):
-    """The page as it is read: tags away, white space collapsed."""
+    """The text of the page: without tags, white space collapsed."""
     return re.sub(r"\s+", " ", re.sub(r"<style>.*?</style>|<[^>]+>", " ", html, flags=re.DOTALL))
 
 
@@ -89,7 +89,7 @@ def test_a_message_from_outside_is_text_on_the_page(render):
     assert r"OSError: &lt;b&gt;[/x]&lt;/b&gt; {{ 7 * 6 }} data-\udcff" in html
 
 
-def test_verdicts_are_told_in_words(render):
+def test_verdicts_are_printed_in_words(render):
     checks = (
         judged(1.0, name="a"),
         judged(1.0, "missed: chords are chords", name="b"),
@@ -293,13 +293,13 @@ def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, claims)
     holds = "5.2 No &lt;gap&gt; is left. ✓ holds 0.5 kN·m (at most 1 kN·m) largest jump: jumps Bound: target."
     assert f"{holds} python -m validation jumps" in text
     assert "never told" not in text
-    assert "abs., 4.2 Owners are found. ◐ holds with limits 0.5 kN·m (at most 0 kN·m: not so)" in text
+    assert "abs., 4.2 Owners are found. ◐ holds with limits 0.5 kN·m (at most 0 kN·m: not met)" in text
     assert "Limit. In gentle wells. 0.5 kN·m (at most 2 kN·m) largest jump" in text
-    # Beside the number that it is held against, ahead of the bound.
-    first = "0.5 kN·m (at most 0 kN·m: not so) largest jump: jumps"
-    assert f"{first} Second route. 0.75 kN·m (at most 0 kN·m: not so) largest jump: drops Bound: target." in text
+    # Next to the first number, before the bound.
+    first = "0.5 kN·m (at most 0 kN·m: not met) largest jump: jumps"
+    assert f"{first} Second route. 0.75 kN·m (at most 0 kN·m: not met) largest jump: drops Bound: target." in text
     assert f"{first} No second route. One number is printed. Bound: target." in text
-    assert "Second route. 0.75 kN·m (at least 4 kN·m: not so) largest jump: drops Bound: target." in text
+    assert "Second route. 0.75 kN·m (at least 4 kN·m: not met) largest jump: drops Bound: target." in text
     assert "Mind the step." in text
     assert "✗ does not hold recorded: holds" in text
     assert "○ not yet run ownership has not been run python -m validation ownership" in text
@@ -358,7 +358,7 @@ def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
     assert str(tmp_path / "out" / "index.html") in answer.output.replace("\n", "")
 
 
-def test_command_tells_when_a_figure_is_missing(tmp_path, monkeypatch, capsys):
+def test_command_reports_a_missing_figure(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
     monkeypatch.setattr(command_line, "OUT", tmp_path / "out")
     store.write(replace(BLANK, checks=(judged(5e-7),)), {}, tmp_path / "results")

@@ -30,7 +30,7 @@ def outcome(value: float = 0.5) -> Outcome:
 
 @pytest.fixture
 def empty_registry() -> Iterator[None]:
-    """No study is registered; what the test registers goes with it, and the order of the others stays."""
+    """An empty registry during the test; afterwards the studies are registered in their old order."""
     kept = dict(registry.STUDIES)
     registry.STUDIES.clear()
     yield

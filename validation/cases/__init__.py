@@ -1,4 +1,4 @@
-"""The cases everyone uses, and how a study names one."""
+"""The shared cases, and functions to load them with changes."""
 
 from pathlib import Path
 from typing import Any

@@ -1,4 +1,4 @@
-"""Wells that strings of any number of segments are put into, and the holes around them."""
+"""Wells for strings of any number of segments."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -7,7 +7,7 @@ from fctd import Case
 from validation.cases import load
 from validation.cases.wells import BUILD, PIPE, SHARP, Stations, catenary, well
 
-# Refining the string must not stiffen the wall [N/m/m].
+# Stiffness per metre, so that refining the string does not stiffen the wall [N/m/m].
 WALL = {"stiffness": None, "stiffness_per_length": 1e6}
 BITE = {f"wellbore__{key}": value for key, value in WALL.items()}
 
@@ -24,7 +24,7 @@ class Well(NamedTuple):
 
 
 def _paper(name: str, stations: Stations) -> Callable[[int, dict[str, Any]], Case]:
-    """Collars and pipe share the count as in §6.2, one to two; the long segment above stays one."""
+    """Collars and pipe share the count as in §6.2, one to two; the long segment above remains."""
 
     def build(count: int, hole: dict[str, Any]) -> Case:
         collars = max(round(count / 3), 1)

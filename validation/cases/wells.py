@@ -1,4 +1,4 @@
-"""Wells that several studies use and no case file describes, each with a string to its total depth."""
+"""Wells without a case file that several studies use, each with a string to its total depth."""
 
 from typing import Any
 
@@ -20,7 +20,7 @@ DRILLING = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
 
 # 4.5°/30 m to 60°.
 BUILD: Stations = [[0, 0, 0], [400, 0, 0], [800, 60, 0], [1500, 60, 0]]
-# 30°/100 ft to horizontal, where a soft string is said to fail.
+# 30°/100 ft to horizontal, where a soft string fails according to the paper.
 SHARP: Stations = [[0, 0, 0], [600, 0, 0], [600 + 300 * FOOT, 90, 0], [900 + 300 * FOOT, 90, 0]]
 # 3°/30 m to 45°, back to 10° at 2°/30 m.
 S_WELL: Stations = [[0, 0, 0], [600, 0, 0], [1050, 45, 0], [1800, 45, 0], [2325, 10, 0], [2600, 10, 0]]
@@ -60,7 +60,7 @@ def well(
 
 def real_well(context: Context, **changes: Any) -> Case:
     """K05-ENC-05-S1, 8,161 m of public survey with an assumed string, for a study that needs the data."""
-    assert context.data is not None  # the study needs it, so the runner has looked
+    assert context.data is not None  # the runner has checked that the data are there
     return load("nlog_k05", wellbore__survey=context.data / "surveys" / "nlog_K05-ENC-05-S1.csv", **changes)
 
 

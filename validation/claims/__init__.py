@@ -1,1 +1,1 @@
-"""The paper's claims and how they are judged by what the studies stored."""
+"""The paper's claims and their verdicts from the stored results of the studies."""

@@ -1,8 +1,8 @@
 """The claims of the paper: what ``claims.toml`` may say, and how a verdict follows from stored numbers.
 
-A claim rests on one number of one study and a bound that it keeps if the claim holds.  Where it does not, a second
-number, of a narrower question or with a wider bound, may show the limits within which it does.  A number that misses
-its bound contradicts the paper, so a second route to the same quantity stands beside it.
+A claim has one number of one study and a bound, which the number meets if the claim holds. If it does not, a second
+number, of a narrower question or with a wider bound, may show the limits within which the claim holds. A number that
+misses its bound contradicts the paper and needs a second route to the same quantity.
 """
 
 import math
@@ -31,10 +31,10 @@ Text = Annotated[str, Field(min_length=1, description="a text in quotes")]
 
 
 class Number(Table):
-    """Where a number is stored, and the bound it is held against.
+    """Where a number is stored, and its bound.
 
     check : a check of the study, which brings its unit.  Otherwise table and column, with ``where`` (column -> value
-    of the rows that count), ``take`` (what becomes of them) and ``called`` (what the number is, in words).
+    of the rows that count), ``take`` (which of them) and ``called`` (the name of the number).
     """
 
     study: Text
@@ -56,7 +56,7 @@ class Number(Table):
             if self.table is not None and getattr(self, key) is None:
                 raise InputError("a text in quotes: a number of a table needs it", key=key)
             if self.check is not None and getattr(self, key) is not None:
-                raise InputError("nothing: a check says that itself", key=key, value=getattr(self, key))
+                raise InputError("nothing: the check has its own", key=key, value=getattr(self, key))
         bounds = [key for key in ("at_most", "at_least", "within") if getattr(self, key) is not None]
         if len(bounds) != 1:
             raise InputError(
@@ -66,7 +66,7 @@ class Number(Table):
 
     @property
     def source(self) -> tuple[Any, ...]:
-        """Where it is stored: what tells it from another number."""
+        """Where it is stored; two numbers differ if this differs."""
         return self.study, self.check, self.table, self.column, self.take, sorted(self.where.items())
 
     def held(self, value: float, name: str, unit: str, because: str) -> Check:
@@ -77,7 +77,7 @@ class Number(Table):
 
 
 class Limited(Number):
-    """A number that shows the limits within which a claim holds; ``limit`` says them in words."""
+    """A number that shows the limits within which a claim holds; ``limit`` : the limits in words."""
 
     limit: Text
 
@@ -85,10 +85,10 @@ class Limited(Number):
 class Claim(Table):
     """One claim of the paper.
 
-    says : the claim in our words.  verdict : what is recorded of it; a run that finds another is an error.
-    because : where the bound comes from.  limited : the number within limits.  second_route : the same quantity from
-    elsewhere, held against the claim as well; where the number contradicts the paper it must be there.  one_route : why
-    a claim that holds with limits has none.  untestable : why nothing can be computed.
+    says : the claim in our words. verdict : the recorded verdict; a run that finds another is an error. because : where
+    the bound comes from.  limited : the number within limits.  second_route : the same quantity from elsewhere,
+    compared with the same bound; required where the number contradicts the paper. one_route : why a claim that holds
+    with limits has no second route.  untestable : why nothing can be computed.
     """
 
     id: Annotated[str, Field(pattern=r"^[a-z0-9]+(-[a-z0-9]+)*$", description="a name such as overlap-closes-gaps")]
@@ -120,7 +120,7 @@ class Claim(Table):
         return self
 
     def _check_routes(self) -> None:
-        """A number that contradicts the paper has a second route, or says why there can be none."""
+        """A number that contradicts the paper has a second route, or a reason why there is none."""
         exclusive(self, "second_route", "one_route")
         needed = "a second route to the number, since the result contradicts the paper"
         if self.verdict == "does not hold" and self.second_route is None:
@@ -128,9 +128,9 @@ class Claim(Table):
         if self.verdict == "holds with limits" and self.second_route is None and self.one_route is None:
             raise InputError(f"{needed}, or one_route = why there is none", key="second_route")
         if self.one_route is not None and self.verdict != "holds with limits":
-            raise InputError("nothing, but for a claim that holds with limits", key="one_route")
+            raise InputError("nothing, except for a claim that holds with limits", key="one_route")
         if self.second_route is not None and self.second_route.source in [number.source for number in self.first]:
-            raise InputError("a number of its own, not one that the claim rests on already", key="second_route")
+            raise InputError("a number of its own, not one that the claim already has", key="second_route")
 
     @property
     def first(self) -> tuple[Number, ...]:
@@ -139,12 +139,12 @@ class Claim(Table):
 
     @property
     def numbers(self) -> tuple[Number, ...]:
-        """All the numbers it rests on."""
+        """All its numbers."""
         return self.first if self.second_route is None else (*self.first, self.second_route)
 
 
 class Misprint(Table):
-    """A misprint of the paper, what is implemented in its place, and the tests that hold the engine to that."""
+    """A misprint of the paper, what is implemented in its place, and the tests that check the engine for it."""
 
     where: Text
     printed: Text
@@ -154,7 +154,7 @@ class Misprint(Table):
 
 
 class Ledger(Table):
-    """``claims.toml``.  pending : studies that claims name and that are still to come."""
+    """``claims.toml``.  pending : studies that claims name and that are not written yet."""
 
     pending: list[Text] = Field(default_factory=list)
     claim: list[Claim]
@@ -190,7 +190,7 @@ def read_ledger(path: Path = CLAIMS) -> Ledger:
 
 
 def _named(error: InputError, raw: Any) -> InputError:
-    """The same error with ``claim[7]`` told by its id, for those who do not count."""
+    """The same error with the id of the claim in place of its index, ``claim[7]``."""
     key = re.sub(r"^claim\[(\d+)\]", lambda found: _name(raw, int(found[1])), error.key)
     more = [_named(other, raw) for other in error.more]
     return InputError(error.expected, key=key, value=error.value, more=more)
@@ -203,7 +203,7 @@ def _name(raw: Any, index: int) -> str:
 
 @dataclass(frozen=True)
 class Finding:
-    """A claim beside the numbers that were found; ``why`` says what a verdict that is none waits for."""
+    """A claim with its numbers; ``why`` : the reason where there is no verdict yet."""
 
     claim: Claim
     verdict: Verdict
@@ -224,7 +224,7 @@ class Finding:
 
 
 class Found(NamedTuple):
-    """A number beside its bound, and the run it comes from."""
+    """A number with its bound and the run it comes from."""
 
     check: Check
     study: str
@@ -232,7 +232,7 @@ class Found(NamedTuple):
 
     @property
     def met(self) -> bool:
-        """Whether it keeps the bound."""
+        """Whether it meets the bound."""
         return self.check.verdict == "met"
 
 
@@ -244,7 +244,7 @@ class Missing(NamedTuple):
 
 
 def judge(claim: Claim, results: "Results") -> Finding:
-    """The verdict on a claim from what is stored of the studies it names."""
+    """The verdict on a claim from the stored results of its studies."""
     if claim.number is None:
         return Finding(claim, "cannot be tested", why=claim.untestable or "")
     number, limited, second = (
@@ -258,7 +258,7 @@ def judge(claim: Claim, results: "Results") -> Finding:
             return "not yet run", number.why
         if isinstance(second, Found) and second.met != number.met:
             keeps, misses = ("first", "second") if number.met else ("second", "first")
-            return "routes disagree", f"the {keeps} route keeps the bound and the {misses} does not"
+            return "routes disagree", f"the {keeps} route meets the bound and the {misses} does not"
         if number.met:
             return "holds", ""
         if isinstance(limited, Missing):
@@ -286,7 +286,7 @@ class Results:
         try:
             name, value, unit = self._check(wanted, run) if wanted.check else self._cell(wanted, run)
         except InputError as error:
-            if run.quick:  # which leaves out some of what a full run has
+            if run.quick:  # a quick run lacks some numbers of a full run
                 return Missing(wanted.study, f"the quick run of {wanted.study} has no such number")
             raise error.at(f"claim {claim.id}.{_role(claim, wanted)}").in_file(CLAIMS.name) from None
         return Found(wanted.held(value, name, unit, claim.because or ""), wanted.study, run.quick)
@@ -300,7 +300,9 @@ class Results:
         try:
             run = store.read(self._folder / study)
         except FileNotFoundError:
-            return Missing(study, f"{study} has not been run" if study in STUDIES else f"study {study} is to come")
+            return Missing(
+                study, f"{study} has not been run" if study in STUDIES else f"study {study} is not written yet"
+            )
         except (ValueError, TypeError, LookupError):
             return Missing(study, f"the result of {study} cannot be read")
         if run.status != "finished":

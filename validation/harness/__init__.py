@@ -1,1 +1,1 @@
-"""What runs, stores and judges studies."""
+"""Runs, stores and judges studies."""

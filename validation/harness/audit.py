@@ -1,4 +1,4 @@
-"""What a study reads and imports, as Python sees it: held against what its fingerprint knows."""
+"""The files that a study reads and the modules that it imports, compared with its fingerprint."""
 
 import os
 import sys

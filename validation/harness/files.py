@@ -31,7 +31,7 @@ def declared() -> Iterator[dict[Path, str]]:
 
 
 def digest(path: Path) -> str:
-    """What a file holds, in short; also that it is not there."""
+    """Digest of a file; ``absent`` where there is none."""
     try:
         return digest_of(path.read_bytes())
     except OSError:

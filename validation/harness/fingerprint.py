@@ -1,8 +1,8 @@
-"""What a result rests on, so that it is repeated when, and only when, some of that has changed.
+"""The inputs of a result: a study is repeated when, and only when, one of them has changed.
 
 The code: the study's module, the registry entries that it declares, and every module of the project that these import.
 The files that are declared while it runs.  The packages of engine and suite, and the processor.  ``expected.toml`` is
-no input: it judges, it changes no number.
+no input: it changes verdicts, not numbers.
 """
 
 import ast
@@ -31,7 +31,7 @@ PACKAGES = ("fctd", "references", "validation")
 
 @dataclass
 class Inputs:
-    """Everything a result rests on, each thing with a digest or a version.
+    """All inputs of a result, each with a digest or a version.
 
     code : module's file -> digest.  files : file declared -> digest.  around : packages, processor, quick or full.
     """
@@ -41,7 +41,7 @@ class Inputs:
     files: dict[str, str] = field(default_factory=dict)
 
     def changed_since(self, kept: "Inputs", root: Path = ROOT) -> str:
-        """The first thing that is not as it was for the ``kept`` result; empty when all of it is."""
+        """The first input that differs from that of the ``kept`` result; empty if none does."""
         files_now = {name: digest(root / name) for name in kept.files}  # an absolute name stays one
         pairs = ((kept.around, self.around), (kept.files, files_now), (kept.code, self.code))
         for before, now in pairs:
@@ -68,9 +68,9 @@ def read(folder: Path) -> Inputs | None:
 
 
 def surroundings(quick: bool, root: Path = ROOT) -> dict[str, str]:
-    """What numbers and times depend on beside code and files.
+    """Inputs of numbers and times other than code and files.
 
-    The processor counts for every study: compiled code is made for it, and most studies tell what they cost.
+    The processor counts for every study: compiled code is made for it, and most studies report times.
     """
     found = {LENGTH: "quick" if quick else "full", "processor": cpu_name(), "cores": str(os.cpu_count())}
     found["python"] = platform.python_version()
@@ -136,5 +136,5 @@ class Sources:
 
 
 def _digest_of_module(file: Path) -> str:
-    """Digest of what a module says, without comments and layout."""
+    """Digest of a module without comments and layout."""
     return digest_of(ast.dump(ast.parse(file.read_bytes())).encode())

@@ -1,4 +1,4 @@
-"""Every study there is, in the order in which the report tells them: name -> module with ``STUDY``."""
+"""Every study there is, in the order of the report: name -> module with ``STUDY``."""
 
 STUDIES: dict[str, str] = {
     "paper_well": "validation.studies.paper_well",

@@ -1,4 +1,4 @@
-"""Run studies one after the other, hold each against what is recorded of it, and keep what finished."""
+"""Run studies one after the other, compare each with its record in expected.toml, and keep finished results."""
 
 import difflib
 import importlib
@@ -47,7 +47,7 @@ STYLES: dict[Standing, str] = {
 
 
 class UsageError(Exception):
-    """The command line, or a file it rests on, asks for something that is not there."""
+    """The command line, or a file that it reads, names something that does not exist."""
 
 
 def check_name(name: str) -> None:
@@ -76,7 +76,7 @@ def is_reproduced(name: str) -> bool:
 
 
 def check_results(folder: Path) -> None:
-    """Refuse a folder that results cannot be kept in: before the computing, not after."""
+    """Refuse a folder that cannot hold results, before the computation."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         writable = os.access(folder, os.W_OK)
@@ -123,7 +123,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Done:
-    """A result, and why its study was repeated: ``kept`` where it was not, what has changed, or nothing at all."""
+    """A result, and why its study was run: ``kept`` where it was not, what has changed, or empty."""
 
     record: Record
     why: str = ""
@@ -176,7 +176,7 @@ def run_all(
                 tell(done, recorded, console)
         except KeyboardInterrupt:
             there = ", ".join(done.record.study for done in finished) or "nothing had finished"
-            _say(console, f"interrupted; kept: {there}; the same command goes on from there", "bold red")
+            _say(console, f"interrupted; kept: {there}; the same command continues from there", "bold red")
             return INTERRUPTED
     errors = [done.record.study for done in finished if done.record.is_error]
     kept = sum(done.kept for done in finished)
@@ -193,7 +193,7 @@ def run_one(
     around: Mapping[str, str],
     rules: Run,
 ) -> Done:
-    """Take one study's result if it is up to date; otherwise run it and store what came of it.
+    """Take one study's result if it is up to date; otherwise run it and store the outcome.
 
     Stored are tables and checks, or why it was skipped, or how it failed.
     """
@@ -234,8 +234,8 @@ def run_one(
         run = replace(run, wall_s=time.perf_counter() - start)
         store.write(run, tables, results, now)
     except Exception as error:
-        # One study must not take the others with it: its failure is a result, and the exit code tells.
-        if not isinstance(error, InputError):  # which says all there is to know
+        # A failed study must not stop the others: its failure is a result, and the exit code reports it.
+        if not isinstance(error, InputError):  # its message is complete
             print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
         message = f"{type(error).__name__}: {error}"
         run = replace(blank, message=message, wall_s=time.perf_counter() - start)
@@ -244,7 +244,7 @@ def run_one(
 
 
 def outdated(name: str, now: Inputs, rules: Run) -> str:
-    """Why a study has to be run: ``kept`` when it has not, nothing when there is no result yet."""
+    """Why a study has to be run: ``kept`` when it has not, empty when there is no result yet."""
     folder = rules.results / name
     try:
         kept = store.read(folder)
@@ -258,7 +258,7 @@ def outdated(name: str, now: Inputs, rules: Run) -> str:
     if lost := store.unreadable(folder, kept):
         return f"table {lost} cannot be read"
     if before is None or not now.code:
-        return "what it rests on is not known"
+        return "its inputs are not known"
     changed = now.changed_since(before, rules.sources.root)
     if changed == fingerprint.LENGTH:
         return f"replaces a {before.around[fingerprint.LENGTH]} result"
@@ -277,7 +277,7 @@ def changes(names: Iterable[str], results: Path, sources: Sources) -> dict[str, 
             # What it declares cannot be asked, for want of a package or by an edit: the rest tells which.
             code = before.code | sources.used_by(STUDIES[name])
         around = surroundings(before.around.get(fingerprint.LENGTH) == "quick", sources.root)
-        # Where the data lie is for the runner to know; here the files that were read tell.
+        # The folder of the data is no input here; the files that were read are.
         around = around | {key: value for key, value in before.around.items() if key == DATA}
         if changed := Inputs(code, around).changed_since(before, sources.root):
             found[name] = changed
@@ -313,7 +313,7 @@ def _finished(blank: Record, outcome: Outcome, recorded: Mapping[str, str]) -> R
 
 
 def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
-    """Print a run: a line for the study, one for each check, and what expected.toml should be told."""
+    """Print a run: a line for the study, one for each check, and the changes due in expected.toml."""
     run = done.record
     style = "bold red" if run.is_error else "bold"
     when = f"kept from {run.date[:16].replace('T', ' ')} UTC" if done.kept else f"{run.wall_s:.1f} s"
@@ -321,7 +321,7 @@ def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
     _say(console, f"{run.study}: {run.summary}  ({when}{why})", style)
     if run.message:
         _say(console, f"  {run.message}")
-    for note in run.notes if not run.checks else ():  # why there are none
+    for note in run.notes if not run.checks else ():  # the notes say why there are no checks
         _say(console, f"  {note}")
     for judged in run.checks:
         check = judged.check
@@ -329,7 +329,7 @@ def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
         line = f"  {judged.standing:<20}  {check.name}: {found} ({check.requirement()})"
         _say(console, line, STYLES[judged.standing])
         if judged.standing == "better than recorded":
-            _say(console, "    recorded as missed; please take it out of expected.toml")
+            _say(console, "    recorded as missed; remove the entry from expected.toml")
     gone = sorted(recorded.keys() - {judged.check.name for judged in run.checks})
     # A quick run may leave a check out.
     if gone and run.status == "finished" and not run.quick:
@@ -354,5 +354,5 @@ class Bars:
 
 
 def _say(console: Console, text: str, style: str = "") -> None:
-    """Print as it stands: check names may hold brackets, messages anything, and a log must not wrap."""
+    """Print unchanged: check names may hold brackets, messages anything, and a log must not wrap."""
     console.print(Text(printable_lines(text), style), soft_wrap=True)

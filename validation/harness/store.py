@@ -98,7 +98,7 @@ def provenance() -> Provenance:
 
 
 def write(record: Record, tables: dict[str, pd.DataFrame], results: Path, inputs: Inputs | None = None) -> Path:
-    """Store a run and what it rests on as ``results/STUDY/``, replacing the one before; return the folder.
+    """Store a run and its inputs as ``results/STUDY/``, replacing the one before; return the folder.
 
     Everything is written to a folder of its own first and then renamed, so that a run that is interrupted
     leaves the earlier result or none, never half of one.
@@ -125,13 +125,13 @@ def _put(new: Path, folder: Path) -> None:
         try:
             new.rename(folder)
             return
-        except OSError as error:  # the other run's was put there between the two
+        except OSError as error:  # the other run has stored its folder between the two renamings
             if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
                 raise
 
 
 def judge_again(record: Record, recorded: Mapping[str, str], results: Path) -> Record:
-    """The stored run held against what ``expected.toml`` says of it now; stored where that changes it."""
+    """The stored run compared with the present ``expected.toml``; stored again where that changes it."""
     checks = tuple(Judged(judged.check, recorded.get(judged.check.name)) for judged in record.checks)
     if checks == record.checks:
         return record
@@ -178,7 +178,7 @@ def _write_verdict(record: Record, path: Path) -> None:
 
 
 def _to_json(record: Record) -> dict[str, Any]:
-    """The record as JSON can hold it: each check with its verdict, for those who read the file by eye."""
+    """The record as JSON can hold it: each check with its verdict, for readers of the file."""
     checks = [
         asdict(judged.check)
         | {

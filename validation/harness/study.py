@@ -23,7 +23,7 @@ T = TypeVar("T")
 NEEDS: dict[Need, str] = {
     "data": (
         "the public data folder is missing: surveys and field measurements from open registries; "
-        "set FCTD_DATA to where they lie, see README"
+        "set the environment variable FCTD_DATA to its path, see README"
     ),
 }
 
@@ -36,7 +36,7 @@ def data_folder() -> Path | None:
 
 @dataclass(frozen=True)
 class Check:
-    """A number a study found and the bound it is held against; the verdict follows from the two.
+    """A number from a study and its bound; the verdict follows from the two.
 
     ``bound`` is one number for ``at_most`` and ``at_least``, and a pair (low, high) for ``within``.
     ``source`` says where the bound comes from: a closed form, a publication, a target of this project.
@@ -62,7 +62,7 @@ class Check:
 
     @property
     def verdict(self) -> Literal["met", "missed"]:
-        """A value that is no finite number has met nothing."""
+        """A value that is not finite meets no bound."""
         low, high = self.limits
         return "met" if math.isfinite(self.value) and low <= self.value <= high else "missed"
 
@@ -81,7 +81,7 @@ class Outcome:
 
     ``tables`` are stored one file each; row labels are not stored, so what matters is in a column, and a
     column's name ends in its unit (``bit_depth_m``). ``display`` maps the tables the report prints in full to
-    their captions. ``notes`` are sentences a reader of the numbers must know.
+    their captions. ``notes`` are sentences for the reader of the numbers.
     """
 
     tables: dict[str, pd.DataFrame]
@@ -93,11 +93,11 @@ class Outcome:
         if unknown := self.display.keys() - self.tables.keys():
             raise ValueError(f"display names tables that are not there: {sorted(unknown)}")
         if len({check.name for check in self.checks}) < len(self.checks):
-            raise ValueError("two checks share a name, so expected.toml could not tell them apart")
+            raise ValueError("two checks share a name; expected.toml needs different names")
 
 
 def left_out(missing: Sequence[str]) -> list[str]:
-    """The note on what is not installed and how to have it; none where all of it is."""
+    """The note on packages that are not installed and how to install them; empty where none is missing."""
     if not missing:
         return []
     bullet = any(name.lower().startswith("bullet") for name in missing)
@@ -111,7 +111,7 @@ def log_slope(x: ArrayLike, y: ArrayLike) -> float:
 
 
 class Progress(Protocol):
-    """Hands on the items of a loop while the terminal shows how far it has come."""
+    """Passes on the items of a loop and shows its progress on the terminal."""
 
     def __call__(self, items: Iterable[T], label: str) -> Iterable[T]: ...
 
@@ -123,7 +123,7 @@ def silent(items: Iterable[T], label: str) -> Iterable[T]:
 
 @dataclass(frozen=True)
 class Context:
-    """What a study is told: whether to take the short way, where the public data lie, how to show progress.
+    """The input of a study: whether to run the short version, the folder of the public data, the progress display.
 
     ``data`` is a folder for a study that says ``needs=("data",)`` and None for any other.
     """
@@ -137,8 +137,9 @@ class Context:
 class Study:
     """One question, and the function that answers it.
 
-    ``reproduce`` : whether ``make reproduce`` runs it. ``needs`` names what must be there, or the study is skipped by
-    name. ``uses`` are the registry entries that it asks for, "module:class": no import statement leads to them.
+    ``reproduce`` : whether ``make reproduce`` runs it. ``needs`` : what must be available; otherwise the study is
+    skipped with a message. ``uses`` : the registry entries that it uses, "module:class", to which no import statement
+    leads.
     """
 
     name: str

@@ -1,1 +1,1 @@
-"""What several studies share, or one study is too long to hold."""
+"""Code that several studies share, and parts of studies that would make their file too long."""

@@ -9,10 +9,10 @@ from validation.cases.wells import FOOT
 HUNDRED_FEET = 100 * FOOT
 MU = 0.25
 ANGLE = 60.0  # [deg] of the build
-# Straight hole above and below the build [m]: strings that hang from the bend with much weight, and with little.
+# Straight hole above and below the build [m]: strings with much and with little weight below the bend.
 HEAVY, LIGHT = (300.0, 600.0), (40.0, 25.0)
-BESIDE = 20.0  # [m] of straight hole on either side of the bend that is cut as finely as the bend
-WALL = 1e7  # [N/m] a metre
+BESIDE = 20.0  # [m] of straight hole on either side of the bend with segments as short as in the bend
+WALL = 1e7  # [N/m] per metre
 # Outer and inner diameter [m].
 PIPE, COLLAR = "5 in pipe", "6 3/4 in collar"
 STRINGS = {PIPE: (0.1270, 0.1086), COLLAR: (0.1714, 0.0714)}
@@ -34,9 +34,9 @@ def case_of(
     friction: float = MU,
     wall: float = WALL,
 ) -> Case:
-    """Vertical, a build of that severity, hold, in a hole as wide as the clearance asks.
+    """Vertical, a build of that severity, hold, in a hole whose diameter follows from the clearance.
 
-    straight [m] : vertical and hold; piece [m] : segments in the bend; wall [N/m] : stiffness a metre.  The schedule
+    straight [m] : vertical and hold; piece [m] : segments in the bend; wall [N/m] : stiffness per metre.  The schedule
     lowers the bit from the kick-off.
     """
     bend = ANGLE / severity * HUNDRED_FEET

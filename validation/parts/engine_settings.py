@@ -1,4 +1,4 @@
-"""How the other engines were set, without a look at FCTD's loads: Coulomb's law for contact, a ladder for the step."""
+"""Settings of the other engines, chosen without FCTD's loads: Coulomb's law for contact, a ladder for the step."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -67,7 +67,8 @@ def impedances() -> pd.DataFrame:
             found = sliding("mujoco", 30.0, stiffness=stiffness, impedance=impedance)
             rows.append({"stiffness_N_per_m": stiffness, "impedance": impedance, **_cells(found)})
     table = pd.DataFrame(rows)
-    # The stiffest wall, and there the impedance nearest to MuJoCo's own, that keeps enough: rows are in this order.
+    # The stiffest wall, and there the impedance nearest to MuJoCo's default, with enough friction: rows are in this
+    # order.
     good = (table["status"] == "valid") & (table["share_of_mu_n"] >= KEPT)
     return table.assign(chosen=good & (good.cumsum() == 1))
 
@@ -102,7 +103,7 @@ def steps(names: tuple[str, ...]) -> pd.DataFrame:
 
 
 def friction_checks(table: pd.DataFrame, missing: list[str]) -> list[Check]:
-    """Best configurations obey Coulomb's law, and Bullet's lean off its axes is what its two directions give."""
+    """Best configurations obey Coulomb's law; Bullet's lean off its axes follows from its two directions."""
     made = []
     for label in ("Bullet", "MuJoCo"):
         if label in missing:
@@ -111,29 +112,30 @@ def friction_checks(table: pd.DataFrame, missing: list[str]) -> list[Check]:
         made += [
             Check(f"{label}: friction of a pipe turning in a straight hole over μN",
                   float(own["share_of_mu_n"].min()), (0.98, 1.005), "within", "", "Coulomb's law: 1"),
-            Check(f"{label}: lean of that friction off the sliding", float(own["lean_deg"].abs().max()), 0.5, "at_most",
-                  "deg", "Coulomb's law: 0"),
+            Check(f"{label}: angle between that friction and the sliding", float(own["lean_deg"].abs().max()), 0.5,
+                  "at_most", "deg", "Coulomb's law: 0"),
         ]  # fmt: skip
     fixed = table[table["engine"] == "Bullet, global axes"]
     if len(fixed):
         wrong = (fixed["lean_deg"] - fixed["two_directions_lean_deg"]).abs().max()
         made.append(
-            Check("Bullet, global axes: lean of friction against that of two fixed directions", float(wrong), 2.0,
-                  "at_most", "deg", "effective masses along north and east; the lean itself is up to 32 deg")
+            Check("Bullet, global axes: angle of friction to the sliding against that of two fixed directions",
+                  float(wrong), 2.0, "at_most", "deg",
+                  "effective masses along north and east; the angle is up to 32 deg")
         )  # fmt: skip
     return made
 
 
 def impedance_check(table: pd.DataFrame) -> Check:
-    """The impedance that MuJoCo is given is the one that the rule gives."""
+    """The impedance used for MuJoCo is the one that the rule gives."""
     chosen = table.loc[table["chosen"], "impedance"]
     taken = float(chosen.iloc[0]) / IMPEDANCE if len(chosen) else np.nan
-    return Check("MuJoCo: impedance by the rule over the one taken", taken, (0.999, 1.001), "within", "",
-                 "stiffest wall, then nearest to MuJoCo's own, with friction within 0.5 % of μN")  # fmt: skip
+    return Check("MuJoCo: impedance by the rule over the impedance used", taken, (0.999, 1.001), "within", "",
+                 "stiffest wall, then nearest to MuJoCo's default, with friction within 0.5 % of μN")  # fmt: skip
 
 
 def step_checks(table: pd.DataFrame, own_steps: Mapping[str, float]) -> list[Check]:
-    """Each engine runs at the best step of its ladder, and there agrees with FCTD when it spins up the string itself.
+    """Each engine runs at the best step of its ladder, and agrees with FCTD when it spins up the string from rest.
 
     own_steps [ms] : of the engines' runs of the same chain.
     """

@@ -1,4 +1,4 @@
-"""The paper's well with its vertical pipe long or cut, and the frequencies with which its string swings."""
+"""The paper's well with its vertical pipe as one long segment or cut, and the frequencies of its string."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What judges ``fctd refine`` on a set of wells: does it land within its tolerance, and does grading pay?"""
+"""Checks of ``fctd refine`` on a set of wells: is the error within the tolerance, and does grading help?"""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ from validation.harness.study import Check, Context, Outcome
 TOLERANCES = (0.01, 0.003)
 OPERATIONS = ("rotate_off_bottom", "trip_out", "trip_in")
 FINER = 4
-# Shortest segments of the graded strings, as shares of the string: ladders of half octaves, between each other.
+# Shortest segments of the graded strings, as shares of the string: interleaved ladders of half octaves.
 LADDERS = 4
 SHARES = tuple(40 * 2 ** (k / (2 * LADDERS)) for k in range(9 * LADDERS))
 REFERENCE = 4096
@@ -40,7 +40,7 @@ def finer(case: Case) -> Case:
 
 
 def land(name: str, case: Case, bit: float, tolerance: float, grade: bool) -> list[dict[str, Any]]:
-    """Refine for three operations at once; how far each is from a run four times as fine."""
+    """Refine for three operations at once; the difference of each from a run with segments a quarter as long."""
     refined = refine(case, tolerance, OPERATIONS, bit, graded=grade)
     rows = []
     for kind in OPERATIONS:
@@ -71,7 +71,7 @@ def in_arcs(case: Case) -> Case:
 def compare(name: str, case: Case, bit: float, shares: tuple[float, ...]) -> list[dict[str, Any]]:
     """Errors of graded and uniform strings of equal counts, turning and picking up, in the exact hole.
 
-    A share's ladder is its place among ``LADDERS``.
+    The ladder of a share is its index among ``LADDERS``.
     """
     case = in_arcs(case)
     total = bit - case.string.top_md
@@ -96,7 +96,7 @@ def compare(name: str, case: Case, bit: float, shares: tuple[float, ...]) -> lis
 
 
 def loads(case: Case, layout: Layout, bit: float, length: float) -> tuple[int, float, float]:
-    """Segments, torque turning and hook load picking up, NaN without a balance."""
+    """Number of segments, torque turning and hook load picking up; NaN where no equilibrium was found."""
     cut = with_components(case, layout(case, bit, length))
     solver = Solver(cut)
     turning, lifting = (solver.solve(kind, steady_rates(cut, kind), bit) for kind in OPERATIONS[:2])
@@ -110,7 +110,7 @@ def gains(strings: pd.DataFrame) -> pd.DataFrame:
     """Error of the graded string over that of the uniform one of as many segments: geometric mean over the counts.
 
     Errors pass through zero by chance, so a string counts with the largest error of its own and all longer counts.
-    Where joints happen to fall still shows, so there is a ratio for each ladder of counts: their mean, least and most.
+    The positions of joints still matter, so each ladder of counts has its ratio: their mean, least and most.
     """
     rows = []
     for name, of_well in strings.groupby("well", sort=False):
@@ -144,25 +144,26 @@ def judge(cases: dict[str, tuple[Case, float]], context: Context, *notes: str) -
         tables={"landed": table, "layouts": lengths, "gains": gained},
         checks=[
             Check("difference from a run four times as fine over the tolerance, largest", float(off.max(skipna=False)),
-                  1.0, "at_most", "", "the tolerance asked for"),
+                  1.0, "at_most", "", "the requested tolerance"),
             Check("refinements that did not reach their tolerance",
-                  float((table["status"] != "within_tolerance").sum()), 0, "at_most", "", "every well is reached"),
+                  float((table["status"] != "within_tolerance").sum()), 0, "at_most", "",
+                  "the tolerance must be reached in every well"),
             *(
                 Check(f"{load} error of graded over uniform strings of equal counts, most of wells and ladders",
-                      float(gained[column].max(skipna=False)), 1.0, "at_most", "", "target: grading pays")
+                      float(gained[column].max(skipna=False)), 1.0, "at_most", "", "target: grading reduces the error")
                 for load, column in (("torque", "torque_most"), ("hook load", "hookload_most"))
             ),
         ],
         notes=[
             *notes,
-            "Tolerances count as in the command: a share of the load, or of a tenth of weight or Σ r μ F_n where that "
-            "is more; torque of a string that only slides, of all of Σ r μ F_n. The finer run has segments and "
-            "cylinders a quarter as long.",
-            f"Counts are half an octave apart in each of {LADDERS} ladders. A graded string is taken only where it "
+            "Tolerances are those of the command: a share of the load, or of a tenth of weight or Σ r μ F_n where "
+            "that is more; for the torque of a string that only slides, of the full Σ r μ F_n. The finer run has "
+            "segments and cylinders a quarter as long.",
+            f"Counts are half an octave apart in each of {LADDERS} ladders. A graded string is used only where it "
             "saves a tenth of the uniform one's segments.",
         ],
         display={
-            "landed": "What refine found, and how far a run four times as fine is from it",
+            "landed": "Results of refine, and the difference of a run four times as fine",
             "gains": "Error of graded over uniform strings of equal counts: mean, least and most of the ladders",
         },
     )  # fmt: skip

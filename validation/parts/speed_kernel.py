@@ -1,4 +1,4 @@
-"""What FCTD costs by itself: largest stable step, cost over segments, the query, what contact adds, a steady depth."""
+"""Cost of FCTD alone: largest stable step, cost over segments, the query, the share of contact, a steady depth."""
 
 from collections.abc import Callable
 from functools import partial
@@ -23,7 +23,7 @@ from validation.cases.wells import drilled_paper_well
 from validation.harness.study import log_slope
 
 BIT = 2450.0
-# FCTD's stepper runs this long before anything is timed: the first wave has passed the string [s].
+# FCTD's stepper runs this long [s] before it is timed, so that the first wave has passed the string.
 LEAD = 6.0
 # Steps tried, over the engine's own choice: from far below it to well past the bound of the stiffest mode, 1.25.
 SMALL, LADDER = 0.25, (1.0, 1.1, 1.2, 1.25, 1.3, 1.35, 1.4, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0)
@@ -33,13 +33,13 @@ LENGTHS = (60, 170, 500, 1000, 2000, 5000, 10_000)
 
 
 def chain(segments: int, **changes: Any) -> Case:
-    """The curved chain in so many segments, turning off bottom."""
+    """The curved chain with this number of segments, turning off bottom."""
     schedule = rotation(BIT, 2e4 if segments <= 1000 else 60.0, ramp=4.0)
     return load("curved_chain", operations=schedule, string__components__0__segments=segments, **changes)
 
 
 def run_at(start: Run, motion: Motion, step: float, duration: float) -> dict[str, Any]:
-    """Mean loads of a run from one state with one step, and whether it held."""
+    """Mean loads of a run from one state with one step, and its status."""
     run = copy_of(start, step=step)
     parts = max(int(duration / step / 100), 1)
     row: dict[str, Any] = {"step_ms": 1e3 * step, "status": "valid", "hookload_kN": np.nan, "torque_kN_m": np.nan}
@@ -56,7 +56,7 @@ def run_at(start: Run, motion: Motion, step: float, duration: float) -> dict[str
 
 
 def ladder(segments: int, duration: float) -> pd.DataFrame:
-    """Steps from small to large over the same window: a step holds when its loads are those of the smallest."""
+    """Steps from small to large over the same window: a step holds when its loads agree with those of the smallest."""
     start, motion = moving(chain(segments), 20.0)
     rows: list[dict[str, Any]] = []
     for factor in (SMALL, *LADDER):
@@ -81,7 +81,7 @@ def scaling(lengths: tuple[int, ...], rounds: int, aim: float) -> pd.DataFrame:
         count = units_for(partial(step_on, run, motion), aim)
         actions[str(segments)], counts[str(segments)] = partial(step_on, run, motion, count), count * segments
     table = race(actions, counts, rounds, str(lengths[0]))
-    for run in runs:  # nothing is worth timing that is no string any more
+    for run in runs:  # a time counts only if the string is still valid
         run.refresh()
         run.check()
     table[["segments", "step_ms", "touching_percent"]] = [facts[name] for name in table["name"]]
@@ -91,7 +91,7 @@ def scaling(lengths: tuple[int, ...], rounds: int, aim: float) -> pd.DataFrame:
 def with_growth(table: pd.DataFrame) -> pd.DataFrame:
     """The same with the wall time of a simulated second, and its mean growth from the first row for twice the segments.
 
-    Not from row to row: a busy machine makes a single row twice as dear.
+    Not from row to row: on a busy machine a single row may take twice as long.
     """
     second = table["segments"] * table["ns_least"] / (1e3 * table["step_ms"])
     doublings = np.log2(table["segments"] / table["segments"].iloc[0])
@@ -107,7 +107,7 @@ def exponent(table: pd.DataFrame) -> float:
 def kernel(best: float, rounds: int, aim: float) -> pd.DataFrame:
     """A segment-step of 60 segments with and without the wall and at the step ``best`` [s], and the query of a point.
 
-    The query in the step is of the 60 points where they are; that of free points is of 1000.
+    The query in the step has the 60 points of the string; that of free points has 1000.
     """
     runs = {geometry: moving(chain(60, wellbore__geometry=geometry), LEAD) for geometry in ("cylinders", "arcs")}
     run, motion = runs["cylinders"]
@@ -126,12 +126,12 @@ def kernel(best: float, rounds: int, aim: float) -> pd.DataFrame:
 
 
 def step_on(stepper: Run | Stepper, motion: Motion, count: int) -> None:
-    """So many steps of a run or of an engine."""
+    """Advance a run or an engine by this number of steps."""
     stepper.advance(motion, count * stepper.step)
 
 
 def steady(rounds: int) -> pd.DataFrame:
-    """Milliseconds a depth of paper-well with 61 and 500 segments, each operation; fastest round."""
+    """Milliseconds per depth of paper-well with 61 and 500 segments, each operation; fastest round."""
     solvers = {segments: Solver(drilled_paper_well(segments)) for segments in (61, 500)}
     actions: dict[str, Callable[[], object]] = {}
     for segments, solver in solvers.items():

@@ -1,4 +1,4 @@
-"""A section of the scaled hole that turns and builds at once, at rest: rigid segments against a Cosserat rod."""
+"""A section of the scaled hole that turns and builds, string at rest: rigid segments against a Cosserat rod."""
 
 from typing import Any
 

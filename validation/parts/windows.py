@@ -1,4 +1,4 @@
-"""Bringing a simulation to a steady state, and reading it off the end."""
+"""Schedules that lead a simulation to a steady state, and means over its end."""
 
 from typing import Any
 
@@ -8,7 +8,7 @@ from fctd import SimulationResult
 from references.engines.run import hann_means
 from validation.cases import trip
 
-TRIP_SPEED, TRIP_WINDOW = 0.2, 20.0  # [m/s], [s] of a steady trip that are read
+TRIP_SPEED, TRIP_WINDOW = 0.2, 20.0  # [m/s]; [s] of a steady trip over which loads are averaged
 
 
 def steady_trip(kind: str, depth: float) -> list[dict[str, Any]]:
@@ -30,8 +30,8 @@ def completed(result: SimulationResult) -> SimulationResult:
 def last_seconds(result: SimulationResult, seconds: float) -> pd.Series:
     """Means of the history of a completed run over its last ``seconds``, under a Hann window.
 
-    Friction does not damp the twisting of a string that turns all along, so its torque swings about the mean
-    for minutes.
+    Friction does not damp the twisting of a string that rotates along its whole length, so its torque swings about the
+    mean for minutes.
     """
     history = completed(result).history
     return hann_means(history[history["time_s"] > history["time_s"].max() - seconds + 1e-6])

@@ -1,4 +1,4 @@
-"""Short beams in a straight horizontal hole, where beam theory has an answer (friction-free, at rest)."""
+"""Short beams at rest in a straight horizontal hole without friction, against closed forms of beam theory."""
 
 from collections.abc import Callable
 from typing import Any
@@ -30,7 +30,7 @@ def solve(components: list[dict[str, Any]], length: float, **sections: Any) -> E
         }
     )  # fmt: skip
     point = equilibrium(case, "rotate_off_bottom", DEPTH)
-    if point.status not in ("converged", "locked_up"):  # a bend may push a little
+    if point.status not in ("converged", "locked_up"):  # a bent housing may push slightly
         raise RuntimeError(f"beam of {length:g} m: {point.status}, {point.message}")
     return point
 
@@ -46,7 +46,7 @@ def support(segment: float) -> dict[str, Any]:
 
 
 def cantilever(segment: float) -> tuple[float, float]:
-    """Sag of the free end under the own weight [mm]: wL⁴/8EI + wL²/2κGA (Timoshenko & Gere 1972)."""
+    """Sag of the free end under its own weight [mm]: wL⁴/8EI + wL²/2κGA (Timoshenko & Gere 1972)."""
     length, s = 8.0, SECTION
     point = solve([part(length, segment)], length, contact={"enabled": False})
     exact = s.weight * length**4 / (8 * s.EI) + s.weight * length**2 / (2 * s.shear)
@@ -73,7 +73,7 @@ def stabilised(segment: float) -> tuple[float, float]:
 def pendulum(segment: float) -> tuple[float, float, float, float]:
     """Tangent length [m] and side force on the bit [kN] of a slick pendulum assembly.
 
-    A beam simply supported at the bit that lies down on the low side with neither slope nor moment, r below it
+    A beam simply supported at the bit that meets the low side, r below, with zero slope and moment
     (Lubinski & Woods 1953 without weight on bit): L⁴ = 24 EI r/w, H = wL/2.
     """
     s = SECTION
@@ -82,8 +82,8 @@ def pendulum(segment: float) -> tuple[float, float, float, float]:
     point = solve([support(segment), part(60.0 - 0.5 * segment, segment)], 60.0)
     profile = point.profile
     touching = profile[(profile["contact_force_N"] > 0) & (profile["md_m"] < DEPTH - 1.0)]
-    # Beam theory has one concentrated force at the tangent point; a wall that gives way spreads it over some
-    # decimetres, so the point is where the force beyond the weight has its centre.
+    # Beam theory has one concentrated force at the tangent point; an elastic wall spreads it over some decimetres, so
+    # the point is taken as the centre of the force in excess of the weight.
     near = touching[touching["md_m"] > float(touching["md_m"].iloc[-1]) - 2.0]
     beyond = near["contact_force_N"] - s.weight * segment
     tangent = DEPTH - float((beyond * near["md_m"]).sum() / beyond.sum())
@@ -93,8 +93,8 @@ def pendulum(segment: float) -> tuple[float, float, float, float]:
 def bent_housing(segment: float) -> tuple[float, float]:
     """Side force on the bit [kN] of a housing bent by 0.5 deg, 2 m above the bit, built in 8 m above it.
 
-    The bend moves the free end of the cantilever by βa; the wall brings it back: H = 3EI βa/L³.  The bend
-    points to the right, so that the weight has no share.
+    The bend moves the free end of the cantilever by βa; the wall moves it back: H = 3EI βa/L³. The bend points to the
+    right, so that the weight does not contribute.
     """
     length, above, angle, s = 8.0, 2.0, np.radians(0.5), SECTION
     components = [
@@ -134,12 +134,12 @@ def run(context: Context) -> Outcome:
     return Outcome(
         tables={"beams": table},
         checks=[
-            Check(f"{name}, off", abs(off), 1.0, "at_most", "%", "beam theory, within 1 %")
+            Check(f"{name}, difference", abs(off), 1.0, "at_most", "%", "beam theory, within 1 %")
             for name, off in zip(finest["beam"], finest["off_percent"], strict=True)
         ],
         notes=[
             "Horizontal hole of 300 mm, 8 in collar in air, no friction. Bit and stabiliser are as wide as the hole, "
-            "so the wall holds their axis from all sides.",
+            "so the wall supports them on all sides.",
         ],
         display={"beams": "Short beams against beam theory"},
     )
@@ -147,6 +147,6 @@ def run(context: Context) -> Outcome:
 
 STUDY = Study(
     "beam_in_hole",
-    "Does a short stiff string bend as beam theory says: on supports, in a pendulum, with a bent housing?",
+    "Does a short stiff string bend as beam theory predicts: on supports, in a pendulum, with a bent housing?",
     run,
 )

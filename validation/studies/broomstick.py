@@ -11,11 +11,11 @@ from validation.harness.study import Check, Context, Outcome, Study
 
 OPERATIONS = ("trip_in", "trip_out", "rotate_off_bottom")
 FACTORS = (0.1, 0.2, 0.3)
-CHECKED = 2450.0  # [m], where the soft string is asked as well
+CHECKED = 2450.0  # [m], where the soft string is computed as well
 
 
 def by_soft_string(chart: pd.DataFrame) -> pd.DataFrame:
-    """Hook load at the deepest bit by the soft string, beside the chart's."""
+    """Hook load at the deepest bit depth by the soft string and from the chart."""
     rows = []
     deepest = chart[chart["bit_depth_m"] == CHECKED]
     for kind, factor, stiff in zip(deepest["operation"], deepest["friction"], deepest["hookload_N"], strict=True):
@@ -33,12 +33,12 @@ def by_soft_string(chart: pd.DataFrame) -> pd.DataFrame:
 
 
 def run(context: Context) -> Outcome:
-    """A chart of three operations and friction factors, and the soft string at its end."""
+    """A chart of three operations and friction factors, and the soft string at its deepest bit depth."""
     depths = np.arange(1750.0, CHECKED + 1, 100.0 if context.quick else 25.0)
     chart = torque_drag(load("paper_well"), OPERATIONS, [float(depth) for depth in depths], FACTORS)
     soft = by_soft_string(chart)
     loads = chart.pivot_table(index=["bit_depth_m", "friction"], columns="operation", values="hookload_N")
-    # Friction takes from what goes down and adds to what comes up.
+    # Friction lowers the hook load tripping in and raises it tripping out.
     wrong = (loads["trip_in"] > loads["rotate_off_bottom"] + 1) | (loads["trip_out"] < loads["rotate_off_bottom"] - 1)
     return Outcome(
         tables={"chart": chart, "soft": soft},
@@ -49,7 +49,7 @@ def run(context: Context) -> Outcome:
                   "slacking off below rotating below picking up"),
             Check("hook load against the soft string at 2450 m, largest difference",
                   float(soft["difference_percent"].abs().max()), 1.0, "at_most", "%",
-                  "another model; a well of gentle bends, where it does"),
+                  "a different model; in gentle bends the two agree"),
         ],
         display={"soft": "Hook load at 2450 m, stiff and soft string"},
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Every contact method asked about the same points beside the wall: what it misses, its errors, its cost."""
+"""Every contact method at the same points near the wall: missed contacts, errors and cost."""
 
 from functools import partial
 from typing import Any
@@ -43,7 +43,7 @@ def settings(quick: bool) -> list[tuple[str, dict[str, Any]]]:
 
 
 def label(name: str, options: dict[str, Any]) -> str:
-    """How a setting is called in tables and figures."""
+    """The name of a setting in tables and figures."""
     if "facets" in options:
         return f"{name}, {options['facets']} facets, {options['ring_spacing']:g} m"
     return f"{name}, {options['cylinder_length']:g} m" if options else name
@@ -93,7 +93,7 @@ def errors_of(method: contact.ContactMethod, points: pd.DataFrame, case: Case) -
         cosine = np.sum(hits.normal[chosen] * exact.normal[chosen], axis=1)[known]
         direction = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
         turned = np.degrees(turn + np.arcsin(np.minimum(depth / points["offset"].to_numpy()[chosen][known], 1)))
-        # Nan, no answer at all, is a miss as well.
+        # NaN, no answer, counts as a miss.
         missed, false = (truth > 0) & ~(found > 0), (truth <= 0) & (found > 0)
         rows.append(
             {
@@ -114,7 +114,7 @@ def errors_of(method: contact.ContactMethod, points: pd.DataFrame, case: Case) -
 
 
 def built(context: Context, case: Case) -> tuple[dict[str, contact.ContactMethod], list[dict[str, str]], list[str]]:
-    """Methods by the label of their setting, settings that a library does not take, names that are not installed."""
+    """Methods by the label of their setting, settings that a library rejects, names that are not installed."""
     methods: dict[str, contact.ContactMethod] = {}
     refused: list[dict[str, str]] = []
     missing = [name for name in contact.METHODS if contact.installed_version(name) is None]
@@ -152,7 +152,7 @@ def footprints(context: Context, case: Case, names: list[str]) -> pd.DataFrame:
 
 
 def tried(missing: list[str]) -> pd.DataFrame:
-    """The obvious ways to ask that go wrong."""
+    """The usual calls of a library that give wrong results."""
     at = traps.scene()
     rows = [
         {
@@ -170,7 +170,7 @@ def tried(missing: list[str]) -> pd.DataFrame:
 
 
 def run(context: Context) -> Outcome:
-    """Errors of every setting at the same points, cost of a point, memory and build time, and the traps."""
+    """Errors of every setting at the same points, cost per point, memory and build time, and wrong results."""
     quick, case = context.quick, the_case()
     points = points_in(case, 250 if quick else 2500)
     methods, refused, missing = built(context, case)
@@ -198,18 +198,18 @@ def run(context: Context) -> Outcome:
         checks=checks(errors, trapped),
         notes=notes(missing),
         display={
-            "cost": "Cost of a point beside the largest error in bends; all settings raced in turns",
-            "builds": "Memory and build time at default settings, each in a process of its own",
-            "traps": "The obvious way to ask, and what comes of it",
-            "refused": "Settings that a library does not take",
+            "cost": "Cost of a point beside the largest error in bends; all settings timed in turns",
+            "builds": "Memory and build time at default settings, one process per method",
+            "traps": "Usual calls of the libraries that give wrong results",
+            "refused": "Settings that a library rejects",
             "machine": "What the times depend on",
         },
     )
 
 
 def checks(errors: pd.DataFrame, trapped: pd.DataFrame) -> list[Check]:
-    """Geometry's bounds for all methods, and the traps that are recorded as findings."""
-    # A micrometre for rounding and for the thickness that libraries want of a point.
+    """Geometric bounds for all methods, and the wrong results of libraries, recorded as findings."""
+    # A micrometre for rounding and for the radius that libraries require of a point.
     excess = errors["max_penetration_error_mm"] / (errors["bound_mm"] + 1e-3)
     late = errors["deepest_missed_mm"] - errors["bound_mm"]
     found = [
@@ -230,25 +230,24 @@ def checks(errors: pd.DataFrame, trapped: pd.DataFrame) -> list[Check]:
 
 
 def notes(skipped: list[str]) -> list[str]:
-    """What a reader of the numbers must know."""
+    """Notes for the reader of the numbers."""
     return [
         *left_out(skipped),
-        "Truth is the exact arc. A mesh on the wall lies inside the hole by the sagitta of its facets and, between "
-        "rings, towards the inside of the bend: contacts are found early on the outside of a bend and late on its "
-        "inside.",
-        "fcl and coal are asked for the distance of the centre, which gives the clearance too; their collision queries "
-        "have the same errors, and their costs stand in the study contact_swap. bullet and mujoco report contacts "
-        "alone.",
-        "Cylinders and arcs answer from Python like the others. Points that are asked about again remember their "
-        "piece, as in the engine's loop; the trees of the meshes have no use for such memory.",
-        "The sphere set off its body's origin, reported elsewhere to fall through a mesh in Bullet's own time steps, "
-        "is seen by its closest-point query.",
+        "The reference is the exact arc. A mesh on the wall lies inside the hole by the sagitta of its facets and, "
+        "between rings, towards the inside of the bend: contacts are found early on the outside of a bend and late "
+        "on its inside.",
+        "fcl and coal compute the distance of the centre, which gives the clearance too; their collision queries "
+        "have the same errors, and the study contact_swap has their costs. bullet and mujoco report contacts alone.",
+        "Cylinders and arcs are called from Python like the others. For a point that is queried again they remember "
+        "its piece, as in the engine's loop; the trees of the meshes have no such memory.",
+        "A sphere offset from its body's origin, which is reported to fall through a mesh in Bullet's own time "
+        "steps, is found by Bullet's closest-point query.",
     ]
 
 
 STUDY = Study(
     "contact_accuracy",
-    "What does each contact method get right, and what does a point cost?",
+    "How accurate is each contact method, and what does it cost per point?",
     run,
     uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
 )

@@ -28,7 +28,7 @@ PASSES = 4.0  # [s] in which every point of a bend passes one of its cylinders o
 PARTS = ("add", "subtract", "multiply", "divide", "root", "compare")
 FACETS = 24  # of the coarser mesh: rings miss a bend as cylinders do, facets the hole by a millimetre more
 ONE, SEARCH = "paper: one cylinder, |PT|²", "paper's FOR-loop over cylinders from the top"
-ASKING = "asking a library for nothing"  # from Python: no cost of its contact
+ASKING = "asking a library for nothing"  # the call from Python is no cost of the contact query
 TREE, LIBRARY = f"mesh of {FACETS} facets: tree of boxes", f"mesh of {FACETS} facets: coal"
 
 
@@ -59,12 +59,12 @@ def paper_direction(a: Any, ab: Any, square: Any, q: Any, t: Any, distance: Any)
 
 
 def numbers(*values: float) -> list[Number]:
-    """Numbers that count."""
+    """Numbers that count the operations on them."""
     return [Number(float(value)) for value in values]
 
 
 def tripping() -> tuple[Run, Any]:
-    """The paper's well in 61 segments, tripped in for some seconds; the motion goes on."""
+    """The paper's well in 61 segments after some seconds of tripping in, still in motion."""
     run, phases = prepare(load("paper_well", operations=trip(BIT - 10, BIT, SPEED, ramp=2.0)))
     settle(run)
     start_from_rest(run)
@@ -88,14 +88,14 @@ def paper_rows() -> list[dict[str, Any]]:
 
 
 def engine_rows(run: Run, motion: Any, moments: int) -> list[dict[str, Any]]:
-    """The engine's own helpers, a mean over all points and moments of a trip; the FOR-loop for its last moment."""
+    """The engine's own helpers, means over all points and times of a trip; the FOR-loop at its last time."""
     n, pieces = run.segments, Counted(run.hole.pieces)
     follow, refresh = interpreted(contact.follow_cylinders), interpreted(contact.refresh_cylinders)
     place, loop = interpreted(contact.contact_point), interpreted(for_loop_owner)
     write = interpreted(own._write)
     followed, looked_up, searched = Counter[str](), Counter[str](), Counter[str]()
     for _ in range(moments):
-        # The next step's search, from the owners this one leaves behind.
+        # The next step starts its search from the owners of this step.
         run.advance(motion, PASSES / moments)
         S = Counted(run.S.copy())
         followed += operations_of(follow, S, n)
@@ -142,10 +142,10 @@ def spheres(run: Run) -> tuple[Array, Array]:
 
 
 def times(run: Run, meshes: bool, rounds: int) -> pd.DataFrame:
-    """The same points raced, everything compiled: one cylinder, the paper's search, a tree of boxes, and a library."""
+    """Times at the same points, all compiled: one cylinder, the paper's search, a tree of boxes, and a library."""
     points, radii = spheres(run)
     owners, pieces = run.hole.owners(points), run.hole.pieces
-    # So many points that a call from Python is nothing to them.
+    # So many points that the time of a call from Python does not matter.
     many, all_radii, all_owners = np.tile(points, (100, 1)), np.tile(radii, 100), np.tile(owners, 100)
     actions: dict[str, Action] = {
         ONE: lambda: one_cylinder(pieces, many, all_owners),
@@ -161,7 +161,7 @@ def times(run: Run, meshes: bool, rounds: int) -> pd.DataFrame:
         actions |= {LIBRARY: lambda: library.query(points, radii), ASKING: lambda: library.query(beside, radii)}
         counts |= {LIBRARY: len(points), ASKING: len(points)}
     raced = race(actions, counts, rounds, ONE)
-    # The fastest round, which others on the machine disturb least.
+    # The fastest round: other processes on the machine disturb it least.
     ns = dict(zip(raced["name"], raced["ns_least"].astype(float), strict=True))
     asking = ns.pop(ASKING, 0.0)
     if LIBRARY in ns:
@@ -174,7 +174,7 @@ def times(run: Run, meshes: bool, rounds: int) -> pd.DataFrame:
 
 
 def row(name: str, tally: Any) -> dict[str, Any]:
-    """A row of the table, operations of one point."""
+    """A row of the table: operations per point."""
     return {"what": name, "arithmetic": float(arithmetic(tally)), **{part: float(tally[part]) for part in PARTS}}
 
 
@@ -206,10 +206,10 @@ def run(context: Context) -> Outcome:
     checks = [
         Check("operations of the paper's test for one cylinder", one, CLAIMED, "at_most", "",
               "abstract, §4: two dot products, a subtract and two multiplies"),
-        Check("operations of the engine's test a point, cylinder remembered, down to penetration", own, CLAIMED,
-              "at_most", "", "the same claim, held against all that a penetration needs"),
-        Check("operations of the paper's search a point, FOR-loop in paper-well", loop, CLAIMED, "at_most", "",
-              "the same claim, held against the search of §4.2"),
+        Check("operations of the engine's test per point, cylinder remembered, down to penetration", own, CLAIMED,
+              "at_most", "", "the same claim, for all operations that a penetration needs"),
+        Check("operations of the paper's search per point, FOR-loop in paper-well", loop, CLAIMED, "at_most", "",
+              "the same claim, for the search of §4.2"),
     ]  # fmt: skip
     if meshes:
         mesh = float(found.filter(like="mesh").min())
@@ -224,24 +224,24 @@ def run(context: Context) -> Outcome:
         tables={"operations": table, "times": times(string, meshes, 5 if context.quick else 25)},
         checks=checks,
         notes=[
-            "Counted are sums, differences, products, quotients and roots of one point, by running the engine's own "
-            "helpers on numbers that keep a tally; comparisons stand apart, changes of sign and loads from memory are "
-            "not counted. The point's own position is given.",
-            f"The string is the paper's, tripped in to {BIT:.0f} m at {SPEED} m/s in "
-            f"{len(string.hole.pieces)} cylinders; rows are means over its points and the {PASSES:.0f} s in "
-            f"which all of them pass a cylinder. The table costs {looked_up:.1f} operations of a point and step: "
-            "those near the ends of their cylinder and in an overlap.",
-            "The paper's thirteen operations decide on one cylinder. The search asks one cylinder after the other "
-            "down to the point's own, eight operations each: its cost grows with depth and with the cylinders a bend "
-            "is made of.",
+            "Sums, differences, products, quotients and roots of one point are counted by running the engine's own "
+            "helpers on numbers that count their operations; comparisons are counted separately, changes of sign and "
+            "loads from memory are not counted. The position of the point is given.",
+            f"The string is the paper's, tripped in to {BIT:.0f} m at {SPEED} m/s in {len(string.hole.pieces)} "
+            f"cylinders; rows are means over its points and the {PASSES:.0f} s in which all of them pass a cylinder. "
+            f"The look-up table costs {looked_up:.1f} operations per point and step, for points near the ends of "
+            "their cylinder and in an overlap.",
+            "The paper's thirteen operations are for one cylinder. The search tests one cylinder after the other "
+            "down to the point's own, eight operations each: its cost grows with depth and with the number of "
+            "cylinders in the bends.",
             "The mesh has rings every 2 m at most. python-fcl and coal report no counts; this tree's boxes are "
             "aligned with the global axes and cheaper to test than their oriented ones. Its answers equal coal's to "
             "rounding.",
-            "Counts are not times: the operations of a FOR-loop stand in a row, those of a tree wait for boxes and for "
-            "branches. The table of times is of the same points and of the very code that was counted, compiled; what "
-            "asking coal from Python costs is taken from its.",
+            "Counts are not times: the operations of a FOR-loop follow each other without branches, those of a tree "
+            "wait for boxes and branches. The table of times is for the same points and for the counted code, "
+            "compiled; the cost of calling coal from Python is subtracted from its time.",
         ],
-        display={"operations": "Operations a point", "times": "The same in time, all compiled; fastest of turns"},
+        display={"operations": "Operations per point", "times": "Times of the same, all compiled; fastest round"},
     )
 
 

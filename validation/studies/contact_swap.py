@@ -1,4 +1,4 @@
-"""One loop, one string, one step; only the contact query is swapped: what each costs and what it does to the torque."""
+"""Only the contact query is swapped, in the same loop, string and step: cost and torque of each method."""
 
 from collections.abc import Callable, Iterable, Mapping
 from itertools import product
@@ -30,7 +30,7 @@ FACETS = 48  # the default of every mesh
 
 
 def queries(methods: Iterable[str]) -> dict[str, tuple[str, dict[str, Any]]]:
-    """Name in the tables -> method and options, one for each way in which a method can be asked."""
+    """Name in the tables -> method and options, one for each query of a method."""
     found: dict[str, tuple[str, dict[str, Any]]] = {}
     for name in methods:
         label, keys = LABELS.get(name, name), contact.method_class(name).Options.model_fields
@@ -51,7 +51,7 @@ def turning(segments: int, geometry: str = "cylinders") -> tuple[Run, Motion]:
 
 
 def costs(segments: int, asked: Mapping[str, tuple[str, dict[str, Any]]], rounds: int) -> pd.DataFrame:
-    """The race of all loops with one number of segments, per segment and step, from the same state."""
+    """Times of all loops with one number of segments, per segment and step, from the same state."""
     start, motion = turning(segments)
     actions: dict[str, Callable[[], object]] = {}
     counts: dict[str, int] = {}
@@ -83,7 +83,7 @@ def costs(segments: int, asked: Mapping[str, tuple[str, dict[str, Any]]], rounds
 
 
 def facets(quick: bool) -> pd.DataFrame:
-    """The curved chain rotating against meshes of more and more facets: what the torque owes to them."""
+    """The curved chain rotating against meshes of more and more facets: torque over the number of facets."""
     case = load("curved_chain", operations=rotation(BIT, 8.0 if quick else 30.0, ramp=3.0), record__interval=0.25)
     window = 3.0 if quick else 15.0
     own = last_seconds(simulate(case), window)
@@ -96,7 +96,7 @@ def facets(quick: bool) -> pd.DataFrame:
 
 
 def counted() -> pd.DataFrame:
-    """The curved chain rotating in more segments (§6.3), with a mesh and with cylinders: what each wall makes of it.
+    """The curved chain rotating in more segments (§6.3), with a mesh and with cylinders.
 
     columns : wall, segments, sum_r_mu_fn_kN_m and its change from the fewest segments in percent.
     """
@@ -117,7 +117,7 @@ def counted() -> pd.DataFrame:
 
 
 def wedge(count: int) -> float:
-    """How much more [%] two facets press together on a string in the corner between them than a round wall."""
+    """Excess [%] of the contact force of two facets on a string in their corner over that of a round wall."""
     return float(100 * (1 / np.cos(np.pi / count) - 1))
 
 
@@ -177,7 +177,7 @@ def trip_of(start: float, end: float) -> Case:
 
 
 def run(context: Context) -> Outcome:
-    """The race with 60 and 170 segments (quick: with 60), the facets, the windows of Fig. 13."""
+    """Times with 60 and 170 segments (quick: 60), the facets, the windows of Fig. 13."""
     missing = [name for name in contact.METHODS if contact.installed_version(name) is None]
     there = [name for name in contact.METHODS if name not in missing]
     raced = [name for name in there if not (context.quick and name in FULL_ONLY)]
@@ -190,15 +190,15 @@ def run(context: Context) -> Outcome:
         "machine": machine_table(),
     }
     display = {
-        "cost": "One segment and one step of the same loop, raced in turns; ratios are to no contact",
+        "cost": "Time of one segment and one step of the same loop, measured in turns; ratios are to no contact",
         "torques": "Rotating torque of the curved chain with every method at its default options",
     }
     checks = [
         Check("cost of a step with cylinders over one without contact", _ratio(cost, "cylinders, compiled"), 2.0,
-              "at_most", "", "target: contact costs no more than all the rest"),
+              "at_most", "", "target: contact costs no more than the rest of the step"),
         Check("Σ rμF_n rotating, every method against the engine's own cylinders, largest difference",
               float(tables["torques"]["sum_difference_percent"].abs().max()), 2.0, "at_most", "%",
-              f"facets: {wedge(FACETS):.1f} %; a window of a few seconds adds its swing"),
+              f"facets: {wedge(FACETS):.1f} %; a mean over a few seconds keeps some of the swing"),
     ]  # fmt: skip
     if "coal" in there:
         tables["facets"] = facets(context.quick)
@@ -206,7 +206,7 @@ def run(context: Context) -> Outcome:
         checks.append(facet_check(tables["facets"]))
         if not context.quick:
             tables["segments"] = counted()
-            display["segments"] = "The same with 60 and 170 segments: does a mesh (coal) ask for more of them?"
+            display["segments"] = "The same with 60 and 170 segments: does a mesh (coal) need more segments?"
     if "fcl" in there:
         tables |= figure_13(context, "fcl")
         display["figure_13"] = "Fig. 13: Σ rμF_n while tripping in, FCL and FCTD over the same windows"
@@ -216,11 +216,11 @@ def run(context: Context) -> Outcome:
 
 
 def facet_check(table: pd.DataFrame) -> Check:
-    """Whether a mesh presses as two facets do on a string in the corner between them."""
+    """Whether the excess of a mesh is that of two facets on a string in their corner."""
     meshes = table.dropna(subset="facets")
     excess = float((meshes["sum_difference_percent"].abs() / meshes["wedge_percent"]).max())
     return Check("Σ rμF_n rotating, meshes against cylinders, over 1/cos(π/n) − 1", excess, 1.5, "at_most", "",
-                 "two facets hold a string in their corner with that much more force")  # fmt: skip
+                 "excess of the force of two facets on a string in their corner")  # fmt: skip
 
 
 def fcl_checks(cost: pd.DataFrame, windows: pd.DataFrame) -> list[Check]:
@@ -230,10 +230,10 @@ def fcl_checks(cost: pd.DataFrame, windows: pd.DataFrame) -> list[Check]:
     return [
         Check("FCL contact over cylinders, a step of 60 segments", cheapest / _ratio(cost, "cylinders, compiled"), 10.0,
               "at_least", "", "claim of the paper: FCTD contact is cheaper than geometry-based contact"),
-        Check("FCL contact over cylinders, both asked from Python", cheapest / _ratio(cost, "cylinders, from Python"),
-              10.0, "at_least", "", "the same claim where both pay for a call from Python"),
+        Check("FCL contact over cylinders, both called from Python", cheapest / _ratio(cost, "cylinders, from Python"),
+              10.0, "at_least", "", "the same claim where both are called from Python"),
         Check("Σ rμF_n tripping in, FCL against FCTD below 1900 m, largest difference", float(difference.max()),
-              2.0, "at_most", "%", f"facets: {wedge(FACETS):.1f} %; windows of a few seconds add their swing"),
+              2.0, "at_most", "%", f"facets: {wedge(FACETS):.1f} %; means over a few seconds keep some of the swing"),
     ]  # fmt: skip
 
 
@@ -243,22 +243,24 @@ def _ratio(cost: pd.DataFrame, loop: str) -> float:
 
 
 def notes(missing: list[str]) -> list[str]:
-    """What a reader of the numbers must know."""
+    """Notes for the reader of the numbers."""
     return [
         *left_out(missing),
         "All loops take the same step from the same state of the curved chain, about half of whose points touch. The "
-        "rows from Python contain two compiled calls and one query a step; the row that asks and finds nothing is "
-        "what those calls cost by themselves.",
+        "rows from Python contain two compiled calls and one query per step; the row with an empty query is the cost "
+        "of those calls alone.",
         f"Meshes have {FACETS} facets and rings every 2 m at most unless said otherwise. The torque differs between "
-        "mesh and cylinders because facets meet in corners: a point of the string settles there and is held by two "
-        "facets, whose forces add up to 1/cos(π/n) of what a round wall would press; on the flat of a facet there is "
-        "no such excess. Contact forces differ by as much as the torques, and with more facets both vanish.",
-        "In such a corner the one contact of a point jumps from facet to facet, so that the string never comes to "
-        "rest: it keeps moving at some cm/s until friction holds it. Cylinders and arcs have no corners.",
-        f"Torques of {TOO_SLOW} were not run: it takes milliseconds a point. What facets do is shown with coal, and "
-        "Fig. 13 with FCL, which descends from the contact code of the paper's comparison; the meshes are the same.",
-        "The whole trip of Fig. 13 with FCL was not run: windows of it were, and its time is extrapolated from their "
-        "time per step.",
+        "mesh and cylinders because facets meet in corners: a point of the string settles there and two facets "
+        "support it, whose forces add up to 1/cos(π/n) times the force of a round wall; on the flat of a facet there "
+        "is no such excess. Contact forces differ by as much as the torques, and both differences vanish with more "
+        "facets.",
+        "In such a corner the one contact of a point jumps from facet to facet, so that the string does not come to "
+        "rest: it keeps moving at some cm/s until friction stops it. Cylinders and arcs have no corners.",
+        f"Torques of {TOO_SLOW} were not run: a query takes milliseconds per point. The effect of facets is shown "
+        "with coal, and Fig. 13 with FCL, which descends from the contact code of the paper's comparison; the meshes "
+        "are the same.",
+        "The whole trip of Fig. 13 was not run with FCL: only windows of it were, and its time is extrapolated from "
+        "their time per step.",
     ]
 
 

@@ -22,12 +22,12 @@ SCHEDULES = {
 
 
 def percent(value: float, reference: float) -> float:
-    """Difference from a reference in percent; nan where there is nothing to compare."""
+    """Difference from a reference in percent; NaN where there is nothing to compare."""
     return 100 * (value / reference - 1) if reference else float("nan")
 
 
 def one(geometry: str, law: str, operation: str, softer: float) -> tuple[dict[str, Any], pd.DataFrame]:
-    """The numbers of one run beside the soft string's, and its contact profile.
+    """The loads of one run and of the soft string, and the contact profile of the run.
 
     softer : factor on the bending stiffness.
     """
@@ -38,7 +38,7 @@ def one(geometry: str, law: str, operation: str, softer: float) -> tuple[dict[st
         contact__friction_law=law,
         operations=SCHEDULES[operation],
         string__components__0__bending_stiffness=bending,
-        # Segments of 25 m whatever the bit depth, and pipe enough to trip in.
+        # Segments of 25 m at every bit depth, and enough pipe to trip in.
         string__components__0__length=None,
         string__components__0__segments=None,
         string__components__0__segment_length=25.0,
@@ -65,7 +65,7 @@ def one(geometry: str, law: str, operation: str, softer: float) -> tuple[dict[st
 
 
 def run(context: Context) -> Outcome:
-    """Both geometries, both laws, three operations; and the stiffness taken down to a hundredth."""
+    """Both geometries, both laws, three operations; and a hundredth of the bending stiffness."""
     geometries = ("arcs",) if context.quick else ("cylinders", "arcs")
     full = list(itertools.product(geometries, ("coulomb", "paper"), SCHEDULES, (1.0,)))
     soft = list(itertools.product(("arcs",), ("coulomb", "paper"), SCHEDULES, (0.01,)))
@@ -95,22 +95,22 @@ def run(context: Context) -> Outcome:
             Check("rotating torque against the soft string of the same law",
                   largest(turning["torque_difference_percent"]), 3.0, "at_most", "%",
                   "Johancsik's recursion, μ or μ/√(1+μ²)"),
-            Check("soft string's five numbers against the known ones",
+            Check("soft string's five numbers against stored values",
                   largest(_known(numbers)), 0.5, "at_most", "%", "regression: 472, 374, 426.5 kN; 2.39, 2.34 kN·m"),
         ],
         notes=[
-            "What is left between the two models is the clearance (the string lies up to 105 mm off the axis), "
-            "bending stiffness, and the 25 m between contact points; a hundredth of the bending stiffness "
-            "shows the share of the second.",
-            "Torque and hook load are weighted means over the last 20 s. Nothing but friction damps the torsion of "
-            "this string, so the torque of law coulomb swings by a few percent about its mean for minutes.",
+            "The two models differ by the clearance (the string lies up to 105 mm off the axis), the bending "
+            "stiffness, and the 25 m between contact points; the runs with a hundredth of the bending stiffness show "
+            "the share of the stiffness.",
+            "Torque and hook load are weighted means over the last 20 s. Only friction damps the torsion of this "
+            "string, so the torque of law coulomb swings by a few percent about its mean for minutes.",
         ],
-        display={"numbers": "Five numbers of the chain beside the soft string's"},
+        display={"numbers": "Five numbers of the chain and of the soft string"},
     )  # fmt: skip
 
 
 def _known(numbers: pd.DataFrame) -> pd.Series:
-    """Percent by which our soft string differs from the numbers it is known to give."""
+    """Difference [%] of our soft string from its stored values."""
     loads = numbers["operation"].map({"rotate_off_bottom": 426.5, "trip_out": 472.0, "trip_in": 374.0})
     torques = numbers["law"].map({"paper": 2.39, "coulomb": 2.34})
     differences = [numbers["soft_hookload_kN"] / loads - 1, (numbers["soft_torque_kN_m"] / torques - 1).dropna()]

@@ -1,4 +1,4 @@
-"""How far cylinders are from the arc they stand for, over their length (DESIGN: the largest geometric error)."""
+"""How far cylinders are from the arc they stand for, over their length: the largest geometric error."""
 
 import numpy as np
 import pandas as pd
@@ -52,11 +52,11 @@ def run(context: Context) -> Outcome:
             Check("largest error over ℓ²/8R", float(excess.max()), 1.1, "at_most", "", "the same formula"),
         ],
         notes=[
-            "Clearances are 50 to 100 mm: 10 m cylinders in this bend are wrong by about half of that, which is "
-            "why the default length follows from a chord tolerance."
+            "Clearances are 50 to 100 mm: 10 m cylinders in this bend are off by about half of that, so the default "
+            "length follows from a chord tolerance."
         ],
         display={"errors": "Error by cylinder length in a bend of 286 m radius"},
     )  # fmt: skip
 
 
-STUDY = Study("cylinder_error", "How short must a cylinder be?", run)
+STUDY = Study("cylinder_error", "How short must cylinders be?", run)

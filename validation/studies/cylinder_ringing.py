@@ -1,6 +1,6 @@
-"""Why the hook load of paper-well-b swings on the way in: collars that meet the joints of the hole's cylinders at once.
+"""Why the hook load of paper-well-b swings tripping in: all collars pass seams between cylinders at the same time.
 
-One thing is changed at a time.  Two more routes to what is seen need no time step: the frequencies of the chain of
+One parameter is changed at a time.  Two more routes to the swing need no time step: the frequencies of the chain of
 masses and springs, and the swing that the tilt of the cylinders builds up in it (``fctd.simulation.ringing``).
 """
 
@@ -26,8 +26,8 @@ SPEED = 0.5  # [m/s]
 CYLINDER = 2.0  # [m], those of the case in its builds
 HARMONIC = 2
 RECORD = 0.25  # [s]
-MEAN = 15.0  # [s]: what is slower than this is no swing
-FROM = 1900.0  # [m]: above, what the start has set ringing is larger than what the joints do
+MEAN = 15.0  # [s]: slower changes do not count as swing
+FROM = 1900.0  # [m]: above this depth the ringing from the start exceeds that from the seams
 # Stations of the same hole where its bending changes, and nowhere else.
 BENDS = [[0, 0, 45], [1750, 0, 45], [2112.5, 58, 45], [2250, 58, 45], [2450, 90, 45], [4300, 90, 45]]
 
@@ -63,20 +63,20 @@ CHANGES = QUICK | {
 
 
 def swing(load_kN: Array, interval: float) -> Array:
-    """What a record of hook load has about its mean over 15 s; nan at its ends."""
+    """Hook load less its mean over 15 s; NaN at the ends."""
     about = pd.Series(load_kN)
     return np.asarray(about - about.rolling(round(MEAN / interval), center=True).mean())
 
 
 def dominant(about: Array, interval: float) -> float:
-    """Frequency [Hz] of the largest share of a record."""
+    """Frequency [Hz] of the largest component of a record."""
     size = 16 * len(about)
     share = np.abs(np.fft.rfft(np.hanning(len(about)) * about, size))
     return float(np.fft.rfftfreq(size, interval)[np.argmax(share)])
 
 
 def mean_off(history: pd.DataFrame) -> float:
-    """Largest difference [%] of the mean hook load over 20 m of a swinging trip from the steady string's."""
+    """Largest difference [%] of the hook load, averaged over 20 m of a swinging trip, from the steady string's."""
     depths = [2180.0, 2210.0, 2240.0, 2270.0]
     steady = torque_drag(load("paper_well_b", contact__friction_law="paper"), "trip_in", depths)["hookload_N"]
     means = [history.loc[(history["bit_depth_m"] - d).abs() < 10, "hookload_N"].mean() for d in depths]
@@ -84,7 +84,7 @@ def mean_off(history: pd.DataFrame) -> float:
 
 
 def one(name: str, speed: float, changes: dict[str, Any]) -> tuple[dict[str, Any], pd.DataFrame, Ringing]:
-    """Row of a run, the swing of its hook load over bit depth, and what was expected of it."""
+    """Row of a run, the swing of its hook load over bit depth, and the expected swing."""
     operations = trip(1750.0, 2450.0, speed, 10.0)
     law = {"contact__friction_law": "paper", "record__interval": RECORD}
     case = load("paper_well_b", operations=operations, **law | changes)
@@ -113,7 +113,7 @@ def one(name: str, speed: float, changes: dict[str, Any]) -> tuple[dict[str, Any
 
 
 def run(context: Context) -> Outcome:
-    """The case itself, what is expected of it, and one change at a time."""
+    """The case itself, its expected swing, and one change at a time."""
     rows, histories, foreseen = [], [], []
     for name, (speed, changes) in context.progress((QUICK if context.quick else CHANGES).items(), "trips"):
         row, history, ringing = one(name, speed, changes)
@@ -139,11 +139,11 @@ def run(context: Context) -> Outcome:
     runs["swing_over_expected"] = (runs["swing_kN"] / runs["expected_swing_kN"]).where(rings)
     ratio = runs.set_index("changed")["swing_over_expected"].dropna()
     only_full = [] if context.quick else [
-        Check("swing of collars that meet joints in turn over those that meet them at once, root mean square",
+        Check("swing of collars that pass seams in turn over collars that pass them at once, root mean square",
               of[COLLARS]["mean_square_swing_kN"] / base["mean_square_swing_kN"], 0.25, "at_most", "",
               "200 m of collars in 19 pieces: 10.5 m are no whole number of cylinders of 2 m"),
         Check("swing of a soft string without clearance over the expected one", float(ratio[SOFT]), (0.75, 1.25),
-              "within", "", "the string that the expected swing is for"),
+              "within", "", "the expected swing is computed for such a string"),
         Check("swing over the expected one at 0.25 m/s", float(ratio[SLOW]), 2.0, "at_most", "",
               "tilt of the cylinders in the undamped chain, without a time step or friction"),
     ]  # fmt: skip
@@ -152,10 +152,10 @@ def run(context: Context) -> Outcome:
         checks=[
             Check("swing in arcs over that in cylinders, root mean square",
                   arcs["mean_square_swing_kN"] / base["mean_square_swing_kN"], 0.1, "at_most", "",
-                  "the same hole without joints"),
+                  "the same hole without seams"),
             Check("mean hook load while it swings against the steady string's, largest difference",
                   mean_off(histories[0]), 0.1, "at_most", "%", "the steady solver in the same cylinders"),
-            Check("frequency of the largest swing against the second harmonic of the joints",
+            Check("frequency of the largest swing against the second harmonic of the seams",
                   100 * abs(base["frequency_Hz"] / joints - 1), 3.0, "at_most", "%",
                   "0.5 m/s over cylinders of 2 m: 0.25 Hz and its multiples"),
             Check("frequency of the largest swing against the string's first",
@@ -170,26 +170,28 @@ def run(context: Context) -> Outcome:
             *only_full,
         ],
         notes=NOTES,
-        display={"runs": "Trips of well b from 1750 to 2450 m with one thing changed: largest swing of the hook load "
-                 f"below {FROM:.0f} m, and the largest expected"},
+        display={"runs": "Trips of well b, 1750 to 2450 m, one parameter changed: largest swing of the hook load "
+                 f"below {FROM:.0f} m, and the largest expected swing"},
     )  # fmt: skip
 
 
 NOTES = [
-    "A cylinder is a chord of the bend: along it the wall pushes back at first and forward at last, and the push "
-    "jumps where the next one begins. Stations every 10 m make the cylinders of both builds whole fractions of the "
-    "10 m collars, so all collars meet their joints at once; with 0.5 m/s over 2 m that is every 4 s. The second "
-    "harmonic is the string's first axial frequency with the bit at 2170 m, and friction that never changes sign "
-    "damps nothing.",
-    "It is the hole's cylinders that ring the string, not the well: arcs have no joints, and half the step or "
-    "another law of friction changes nothing. What takes it away: arcs; collars, or cylinders, in no step with each "
-    "other; another speed; mud that damps. Shorter cylinders alone do not: those of 1 m have the same harmonic, just "
-    "as strong.",
-    "Records of 1 s are half a period. They alias: two thirds of the swing are left, in beads that are not there.",
+    "A cylinder is a chord of the bend: the wall pushes a sliding point backwards in the first half of a cylinder "
+    "and forwards in the second, and the push jumps at the seam with the next cylinder. With stations every 10 m the "
+    "cylinders of both builds are whole fractions of the 10 m collars, so all collars pass a seam at the same time; "
+    "at 0.5 m/s and 2 m that is every 4 s. The second harmonic equals the string's first axial frequency with the "
+    "bit at 2170 m, and friction that does not change sign does not damp it.",
+    "The cylinders cause the ringing, not the well: arcs have no seams, and half the time step or another friction "
+    "law changes nothing. Arcs, collars or cylinders whose lengths are not in step with each other, another speed, "
+    "or damping by mud remove it. Shorter cylinders alone do not: those of 1 m have the same harmonic, equally "
+    "strong.",
+    "A record interval of 1 s is half a period. Such records alias: they show two thirds of the swing, with a beat "
+    "that does not exist.",
     "Near 2290 m the ringing dies because a contact point lifts off the wall and falls back in every period; the "
-    "ledger has its energy under contact damping. A string that is put into arcs at 2240 m rings on until there.",
-    "Expected swings leave out friction, bending, clearance and lift-off. A result whose cylinders are expected to "
-    "ring the string by more than 0.5 % of its hook load says so in its message.",
+    "energy ledger shows the loss under contact damping. A string that continues in arcs from 2240 m keeps ringing "
+    "down to that depth.",
+    "Expected swings neglect friction, bending, clearance and lift-off. The message of a result warns where "
+    "cylinders are expected to ring the string by more than 0.5 % of its hook load.",
 ]
 
 STUDY = Study(

@@ -1,4 +1,4 @@
-"""Where the energy goes: work in, energy held and losses, and what the time step leaves unexplained."""
+"""The energy ledger: work, stored energy, losses, and the residual over the time step."""
 
 from typing import Any
 
@@ -9,7 +9,7 @@ from fctd.simulation.run import prepare
 from validation.cases import load, rotation, trip
 from validation.harness.study import Check, Context, Outcome, Study, log_slope
 
-# A build of 60° in 50 m, turning by 30°: far sharper than wells are drilled.
+# A build of 60° in 50 m, turning by 30°: far sharper than in drilled wells.
 SHARP = [[0, 0, 0], [1700, 0, 350], [1750, 60, 20], [2600, 60, 20]]
 SHARPEST = "chain in a sharp bend, picking up, cylinders"
 # Name, case file and what is changed.  Trips of the paper's well feed pipe in at the top.
@@ -85,19 +85,20 @@ def run(context: Context) -> Outcome:
                   1e-3, "at_most", "", "target: 0.1 %"),
             Check("order of the largest residual from half the default step down, arcs, least of the cases",
                   min(orders.values()), 0.8, "at_least", "",
-                  "theory: first order; no two steps share all their sticks and slips"),
+                  "theory: first order; sticking and slipping differ from step size to step size"),
         ],
         notes=[
-            "Work is what the top drive puts in beyond lifting or lowering the string, or the sum of the losses, "
-            "whichever is larger: the work of the weight alone would hide any error.",
+            "Work is the work of the top drive less that of lifting or lowering the string, or the sum of the "
+            "losses, whichever is larger: the work of the weight alone would hide any error.",
             "In cylinders a part of the residual does not fall with the step: the blend of Eq. 24 changes the "
-            "penetration along the hole without a force along the hole, so the model itself does not conserve "
-            "energy at the joints of cylinders. Arcs have no joints.",
-            "The residual is the largest of a run: its sign changes with the swing of the string. At the default step "
-            "the stiffest modes turn by more than a radian in a step and are beyond any order; the fit begins below.",
+            "penetration along the hole without a force along the hole, so the model itself does not conserve energy "
+            "at the seams between cylinders. Arcs have no seams.",
+            "The residual is the largest of a run: its sign changes with the swing of the string. At the default "
+            "step the phase of the stiffest modes advances by more than a radian per step and no order can be "
+            "observed; the fit uses smaller steps only.",
         ],
-        display={"closure": "What the ledger leaves over"},
+        display={"closure": "Residual of the energy ledger"},
     )  # fmt: skip
 
 
-STUDY = Study("energy_ledger", "Is all the energy accounted for?", run)
+STUDY = Study("energy_ledger", "How well does the energy ledger close?", run)

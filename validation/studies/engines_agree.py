@@ -1,4 +1,4 @@
-"""The same string in other people's engines: loads, where it touches, and the 1000:1 model."""
+"""The same string in independent engines: loads, contact forces, and the 1000:1 model."""
 
 from typing import Any
 
@@ -17,12 +17,13 @@ from validation.parts.windows import last_seconds
 
 BIT, S_BIT = 2450.0, 480.0
 SPEED = 0.2  # [m/s] of the trips
-# FCTD's stepper runs this long and hands over its state in motion [s].  The 2250 m of the paper's well are set going
-# over RAMP: a string that slides rings on along itself, since friction is the same at any speed, and must not be rung.
+# FCTD's stepper runs this long [s]; the engines start from its state. The 2250 m of string in the paper's well start to
+# move over RAMP: friction that does not depend on speed does not damp the axial ringing of a sliding string, so the
+# start must not excite it.
 LEAD, WELL_LEAD, RAMP = 20.0, 44.0, 40.0
 # A hole that builds to 45°, then builds and turns to 60° at 28°/100 m.
 TURNING = [[0, 0, 0], [1700, 0, 0], [1900, 45, 0], [2150, 90, 60], [2600, 90, 60]]
-# Engines and their configurations: the best fair one, and what comes without being asked for.
+# Engines and their configurations: the best fair one, and the engine's defaults.
 ENGINES: dict[str, tuple[str, dict[str, Any]]] = {
     "FCTD": ("fctd", {}),
     "Bullet": ("bullet", {}),
@@ -34,7 +35,7 @@ ENGINES: dict[str, tuple[str, dict[str, Any]]] = {
 SOLVER, BY_SIMILARITY = "steady solver", "steady solver, full size by similarity"
 STEPPER = "FCTD's stepper, at its own size"
 FAIR = ("Bullet", "MuJoCo", "PyElastica")
-# What the model of a thousandth is watched for [s]: a wave runs down its 1.5 m of steel and back in a millisecond.
+# Duration [s] of the model at a thousandth: a wave runs down its 1.5 m of steel and back in a millisecond.
 SMALL_WINDOW = 0.1
 # Holes and operations of the curved chain.
 WINDOWS = (
@@ -69,13 +70,13 @@ def well(segments: int, window: Window) -> Case:
 
 
 def s_shape(geometry: str, window: Window) -> Case:
-    """The well that no engine was set by, in cylinders or in arcs."""
+    """A well that was not used to set any engine, in cylinders or in arcs."""
     operations = rotation(S_BIT, window.start + window.duration + 1, ramp=1.0)
     return load("s_shape", operations=operations, record__interval=0.05, wellbore__geometry=geometry)
 
 
 def row(name: str, run: EngineRun, reference: EngineRun, steady: Any) -> dict[str, Any]:
-    """An engine's numbers beside FCTD's stepper over the same window and the steady solver."""
+    """An engine's numbers, those of FCTD's stepper over the same window, and the steady solver's."""
     end, own = late(run), late(reference)
     force, other = (r.profile["contact_force_N"].to_numpy()[-reference_rows(reference) :] for r in (run, reference))
 
@@ -107,7 +108,7 @@ def row(name: str, run: EngineRun, reference: EngineRun, steady: Any) -> dict[st
 
 
 def reference_rows(run: EngineRun) -> int:
-    """Rows of one profile: the last of a run, which may have recorded others."""
+    """Rows of the last profile of a run."""
     return int((run.profile["bit_depth_m"] == run.profile["bit_depth_m"].iloc[-1]).sum())
 
 
@@ -127,7 +128,7 @@ def compare(
 
 
 def hanging(names: tuple[str, ...], duration: float) -> pd.DataFrame:
-    """The chain in the open, spun up from rest: hook load, and the torque of the running wave against FCTD's."""
+    """The chain without a hole, spun up from rest: hook load, and the torque of the running wave against FCTD's."""
     case = load(
         "curved_chain", operations=rotation(BIT, duration + 1, ramp=4.0), record__interval=0.25,
         contact__enabled=False, wellbore__stations=[[0, 0, 0], [2600, 0, 0]],
@@ -153,7 +154,7 @@ def hanging(names: tuple[str, ...], duration: float) -> pd.DataFrame:
 
 
 def one_to_thousand(names: tuple[str, ...], duration: float) -> pd.DataFrame:
-    """Each reading of the paper's 1000:1 model: loads scaled back, against the string as it is, in percent."""
+    """Each reading of the paper's 1000:1 model: loads scaled back, against the full-size string, in percent."""
     window = Window(LEAD, duration)
     case = chain("rotate_off_bottom", window)
     full = equilibrium(case, "rotate_off_bottom", BIT)
@@ -171,7 +172,7 @@ def one_to_thousand(names: tuple[str, ...], duration: float) -> pd.DataFrame:
         )
 
     def solve(reading: str, by: Factors, model: Case, engine: str = SOLVER) -> None:
-        # A model a thousandth in size with its wall as it was is beyond the solver's numbers; its status says so.
+        # At a thousandth of the size with the full wall stiffness the solver overflows; its status reports it.
         with np.errstate(over="ignore"):
             point = equilibrium(model, "rotate_off_bottom", model.operations[0].start_md)
         loads = (point.hookload, point.surface_torque) if point.answered else (np.nan, np.nan)
@@ -182,7 +183,8 @@ def one_to_thousand(names: tuple[str, ...], duration: float) -> pd.DataFrame:
         solve(reading, by, model)
         for name in names:
             engine, options = ENGINES[name]
-            # A user of Adams writes millimetres, and so the engine sees metres' numbers again or a thousandfold.
+            # A user of Adams works in millimetres, so the engine computes with the full-size numbers or a thousand
+            # times them.
             options = options | ({"unit": "1 mm"} if engine == "bullet" else {})
             run = engines.build(engine, **options).run(model, Window(LEAD * by.time, duration * by.time))
             end = late(run)
@@ -190,8 +192,8 @@ def one_to_thousand(names: tuple[str, ...], duration: float) -> pd.DataFrame:
             add(reading, name, by, word, end["hookload_N"], end["surface_torque_N_m"])
     for reading, scale in (("naive, a tenth", 0.1), ("naive", SCALE)):
         solve(reading, factors("naive", scale), scaled(case, "naive", scale))
-        # By similarity the same steel at a fraction of the length is the full length with steel as many times as
-        # stiff.  The wall is stiffer too, by what does not matter: it is stiff at either value.
+        # By similarity the same steel at a fraction of the length equals the full length with steel stiffer by the
+        # inverse of that fraction. The wall is stiffer too, which does not matter: it is stiff at either value.
         stiff = chain(
             "rotate_off_bottom", window, string__components__0__youngs_modulus=206.8e9 / scale, wellbore__stiffness=1e10
         )
@@ -252,7 +254,7 @@ def small() -> Case:
 
 
 def run(context: Context) -> Outcome:
-    """Curved chain in three operations and in a turning hole, paper-well, 1000:1; how the engines were set."""
+    """Curved chain in three operations and in a turning hole, paper-well, 1000:1; the settings of the engines."""
     missing = [name for name, (engine, _) in ENGINES.items() if engines.installed_version(engine) is None]
     quick, there = context.quick, [name for name in ENGINES if name not in missing]
     fair = tuple(name for name in there if name in ("FCTD", *FAIR))
@@ -268,14 +270,14 @@ def run(context: Context) -> Outcome:
     display = {
         "chain": "Curved chain: every engine over the same window from FCTD's state in motion",
         "well": "Paper-well tripped in to 2250 m: 60 and 170 segments",
-        "s_shape": "A well that no engine was set by: S-shaped, turning by 50°, inclined at the top, in mud",
+        "s_shape": "A well not used to set any engine: S-shaped, turning by 50°, inclined at the top, in mud",
         "hanging": "No wall, vertical, spun up from rest",
-        "thousand": "The 1000:1 model: loads scaled back, against the string as it is",
+        "thousand": "The 1000:1 model: loads scaled back, against the full-size string",
         "friction": "Coulomb's law alone: friction of a pipe turning in a straight hole, over the azimuth of the hole",
     }
     if not quick:
         tables["steps"] = engine_settings.steps(fair)
-        display["steps"] = "The rotating chain spun up from rest over 10 s by each engine itself, over its step"
+        display["steps"] = "The rotating chain spun up from rest over 10 s in each engine, over the time step"
         if "MuJoCo" in there:
             tables["impedance"] = engine_settings.impedances()
             display["impedance"] = "MuJoCo's contact: friction of the pipe in a straight hole, over impedance and wall"
@@ -338,59 +340,62 @@ def scaling_checks(table: pd.DataFrame) -> list[Check]:
     apart = np.abs(off["naive, a tenth", SOLVER] - off["naive, a tenth", BY_SIMILARITY]).max()
     made += [
         Check("10:1, naive: solved at its own size against full size by similarity", float(apart), 1e-3, "at_most", "%",
-              "exact but for the stiffness of the wall"),
+              "exact except for the stiffness of the wall"),
         Check("1000:1, naive: torque scaled back is off by", float(np.abs(off["naive", BY_SIMILARITY]).max()), 10.0,
-              "at_least", "%", "steel of a thousandth of the length is a thousand times as stiff for its weight"),
+              "at_least", "%", "steel at a thousandth of the length is a thousand times as stiff for its weight"),
     ]  # fmt: skip
     return made
 
 
 def notes(missing: list[str]) -> list[str]:
-    """What a reader of the numbers must know."""
+    """Notes for the reader of the numbers."""
     return [
         *left_out(missing),
-        f"Every engine starts from the same state: FCTD's stepper after {LEAD:g} s ({WELL_LEAD:g} s in paper-well), in "
-        "motion; the rows over the step start from FCTD's frictionless shape at rest and leave the rest to the engine. "
-        "All are read as means under a Hann window. A run that fails a check is marked invalid and its numbers are "
-        "kept.",
-        "A string that slides rings along itself for good, in paper-well with a period of 2.06 s: Coulomb friction is "
-        f"the same at any speed and takes nothing from it. Paper-well is therefore set going over {RAMP:g} s, which "
-        "leaves 0.3 % of ringing in the hook load, and whether the hook load has settled is asked of whole periods.",
-        "How the engines were set, none by FCTD's loads: the step of each is the best of its ladder by one definition; "
-        "MuJoCo's contact is that which gives Coulomb's law back to a pipe in a straight hole. Changed since a first "
-        "round, whose settings had been chosen beside FCTD's torque: MuJoCo lost a contact margin of 5 mm and took "
-        "impedance 0.3 for 0.5; Bullet is given the hole along its own axes (default: the global ones); PyElastica's "
-        "step went from 1.03 to 0.45 ms. Faults of ours mended since: PyElastica's string lacked the weight of pipe "
-        "that had been fed before the window (0.4 % of hook load in trips), its nodes stood beside its open joints, "
-        "and its ledger lacked what the drive does to the held element.",
-        "Bullet's friction leans: it is solved along two directions that follow from the wall's normal and Bullet's "
-        "axes, each over the body's effective mass along it, and opposes M·v in place of v. The table of friction "
-        "shows it: in a straight hole that heads 15° off the axes it leans 32°, as those masses say, and not at all "
-        "along an axis. Turned so that its z is across the plane of the hole Bullet agrees; in a hole that turns no "
-        "axes do for all of it, and the rest of the lean is what is left there. Tried and not taken: bodies in maximal "
-        "coordinates, whose friction follows the sliding but whose second direction holds a μN of its own. The note of "
-        "a row says how much of μN stands against the sliding, measured on its own contacts, where it is below 98 %.",
-        "The S-shaped well was added after the engines had been set, with nothing changed since. In arcs the tube of "
-        "Bullet and MuJoCo has rings by a chord tolerance of 0.5 mm; with rings at the ends of the arcs alone, as "
-        "before, it cut through the bends and the string left it within 0.2 s.",
-        "MuJoCo's default cone is a pyramid along fixed directions and pulls aside by as much; its fair one is "
-        "elliptic. Its friction is a soft constraint, and a wall as stiff as the case's chatters.",
-        "Bullet, MuJoCo and PyElastica turn spinning bodies by an explicit gyroscopic moment, which feeds them energy: "
-        "at FCTD's own step Bullet's and MuJoCo's string leaves the hole within 10 s, and PyElastica's at 0.9 ms gains "
-        "18 % of the work, at half of that 0.3 %. In PyElastica wall and friction are ours: its agreement tells of the "
-        "beam and the integrator alone. While tripping its upper end is lowered, no pipe is fed.",
-        "Rows of the 1000:1 model with Bullet are read in millimetres, as a user of Adams would: limits and tolerances "
-        "that Bullet has in its own units spoil both, and the checks say so. The naive model is beyond the steady "
-        "solver at a thousandth (its row says so) and is computed at full size with steel a thousand times as stiff, "
-        "which similarity makes the same; at a tenth both ways are computed and agree. A second route, which needs "
-        "neither solver nor similarity, is the stepper: it runs the naive model at a thousandth as it is, but for wall "
-        "and dampers, which are those of a small string.",
+        f"Every engine starts from the same state: FCTD's stepper after {LEAD:g} s ({WELL_LEAD:g} s in paper-well), "
+        "in motion; the rows over the step start from FCTD's frictionless shape at rest. All numbers are means under "
+        "a Hann window. A run that fails a check is marked invalid and its numbers are kept.",
+        "The axial ringing of a sliding string does not decay, in paper-well with a period of 2.06 s: Coulomb "
+        f"friction does not depend on speed and does not damp it. Paper-well is therefore started over {RAMP:g} s, "
+        "which leaves 0.3 % of ringing in the hook load, and whole periods are used to check that the hook load has "
+        "settled.",
+        "No engine was set with FCTD's loads: the step of each is the best of its ladder by one definition; MuJoCo's "
+        "contact parameters are those that give Coulomb's law for a pipe in a straight hole. Changes since a first "
+        "round, whose settings had been chosen with FCTD's torque in view: MuJoCo without its contact margin of 5 mm "
+        "and with impedance 0.3 in place of 0.5; Bullet with the hole along its own axes (default: the global ones); "
+        "PyElastica with a step of 0.45 in place of 1.03 ms. Errors of ours corrected since: PyElastica's string "
+        "lacked the weight of pipe fed before the window (0.4 % of hook load in trips), its nodes were offset from "
+        "its open joints, and its ledger lacked the work of the drive on the clamped element.",
+        "Bullet's friction is not opposite to the sliding: Bullet solves it along two directions that follow from "
+        "the wall's normal and its axes, each over the body's effective mass along it, so that friction opposes M·v "
+        "in place of v. The table of friction shows this angle, the lean: 32° in a straight hole at 15° to the axes, "
+        "as those masses predict, and zero along an axis. With its z axis across the plane of the hole Bullet "
+        "agrees; in a hole that turns no axes fit all of it, and part of the lean remains. Tried and rejected: "
+        "bodies in maximal coordinates, whose friction follows the sliding but has a separate μN in the second "
+        "direction. The note of a row gives the share of μN that opposes the sliding, measured on its own contacts, "
+        "where it is below 98 %.",
+        "The S-shaped well was added after the engines had been set, with nothing changed since. In arcs the spacing "
+        "of the rings of Bullet's and MuJoCo's tube follows from a chord tolerance of 0.5 mm; with rings only at the "
+        "ends of the arcs, as before, the tube cut through the bends and the string left it within 0.2 s.",
+        "MuJoCo's default friction cone is a pyramid along fixed directions and leans as much as Bullet's; its fair "
+        "configuration uses the elliptic cone. Its friction is a soft constraint, and contact chatters on a wall as "
+        "stiff as the case's.",
+        "Bullet, MuJoCo and PyElastica integrate spinning bodies with an explicit gyroscopic moment, which adds "
+        "energy: at FCTD's own step Bullet's and MuJoCo's string leaves the hole within 10 s, and PyElastica's at "
+        "0.9 ms gains 18 % of the work, at half of that 0.3 %. In PyElastica wall and friction are our code: its "
+        "agreement verifies only the beam and the integrator. While tripping its upper end is lowered, no pipe is "
+        "fed.",
+        "Rows of the 1000:1 model with Bullet are computed in millimetres, as a user of Adams would do: fixed limits "
+        "and tolerances in Bullet's units make both fail, and the checks report it. The steady solver cannot solve "
+        "the naive model at a thousandth (see its row); it solves it at full size with steel a thousand times as "
+        "stiff, which is the same by similarity; at a tenth both ways are computed and agree. A second route, which "
+        "needs neither solver nor similarity, is the stepper: it runs the naive model at a thousandth of the size, "
+        "with wall and dampers of a small string.",
     ]
 
 
 STUDY = Study(
     "engines_agree",
-    "Does the same string give the same loads in engines that are not ours?",
+    "Does the same string give the same loads in independent engines?",
     run,
     uses=tuple(engines.ENGINES.values()),
 )

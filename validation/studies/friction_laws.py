@@ -20,7 +20,7 @@ BIT = 2450.0
 RPM = 6.0  # of the straight hole, where only the ratio of the speeds counts
 INCLINATION, LENGTH, HOLE, MU = 60.0, 1000.0, 0.2159, 0.25  # [deg], [m], [m] of the straight hole
 ALLOWED = 1.1  # 10 %, what the paper allows between model and measurement (§7)
-# Operations as they are done: kind, speed [m/s], rev/min.
+# Operations with usual rates: kind, speed [m/s], rev/min.
 DONE = (
     ("trip_out", 0.3, 0.0),
     ("trip_in", 0.3, 0.0),
@@ -33,7 +33,7 @@ REAMED = "back_ream"
 
 
 def straight(law: str) -> Case:
-    """A straight inclined hole filled by one limp pipe, so that its clamped end lies as the rest of it does."""
+    """A straight inclined hole filled by one limp pipe, so that its clamped end lies on the wall like the rest."""
     hole = {
         "stations": [[0.0, INCLINATION, 0.0], [LENGTH, INCLINATION, 0.0]],
         "geometry": "arcs",
@@ -74,13 +74,13 @@ def in_straight_hole(ratios: np.ndarray) -> pd.DataFrame:
                     "drag_closed_form_kN": drag / 1e3,
                     "torque_kN_m": point.surface_torque / 1e3,
                     "torque_closed_form_kN_m": torque / 1e3,
-                    # What is left of either where the other has nearly all is compared with all of it.
+                    # Where one of the two is nearly zero, its difference is compared with the full value.
                     "off_percent": 100
                     * max(
                         abs(point.hookload - hanging - drag) / (MU * climb.load),
                         abs(point.surface_torque - torque) / (section.contact_radius * MU * climb.load),
                     ),
-                    # Friction of both directions together, over what Coulomb's law has to give.
+                    # Resultant friction of both directions over the limit of Coulomb's law.
                     "friction_over_mu_N": float(np.hypot(drag, torque / section.contact_radius))
                     / (MU * friction.normal * climb.load),
                 }
@@ -127,12 +127,12 @@ def _solve(solver: Solver, kind: str, speed: float, rpm: float) -> Equilibrium:
 
 
 def _ratio(value: float, other: float) -> float:
-    """Of two loads [kN, kN·m]; nan where neither is more than rounding."""
+    """Of two loads [kN, kN·m]; NaN where both are within rounding."""
     return value / other if other > 1e-6 else float("nan")
 
 
 def run(context: Context) -> Outcome:
-    """Straight hole at all ratios of speeds, and the paper's well as it is worked."""
+    """Straight hole at all ratios of speeds, and the paper's well in its usual operations."""
     ratios = np.logspace(-2, 2, 9 if context.quick else 33)
     slanted, done = in_straight_hole(ratios), as_done()
     one = (done["speed_m_s"] == 0) | (done["rpm"] == 0)
@@ -168,12 +168,12 @@ def run(context: Context) -> Outcome:
                   "at_most", "%", "second route to the number above"),
         ],
         notes=[
-            "Coulomb's friction is one force μN against the sliding velocity, so that turning takes drag away and "
-            "sliding takes torque away. The paper's Eqs 15–16 give drag and torque μN each in full, √2 of what the "
-            "wall can give; they agree with Coulomb where the string only slides or only turns.",
+            "Coulomb's friction is one force μN against the sliding velocity, so that rotation reduces drag and "
+            "sliding reduces torque. The paper's Eqs 15–16 give drag and torque the full μN each, together √2 times "
+            "Coulomb's friction; they agree with Coulomb where the string only slides or only turns.",
             f"The straight hole is {LENGTH:.0f} m at {INCLINATION:.0f}°, μ = {MU}; drag there is the hook load less "
             "the weight along the hole. On the paper's well it is the hook load less that of rotating off bottom, "
-            "torque is less the bit's 3 kN·m. The soft string's columns are a second route to the same numbers.",
+            "torque excludes the bit's 3 kN·m. The soft string's columns are a second route to the same numbers.",
             "The engine has no third law: Karnopp's, which §4.5 names for dynamics, differs from these two only where "
             "a point sticks.",
         ],

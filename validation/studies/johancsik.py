@@ -13,7 +13,7 @@ PUBLISHED = {"trip_out": (1462.0, None), "trip_in": (594.0, None), "rotate_off_b
 
 
 def run(context: Context) -> Outcome:
-    """Three operations by three routes, and the stiff string with the law in which it climbs the wall."""
+    """Three operations by three routes, and the stiff string with law coulomb, in which it climbs the wall."""
     case = load("johancsik3")
     rows, off, answered = [], [], 0
     for kind, (hookload, torque) in PUBLISHED.items():
@@ -46,10 +46,11 @@ def run(context: Context) -> Outcome:
             Check("stiff solutions that converged", float(answered), 6, "at_least", "", "three operations, two laws"),
         ],
         notes=[
-            "Hole size, pipe bodies and azimuth are not published; the case file says what is assumed. The weights "
-            "are taken as weights in air: with any other reading the rotating hook load is 17 % off.",
+            "Hole size, pipe bodies and azimuth are not published; the case file marks the assumptions. The weights "
+            "are taken as weights in air: taken as buoyed weights they give a rotating hook load that is 17 % off.",
             "The published torque is the full friction factor times side force times tool-joint radius, law paper. "
-            "In law coulomb the rotating string climbs the wall and needs μ/√(1 + μ²) of it: 7 % less at μ 0.39.",
+            "In law coulomb the rotating string climbs the wall and its torque has μ/√(1 + μ²) in place of μ: 7 % "
+            "less at μ = 0.39.",
         ],
         display={"johancsik": "Johancsik's third example"},
     )  # fmt: skip

@@ -16,11 +16,11 @@ from validation.parts.windows import completed
 
 Array = NDArray[np.float64]
 
-CHANGE = 1.0  # percent: this project's reading of "no change"
+CHANGE = 1.0  # percent: what counts as "no change" here
 RAMPS = (2.0, 20.0)  # [s]
 WATCHED = 20.0  # [s] of a start-up
 RPM, INTERVAL = 60.0, 0.05  # [1/min] reached; [s] of which torques are means
-TWIST_STEP = 0.002  # [s], of discs that twist alone
+TWIST_STEP = 0.002  # [s], of the disc model
 # Operations with their weight on bit [N].
 STEADY = [("trip_in", 0.0), ("trip_out", 0.0), ("rotate_off_bottom", 0.0)] + [
     (kind, weight) for weight in (50e3, 200e3) for kind in ("drill_rotating", "drill_sliding")
@@ -47,7 +47,7 @@ def steady(depths: tuple[float, ...]) -> pd.DataFrame:
             row["difference_percent"] = 100 * max(
                 abs(long.hookload / cut.hookload - 1), abs(long.surface_torque - cut.surface_torque) / largest
             )
-            # The long segment ends where the cut pipe begins, at the first contact point of the one string.
+            # The long segment ends at the first contact point of its string.
             row["least_tension_of_long_kN"] = float(long.profile["effective_tension_N"].iloc[1]) / 1e3
             rows.append(row)
     return pd.DataFrame(rows)
@@ -92,7 +92,7 @@ def start_ups(context: Context) -> pd.DataFrame:
 
 
 def twisting(ramps: tuple[float, ...]) -> dict[float, float]:
-    """The torque's largest difference of each start, percent of its span, by discs with dry friction alone."""
+    """Largest difference of the torque of each start [% of its span] in a model of discs with dry friction."""
     found = {}
     for ramp in ramps:
 
@@ -138,36 +138,36 @@ def run(context: Context) -> Outcome:
         checks=[
             Check("steady hook load and torque, long segment against short ones, largest difference",
                   float(loads["difference_percent"].max()), CHANGE, "at_most", "%",
-                  "§6.2 takes one segment for vertical hole; this project reads 1 % as no change"),
+                  "§6.2 uses one segment for vertical hole; 1 % counts as no change here"),
             Check("least tension of the long segment, up to 200 kN on the bit",
                   float(loads["least_tension_of_long_kN"].min()), 0.0, "at_least", "kN",
-                  "what hangs in tension in vertical hole cannot buckle, so nothing is lost sideways"),
+                  "pipe in tension in vertical hole cannot buckle, so one segment loses no lateral deflection"),
             Check("first frequencies, long segment against the continuous string, largest difference",
                   float(tones.loc[first, "long_off_percent"].abs().max()), CHANGE, "at_most", "%",
-                  "§6.2, read for the slowest swings; closed form of the continuous string"),
+                  "§6.2, applied to the slowest swings; closed form of the continuous string"),
             Check("fourth frequencies, long segment against the continuous string, largest difference",
                   float(tones.loc[high, "long_off_percent"].abs().max()), CHANGE, "at_most", "%",
-                  "§6.2, read for waves; closed form of the continuous string"),
+                  "§6.2, applied to waves; closed form of the continuous string"),
             Check("torque of a start in 20 s, long segment, largest difference", float(turning[RAMPS[1]]), CHANGE,
-                  "at_most", "%", "§6.2, read for slow starts; over the span of the torque"),
+                  "at_most", "%", "§6.2, applied to slow starts; over the span of the torque"),
             Check("torque of a start in 2 s, long segment, largest difference", float(turning[RAMPS[0]]), CHANGE,
-                  "at_most", "%", "§6.2, read for quick starts; over the span of the torque"),
+                  "at_most", "%", "§6.2, applied to quick starts; over the span of the torque"),
             Check("mean torque and hook load of starts, long segment, largest difference",
                   float(differences["long_mean_difference_percent"].max()), CHANGE, "at_most", "%",
                   "§6.2; over the span of the reading"),
         ],
         notes=[
             f"With the bit at {BIT:.0f} m the long segment reaches from the surface to 750 m. It has the springs and "
-            "half the mass of the pipe it stands for, at its lower end: weight and stretch are exact, a wave crosses "
-            "it in no time and finds no mass on its way.",
-            "Differences of start-ups are from the string whose vertical part has segments of 18.75 m; the column for "
-            "37.5 m says how much of a difference the cutting itself makes. The ripple of a trip's "
-            "hook load, stirred up where sliding joints meet those of the hole, is settled by neither.",
-            "Long twisting alone is a second route to the difference of a rotating start's torque: discs on torsion "
-            "springs with dry friction, whose limits are the soft string's, lumped otherwise than the engine's bodies; "
-            "no contact, no bending, no axial motion.",
-            "The long segment touches the wall at its lower end alone. What presses vertical pipe to the wall in "
-            "earnest, buckling and whirl, it cannot show; in compression it would be stiffer than the pipe is.",
+            "half the mass of the pipe it stands for, at its lower end: weight and stretch are exact; a wave crosses "
+            "it instantly, since it has no distributed mass.",
+            "Differences of start-ups are from the string whose vertical part has segments of 18.75 m; the column "
+            "for 37.5 m gives the effect of the segment length alone. Neither resolves the ripple of a trip's hook "
+            "load, which arises where joints of the string slide over the seams between cylinders.",
+            "The column long twisting alone is a second route to the difference of the torque of a rotating start: "
+            "discs on torsion springs with dry friction, whose limits come from the soft string, with masses lumped "
+            "differently from the engine's bodies; no contact, no bending, no axial motion.",
+            "The long segment touches the wall only at its lower end. It cannot show buckling or whirl, which press "
+            "vertical pipe against the wall; in compression it is stiffer than the pipe.",
         ],
         display={
             "steady": "Steady loads: one long segment, and the vertical part cut into 37.5 m",
@@ -177,4 +177,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("long_segment", "What does one long segment for the vertical part change?", run)
+STUDY = Study("long_segment", "Which loads does one long segment for the vertical part change?", run)

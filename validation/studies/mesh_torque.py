@@ -1,4 +1,4 @@
-"""Fig. 13 once more, as a driller would measure it: torque off bottom with contact on a mesh and in cylinders."""
+"""Fig. 13 as a driller would measure it: torque off bottom with contact on a mesh and in cylinders."""
 
 import pandas as pd
 
@@ -16,7 +16,7 @@ AGREE = 2.0  # percent
 
 
 def run(context: Context) -> Outcome:
-    """Windows of some seconds with both, from the same start, at each depth; the engine's steady torque at all."""
+    """Windows of some seconds with both, from the same start, at each depth; the engine's steady torque."""
     if contact.installed_version(METHOD) is None:
         return Outcome({}, [], [f"Not installed, and so not run: {contact.method_class(METHOD).distribution}."])
     length, window = (4.0, 1.0) if context.quick else (8.0, 4.0)
@@ -43,14 +43,14 @@ def run(context: Context) -> Outcome:
         checks=[
             Check("torque rotating, FCL against FCTD, largest difference",
                   float(table["difference_percent"].abs().max()), AGREE, "at_most", "%",
-                  "facets: 0.2 %; windows of a few seconds add their swing"),
+                  "facets: 0.2 %; means over a few seconds keep some of the swing"),
             Check("Σ rμF_n rotating, FCL against FCTD, largest difference",
                   float(table["sum_r_mu_fn_difference_percent"].abs().max()), AGREE, "at_most", "%",
-                  "facets: 0.2 %; windows of a few seconds add their swing"),
+                  "facets: 0.2 %; means over a few seconds keep some of the swing"),
         ],
         notes=[
-            "The string starts to turn at rest, under law coulomb; both see the same windows, the last seconds of "
-            f"{length:.0f} s, while its twisting still swings: torques of a window are not yet the steady ones. "
+            "The string starts to turn from rest, law coulomb; both are averaged over the same windows, the last "
+            f"seconds of {length:.0f} s, while its twisting still swings: torques of a window are not yet steady. "
             "Contact with FCL is a mesh of 48 facets with rings every 2 m at most, in the engine's own loop.",
             "Reading (a) of Fig. 13, Σ rμF_n while tripping in, is in the study contact_swap.",
         ],
@@ -59,5 +59,5 @@ def run(context: Context) -> Outcome:
 
 
 STUDY = Study(
-    "mesh_torque", "Does the torque off bottom depend on how contact is found?", run, uses=(contact.METHODS[METHOD],)
+    "mesh_torque", "Does the torque off bottom depend on the contact method?", run, uses=(contact.METHODS[METHOD],)
 )

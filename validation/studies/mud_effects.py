@@ -1,4 +1,4 @@
-"""What mud does (§5.4): buoyancy of a hanging string, of torque and drag, and of waves; damping at rest and in time."""
+"""Effects of mud (§5.4): buoyancy of a string, its loads and waves; damping in steady and unsteady motion."""
 
 from typing import Any
 
@@ -18,13 +18,13 @@ from validation.parts.windows import completed, last_seconds
 Array = NDArray[np.float64]
 
 BIT = 2450.0
-HANGING = 1700.0  # [m]: all in vertical hole
+HANGING = 1700.0  # [m]: all of the string in vertical hole
 STEEL = 7850.0  # [kg/m³]
 DENSITIES = (0.0, 1200.0, 2000.0)  # [kg/m³] of the mud
 VISCOSITIES = (0.0, 0.03, 0.1)  # [Pa s]: none, a common mud, a thick one
 RPM, SPEED = 60.0, 0.5  # of rotating; [m/s] of tripping
 WINDOW = 5 / 0.233  # [s]: five periods of the first torsional mode
-HARDLY, ALLOWED = 1.0, 10.0  # percent: this project's reading of "influences"; the accuracy that §7 claims
+HARDLY, ALLOWED = 1.0, 10.0  # percent: what counts as an influence here; the accuracy that §7 claims
 
 
 def displaced(case: Case, mud: float) -> float:
@@ -40,7 +40,7 @@ def displaced(case: Case, mud: float) -> float:
 
 
 def hanging() -> pd.DataFrame:
-    """A string in vertical hole: hook load of the solver, of the stepper, and by pressures; in three muds."""
+    """A string in vertical hole: hook load by the solver, by the stepper, and from pressures; in three muds."""
     rows = []
     for mud in DENSITIES:
         operations = rotation(HANGING, 5.0, ramp=1.0, rpm=0.1)
@@ -90,15 +90,16 @@ def frequencies() -> dict[str, float]:
 
 
 def resistance(radius: float, hole: float, viscosity: float) -> tuple[float, float]:
-    """Damping of laminar mud in a concentric annulus, a metre: axial [N s/m²] and rotational [N s] (Couette flow)."""
+    """Damping per metre of laminar mud in a concentric annulus: axial [N s/m²] and rotational [N s] (Couette flow)."""
     axial = 2 * np.pi * viscosity / np.log(hole / radius)
     return float(axial), float(4 * np.pi * viscosity * (radius * hole) ** 2 / (hole**2 - radius**2))
 
 
 def damping_of(viscosity: float) -> tuple[dict[str, float], tuple[float, float]]:
-    """Keys of [mud] for the paper's string at 2450 m, and the axial force a m/s and torque a rad/s they stand for.
+    """Keys of [mud] for the paper's string at 2450 m, and their total axial force per m/s and torque per rad/s.
 
-    The case knows one coefficient a metre; collars resist more than pipe, and their share is spread over the string.
+    A case has one coefficient per metre; collars have more resistance than pipe, and their share is spread over the
+    string.
     """
     case = load("paper_well")
     hole = 0.5 * case.wellbore.intervals[0].diameter
@@ -133,7 +134,7 @@ def damped(vertical: float | None) -> pd.DataFrame:
     still = table.iloc[0]
     for column in ("torque_kN_m", "pick_up_kN", "slack_off_kN"):
         table[f"{column.partition('_k')[0]}_change_percent"] = 100 * (table[column] / still[column] - 1)
-    # Half of the hook load's gap between up and down is drag.
+    # Drag is half the difference of hook load between tripping out and in.
     drag = 0.5 * (table["pick_up_kN"] - table["slack_off_kN"])
     table["drag_added_percent"] = 100 * (drag / drag.iloc[0] - 1)
     table["torque_added_over_closed_form"] = (
@@ -143,7 +144,7 @@ def damped(vertical: float | None) -> pd.DataFrame:
 
 
 def decay(quick: bool) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """How fast the twisting of a turning string dies: rate by viscosity, measured and of its first mode; histories."""
+    """Decay of the twisting of a rotating string: rate by viscosity, measured and of its first mode; histories."""
     length = 65.0 if quick else 200.0
     rows, frames = [], []
     for viscosity in VISCOSITIES:
@@ -160,7 +161,7 @@ def decay(quick: bool) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def _rate(history: pd.DataFrame) -> float:
-    """Rate [1/s] at which the swing of the torque falls, from its size in windows of five periods."""
+    """Decay rate [1/s] of the swing of the torque, from its size in windows of five periods."""
     late = history[history["time_s"] > 10.0]
     window = ((late["time_s"] - 10.0) // WINDOW).astype(int)
     swing = late.groupby(window)["surface_torque_N_m"].std()
@@ -170,7 +171,7 @@ def _rate(history: pd.DataFrame) -> float:
 
 
 def _mode_rate(case: Case, turning: float) -> float:
-    """The same of the first torsional mode of the continuous string, cΣφ²/(2ΣJφ²), given its damping in all [N m s]."""
+    """The same for the first torsional mode of the continuous string, cΣφ²/(2ΣJφ²), given its total damping [N m s]."""
     collar, pipe = (section_of(component, 0.0) for component in case.string.components[:2])
     assert case.string.components[0].length is not None
     below = case.string.components[0].length
@@ -188,7 +189,7 @@ def _mode_rate(case: Case, turning: float) -> float:
 
 
 def run(context: Context) -> Outcome:
-    """Buoyancy exact and in torque and drag, damping at rest and in time."""
+    """Buoyancy of a free string and in torque and drag, damping in steady and unsteady motion."""
     free, muds, tones = hanging(), buoyed(), frequencies()
     cut, long = damped(PIPE), damped(None)
     rates, histories = decay(context.quick)
@@ -212,12 +213,12 @@ def run(context: Context) -> Outcome:
                   float(free["off"].max()), 1e-6, "at_most", "", "Archimedes"),
             Check("loads in mud over loads in air times the buoyancy factor, largest departure",
                   float(off.max()), HARDLY, "at_most", "%",
-                  "Eq. 25; all loads of a string follow its weight but those of its stiffness"),
+                  "Eq. 25; loads of a string are proportional to its weight, except those from bending stiffness"),
             Check("smallest change of hook load or torque without buoyancy", float(left_out.min()), ALLOWED, "at_least",
                   "%", "§5.4: its inclusion is essential; 10 % is the accuracy that §7 claims; mud of 1200 kg/m³"),
             Check("frequency that scaling the density itself adds, mud of 1200 kg/m³",
                   100 * (tones["scaled_Hz"] / tones["own_Hz"] - 1), HARDLY, "at_most", "%",
-                  "§5.4 multiplies the density; waves see the steel's whole mass; closed form 1/√BF − 1"),
+                  "§5.4 multiplies the density; the full mass of the steel governs waves; closed form 1/√BF − 1"),
             *(
                 Check(f"torque that damping adds over c Ω L, {name}, largest departure",
                       100 * float(table["torque_added_over_closed_form"].iloc[1:].sub(1).abs().max()), HARDLY,
@@ -225,31 +226,34 @@ def run(context: Context) -> Outcome:
                 for name, table in (("short segments", cut), ("long segment", long))
             ),
             Check("largest change of hook load or torque by damping", float(damping.max()), HARDLY, "at_least", "%",
-                  "§5.4: viscosity influences torque and drag; this project reads 1 %; mud of 30 mPa s"),
+                  "§5.4: viscosity influences torque and drag; 1 % counts as an influence; mud of 30 mPa s"),
             Check("drag that damping adds, mud of 30 mPa s at 0.5 m/s", float(common["drag_added_percent"]), HARDLY,
-                  "at_least", "%", "§5.4: viscosity influences torque and drag; this project reads 1 %"),
-            Check("rate at which mud of 100 mPa s damps twisting, over that of the first mode",
+                  "at_least", "%", "§5.4: viscosity influences torque and drag; 1 % counts as an influence"),
+            Check("decay rate of twisting in mud of 100 mPa s over that of the first mode",
                   float(thick["added_per_s"] / thick["mode_per_s"]), (0.9, 1.1), "within", "",
                   "closed form of the continuous string"),
         ],
         notes=[
-            "The engine buoys weight and leaves inertia the steel's own. §5.4 multiplies the density of the pipe by "
-            "the buoyancy factor; where that density is the inertia's as well, every wave is faster by 1/√BF.",
-            "Torque change soft is a second route to the change of torque: the closed form c Ω L over the torque of "
-            "the soft string, which knows nothing of damping.",
+            "The engine reduces the weight by buoyancy and keeps the steel's mass for inertia. §5.4 multiplies the "
+            "density of the pipe by the buoyancy factor; if that density is used for inertia as well, every wave is "
+            "faster by 1/√BF.",
+            "The column torque change soft is a second route to the change of torque: the closed form c Ω L over the "
+            "torque of the soft string, which has no damping.",
             "Damping is that of laminar Newtonian mud in a concentric annulus without flow: 30 mPa s is a common mud, "
             "100 mPa s a thick one. The paper prints no coefficients. Flow, eccentricity and tool joints would add to "
             "them.",
-            "A string that turns all along is hardly damped by Coulomb's friction, whose torque does not grow with its "
-            "rate: without mud its twisting swings on, with mud it dies within a minute or two.",
+            "Coulomb's friction hardly damps a string that rotates along its whole length, since the friction torque "
+            "does not grow with speed: without mud the twisting keeps swinging, with mud it decays within a minute "
+            "or two.",
         ],
         display={
             "hanging": "A free string in vertical hole",
-            "buoyed": "Loads of the paper's well in mud, and how far they are from loads in air times the factor",
+            "buoyed": "Loads of the paper's well in mud, and their difference from loads in air times the buoyancy "
+            "factor",
             "damped": "Steady loads with the damping of the mud",
-            "decay": "Rate at which twisting dies, measured and of the first mode",
+            "decay": "Decay rate of twisting, measured and of the first mode",
         },
     )  # fmt: skip
 
 
-STUDY = Study("mud_effects", "What do buoyancy and damping of the mud do?", run)
+STUDY = Study("mud_effects", "How do buoyancy and damping of the mud change loads and waves?", run)

@@ -1,4 +1,4 @@
-"""A point dragged through a bend: cylinders that overlap (Fig. 8) and cylinders that only meet."""
+"""A point dragged through a bend: cylinders with overlap (Fig. 8) and without."""
 
 import numpy as np
 import pandas as pd
@@ -16,7 +16,7 @@ RADIUS = 0.051  # of the string [m]
 
 
 def run(context: Context) -> Outcome:
-    """Force and direction on a point carried along the exact bend, pressed a constant depth into its wall."""
+    """Force and direction on a point moved along the exact bend at constant penetration of its wall."""
     exact = build_wellbore(load("curved_chain", wellbore__geometry="arcs"))
     md = np.arange(1920.0, 1930.0, 0.01 if context.quick else 0.002)
     axis, tangent = exact.at(md)
@@ -34,7 +34,7 @@ def run(context: Context) -> Outcome:
         )
         hits = find_contacts(hole, points, RADIUS)
         force = 1e7 * np.maximum(hits.penetration, 0.0)
-        # Without overlap the paper's search finds no owner on the outside of a joint: no wall there.
+        # Without overlap the paper's search finds no owner on the outside of a seam, and so no wall.
         force[for_loop_owners(hole.pieces, points) < 0] = 0.0
         tilt = np.arcsin(np.clip(np.sum(hits.normal * tangent, axis=1), -1, 1))
         rows.append(
@@ -63,12 +63,12 @@ def run(context: Context) -> Outcome:
             Check("largest change of direction in a step with overlap", jump(OVERLAP, "direction_deg"),
                   0.01 * millimetres / 2, "at_most", "deg", f"no jump in {millimetres:.0f} mm"),
             Check("largest change of force without overlap", 100 * jump(0.0, "contact_force_N") / full,
-                  50.0, "at_least", "%", "the gap of Fig. 8 is there"),
+                  50.0, "at_least", "%", "the gap of Fig. 8"),
             Check("largest change of direction without overlap", jump(0.0, "direction_deg"),
                   0.2, "at_least", "deg", "the kink of 2 m cylinders in this bend: 0.4 deg"),
         ],
-        notes=["Direction is the tilt of the wall's normal along the hole; the exact wall has none."],
+        notes=["Direction is the tilt of the wall's normal along the hole; it is zero for the exact wall."],
     )  # fmt: skip
 
 
-STUDY = Study("overlap", "What does the overlap of the cylinders prevent?", run)
+STUDY = Study("overlap", "Does the overlap of cylinders remove gaps and jumps of the contact force?", run)

@@ -36,7 +36,7 @@ def run(context: Context) -> Outcome:
         points = hole.off_axis(md, angle, offset)
         found = for_loop_owners(hole.pieces, points)
         wrong = found != hole.owners(points)
-        # Without the engine's search: the cylinder's own depths, against the depth that a point was made at.
+        # Without the engine's search: depths of the cylinder against the depth at which the point was placed.
         start, length = hole.pieces[found, START_MD], hole.pieces[found, LENGTH]
         elsewhere = np.abs(md - (start + 0.5 * length)) > length
         spread = np.degrees(np.arccos(np.clip(hole.directions @ hole.directions.T, -1, 1))).max()
@@ -55,19 +55,19 @@ def run(context: Context) -> Outcome:
         tables={"owners": owners},
         checks=[
             Check("wrong owners where tangents differ by up to 90°", float(modest["wrong_owner_percent"].max()),
-                  0.0, "at_most", "%", "slabs of such cylinders are passed in order"),
+                  0.0, "at_most", "%", "a point passes the slabs of such cylinders in order"),
             Check("wrong owners in the worst well", float(owners["wrong_owner_percent"].max()),
                   1.0, "at_least", "%", "finding: the slab test is infinite sideways"),
         ],
         notes=[
             "The paper takes the first cylinder from the top between whose end planes the point lies. Those planes "
-            "have no edge: where the well turns back by more than 90° they cut its lower part again, and the "
-            "FOR-loop gives points there to a cylinder hundreds of metres away. The remembered cylinder never "
-            "meets the far one.",
-            "Elsewhere is a cylinder from whose middle a point is farther along the hole than the cylinder is long, by "
-            "the depth that the point was made at: a second route to the same share, without the remembered cylinder.",
+            "are infinite: where the well turns back by more than 90° they cut its lower part again, and the "
+            "FOR-loop assigns points there to a cylinder hundreds of metres away. The search from the remembered "
+            "cylinder does not reach the distant one.",
+            "A cylinder counts as elsewhere if the distance along the hole from its middle to the depth at which the "
+            "point was placed exceeds its length: a second route to the same share, without the remembered cylinder.",
         ],
-        display={"owners": "Points given to the wrong cylinder by the FOR-loop"},
+        display={"owners": "Points that the FOR-loop assigns to a wrong cylinder"},
     )  # fmt: skip
 
 

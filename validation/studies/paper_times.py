@@ -1,4 +1,4 @@
-"""The paper's times (§6.3, §7): what speed of tripping they imply, and our own for the same trip."""
+"""The paper's times (§6.3, §7): the tripping speeds they imply, and our times for the same trip."""
 
 from typing import Any
 
@@ -17,11 +17,11 @@ HOUR = 3600.0
 SPEED = 0.5  # [m/s], assumed in paper-well: a stand of 28 m in a minute
 SLOW = 0.3  # [m/s]: a stand in a minute and a half
 STAND = 28.0  # [m]: three joints
-CONNECTION = 180.0  # [s]: longest connection that counts as a usual one in tripping, our reading
+CONNECTION = 180.0  # [s]: longest connection that counts as usual in tripping, our assumption
 
 
 def implied() -> pd.DataFrame:
-    """The speed above which each of the paper's runs is slower than the trip it computes."""
+    """The speed above which each of the paper's runs takes longer than the trip it computes."""
     runs = [
         ("FCTD, the whole survey depth, 0 to 2250 m", DEPTH, HOURS * HOUR),
         ("FCTD, from the kick-off on, 1750 to 2250 m", DEPTH - KICK_OFF, HOURS * HOUR),
@@ -44,12 +44,12 @@ def implied() -> pd.DataFrame:
 
 
 def connection(took: float) -> float:
-    """What a stand may spend on its connection [s] where computing a metre takes as long as tripping it [s/m]."""
+    """Connection time per stand [s] at which a trip lasts as long as computing it, ``took`` [s/m]."""
     return STAND * (took - 1 / SPEED)
 
 
 def row(name: str, result: SimulationResult, length: float) -> dict[str, Any]:
-    """Our run beside the paper's."""
+    """Our run and the paper's."""
     return {
         "our_run": name,
         "tripped_m": length,
@@ -74,7 +74,7 @@ def measured() -> pd.DataFrame:
         wellbore__survey=None,
         wellbore__stations=[[0, 0, 0], [4300, 0, 0]],
     )
-    # Twice: the first run of a process also loads or compiles code, and the table is about the second.
+    # Twice: the first run of a process also loads or compiles code; the table gives the second.
     for _ in range(2):
         with_wall, without = completed(simulate(tripped)), completed(simulate(free))
     rows = [
@@ -85,7 +85,7 @@ def measured() -> pd.DataFrame:
 
 
 def run(context: Context) -> Outcome:
-    """Arithmetic on the paper's numbers, and two runs."""
+    """Arithmetic with the paper's numbers, and two runs."""
     papers, ours = implied(), measured()
     whole, free = papers.iloc[0], papers.iloc[3]
     papers_ratio = whole["took_per_m_s"] / free["took_per_m_s"]
@@ -101,22 +101,24 @@ def run(context: Context) -> Outcome:
                   "§7: faster than real time; a connection takes some three minutes"),
             Check("real-time factor of the engine, 1750 to 2250 m at 0.5 m/s", float(ours["real_time_factor"].iloc[0]),
                   1.0, "at_least", "", "§7: faster than real time"),
-            Check("the paper's time a metre with contact over that without", float(papers_ratio), 2.0, "at_most", "",
-                  "§1: minimal effort; contact that costs no more than all the rest"),
-            Check("the engine's time a metre with contact over that without", float(our_ratio), 2.0, "at_most", "",
-                  "§1: minimal effort; contact that costs no more than all the rest"),
+            Check("the paper's time per metre with contact over that without", float(papers_ratio), 2.0, "at_most", "",
+                  "§1: minimal effort; contact that costs no more than the rest of the step"),
+            Check("the engine's time per metre with contact over that without", float(our_ratio), 2.0, "at_most", "",
+                  "§1: minimal effort; contact that costs no more than the rest of the step"),
         ],
         notes=[
             "The paper prints neither tripping speed nor step. Four hours for 2250 m are real time up to 0.16 m/s, "
-            "or 560 m an hour: a trip with connections of two minutes is as fast, the pipe between them is not that "
-            "slow. If the four hours are for the 500 m from the kick-off on, the speed is 0.035 m/s.",
-            "Its run without contact took 27 ms a metre, its trip 6.4 s a metre, 240 times as much. Steps, segments "
-            "and speeds of the two may have differed; if they did not, nearly all of the four hours went into contact.",
+            "or 560 m per hour: the average speed of a trip with connections of two minutes, but pipe between "
+            "connections runs faster. If the four hours are for the 500 m from the kick-off on, the speed is 0.035 "
+            "m/s.",
+            "Its run without contact took 27 ms per metre, its trip 6.4 s per metre, 240 times as much. Steps, "
+            "segments and speeds of the two runs may have differed; if they did not, contact took nearly all of the "
+            "four hours.",
             "Ours have 61 segments on one core, compile time and settling excluded; the free one hangs in a vertical "
             "hole.",
         ],
-        display={"implied": "The paper's runs", "ours": "Ours"},
+        display={"implied": "The paper's runs", "ours": "Our runs"},
     )  # fmt: skip
 
 
-STUDY = Study("paper_times", "What do the paper's four hours imply?", run)
+STUDY = Study("paper_times", "What tripping speed and what cost of contact do the paper's times imply?", run)

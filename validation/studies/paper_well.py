@@ -36,10 +36,10 @@ def run(context: Context) -> Outcome:
     turns, profiles, runs = [], [], []
     balance = [0.0]
     for variant, file in VARIANTS.items():
-        # The first run of a process also loads or compiles code, and the table is about later ones.
+        # The first run of a process also loads or compiles code; the table gives later runs.
         law = {"contact__friction_law": "paper"}
         simulate(load(file, **law, operations__0__to_md=FIRST_METRES))
-        # Rows so short that they miss little of a string that swings in 2 s.
+        # A record interval short enough to resolve swings with a period of 2 s.
         result = simulate(load(file, **law, record__profile_at=PROFILE_DEPTHS, record__interval=0.5))
         runs.append(numbers(f"{variant}: trip in, law paper", result))
         trips[variant] = result.history
@@ -49,7 +49,7 @@ def run(context: Context) -> Outcome:
             result = simulate(load(file, operations=turning, record__interval=0.25))
             end = last_seconds(result, 35.0)
             turns.append({name: end[name] for name in HISTORY} | {"variant": variant})
-            if depth >= 1900:  # above, the torque is hardly more than its swing
+            if depth >= 1900:  # above this depth the torque is hardly larger than its swing
                 balance.append(abs(end["sum_r_ft_N_m"] / end["surface_torque_N_m"] - 1))
         runs.append(numbers(f"{variant}: rotating at {depth:.0f} m, law coulomb", result))
     table, rotating = pd.DataFrame(runs), pd.DataFrame(turns)
@@ -62,7 +62,7 @@ def run(context: Context) -> Outcome:
         },
         checks=[
             Check("runs that did not complete", float((table["status"] != "completed").sum()), 0, "at_most", "",
-                  "every run must end"),
+                  "every run must complete"),
             Check("real-time factor, slowest run", float(table["real_time_factor"].min()), 1.0, "at_least", "",
                   "§7: faster than real time"),
             Check("energy error, largest", float(table["energy_error"].max()), 1e-3, "at_most", "",
@@ -78,9 +78,9 @@ def run(context: Context) -> Outcome:
             "Reading (a) sums rμF_n while tripping in, where the string does not turn and the surface torque is "
             "zero; reading (b) is the torque a driller would measure off bottom. The paper does not say which it "
             "plots.",
-            "The hook load of well b swings by some 15 kN between 2150 and 2300 m: its collars meet the joints of the "
-            "hole's cylinders all at once, in time with the string (study cylinder_ringing). The well itself has no "
-            "joints, and arcs show no such swing.",
+            "The hook load of well b swings by some 15 kN between 2150 and 2300 m: all collars pass seams between "
+            "cylinders at the same time, at a natural frequency of the string (study cylinder_ringing). The well "
+            "itself has no seams, and arcs show no such swing.",
         ],
         display={"runs": "Runs on one core; compile time and settling excluded"},
     )  # fmt: skip
@@ -88,7 +88,7 @@ def run(context: Context) -> Outcome:
 
 STUDY = Study(
     "paper_well",
-    "What torque and hook load does the paper's well ask for, and where does the string touch?",
+    "What are torque and hook load in the paper's well, and where does the string touch the wall?",
     run,
     reproduce=True,
 )

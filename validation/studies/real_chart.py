@@ -1,4 +1,4 @@
-"""Charts of all operations on a real survey of eight kilometres: every depth must have an answer."""
+"""Charts of all operations on a real survey of eight kilometres: every depth must have a solution."""
 
 import time
 from typing import Any
@@ -47,4 +47,10 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("real_chart", "Has every depth of a real well an answer?", run, reproduce=False, needs=("data",))
+STUDY = Study(
+    "real_chart",
+    "Does the steady solver find a solution at every depth of a real well?",
+    run,
+    reproduce=False,
+    needs=("data",),
+)

@@ -1,4 +1,4 @@
-"""``fctd refine`` on wells it was not tuned on: does it land within its tolerance, and does grading pay?"""
+"""``fctd refine`` on wells it was not tuned on: is the error within the tolerance, and does grading help?"""
 
 from fctd import Case
 from validation.cases import load
@@ -8,7 +8,7 @@ from validation.parts.refinement import judge
 
 
 def wells() -> dict[str, tuple[Case, float]]:
-    """Cases and bit depths that no number of ``fctd refine`` was chosen on."""
+    """Cases and bit depths on which no number of ``fctd refine`` was chosen."""
     return {
         "johancsik3": (load("johancsik3"), 3718.0),
         "S-well": (well("S-well", S_WELL, assembly((COLLAR, 120.0), (HEAVY, 150.0)), {}), S_WELL[-1][0]),
@@ -21,12 +21,14 @@ def run(context: Context) -> Outcome:
     return judge(
         wells(),
         context,
-        "The layouts' and the estimate's numbers were chosen on paper-well, its variant b, the 4.5°/30 m build, "
-        "the catenary, the 30°/100 ft well and wells drawn at random; the wells here were written down before, "
-        "and none was run until the numbers were fixed.",
+        "The layouts' and the estimate's numbers were chosen on paper-well, its variant b, the 4.5°/30 m build, the "
+        "catenary, the 30°/100 ft well and wells drawn at random; the wells here were written down before that, and "
+        "none was run until the numbers were fixed.",
     )
 
 
 STUDY = Study(
-    "refine", "Does fctd refine land within its tolerance on wells it was not tuned on, and does grading pay?", run
+    "refine",
+    "Is the error of fctd refine within its tolerance on wells it was not tuned on, and does grading help?",
+    run,
 )

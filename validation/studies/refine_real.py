@@ -1,4 +1,4 @@
-"""``fctd refine`` on real surveys, bent a little everywhere."""
+"""``fctd refine`` on real surveys, which are slightly bent everywhere."""
 
 from dataclasses import replace
 from functools import partial
@@ -27,7 +27,7 @@ def wells(context: Context) -> dict[str, tuple[Case, float]]:
         "wellbore__columns": WELL_9, "wellbore__intervals__0__to_md": bit, "string__components__0__length": bit,
         "operations": [],
     }  # fmt: skip
-    assert context.data is not None  # the study needs it, so the runner has looked
+    assert context.data is not None  # the runner has checked that the data are there
     horizontal = context.data / "surveys" / "wellpathpy_well9_horizontal_reference.csv"
     return {
         "K05-ENC-05-S1": (real_well(context), 8161.0),
@@ -55,7 +55,7 @@ def _shifted(case: Case, bit_depth: float, length: float, *, by: float) -> Compo
     """A uniform string of one component with its lowest joint ``by`` segments above the bit."""
     (part,) = case.string.components
     lowest = {"length": by * length, "segments": 1, "segment_length": None}
-    # More than is in the hole: what is left over is then at the top, and the joints are not spread again.
+    # More segments than fit into the hole: the surplus is above the surface, and the joints keep their spacing.
     rest = {"length": bit_depth - case.string.top_md + length, "segments": None, "segment_length": length}
     return part.model_copy(update=lowest), part.model_copy(update=rest)
 
@@ -72,7 +72,8 @@ def run(context: Context) -> Outcome:
         "2,415 m.",
         "No number of the layouts was chosen on these wells.",
         f"The torque error of a uniform string changes by no more than {100 * share:.0f} % of itself (standard "
-        "deviation) as its joints are shifted: what the survey bends between joints is missed wherever they fall.",
+        "deviation) as its joints are shifted: segments miss the bends of the survey between joints wherever the "
+        "joints fall.",
     )
     title = "Error of uniform strings: mean, and scatter as their joints are shifted by eighths of a segment"
     return replace(
@@ -83,5 +84,9 @@ def run(context: Context) -> Outcome:
 
 
 STUDY = Study(
-    "refine_real", "Does fctd refine land within its tolerance in a real well?", run, reproduce=False, needs=("data",)
+    "refine_real",
+    "Is the error of fctd refine within its tolerance in a real well?",
+    run,
+    reproduce=False,
+    needs=("data",),
 )

@@ -1,4 +1,4 @@
-"""How much the stiffness of the rock matters (§5.3): the paper's well against walls from 1e3 to 1e10 N/m a point."""
+"""Effect of rock stiffness (§5.3): the paper's well with walls from 1e3 to 1e10 N/m per point."""
 
 from typing import Any
 
@@ -15,13 +15,13 @@ from validation.parts.bends import LIMIT, NARROW, PIPE, case_of
 
 OPERATIONS = ("trip_in", "trip_out", "rotate_off_bottom", "drill_rotating")
 DRILLING = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
-STIFFEST = 1e10  # [N/m], what the others are held against
-LEAST_REAL = 1e6  # [N/m]: clay or soft shale of 0.1 GPa that is felt over a centimetre
-HARDLY = 1.0  # percent: this project's reading of "would not affect"
+STIFFEST = 1e10  # [N/m], the reference for the others
+LEAST_REAL = 1e6  # [N/m]: clay or soft shale of 0.1 GPa loaded over a centimetre
+HARDLY = 1.0  # percent: what counts as "would not affect" here
 
 
 def numbers(point: Equilibrium) -> dict[str, float]:
-    """Loads, and how deep the string lies in the wall."""
+    """Loads, and how far the string penetrates the wall."""
     profile = point.profile
     offset = np.hypot(profile["offset_high_m"], profile["offset_right_m"])
     return {
@@ -48,7 +48,7 @@ def changes(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def in_a_sharp_bend(decades: NDArray[np.float64]) -> pd.DataFrame:
-    """A stiff string in the bend of ``soft_stiff_map`` that asks most of the wall, stiffness by the metre."""
+    """A stiff string in the bend of ``soft_stiff_map`` with the largest contact forces, stiffness per metre."""
     rows = []
     for decade in decades[::-1]:
         case = case_of(PIPE, LIMIT, NARROW, wall=float(10**decade))
@@ -117,32 +117,33 @@ def run(context: Context) -> Outcome:
         tables={"stiffness": table, "summary": summary, "sharp_bend": sharp},
         checks=[
             Check("largest change of hook load or torque, 1e6 to 1e10 N/m", float(both[real].max()), HARDLY, "at_most",
-                  "%", "§5.3: minor inaccuracies would not affect; this project reads 1 %"),
+                  "%", "§5.3: minor inaccuracies would not affect; 1 % counts as no effect here"),
             Check("largest change of contact force, 1e6 to 1e10 N/m",
                   float(table.loc[real, "contact_force_change_percent"].abs().max()), HARDLY, "at_most", "%",
-                  "§5.3; this project reads 1 %"),
+                  "§5.3; 1 % counts as no effect here"),
             Check("softest wall with hook load and torque within 1 %", softest, LEAST_REAL, "at_most", "N/m",
-                  "§5.3: unless unrealistically low; clay of 0.1 GPa felt over 1 cm gives 1e6 N/m"),
-            Check("largest change of hook load or torque in a bend of 30°/100 ft, 1e6 to 1e10 N/m a metre",
+                  "§5.3: unless unrealistically low; clay of 0.1 GPa loaded over 1 cm gives 1e6 N/m"),
+            Check("largest change of hook load or torque in a bend of 30°/100 ft, 1e6 to 1e10 N/m per metre",
                   float(sharp.filter(like="_change_percent").abs().to_numpy().max()), HARDLY, "at_most", "%",
-                  "§5.3, where the wall's give is no longer small against the clearance"),
+                  "§5.3, where the penetration is no longer small against the clearance"),
             Check("deepest penetration over clearance at 1e7 N/m", float(
                 table.loc[np.isclose(table["stiffness_N_per_m"], 1e7), "penetration_of_clearance"].max()),
-                0.1, "at_most", "", "the default wall should leave the hole its size; this project reads a tenth"),
+                0.1, "at_most", "", "a tenth: the default wall should not widen the hole"),
         ],
         notes=[
-            "Loads of a steady string come from its weight and the bends of the hole; a softer wall only lets it lie "
-            "a little further out. Rows whose string lies more than a hole's radius outside the hole have no answer.",
-            "What a stiff wall costs is the stepper's step, which falls with the square root of the stiffness where "
-            "the wall is stiffer than the string's own springs.",
-            "The paper's segments of 10 and 37.5 m bring a whole segment's force to one point. Shorter segments share "
-            "it, and penetrate as much less.",
+            "Loads of a steady string come from its weight and the bends of the hole; in a softer wall it only lies "
+            "slightly further out. Rows whose string lies more than a hole's radius outside the hole have no "
+            "solution.",
+            "A stiff wall shortens the stepper's step, which falls with the square root of the stiffness where the "
+            "wall is stiffer than the string's own springs.",
+            "The paper's segments of 10 and 37.5 m concentrate the force of a whole segment at one point. Shorter "
+            "segments distribute it over more points, and penetrate less in proportion.",
         ],
         display={
             "summary": "Largest changes against 1e10 N/m over all operations and depths",
-            "sharp_bend": "A bend of 30°/100 ft with 5 mm of clearance, against 1e10 N/m a metre",
+            "sharp_bend": "A bend of 30°/100 ft with 5 mm of clearance, against 1e10 N/m per metre",
         },
     )  # fmt: skip
 
 
-STUDY = Study("rock_stiffness", "How much does the stiffness of the rock matter?", run)
+STUDY = Study("rock_stiffness", "How much does the stiffness of the rock change the loads?", run)

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 ELEMENT = 0.15  # [m]
 FINE = 20.0  # [m] above the bit
 STEP = 0.02  # [s]
-HIGH_FREQUENCY = 0.8  # generalised-α's share of the fastest modes left a step
+HIGH_FREQUENCY = 0.8  # spectral radius of generalised-α: share of the fastest modes left after a step
 
 MESHES = (0.6, 0.3, ELEMENT)
 SEGMENTS = (10, 30, 60, 120, 240)
@@ -33,10 +33,10 @@ SPEEDS = (1.0, 0.5, 0.25)  # [m/s]
 PAPERS = 30  # segments in §6.1
 # Contacts on one side that are closer than this are one [m].
 APART = 1.0
-# The edge of the pipe's end leans into the wall over a decimetre; what lies higher up is told apart from it [m].
+# The edge of the pipe's end dents the wall over a decimetre; points higher up are evaluated separately [m].
 ABOVE_END = 0.5
 SIDES = ("guide_low", "bend_high", "bit_low")
-# What is printed of the differences between two models.
+# Columns printed of the differences between two models.
 RMS = ("total", *SIDES)
 PLACE = (
     "displacement_max_percent",
@@ -48,7 +48,7 @@ PLACE = (
 
 
 class Comparable(NamedTuple):
-    """What either model says of one run.
+    """Results of one run of either model.
 
     history : time_s, total_N and a column of force [N] for each of SIDES, means over the record interval.
     string : of points of the string at the end, from the top: above_bit_m along the unstretched string, md_m,
@@ -62,7 +62,7 @@ class Comparable(NamedTuple):
 
 
 def finite_elements(case: Case, beam: Beam, step: float, still: bool = False) -> tuple[Comparable, Lowered]:
-    """Lower the beam as the case says; ``still``: through equilibria."""
+    """Lower the beam as in the case; ``still``: through equilibria."""
     top, duration = top_of(case)
     interval = case.record.interval
     times = np.append(np.arange(0.0, duration - 1e-6, interval), duration)
@@ -145,7 +145,7 @@ def _contacts(md: Array, force: Array) -> pd.DataFrame:
 
 
 def differences(model: Comparable, truth: Comparable, clearance: float) -> dict[str, float]:
-    """How far one model is from another: correlation and RMS of force, displacement, contact positions."""
+    """Differences between two models: correlation and RMS of force, displacement, contact positions."""
     here, there = model.history, truth.history
     both = {}
     for name in RMS:
@@ -164,7 +164,7 @@ def differences(model: Comparable, truth: Comparable, clearance: float) -> dict[
 
 
 def displacements(string: pd.DataFrame, true: pd.DataFrame, clearance: float) -> dict[str, float]:
-    """How far points of a string are, horizontally, from the same points of another, over the clearance."""
+    """Horizontal distance between equal points of two strings, over the clearance."""
     known = true.iloc[::-1]  # a spline between the nodes of the finite elements
     horizontal = CubicSpline(known["above_bit_m"], known["horizontal_m"])(string["above_bit_m"])
     away = 100 * (string["horizontal_m"] - horizontal).abs() / clearance
@@ -187,7 +187,7 @@ def _apart(found: pd.DataFrame, true: pd.DataFrame) -> float:
 
 
 def run(context: Context) -> Outcome:
-    """Finite elements on finer and finer meshes, segments shorter and shorter, slower and slower lowering."""
+    """Finite elements on ever finer meshes, ever shorter segments, and ever slower lowering."""
     case = load("scaled_section")
     clearance = 0.5 * (case.wellbore.intervals[0].diameter - case.string.components[0].contact_diameter)
     meshes = MESHES[:1] if context.quick else MESHES
@@ -257,7 +257,8 @@ def run(context: Context) -> Outcome:
         "at_rest": "Displacement by other programs: the steady solver's segments against equilibria of finite elements",
     }
     checks = [
-        Check("contacts at the end, finite elements", len(truth.contacts), 3, "at_least", "", "§6.1's section, ours"),
+        Check("contacts at the end, finite elements", len(truth.contacts), 3, "at_least", "",
+              "our version of the section of §6.1"),
         Check("energy of the finite elements not accounted for", energy, 1.0, "at_most", "%",
               "target: share of the work beyond lowering"),
         Check("force of equilibria against the slowest lowering", float(slow["force_rms_percent"].iloc[-1]),
@@ -275,24 +276,24 @@ def run(context: Context) -> Outcome:
 
 
 NOTES = [
-    "The paper prints no dimensions of its section: ours, the reasons for them, and what was frozen before the first "
-    "comparison stand in validation/cases/scaled_section.toml.",
-    "Both models read one case. They share the section's stiffness and weight and nothing else: the finite elements "
-    "have their own exact bend, and touch it by a penalty per metre at Gauss points.",
+    "The paper prints no dimensions of its section: our dimensions, the reasons for them, and the parameters frozen "
+    "before the first comparison are in validation/cases/scaled_section.toml.",
+    "Both models read one case. They share only the section's stiffness and weight: the finite elements have their "
+    "own exact bend, and contact by a penalty per metre at Gauss points.",
     "Force is the mean over each record interval, its RMS difference is over the whole run and divided by the peak. "
     "Displacement is compared at equal points of the string at the end of the run, over the radial clearance.",
-    "Displacement differs most at the very end of the pipe. Its edge leans some 5 mm into the wall over a length of "
-    "0.12 m; the engine feels the wall at its joints alone, each for the length that belongs to it, and a few joints "
-    "cannot tell how long the dent is. It is not the mechanics of the pipe: finite elements that feel the wall at the "
-    "ends of the same segments have the end of the pipe where the engine has it. What is left is largest at the "
-    "engine's long segment, which is straight where the pipe is not.",
-    "The engine's cylinders are chords: offsets in its profile are from their axes, and are put back to the bend "
-    "before they are compared. Their share of the difference is the tolerance of the chords, 0.1 mm.",
+    "Displacement differs most at the very end of the pipe. Its edge dents the wall by some 5 mm over a length of "
+    "0.12 m; the engine evaluates contact only at its joints, each for its tributary length, and a few joints cannot "
+    "resolve the length of the dent. The mechanics of the pipe is not the cause: finite elements that touch the wall "
+    "only at the ends of the same segments place the end of the pipe where the engine does. The remaining difference "
+    "is largest at the engine's long segment, which is straight where the pipe is bent.",
+    "The engine's cylinders are chords: offsets in its profile are from their axes, and are converted to offsets "
+    "from the bend before the comparison. Their share of the difference is the tolerance of the chords, 0.1 mm.",
 ]
 
 
 def _checks_of_the_finest(segments: pd.DataFrame, same: pd.DataFrame, meshes: pd.DataFrame) -> list[Check]:
-    """What the most segments reach on the finest mesh."""
+    """Checks of the run with the most segments against the finest mesh."""
     finest = int(segments["segments"].max())
     element = max(ELEMENT, _at(segments, finest, "segment_m"))
     return [
@@ -315,7 +316,7 @@ def _checks_of_the_finest(segments: pd.DataFrame, same: pd.DataFrame, meshes: pd
 
 
 def _at(segments: pd.DataFrame, count: int, column: str) -> float:
-    """A number of the first row with so many segments, which has the case's own geometry."""
+    """A number of the first row with that many segments, which has the case's own geometry."""
     return float(segments[segments["segments"] == count][column].iloc[0])
 
 
@@ -335,9 +336,9 @@ def _same_points(
 
 
 def _at_rest(counts: tuple[int, ...], truth: Comparable, clearance: float) -> pd.DataFrame:
-    """The steady solver's string at the end of the run against the end of finite elements that went by equilibria.
+    """The steady solver's string at the end of the run against finite elements through equilibria.
 
-    A second route to the displacement: neither model has stepped through time.
+    A second route to the displacement: neither model steps through time.
     """
     rows = []
     for count in counts:
@@ -353,7 +354,7 @@ def _at_rest(counts: tuple[int, ...], truth: Comparable, clearance: float) -> pd
 def _slow_limit(
     context: Context, case: Case, element: float, step: float, clearance: float
 ) -> tuple[pd.DataFrame, Comparable]:
-    """Lowering at lower and lower speed against equilibria at the same depths, without mud; the last equilibria."""
+    """Lowering at ever lower speed against equilibria at the same depths, without mud; the last equilibria."""
     rows = []
     start, end = case.operations[0].start_md, case.operations[0].end_md
     for speed in context.progress(SPEEDS[1:2] if context.quick else SPEEDS, "speeds"):
@@ -378,5 +379,7 @@ def _slow_limit(
 
 
 STUDY = Study(
-    "scaled_section", "Do 30 rigid segments touch a bend where a beam of finite elements does, and as hard?", run
+    "scaled_section",
+    "Do 30 rigid segments in a bend have the contact positions and forces of beam finite elements?",
+    run,
 )

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 COUNTS = (5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320, 480, 640)
 QUICK_COUNTS = (20, 40, 60, 80, 160, 320, 640)
 FINEST = (5120, 2560, 1280, 640)
-FITTED_FROM = 20  # orders are; below it a string is a handful of rods
+FITTED_FROM = 20  # segments from which on orders are fitted
 STEPPED_COUNTS = (10, 15, 30, 60, 120, 240, 480, 960)
 STEPPED = ("paper-well", "4.5°/30 m")
 CYLINDERS = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # [m]
@@ -35,7 +35,7 @@ STEP, SECOND = "a step of the stepper", "a simulated second"
 
 
 class Answer(NamedTuple):
-    """What a string is compared by.
+    """The quantities compared between strings.
 
     torque [N m], hookload [N] : turning and picking up; friction : Σ r μ F_n [N m]; grid (m,) depths [m];
     contact (m,) : side force from the top down to there [N]; moment (m,) [N m]; touching, stretches : contact
@@ -77,7 +77,7 @@ def _read(of: Well, point: Equilibrium, hookload: float, cost_ms: float) -> Answ
     profile = point.profile
     md, force = profile["md_m"].to_numpy(), profile["contact_force_N"].to_numpy()
     grid = _grid(of, point.case)
-    # Half of a point's own force counts at the point: a row of points is then as good as the load they stand for.
+    # Half of a point's own force counts at the point, so that the sum equals that of the distributed load.
     contact = np.interp(grid, md, np.cumsum(force) - 0.5 * force)
     moment = np.interp(grid, md, profile["bending_moment_N_m"])
     high = np.cos(np.radians(profile["contact_angle_deg"].to_numpy())) > 0
@@ -149,7 +149,7 @@ def count_segments(name: str, counts: Sequence[int], finest: Sequence[int], repe
 
 
 def order(sizes: "pd.Series[float]", found: "pd.Series[float]", doubt: float) -> float:
-    """Slope of log error over log size, of errors that stand clear of the reference's doubt; NaN of fewer than four."""
+    """Slope of log error over log size, of errors well above the reference's uncertainty; NaN for fewer than four."""
     clear = (found > 3 * doubt).to_numpy()
     if clear.sum() < 4:
         return float("nan")
@@ -210,7 +210,7 @@ def vary_cylinders(name: str, lengths: Sequence[float]) -> pd.DataFrame:
 def step_through(name: str, counts: Sequence[int]) -> pd.DataFrame:
     """The stepper at each count: torque beside the steady solver's, and its cost; a minute turning off bottom.
 
-    Torque and moment also against the stepper's own at the largest count, which knows nothing of the solver.
+    Torque and moment also against the stepper's own at the largest count, independent of the solver.
     """
     of, rows = WELLS[name], []
     moments: dict[int, Array] = {}
@@ -259,7 +259,7 @@ def cost_laws(counts: pd.DataFrame, stepped: pd.DataFrame) -> pd.DataFrame:
 def _growth(counts: "pd.Series[float]", costs: "pd.Series[float]") -> dict[str, float]:
     """Exponent p of cost ~ N^p over all counts, and the factor 2^p by which cost grows when the count doubles.
 
-    A fit, as a busy machine makes a single count twice as dear.
+    A fit, since on a busy machine a single count may take twice as long.
     """
     exponent = log_slope(counts, costs)
     return {"exponent": exponent, "growth_when_doubled": 2**exponent}
@@ -296,25 +296,26 @@ def run(context: Context) -> Outcome:
         },
         checks=_checks(counts, orders, cylinders, stepped, laws),
         notes=[
-            "Same well, string, friction and wall per metre at every count; geometry arcs. Errors are against the same "
-            f"string in {references} segments; the change from half of that is what the reference is in "
-            "doubt by, and errors within three times of it take no part in an order.",
+            "Same well, string, friction and wall per metre at every count; geometry arcs. Errors are against the "
+            f"same string in {references} segments; the change from half that number is the uncertainty (doubt) of "
+            "the reference, and errors below three times of it are not used for an order.",
             "Torque and side force turning off bottom at 60 rev/min, hook load picking up. Side force is compared as "
             "its sum from the top down, mean difference over depth; moment as RMS along the string, and at one point "
             "where the string lies in a bend.",
-            "Loads converge irregularly, at first order or better: the ends of contact move by whole segments. Moment "
-            "in a bend converges at second order. Along the whole string it converges at half an order to one: its "
-            "peaks stand where contact begins and ends, and at the clamp, over a few metres.",
+            "Loads converge irregularly, at first order or better: the ends of contact move by whole segments. "
+            "Moment in a bend converges at second order. Along the whole string its order is between a half and one: "
+            "its peaks, a few metres long, are where contact begins and ends, and at the clamp.",
             "The stepper's torque and moment off the largest count are against its own run of the most segments: a "
-            "second route to the errors of few segments, without the solver.",
+            "second route to the errors of few segments, independent of the solver.",
             f"Without an answer: {_missing(counts)} (steady solver); {_missing(stepped)} (stepper).",
-            "Times are processor times of one machine, the steady ones the least of five; only growth is judged.",
+            "Times are processor times of one machine, for the steady solver the least of five; the checks use only "
+            "their growth.",
         ],
         display={
             "orders": "Observed order from 20 segments on",
             "enough": "Smallest count from which on the error stays within 1 % and 0.1 %",
             "cost": "Cost ~ N^exponent, and its growth when the segments double",
-            "stepped": "The stepper beside the steady solver at equal counts",
+            "stepped": "The stepper and the steady solver at equal counts",
         },
     )  # fmt: skip
 
@@ -337,14 +338,14 @@ def _checks(
               "theory: second, the chord of a bend misses it by its square"),
         Check("torque of the paper's 60 segments, error", float(paper["torque_percent"]), 1.0, "at_most", "%",
               "§6.2: 20 + 40 segments were chosen so that predictions no longer change"),
-        Check("torque of the references, largest doubt", float(counts["torque_doubt_percent"].max()), 0.02, "at_most",
-              "%", "a fifth of the smallest error that is asked for"),
+        Check("torque of the references, largest uncertainty", float(counts["torque_doubt_percent"].max()), 0.02,
+              "at_most", "%", "a fifth of the smallest error limit, 0.1 %"),
         Check("cost of a steady string, largest exponent", float(laws.loc[laws["cost_of"] == STEADY, "exponent"].max()),
-              1.5, "at_most", "", "theory: linear an iteration, and iterations grow slowly"),
+              1.5, "at_most", "", "theory: linear per iteration, and the number of iterations grows slowly"),
         *(
             Check(f"cost of {what} when the segments double, largest growth",
                   float(laws.loc[laws["cost_of"] == what, "growth_when_doubled"].max()), 1.5 * theory, "at_most", "",
-                  f"theory: {theory}, and half as much again for a busy machine; §5.6 speaks of an exponential "
+                  f"theory: {theory}, with a margin of 1.5 for a busy machine; §5.6 speaks of an exponential "
                   "increase, which would square its growth with every doubling")
             for what, theory in ((ITERATION, 2), (STEP, 2), (SECOND, 4))
         ),
@@ -361,5 +362,7 @@ def _missing(table: pd.DataFrame) -> str:
 
 
 STUDY = Study(
-    "segment_count", "How many segments, and how short cylinders, does an answer need, and what do they cost?", run
+    "segment_count",
+    "How many segments, and how short cylinders, does a given accuracy need, and what do they cost?",
+    run,
 )

@@ -1,4 +1,4 @@
-"""The stiff string made soft: without clearance and without bending stiffness it has to be the soft string."""
+"""The soft limit of the stiff string: without clearance and bending stiffness it must equal the soft string."""
 
 from functools import partial
 from typing import Any
@@ -17,8 +17,8 @@ from validation.harness.study import Check, Context, Outcome, Study
 DEG = 0.017453292519943295
 HOLE = 0.2159  # [m] diameter
 MU = 0.25
-# Short enough for the ends of builds, where the side force jumps and a chain is wrong by half a segment; a wall
-# so soft that the string's shape, not the rounding of its clearance, decides where it presses.
+# Short enough for the ends of builds, where the side force jumps and a chain is off by half a segment; a wall so soft
+# that the shape of the string, not the rounding of its clearance, determines the contact forces.
 SEGMENT = 1.5  # [m]
 WALL = 1e6  # [N/m]
 OPERATIONS = {"trip_out": "pick-up", "trip_in": "slack-off", "rotate_off_bottom": "rotation"}
@@ -97,7 +97,7 @@ def compare(well: str, rung: str, law: str, case: Case, solver: Solver) -> list[
     stations, sections = WELLS[well]
     bit = stations[-1][0]
     section = section_of(case.string.components[0], case.mud.density)
-    # Torques are compared on the scale of the well's rotating torque; a vertical well has none but μ r W.
+    # Torques are compared on the scale of the well's rotating torque, for a vertical well μ r W.
     turning = closed(case, sections, "rotate_off_bottom").surface_torque
     scale = turning if turning > 1.0 else MU * section.contact_radius * section.weight * bit
     rows = []
@@ -126,7 +126,7 @@ def compare(well: str, rung: str, law: str, case: Case, solver: Solver) -> list[
 
 
 def run(context: Context) -> Outcome:
-    """Every well, law and operation down the ladder."""
+    """Every well, law and operation at every rung of the ladder."""
     rows = []
     for well in context.progress(list(WELLS), "wells"):
         for rung, clearance, stiffness in LADDER[-1:] if context.quick else LADDER:
@@ -147,19 +147,19 @@ def run(context: Context) -> Outcome:
             Check("soft string integrated against closed form, largest difference",
                   float(table["integrated_off"].max()), 1e-6, "at_most", "", "target: 1e-6"),
             Check("rows of the soft limit that did not converge", float((last["status"] != "converged").sum()), 0,
-                  "at_most", "", "every row has an answer"),
+                  "at_most", "", "every row must converge"),
         ],
         notes=[
-            f"Segments of {SEGMENT:g} m, wall {WALL:.0e} N/m a point. Clearance goes first and bending stiffness "
-            "after it: a string without stiffness but with clearance hangs from contact to contact.",
+            f"Segments of {SEGMENT:g} m, wall {WALL:.0e} N/m per point. Clearance is removed first and bending "
+            "stiffness after it: a string with clearance but without stiffness sags between contacts.",
             "In slack-off the wall force of the builds changes side; the closed form is then taken in two parts.",
-            "A stiff string without clearance is no soft string: its own bending presses on the wall at the ends of "
-            "every bend. That is the second rung's difference.",
+            "A stiff string without clearance still differs from the soft string: its bending stiffness presses it "
+            "on the wall at the ends of every bend. This is the difference at the second rung.",
         ],
         display={"ladder": "Largest difference from the closed forms over five wells and two laws, percent"},
     )  # fmt: skip
 
 
 STUDY = Study(
-    "soft_limit", "Does the stiff string become the soft string when clearance and bending stiffness go?", run
+    "soft_limit", "Does the stiff string become the soft string without clearance and bending stiffness?", run
 )

@@ -1,4 +1,4 @@
-"""Where the soft string fails (§2.1): soft against stiff over dog-leg severity, clearance, stiffness and tension."""
+"""Where the soft string fails (§2.1): soft against stiff over dogleg severity, clearance, stiffness and tension."""
 
 from itertools import product
 from typing import Any, NamedTuple
@@ -30,7 +30,7 @@ OPERATIONS = ("trip_out", "trip_in", "rotate_off_bottom")
 SEVERITIES = (5.0, 10.0, 20.0, 30.0, 45.0, 60.0)  # [deg/100 ft]
 CLEARANCES = (0.005, 0.01, 0.02, 0.05, 0.1)  # [m]
 QUICK = (10.0, 20.0, 30.0, 60.0), (0.005, 0.05)
-FAILS = 10.0  # percent: what the paper itself allows between model and measurement (§7)
+FAILS = 10.0  # percent: what the paper allows between model and measurement (§7)
 LOADS = ("hookload_percent", "torque_percent")
 
 
@@ -79,10 +79,10 @@ def by_finite_elements(
 ) -> dict[str, Any]:
     """A string by finite elements of so many ``segments``, and by how much its loads exceed the soft string's.
 
-    Contact force is that without friction: it is what the torque of a turning string goes as.  Hook load is that of
+    Contact force is that without friction; the torque of a rotating string is proportional to it. Hook load is that of
     slacking off.
     """
-    # Here alone scikit-fem is needed.
+    # Only this function needs scikit-fem.
     from references.beams.case import steady
 
     case, slick = (case_of(string, severity, clearance, straight, friction=factor) for factor in (MU, 0.0))
@@ -126,7 +126,7 @@ def largest(rows: pd.DataFrame, condition: str = "severity > 0") -> "pd.Series[f
 
 
 def deciding(rows: pd.DataFrame) -> dict[str, Bend]:
-    """The bends whose numbers decide on §2.1, and one that the soft string fails in because little hangs below it."""
+    """The bends whose numbers decide on §2.1, and one where the soft string fails because of little weight below it."""
     off, gentle = bends(rows), f"severity < {LIMIT}"
     asked = {
         "least beyond 30°/100 ft": (f"severity >= {LIMIT}", True),
@@ -156,14 +156,14 @@ def run(context: Context) -> Outcome:
     tables = {"map": rows[~light], "light": rows[light], "half_segments": half}
     display = {"light": "Stiff string over soft string, percent: little weight below the bend"}
     checks = checks_of(rows, half)
-    # Elements of two segments or of four: their quadratic shapes bend within.
+    # Elements of two segments or four: their quadratic shape functions bend within an element.
     chosen, size = list(deciding(rows).items()), 4 if context.quick else 2
     routes = [
         {"bend": name, **by_finite_elements(*bend, size)}
         for name, bend in context.progress(chosen[: -1 if context.quick else None], "finite elements")
     ]
     tables["second_route"] = other = pd.DataFrame(routes)
-    display["second_route"] = "Finite elements over soft string; and how far rigid segments are from them"
+    display["second_route"] = "Finite elements over soft string, and the difference of rigid segments from them"
     checks.append(
         Check("hook load and contact force of bends against finite elements, largest difference",
               float(other["segments_off_percent"].max()), 1.0, "at_most", "%",
@@ -187,7 +187,7 @@ def checks_of(rows: pd.DataFrame, half: pd.DataFrame) -> list[Check]:
     narrow, ordinary = f"clearance == {1e3 * NARROW}", f"clearance == {1e3 * ORDINARY}"
     return [
         Check("rows without an answer", float((rows["status"] != "converged").sum()), 0, "at_most", "",
-              "every bend has a steady string"),
+              "every bend must have a steady solution"),
         Check("least difference of soft and stiff string beyond 30°/100 ft",
               float(largest(rows, f"severity >= {LIMIT}").min()), FAILS, "at_least", "%",
               "§2.1, for every clearance, string and weight below the bend"),
@@ -197,7 +197,7 @@ def checks_of(rows: pd.DataFrame, half: pd.DataFrame) -> list[Check]:
         *(
             Check(f"difference of soft and stiff string, collars below 30°/100 ft, {name}",
                   float(largest(rows, f"severity < {LIMIT} and string == '{COLLAR}' and hold == {hold}").max()),
-                  FAILS, "at_least", "%", "§2.1: not for collars, so also below 30°/100 ft; largest there")
+                  FAILS, "at_least", "%", "§2.1: not for collars, so also below 30°/100 ft; largest of these bends")
             for name, (_, hold) in (("much weight below the bend", HEAVY), ("little weight below the bend", LIGHT))
         ),
         Check("difference at the smallest clearance over that at the largest", float(by_clearance[0] / by_clearance[1]),
@@ -210,7 +210,7 @@ def checks_of(rows: pd.DataFrame, half: pd.DataFrame) -> list[Check]:
               "§2.1: not to be used above 30°/100 ft; 10 % is the accuracy that §7 claims"),
         Check("soft against stiff at 30°/100 ft, clearance 50 mm, largest difference of hook load or torque",
               float(largest(rows, f"{heavy} and severity == {LIMIT} and {ordinary}").max()), FAILS, "at_least", "%",
-              "the same claim, held against the clearance of drill pipe"),
+              "the same claim, for the clearance of drill pipe"),
         Check("soft against stiff at 30°/100 ft, clearance 50 mm, light string, largest difference of loads",
               float(largest(rows, f"hold == {LIGHT[1]} and severity == {LIMIT} and {ordinary} and string == '{PIPE}'")
                     .max()), FAILS, "at_least", "%", "the same claim, for a string with little weight below the bend"),
@@ -227,16 +227,17 @@ NOTES = [
     f"One well for each severity: {HEAVY[0]:.0f} m vertical, a build to {ANGLE:.0f}°, {HEAVY[1]:.0f} m of hold "
     f"(light string: {LIGHT[0]:.0f} and {LIGHT[1]:.0f} m), friction factor {MU}, law coulomb, mud of "
     "1200 kg/m³. The soft string has the same weights and friction and no clearance.",
-    "A string bent evenly presses no harder on the wall for being stiff. The difference comes from the ends of "
-    "the bend, where its bending moment has to be held by pairs of contacts the closer together the smaller "
-    "the clearance is, and, with much clearance, from a string that cuts the corner and presses less. "
-    "It is a force of its own: what share of the loads it makes depends on the weight that hangs below the "
-    "bend, so no severity by itself parts where the soft string holds from where it fails.",
+    "In uniform bending the stiffness of the string does not change the contact force. The difference comes from the "
+    "ends of the bend, where pairs of contacts carry the bending moment, the closer together the smaller the "
+    "clearance, and, with much clearance, from a string that cuts the corner and presses less. This force adds to "
+    "that from tension: its share of the loads depends on the weight below the bend, so no limit of severity alone "
+    "separates where the soft string holds from where it fails.",
     "Segments in the bend are an eighth of the longest straight piece that fits into it, at least 0.2 m; "
-    f"elsewhere 1 m. Walls give way by {WALL:.0e} N/m a metre.",
-    "Finite elements are the geometrically exact beam of the scaled section in an exact bend of its own, fallen from "
-    "the axis of the hole: a second route to the stiff string's answer. By how much its torque exceeds the soft "
-    "string's is told by contact forces without friction, which torque goes as; hook load is that of slacking off.",
+    f"elsewhere 1 m. Wall stiffness {WALL:.0e} N/m per metre.",
+    "Finite elements are the geometrically exact beam of the scaled section in an exact bend of its own, released "
+    "from the axis of the hole: a second route to the stiff string's answer. The excess of its torque over the soft "
+    "string's is computed from contact forces without friction, to which torque is proportional; hook load is that "
+    "of slacking off.",
 ]
 
 

@@ -21,24 +21,24 @@ from validation.parts.methods import FULL_ONLY, TOO_SLOW
 from validation.parts.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
 
 SEGMENTS = (60, 170)  # of the paper's FCTD model and of its Adams model
-# By then a wave of torque has run down 1500 m of steel [s].
+# After this time a wave of torque has run down 1500 m of steel [s].
 PASSED = 0.5
 OWN, EQUAL = "own step", "equal step"
-# The last is the string in contact with its hole taken away: what is left of a step but for the contact.
+# The last is the string in contact after its hole is removed: the cost of a step without the contact.
 FREE, TOUCHING, TAKEN = "no contact", "contact", "wall taken away"
-# In the open, hung from the same top.
+# Without a hole, hung from the same top.
 OPEN = {"contact__enabled": False, "wellbore__stations": [[0, 0, 0], [2600, 0, 0]]}
 FCTD, CHAIN = "FCTD", "MuJoCo ball chain"
-# Other people's engines, keys of references.engines.
+# Independent engines, keys of references.engines.
 OTHERS = {"Bullet": "bullet", "MuJoCo": "mujoco", "PyElastica": "elastica", CHAIN: "mujoco_chain"}
 # Contact methods that take the place of the engine's in its loop; its own are in the study contact_swap.
 IN_LOOP = " in our loop"
 OURS = ("cylinders", "arcs", "for_loop")
 LABELS = {"fcl": "FCL", "bullet": "Bullet's contact", "mujoco": "MuJoCo's contact"}
-CHEAPER = {"fcl": {"query": "collide"}, "coal": {"query": "collide"}}  # of the two ways to ask
+CHEAPER = {"fcl": {"query": "collide"}, "coal": {"query": "collide"}}  # the cheaper of their two queries
 SWAP_TARGET = 200.0
 LEFT_AS_OURS = "the same with FCTD's own growth from 60 to 170 segments in place of 170/60"
-LEAST_OTHER = 5.0  # what every other engine costs at least, over FCTD
+LEAST_OTHER = 5.0  # least cost of every other engine over FCTD
 
 
 COLUMNS = [
@@ -48,13 +48,13 @@ COLUMNS = [
 
 
 def swapped(quick: bool) -> dict[str, str]:
-    """Name in the tables -> contact method, of all registered ones that are fast enough to be raced."""
+    """Name in the tables -> contact method, of all registered methods that are fast enough to be timed."""
     left_out = {*OURS, TOO_SLOW, *(FULL_ONLY if quick else ())}
     return {LABELS.get(method, method) + IN_LOOP: method for method in contact.METHODS if method not in left_out}
 
 
 def available(quick: bool) -> tuple[list[str], list[str]]:
-    """Names that can be raced, and those whose package is missing."""
+    """Names that can be timed, and those whose package is missing."""
     found = {FCTD: engines.installed_version("fctd")}
     found |= {name: contact.installed_version(method) for name, method in swapped(quick).items()}
     found |= {name: engines.installed_version(key) for name, key in OTHERS.items()}
@@ -65,7 +65,7 @@ def begin(name: str, start: Run, state: str, step: float | None) -> tuple[Run, S
     """A competitor's stepper at the state of a run, and the run that it works on."""
     if name.endswith(IN_LOOP):
         method = swapped(quick=False)[name]
-        # Without a wall there is nothing to ask: what is left is our loop of two compiled calls and an empty query.
+        # Without a wall: our loop of two compiled calls with an empty query.
         run = asking(
             start, contact.build(method, start.case, **CHEAPER.get(method, {})) if state == TOUCHING else NoWall()
         )
@@ -75,12 +75,12 @@ def begin(name: str, start: Run, state: str, step: float | None) -> tuple[Run, S
         run.laws = run.laws._replace(geometry=fctd.mechanics.state.OPEN)
     stepper = engines.build(OTHERS.get(name, "fctd"), **({} if step is None else {"step": step})).begin(run)
     if isinstance(stepper, FreeBodies):
-        stepper.watch = False  # what is read for our checks is no cost of the engine
+        stepper.watch = False  # reading the state for our checks is no cost of the engine
     return run, stepper
 
 
 def verdict(run: Run, stepper: Stepper) -> str:
-    """Whether what was timed still is a string in its hole."""
+    """Whether the timed string is still a valid string in its hole."""
     try:
         stepper.sync()
         run.refresh()
@@ -91,7 +91,7 @@ def verdict(run: Run, stepper: Stepper) -> str:
 
 
 class Entry(NamedTuple):
-    """Who races, and in what."""
+    """One engine in a race: number of segments, contact state and engine."""
 
     segments: int
     state: str
@@ -99,12 +99,12 @@ class Entry(NamedTuple):
 
     @property
     def baseline(self) -> "Entry":
-        """FCTD in the same; in contact where the wall is taken away."""
+        """FCTD in the same state; in contact where the wall is taken away."""
         return Entry(self.segments, TOUCHING if self.state == TAKEN else self.state, FCTD)
 
 
 class Racer(NamedTuple):
-    """A stepper under way, the run that it works on, and what its top drive does."""
+    """A stepper in motion, the run that it works on, and the motion of its top drive."""
 
     run: Run
     stepper: Stepper
@@ -112,7 +112,7 @@ class Racer(NamedTuple):
 
 
 def entries(kind: str, names: list[str], counts: Collection[int]) -> list[Entry]:
-    """All that race with one kind of step."""
+    """All steppers of a race with one kind of step."""
     found = [
         Entry(n, state, name)
         for n in counts
@@ -126,10 +126,10 @@ def entries(kind: str, names: list[str], counts: Collection[int]) -> list[Entry]
 
 
 def race_engines(names: list[str], best: dict[int, float], rounds: int, aim: float, progress: Progress) -> pd.DataFrame:
-    """Wall time of a simulated second of every engine, at each one's own step and at the shortest of those for all.
+    """Wall time of a simulated second of every engine, at its own step and at the shortest of all steps.
 
-    best : FCTD's largest stable step [s] for each number of segments, raced beside its own.  aim : length of a
-    call [s].  Everything with the same kind of step is one race, so that any two rows of it can be compared.
+    best : FCTD's largest stable step [s] for each number of segments, timed in addition to its own step.  aim : length
+    of a call [s].  Everything with the same kind of step is one race, so that any two rows of it can be compared.
     """
     cases = {(n, state): chain(n, **(OPEN if state == FREE else {})) for n in best for state in (FREE, TOUCHING)}
     starts = {key: moving(case, LEAD) for key, case in cases.items()}
@@ -144,7 +144,7 @@ def race_engines(names: list[str], best: dict[int, float], rounds: int, aim: flo
             step = best[n] if name == BEST else None
             if kind == EQUAL:
                 step = min(s for other, s in own.items() if other.segments == n)
-            if name == CHAIN:  # it begins at rest, and ahead of the first wave there is little to compute
+            if name == CHAIN:  # it starts at rest, and before the first wave arrives there is little to compute
                 run, stepper = begin(name, moving(cases[n, state], 0.0)[0], state, step)
                 stepper.advance(motion, PASSED)
             else:
@@ -158,7 +158,7 @@ def race_engines(names: list[str], best: dict[int, float], rounds: int, aim: flo
 
 
 def race_of(racers: dict[Entry, Racer], rounds: int, aim: float) -> pd.DataFrame:
-    """One race, a row each, of which each is told whether it still is a string; the steppers are closed."""
+    """One race, a row for each stepper with the validity of its string at the end; closes the steppers."""
     actions: dict[str, Callable[[], object]] = {}
     counts, baseline = {}, {}
     for entry, racer in racers.items():
@@ -180,7 +180,7 @@ def race_of(racers: dict[Entry, Racer], rounds: int, aim: float) -> pd.DataFrame
 
 
 def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
-    """The paper's ratios and ours, each with what it contains."""
+    """The paper's ratios and ours, each with the differences that it contains."""
     second = scaling.set_index("segments")["ms_per_simulated_s"]
     grown = float(second[170] / second[60])
     rows = [
@@ -229,9 +229,9 @@ def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
 
 
 def targets(times: pd.DataFrame, found: dict[str, pd.DataFrame]) -> list[Check]:
-    """The targets for one free core with compiled code warm.
+    """The targets for one free core with compiled code loaded.
 
-    Times are those of the fastest round, which others on the machine disturb least.
+    Times are those of the fastest round, which other processes disturb least.
     """
     kernel, scaling, steady = (found[name] for name in ("kernel", "scaling", "steady"))
     ns = kernel.set_index("name")["ns_least"]
@@ -250,7 +250,7 @@ def targets(times: pd.DataFrame, found: dict[str, pd.DataFrame]) -> list[Check]:
     if scaling["segments"].max() == max(speed_kernel.LENGTHS):
         exponent = speed_kernel.exponent(scaling)
         made.append(("exponent of a step's cost, 60 to 10000 segments", exponent, 1.05, "at_most", ""))
-    source = "target of this project for one free core, warm"
+    source = "target of this project for one free core, compiled code loaded"
     checks = [Check(name, float(value), bound, kind, unit, source) for name, value, bound, kind, unit in made]
     return [*swap_checks(times), *checks]
 
@@ -262,7 +262,7 @@ def real_time(kernel: pd.DataFrame, name: str) -> float:
 
 
 def swap_checks(times: pd.DataFrame) -> list[Check]:
-    """What holds with a wide margin on any machine: ratios within one race."""
+    """Checks that hold with a wide margin on any machine: ratios within one race."""
     equal = times[(times["state"] == TOUCHING) & (times["step"] == EQUAL) & (times["segments"] == SEGMENTS[0])]
     ratio = equal.set_index("engine")["ratio_to_fctd"]
     made = []
@@ -274,7 +274,7 @@ def swap_checks(times: pd.DataFrame) -> list[Check]:
     others = ratio.drop(FCTD)
     if len(others):
         made.append(
-            Check("least of all others over FCTD, contact, equal step", float(others.min()), LEAST_OTHER, "at_least",
+            Check("fastest other engine over FCTD, contact, equal step", float(others.min()), LEAST_OTHER, "at_least",
                   "", "claim of the paper: the FCTD model is the faster one")
         )  # fmt: skip
     invalid = float(times["check"].str.startswith("invalid").sum())
@@ -287,14 +287,14 @@ def swap_checks(times: pd.DataFrame) -> list[Check]:
 
 
 def table_of(checks: list[Check], kernel: pd.DataFrame) -> pd.DataFrame:
-    """Targets beside what was reached, and the real-time factor at the default step, which has none."""
+    """Targets and measured values, and the real-time factor at the default step, which has no target."""
     rows = [(check.name, check.requirement(), check.value, str(check.verdict)) for check in checks]
     rows = [*rows, ("real-time factor, 60 segments, default step", "", real_time(kernel, CONTACT), "")]
     return pd.DataFrame(rows, columns=["what", "target", "reached", "verdict"])
 
 
 def run(context: Context) -> Outcome:
-    """The ladder of steps, the races of all engines, FCTD by itself; quick: 60 segments and fewer, shorter rounds."""
+    """The ladder of steps, the races of all engines, FCTD alone; quick: 60 segments and fewer, shorter rounds."""
     quick = context.quick
     names, missing = available(quick)
     counts = SEGMENTS[:1] if quick else SEGMENTS
@@ -317,50 +317,51 @@ def run(context: Context) -> Outcome:
     }
     return Outcome(
         tables=tables,
-        # The clock of a machine that others use too is no check: there the ratios are.
+        # Absolute times on a busy machine are no check; the ratios are.
         checks=swap_checks(times) if quick else held,
         notes=notes(found["kernel"], missing),
         display={
-            "times": "Wall time of a simulated second of the curved chain, turning in contact or hanging in the open",
-            "ratios": "The paper's ratios and ours, and what each contains",
-            "targets": "Targets and what was reached",
+            "times": "Wall time of a simulated second of the curved chain, turning in contact or hanging free",
+            "ratios": "The paper's ratios and ours, and the differences that each contains",
+            "targets": "Targets and measured values",
             "steps": "FCTD's largest stable step: loads over the same window against those of the smallest step",
-            "kernel": "FCTD by itself: ns for a segment-step or a point",
-            "scaling": "FCTD with more and more segments, all touching alike",
-            "steady": "Milliseconds for one steady depth of paper-well",
+            "kernel": "FCTD alone: ns per segment-step or per point",
+            "scaling": "FCTD with more and more segments, all in contact",
+            "steady": "Milliseconds per steady depth of paper-well",
             "machine": "What the times depend on",
         },
     )
 
 
 def notes(kernel: pd.DataFrame, missing: list[str]) -> list[str]:
-    """What a reader of the numbers must know."""
+    """Notes for the reader of the numbers."""
     return [
         *left_out(missing),
-        "All engines take the same string from the same state, FCTD's after some seconds, in motion (MuJoCo's ball "
-        "chain, which hangs free, from rest); nothing is extrapolated, and nothing of building or compiling counts. A "
-        "row's time is that of its fastest round of some milliseconds, which others on the machine disturb least, its "
-        "ratio that of the fastest rounds; ratio low and high are the quartiles of the ratios within the rounds, in "
-        "which all take turns.",
-        "An engine's own step is the one that it chooses by itself in this suite: FCTD and the swapped loops 0.8 of "
-        "the bound of the stiffest mode, Bullet and MuJoCo half of FCTD's, PyElastica 0.3 of its own. The equal step "
-        "is the shortest of these. FCTD's largest stable step is found on a ladder.",
-        "Contact methods in our loop are asked from Python once a step for all points, FCL and coal with the cheaper "
-        f"of their two queries ({TOO_SLOW} is left out, milliseconds a point; its cost is in contact_swap); without "
-        "contact that is the same loop with a query that finds nothing. Rows with the wall taken away "
-        "are the string in contact whose hole has vanished, timed in the same race as the contact. Bullet, MuJoCo and "
-        "PyElastica are driven from Python too, step by step; Bullet and MuJoCo get their joint wrenches from FCTD's "
-        "compiled code. Readings that only our checks want are off in the races.",
-        "The paper's two ratios do not separate the contact method: 34 h to 4 h is 3.0 for each segment, and without "
-        "any contact the same two programs stand 3 to 1. On those numbers nothing is left for contact; they do not "
-        "tell how the steps differed. Were the steps as much shorter as 170 segments ask of FCTD, less than nothing.",
+        "All engines start with the same string from the same state in motion, FCTD's after some seconds (MuJoCo's "
+        "ball chain, which hangs free, starts from rest); nothing is extrapolated, and times of building and "
+        "compiling are excluded. The time of a row is that of its fastest round of some milliseconds, which other "
+        "processes disturb least; its ratio is that of the fastest rounds; ratio low and high are the quartiles of "
+        "the ratios within the rounds, in which all engines take turns.",
+        "An engine's own step is its default in this suite: FCTD and the swapped loops 0.8 of the bound of the "
+        "stiffest mode, Bullet and MuJoCo half of FCTD's, PyElastica 0.3 of its own. The equal step is the shortest "
+        "of these. FCTD's largest stable step is found on a ladder.",
+        "Contact methods in our loop are called from Python once per step for all points, FCL and coal with the "
+        f"cheaper of their two queries ({TOO_SLOW} is left out: milliseconds per point; its cost is in contact_swap); "
+        "without contact the same loop runs with an empty query. Rows with the wall taken away are the string in "
+        "contact after its hole is removed, timed in the same race. Bullet, MuJoCo and PyElastica are driven from "
+        "Python too, step by step; Bullet and MuJoCo get their joint wrenches from FCTD's compiled code. Readings "
+        "that only our checks need are off in the races.",
+        "The paper's two ratios do not separate the contact method: 34 h to 4 h is a ratio of 3.0 per segment, and "
+        "without contact the ratio of the same two programs is 3 too. By those numbers contact gains nothing; the "
+        "paper does not print the steps. If 170 segments shortened the steps as much as in FCTD, the ratio left for "
+        "contact is below 1.",
         f"Real-time factor of the curved chain with 60 segments at the default step: {real_time(kernel, CONTACT):.0f} "
         f"(fastest round; at the largest stable step {real_time(kernel, BEST):.0f}). Absolute times belong to one "
-        "machine, and while others use it only the fastest round comes near to what a free core does.",
+        "machine, and on a busy machine only the fastest round is close to the time of a free core.",
     ]
 
 
 STUDY = Study(
-    "speed", "What does a simulated second cost, here and in other engines, and what do the ratios contain?", run,
+    "speed", "What does a simulated second cost, in FCTD and in other engines, and what do the ratios contain?", run,
     uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
 )  # fmt: skip

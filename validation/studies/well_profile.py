@@ -117,7 +117,7 @@ def run(context: Context) -> Outcome:
     """Stations every 10 m and at the ends of builds alone, by average angle and by minimum curvature."""
     stations = load("paper_well").wellbore.trajectory
     bare = stations[np.isin(stations[:, 0], [0.0, KICK_OFF, FIRST_END, SECOND_END, TOTAL])]
-    # Each with another program of the same method, which is held against the other truth.
+    # Each with an independent computation of the same method, compared with the integrated direction.
     both = {"average angle": (average_angle, engines_average_angle), "minimum curvature": (minimum_curvature,) * 2}
     rows: list[dict[str, Any]] = [
         {
@@ -131,7 +131,7 @@ def run(context: Context) -> Outcome:
         for method, (points, again) in both.items()
     ]
     methods = pd.DataFrame(rows)
-    # Read to the letter, DM is the change of true vertical depth: Eq. 23 then gives less than that very change.
+    # Taken literally, DM is the change of true vertical depth: Eq. 23 then gives less than that change.
     down = exact(stations[:, 0])[:, 2]
     middle = 0.5 * (stations[1:, 1] + stations[:-1, 1])
     literal = float(np.sum(np.diff(down) * np.cos(middle)))
@@ -142,23 +142,24 @@ def run(context: Context) -> Outcome:
                   float(methods["off_m"].iloc[1]), 1e-6, "at_most", "m", "closed form of two builds"),
             Check("average angle of paper-well, stations every 10 m, against its exact arcs, largest distance",
                   float(methods["off_m"].iloc[0]), 0.05, "at_most", "m",
-                  "Eqs 21–23; chords of κ²DM³/24 a course are 1 cm over both builds"),
+                  "Eqs 21–23; chords of κ²DM³/24 per course are 1 cm over both builds"),
             Check("average angle of paper-well, ends of builds alone, against its exact arcs, largest distance",
                   float(methods["off_m"].iloc[2]), 1.0, "at_most", "m",
-                  "Eqs 21–23; a metre is a hundredth of what surveys are trusted to"),
+                  "Eqs 21–23; 1 m is well below the uncertainty of surveys"),
             Check("Eqs 21–23 term by term against the engine's average angle, largest distance",
                   off(average_angle(stations), engines_average_angle(stations)), 1e-6, "at_most", "m",
-                  "the same formulas, another program"),
+                  "the same formulas, an independent computation"),
             Check("true vertical depth that Eq. 23 loses with DM as change of true vertical depth",
-                  float(down[-1] - literal), 1.0, "at_most", "m", "§5.2 as printed; it should lose none"),
+                  float(down[-1] - literal), 1.0, "at_most", "m", "§5.2 as printed; the exact value is zero"),
         ],
         notes=[
-            "The numbers of the paper's Table 2 are not in our copy of it: ours are the same calculation on our "
-            "reconstruction of its well (stations every 10 m, of which the table shows some).",
-            "The paper's wells are cut into cylinders whose ends these coordinates are. Between stations the engine "
-            "follows the arcs; off is the distance of the average angle from them, in closed form.",
-            "Off integrated is a second route to the same distance: the engine's own average angle, and the direction "
-            "of the hole at each depth summed up metre by metre in place of the closed form.",
+            "The numbers of the paper's Table 2 are not in our copy of the paper: ours are the same calculation on "
+            "our reconstruction of its well (stations every 10 m; the table shows some of them).",
+            "These coordinates are the ends of the cylinders that make up the paper's well. Between stations the "
+            "engine follows the arcs; the columns named off give the distance of the average angle from them, in "
+            "closed form.",
+            "The column off integrated is a second route to the same distance: the engine's own average angle, and "
+            "the direction of the hole integrated metre by metre in place of the closed form.",
         ],
         display={
             "table_2": "Paper's Table 2 from paper-well: average angle (Eqs 21–23), arcs, and their distance",
@@ -167,4 +168,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("well_profile", "Where does the paper's well run, and how well do Eqs 21–23 know it?", run)
+STUDY = Study("well_profile", "What is the path of the paper's well, and how accurate are Eqs 21–23?", run)

@@ -1,4 +1,4 @@
-"""Where the hole is, and what it costs to ask."""
+"""Geometry of the hole, and cost of contact queries."""
 
 import numpy as np
 import pandas as pd

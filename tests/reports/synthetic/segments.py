@@ -1,4 +1,4 @@
-"""How many segments."""
+"""Numbers of segments."""
 
 import numpy as np
 import pandas as pd

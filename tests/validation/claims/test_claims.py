@@ -113,7 +113,7 @@ def test_a_number_that_contradicts_the_paper_has_a_second_route_that_does_too(ju
     assert answer.finding.second_route.check.value == 0.5
     answer = judged(CLAIM + SECOND, toy=0.5, second=3.0)
     assert (answer[0], verdict(answer)) == (1, "routes disagree")
-    assert answer.finding.why == "the first route keeps the bound and the second does not"
+    assert answer.finding.why == "the first route meets the bound and the second does not"
     told = "claim a-claim.second_route is missing: expected a second route"
     assert told in judged(text, toy=2.0)[1]
     answer = judged(ONE_ROUTE.replace('"holds"', '"does not hold"'), toy=2.0)
@@ -156,7 +156,7 @@ def test_the_same_table_holds_other_numbers(judged):
     ("text", "values", "why"),
     [
         (CLAIM, {}, "toy has not been run"),
-        (CLAIM.replace('study = "toy"', 'study = "later"'), {"toy": 0.5}, "study later is to come"),
+        (CLAIM.replace('study = "toy"', 'study = "later"'), {"toy": 0.5}, "study later is not written yet"),
         (CLAIM + SECOND, {"toy": 2.0}, "second route: second has not been run"),
         (CLAIM + LIMITED.format(2.0) + SECOND, {"toy": 1.5}, "second route: second has not been run"),
         (CLAIM + LIMITED.format(1.0).replace("toy", "second"), {"toy": 2.0}, "second has not been run"),
@@ -262,7 +262,7 @@ def test_a_quick_run_may_leave_a_number_out(judged):
         ("at_most = 1.0", "at_most = nan", r"number\.at_most"),
         ("at_most = 1.0", "within = [1.0]", r"number\.within"),
         ("at_most = 1.0", "atmost = 1.0", "the key at_most"),
-        ("at_most = 1.0", 'at_most = 1.0\nunit = "m"', "a check says that itself"),
+        ("at_most = 1.0", 'at_most = 1.0\nunit = "m"', "the check has its own"),
         ('check = "error"', 'check = "error"\ntable = "forces"', "check or table, not both"),
         ('check = "error"', 'table = "forces"', "a number of a table needs it"),
         ('check = "error"', "", "check or table"),
@@ -270,8 +270,12 @@ def test_a_quick_run_may_leave_a_number_out(judged):
         ("pending", "pendings", "pendings"),
         ("[[claim]]", "[claim", "a TOML file"),
         ('because = "target"', 'because = "target"\nuntestable = "why"', "number or untestable, not both"),
-        ('because = "target"', 'because = "target"\none_route = "why"', "one_route = .* nothing, but for a claim that"),
-        ('verdict = "holds"', 'one_route = "why"', "one_route = .* nothing, but for a claim that"),
+        (
+            'because = "target"',
+            'because = "target"\none_route = "why"',
+            "one_route = .* nothing, except for a claim that",
+        ),
+        ('verdict = "holds"', 'one_route = "why"', "one_route = .* nothing, except for a claim that"),
     ],
 )
 def test_a_ledger_that_cannot_be_meant_is_refused(register, tmp_path, old, new, message):

@@ -1,4 +1,4 @@
-"""The arithmetic of the studies of the paper's claims, where a slip would pass for a finding."""
+"""The arithmetic of the studies of the paper's claims, where an error would look like a finding."""
 
 import numpy as np
 import pandas as pd
@@ -204,7 +204,7 @@ def test_the_bends_that_decide_are_those_of_the_least_and_the_largest_number():
     ]
 
 
-def test_ratio_of_nothing_is_no_number():
+def test_a_ratio_to_zero_is_nan():
     assert friction_laws._ratio(4.5, 1.5) == 3.0
     assert np.isnan(friction_laws._ratio(0.0, 1e-13))
 
@@ -252,8 +252,8 @@ def test_points_of_a_straight_well_lie_where_they_were_made(monkeypatch):
     assert turned_back["elsewhere_percent"] > 10
 
 
-def test_a_library_is_raced_without_the_price_of_asking_it(monkeypatch):
-    """Times of ours, in place of measured ones: what a mesh costs is told over the paper's search and test."""
+def test_a_library_is_timed_without_the_cost_of_the_call(monkeypatch):
+    """Invented times; the cost of a mesh is divided by that of the paper's search and test."""
     pytest.importorskip("trimesh")
     ns = {contact_operations.ONE: 2.0, contact_operations.SEARCH: 98.0, contact_operations.ASKING: 150.0}
     ns |= {contact_operations.TREE: 300.0, contact_operations.LIBRARY: 650.0}
@@ -285,14 +285,14 @@ def test_the_test_of_one_cylinder_is_the_papers_and_finds_the_distance_from_its_
     assert np.isinf(one_cylinder(pieces, points, np.zeros_like(owners))[-1])
 
 
-def test_a_long_segment_twists_otherwise_than_what_it_stands_for(monkeypatch):
+def test_a_long_segment_twists_otherwise_than_the_pipe_it_represents(monkeypatch):
     assert 10 < long_segment.twisting((2.0,))[2.0] < 13
     monkeypatch.setattr(long_segment, "WATCHED", 1.0)
     monkeypatch.setattr(long_segment, "the_case", lambda vertical, the_case=long_segment.the_case: the_case(37.5))
     assert long_segment.twisting((2.0,)) == {2.0: 0.0}
 
 
-def test_finite_elements_are_told_over_the_soft_string_and_beside_the_segments():
+def test_finite_elements_are_compared_with_the_soft_string_and_the_segments():
     pytest.importorskip("skfem")
     bend = soft_stiff_map.PIPE, 60.0, 0.02, soft_stiff_map.LIGHT
     row = soft_stiff_map.by_finite_elements(*bend, 4)
@@ -312,7 +312,7 @@ def test_the_naive_model_at_its_own_size_is_a_thousandth_of_the_chain():
     assert model.wellbore.stiffness == pytest.approx(1e4)
 
 
-def test_the_stepper_s_moments_are_held_against_its_own_largest_count():
+def test_the_stepper_s_moments_are_compared_with_its_own_largest_count():
     found = segment_count.step_through("4.5°/30 m", (5, 10)).set_index("segments")
     assert found.loc[10, ["torque_off_largest_percent", "moment_off_largest_percent"]].to_list() == [0, 0]
     assert segment_count.moment_error(np.array([1.0, 2.0]), np.array([3.0, 4.0])) == pytest.approx(100 * 2 / 12.5**0.5)
@@ -367,7 +367,7 @@ def test_a_steady_trip_passes_its_depth_in_the_middle_of_what_is_read(kind: str)
     assert abs(trip.start_md - 2000.0) - half > 0.5 * trip.ramp_time * TRIP_SPEED
 
 
-def test_a_swing_leaves_next_to_nothing_in_a_mean() -> None:
+def test_a_swing_hardly_changes_a_mean() -> None:
     time = np.linspace(0, 1, 400)
     rows = pd.DataFrame({"time_s": time, "load": 5 + np.cos(6.5 * np.pi * time), "operation": "trip_in"})
     assert abs(rows["load"].mean() - 5) > 0.03

@@ -1,4 +1,4 @@
-"""What is kept and what is repeated: a change is noticed wherever a result rests on it, and nowhere else."""
+"""Which results are kept or repeated: only a change of an input repeats a study."""
 
 import io
 import json
@@ -16,7 +16,7 @@ from rich.console import Console
 
 from validation.harness import fingerprint, registry, runner
 
-# A project of one study: a module that it imports, one that a registry names, one that it has nothing to do with.
+# A project of one study: a module that it imports, one that a registry names, one that it does not use.
 PROJECT = {
     "pyproject.toml": """
         [project]

@@ -65,7 +65,7 @@ def test_recorded_miss_that_is_met_again_asks_for_an_update(register, run):
     code, text = run("toy", expected={"toy": {"error": "missed: chords are chords"}})
     assert code == 0
     assert "better than recorded" in text
-    assert "take it out of expected.toml" in text
+    assert "remove the entry from expected.toml" in text
 
 
 @pytest.mark.parametrize("value", [0.5, 2.0])

@@ -52,7 +52,7 @@ def test_displacement_is_that_of_the_same_points_of_the_string():
 
 
 def test_the_steady_string_lies_where_its_own_shape_is():
-    """Held against itself it differs by nothing; the count is the one that was asked for."""
+    """Compared with itself it has zero difference; the count is the requested one."""
     case = scaled_section.load("scaled_section")
     point = scaled_section.equilibrium(case, "trip_in", 44.0)
     truth = model()._replace(string=scaled_section._shape(case, point.profile.iloc[1:]))

@@ -1,4 +1,4 @@
-"""The study of speed: steps that hold, what the ratios contain, and how targets are told."""
+"""The study of speed: steps that hold, the contents of the ratios, and the table of targets."""
 
 import numpy as np
 import pandas as pd
@@ -67,7 +67,7 @@ def test_checks_of_a_race():
     made = {check.name: check for check in speed.swap_checks(times())}
     assert made["FCL in our loop over FCTD, a step of 60 segments"].value == 100
     assert made["FCL in our loop over FCTD, a step of 60 segments"].verdict == "missed"
-    assert made["least of all others over FCTD, contact, equal step"].value == 100
+    assert made["fastest other engine over FCTD, contact, equal step"].value == 100
     broken = times()
     broken.loc[3, "check"] = "invalid: a position or velocity is not finite"
     (lost,) = (check for check in speed.swap_checks(broken) if "stay in their hole" in check.name)
@@ -96,7 +96,7 @@ def test_targets_and_real_time_factor():
     assert found["exponent of a step's cost, 60 to 10000 segments"][1] == "missed"
     table = speed.table_of(checks, kernel).set_index("what")
     assert table["reached"]["real-time factor, 60 segments, default step"] == pytest.approx(1e6 * 3.0 / 30 / 60)
-    # A quick run has no string of 10000 segments, and then says nothing of the exponent.
+    # A quick run has no string of 10000 segments, and then no check of the exponent.
     short = {"kernel": kernel, "scaling": scaling[:2], "steady": steady}
     assert not any("exponent" in check.name for check in speed.targets(times(), short))
 
