@@ -14,35 +14,52 @@ from fctd.case.units import Quantity
 
 HEAD = """# The keys of a case
 
-Made by `python -m docs` from the models that read a case. A quantity is a text with its unit, `"12 m"`, or a bare number
-in SI. A key without a default is required, unless its table says that it is one of two.
+`python -m docs` makes this page from the models that read a case. Write a quantity as a text with its unit, `"12 m"`, or
+as a bare number in SI units. A default of "–" means that you may leave the key out. [A well of your own](well.md) says
+how the keys belong together, and `examples/my_well.toml` uses most of them.
+
+`name`, a text in quotes, stands at the top of the file, before the first table. `--friction 0.2` and the override
+`friction` set the friction factor of every interval.
+"""
+
+OPERATIONS = """# The operations
+
+`[[operations]]` are a list in the order of the run. `ramp_time` [s] is the time in which feed and rotation rise at the
+start of an operation; `speed` [m/s] and `rpm` [rev/min] are positive, and the kind sets the direction. From the second
+operation on you may leave out `from_md` or `at_md`: an operation starts where the one before it ends.
 """
 
 
 def page() -> str:
-    """The whole page as Markdown: a section a table of the case."""
+    """The whole page as Markdown: a section for each table of the case."""
     parts = [HEAD]
-    parts += [_section(f"[{name}]", table) for name, table in _tables(Case)]
+    parts += [_section(heading, table) for heading, table in _tables(Case)]
+    parts.append(OPERATIONS)
     parts += [_section(f'[[operations]], kind = "{kind}"', model) for kind, model in KINDS.items()]
     return "\n".join(parts)
 
 
 def _tables(model: type[Table], prefix: str = "") -> Iterator[tuple[str, type[Table]]]:
-    """The tables below a model with their headings in a case file, lists in double brackets."""
+    """The tables below a model with their headings in a case file, lists of tables in double brackets."""
     for name, field in model.model_fields.items():
+        heading = f"{prefix}{name}"
         for part in _parts(field.annotation):
             if isinstance(part, type) and issubclass(part, Table) and part not in KINDS.values():
-                heading = f"{prefix}{name}"
-                yield (f"[{heading}]" if get_origin(field.annotation) is tuple else heading), part
+                yield (f"[[{heading}]]" if _is_list(field) else f"[{heading}]"), part
                 yield from _tables(part, f"{heading}.")
 
 
 def _parts(annotation: Any) -> list[Any]:
-    """The members of a union or a tuple, else the annotation itself."""
-    origin = get_origin(annotation)
-    if origin in (Union, types.UnionType, tuple):
+    """The members of a union, a tuple or an annotated type, else the annotation itself."""
+    if get_origin(annotation) in (Union, types.UnionType, tuple):
         return [part for argument in get_args(annotation) for part in _parts(argument)]
+    if hasattr(annotation, "__metadata__"):
+        return _parts(get_args(annotation)[0])
     return [annotation]
+
+
+def _is_list(field: FieldInfo) -> bool:
+    return get_origin(field.annotation) is tuple
 
 
 def _section(heading: str, table: type[Table]) -> str:
@@ -51,31 +68,55 @@ def _section(heading: str, table: type[Table]) -> str:
         for name, field in table.model_fields.items()
         if name != "kind" and not any(isinstance(p, type) and issubclass(p, Table) for p in _parts(field.annotation))
     ]
-    return "\n".join([f"## `{heading}`", "", inspect.getdoc(table) or "", "", "| key | expects | default |", "|---|---|---|", *rows, ""])
+    head = ["| key | expects | default |", "|---|---|---|"]
+    return "\n".join([f"## `{heading}`", "", inspect.getdoc(table) or "", "", *head, *rows, ""])
 
 
 def _expected(field: FieldInfo) -> str:
     """What a key expects, in the words of the message that refuses something else."""
-    for item in (*field.metadata, *(m for part in _parts(field.annotation) for m in getattr(part, "__metadata__", ()))):
-        if isinstance(item, Expects):
-            return item.expected
-    choices = [repr(word) for part in _parts(field.annotation) if get_origin(part) is Literal for word in get_args(part)]
-    if choices:
-        return " or ".join(choice.replace("'", "`") for choice in choices)
     if field.description:
         return field.description
-    names = [getattr(part, "__name__", str(part)) for part in _parts(field.annotation) if part is not type(None)]
-    return {"str": "a text", "int": "a whole number", "bool": "true or false", "Path": "a file name"}.get(names[0], "see above")
+    wants = [item.expected for item in _metadata(field) if isinstance(item, Expects)]
+    if wants:
+        return f"a list, each {wants[0]}" if _is_list(field) else wants[0]
+    parts = _parts(field.annotation)
+    choices = [f"`{word}`" for part in parts if get_origin(part) is Literal for word in get_args(part)]
+    if choices:
+        return " or ".join(choices)
+    return {str: "a text in quotes", bool: "true or false"}[parts[0]]
+
+
+def _metadata(field: FieldInfo) -> list[Any]:
+    """What is annotated to a field, to the members of its union or to the items of its list."""
+    members = [item for argument in get_args(field.annotation) for item in getattr(argument, "__metadata__", ())]
+    return [*field.metadata, *members]
+
+
+class _Asked(dict[str, Any]):
+    """The keys beside a default, none of them given; remembers the last one that the default asks for."""
+
+    last = ""
+
+    def __missing__(self, key: str) -> None:
+        self.last = key
 
 
 def _default(field: FieldInfo) -> str:
     if field.default_factory is not None:
-        return "depends on the keys beside it"
+        beside = _Asked()
+        value = field.get_default(call_default_factory=True, validated_data=beside)
+        return f"that of `{beside.last}`" if value is None else f"{_shown(field, value)} without `{beside.last}`"
     if field.default is PydanticUndefined:
         return "required"
     if field.default is None or field.default == ():
         return "–"
-    if isinstance(field.default, bool):
-        return f"`{str(field.default).lower()}`"
-    units = [item.dimension.unit for item in field.metadata if isinstance(item, Quantity)]
-    return f"`{field.default:g} {units[0]}`" if units else f"`{field.default}`"
+    return _shown(field, field.default)
+
+
+def _shown(field: FieldInfo, value: object) -> str:
+    """A value with its unit."""
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    units = [item.dimension.unit for item in _metadata(field) if isinstance(item, Quantity)]
+    number = f"{value:g}" if isinstance(value, float) else f"{value}"
+    return f"`{number} {units[0]}`" if units else f"`{number}`"
