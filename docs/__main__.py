@@ -8,6 +8,6 @@ FOLDER = Path(__file__).parent
 
 if __name__ == "__main__":
     (FOLDER / "keys.md").write_text(keys.page(), encoding="utf-8")
-    print("keys.md")
+    print("docs/keys.md")
     for name in pictures.PICTURES:
-        print(pictures.draw(name, FOLDER / "pictures").relative_to(FOLDER))
+        print(pictures.draw(name, FOLDER / "pictures").relative_to(FOLDER.parent))

@@ -14,8 +14,8 @@ from fctd.case.units import Quantity
 
 HEAD = """# The keys of a case
 
-`python -m docs` makes this page from the models that read a case. Write a quantity as a text with its unit, `"12 m"`, or
-as a bare number in SI units. A default of "–" means that you may leave the key out. [A well of your own](well.md) says
+`python -m docs` makes this page from the models that read a case. Write a quantity as a text with its unit, `"12 m"`,
+or as a bare number in SI units. A default of "–" means that you may leave the key out. [A well of your own](well.md) says
 how the keys belong together, and `examples/my_well.toml` uses most of them.
 
 `name`, a text in quotes, stands at the top of the file, before the first table. `--friction 0.2` and the override

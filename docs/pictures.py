@@ -1,4 +1,4 @@
-"""The pictures of README and guides, drawn from the cases that the text names."""
+"""The pictures of README and guides, drawn from the cases that the text names; they need matplotlib."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -12,11 +12,11 @@ from fctd import plots
 ROOT = Path(__file__).parents[1]
 WELL = ROOT / "examples" / "my_well.toml"
 PAPER = ROOT / "validation" / "cases" / "paper_well.toml"
-DPI = 80
+DPI = 100
 
 
 def overview() -> Figure:
-    """Hook load of the example well over depth, and the side force along the string."""
+    """The example well: hook load over bit depth, and the side force along the string."""
     case = fctd.load_case(WELL)
     kinds = ["trip_in", "rotate_off_bottom", "trip_out"]
     chart = fctd.torque_drag(case, kinds, range(200, 3001, 100))
@@ -26,14 +26,14 @@ def overview() -> Figure:
     for kind, label in zip(kinds, ("slacking off", "rotating", "picking up"), strict=True):
         rows = chart[chart["operation"] == kind]
         left.plot(rows["hookload_N"] / 1e3, rows["bit_depth_m"], label=label)
-    left.set(xlabel="hook load [kN]", ylabel="depth [m]", title="What it costs")
+    left.set(xlabel="hook load [kN]", ylabel="measured depth [m]", title="Hook load")
     left.invert_yaxis()
     left.legend()
     touching = profile[profile["contact_force_N"] > 0]
     low = touching["contact_angle_deg"].between(90, 270)
     for rows, label, colour in ((touching[low], "low side", "#0072B2"), (touching[~low], "high side", "#D55E00")):
         right.barh(rows["md_m"], rows["contact_force_N"] / 1e3, height=18, label=label, color=colour)
-    right.set(xlabel="side force at a contact [kN]", title="Where it touches, picking up")
+    right.set(xlabel="side force at a contact [kN]", title="Contact, picking up from 3000 m")
     right.legend()
     return figure
 
