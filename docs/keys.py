@@ -15,14 +15,14 @@ from fctd.case.units import Quantity
 HEAD = """# The keys of a case
 
 `python -m docs` makes this page from the models that read a case. Write a quantity as a text with its unit, `"12 m"`,
-or as a bare number in SI units. A default of "–" means that you may leave the key out. [A well of your own](well.md) says
-how the keys belong together, and `examples/my_well.toml` uses most of them.
+or as a bare number in SI units. A default of "–" means that you may leave the key out. [A well of your
+own](well.md) says how the keys belong together, and `examples/my_well.toml` uses most of them.
 
 `name`, a text in quotes, stands at the top of the file, before the first table. `--friction 0.2` and the override
 `friction` set the friction factor of every interval.
 """
 
-OPERATIONS = """# The operations
+OPERATIONS = """## The operations
 
 `[[operations]]` are a list in the order of the run. `ramp_time` [s] is the time in which feed and rotation rise at the
 start of an operation; `speed` [m/s] and `rpm` [rev/min] are positive, and the kind sets the direction. From the second

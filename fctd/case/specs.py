@@ -60,7 +60,7 @@ class WellboreSpec(Table):
         default=None, description="a list of [measured depth in m, inclination in deg, azimuth in deg]"
     )
     columns: dict[StationKey, str] | None = Field(
-        default=None, description='headers of the survey in place of md_m, …: {md = "Depth ( ft )", inc = "…", azi = "…"}'
+        default=None, description='headers of the survey, such as {md = "Depth ( ft )", inc = "I_deg", azi = "A_deg"}'
     )
     survey_method: Literal["average_angle", "minimum_curvature"] = "minimum_curvature"
     geometry: Literal["cylinders", "arcs"] = "cylinders"
@@ -225,7 +225,9 @@ class SolverSpec(Table):
     The default damps like steel, a loss of 0.2 % at 30 Hz: enough to keep sliding segments from chattering.
     """
 
-    step: float | Literal["auto", "largest"] = Field(default="auto", description='"auto", "largest" or a time such as "2 ms"')
+    step: float | Literal["auto", "largest"] = Field(
+        default="auto", description='"auto", "largest" or a time such as "2 ms"'
+    )
     joint_damping: units.Time = 1e-5
 
     @field_validator("step", mode="before")
