@@ -16,6 +16,7 @@ from fctd.case.load import KINDS, load_case
 from fctd.cli import main
 from fctd.model.operations import rad_per_s, steady_rates
 from fctd.results.notes import MEANINGS
+from validation.harness.registry import STUDIES
 
 ROOT = Path(__file__).parents[2]
 GUIDES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
@@ -25,7 +26,7 @@ DOCUMENTS = [*GUIDES, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", ROOT / "b
 NOT_RUN = {
     "make ": "installs the environment that this test runs in, or takes minutes",
     ".venv/bin/python -m pytest benchmarks/": "measures times for minutes",
-    ".venv/bin/python -m benchmarks ": "measures times for minutes",
+    "python -m benchmarks ": "measures times for minutes",
 }
 # What a Python block prints.
 PRINTED = {
@@ -157,6 +158,13 @@ def test_every_folder_of_the_map_is_there() -> None:
 
 def test_the_readme_is_short() -> None:
     assert len((ROOT / "README.md").read_text(encoding="utf-8").split()) <= 750
+
+
+def test_studies_are_called_by_their_names() -> None:
+    text = "".join(document.read_text(encoding="utf-8") for document in DOCUMENTS)
+    named = set(re.findall(r"python -m validation ([a-z]\w*)", text)) | set(re.findall(r"[Ss]tudy\s+`(\w+)`", text))
+    assert len(named) >= 5
+    assert named <= {*STUDIES, "claims"}
 
 
 def test_pictures_are_small_and_those_of_the_command() -> None:

@@ -1,4 +1,4 @@
-"""How far cylinders are from the arc they stand for, over their length: the largest geometric error."""
+"""How far cylinders are from the arc they stand for, over their length (DESIGN: the largest geometric error)."""
 
 import numpy as np
 import pandas as pd
