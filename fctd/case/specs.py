@@ -31,7 +31,11 @@ FileName = Annotated[Path, BeforeValidator(_as_path)]
 
 
 class IntervalSpec(Table):
-    """A stretch of hole of one size, from the end of the one above to `to_md` [m]."""
+    """A stretch of hole of one size, from the end of the one above to `to_md` [m].
+
+    The first begins at the surface. `friction` is the kinetic friction factor. `stiffness` or `stiffness_per_length`
+    of an interval takes the place of the wellbore's key of the same name.
+    """
 
     to_md: units.PositiveLength
     diameter: units.Diameter
@@ -54,11 +58,19 @@ class WellboreSpec(Table):
 
     One of `survey` and `stations` is set; so is one of `cylinder_length` [m] and `chord_tolerance` [m],
     and one of `stiffness` [N/m, a contact point] and `stiffness_per_length` [N/m/m].
+
+    With `geometry` "arcs" the hole follows the circular arcs between the stations. With "cylinders" it is cut into
+    straight pieces of `cylinder_length`, or so short that their chords miss the arc by at most `chord_tolerance`;
+    neighbours share `overlap` [m]. Where the size of the hole changes, arcs use `overlap` as the length of the shoe.
     """
 
-    survey: FileName | None = None
-    stations: tuple[tuple[units.Bare, units.Bare, units.Bare], ...] | None = None
-    columns: dict[StationKey, str] | None = None
+    survey: FileName | None = Field(default=None, description="the name of a CSV file, relative to the case file")
+    stations: tuple[tuple[units.Bare, units.Bare, units.Bare], ...] | None = Field(
+        default=None, description="a list of [measured depth in m, inclination in deg, azimuth in deg]"
+    )
+    columns: dict[StationKey, str] | None = Field(
+        default=None, description='headers of the survey, such as {md = "Depth ( ft )", inc = "I_deg", azi = "A_deg"}'
+    )
     survey_method: Literal["average_angle", "minimum_curvature"] = "minimum_curvature"
     geometry: Literal["cylinders", "arcs"] = "cylinders"
     cylinder_length: units.PositiveLength | None = None
@@ -139,6 +151,11 @@ class WellboreSpec(Table):
 class ComponentSpec(Table):
     """A run of equal pipe. One of `segments` and `segment_length` [m] sets how finely it is cut.
 
+    `outer_diameter` and `inner_diameter` are those of the pipe body; `contact_diameter` is that of tool joints or
+    stabilisers, which touch first. `linear_mass` (with tool joints) and the stiffnesses EA (`axial_stiffness`), EI
+    (`bending_stiffness`), GJ (`torsional_stiffness`) and κGA (`shear_stiffness`) are computed from the pipe body
+    where they are not given. The default `yield_strength` is that of S-135.
+
     A bent housing has its `bend` [rad] at the upper end, where the component is tilted against the one above
     it towards `toolface` [rad], which counts from the high side clockwise looking downhole.
     """
@@ -198,7 +215,11 @@ class MudSpec(Table):
 
 
 class RigSpec(Table):
-    """What the rig's sensors see beside the string: block weight [N], torque offset [N*m]."""
+    """What the rig's sensors see beside the string: block weight [N], torque offset [N*m].
+
+    Friction in the sheaves divides the weight indicator by `sheave_efficiency` while the block is lowered, and
+    multiplies it by `sheave_efficiency` while the block is hoisted.
+    """
 
     block_weight: units.Force = 0.0
     sheave_efficiency: units.Efficiency = 1.0
@@ -227,7 +248,9 @@ class SolverSpec(Table):
     The default damps like steel, a loss of 0.2 % at 30 Hz: enough to keep sliding segments from chattering.
     """
 
-    step: float | Literal["auto", "largest"] = "auto"
+    step: float | Literal["auto", "largest"] = Field(
+        default="auto", description='"auto", "largest" or a time such as "2 ms"'
+    )
     joint_damping: units.Time = 1e-5
 
     @field_validator("step", mode="before")

@@ -59,7 +59,7 @@ def test_arc_penetration_is_the_torus(radius: float) -> None:
 
 
 def test_cylinder_error_falls_with_the_square_of_the_length() -> None:
-    """A chord of length ℓ misses the arc by ℓ²/8R (DESIGN §4): that bound, and its order."""
+    """A chord of length ℓ misses the arc by ℓ²/8R: that bound, and its order."""
     stations = [[0, 0, 0], [450, 90, 0]]
     exact = hole_of(stations, geometry="arcs")
     points, _ = points_near(exact, 2000, seed=2)

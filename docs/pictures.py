@@ -1,0 +1,57 @@
+"""The pictures of README and guides, drawn from the cases that the text names; they need matplotlib."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+import fctd
+from fctd import plots
+
+ROOT = Path(__file__).parents[1]
+WELL = ROOT / "examples" / "my_well.toml"
+PAPER = ROOT / "validation" / "cases" / "paper_well.toml"
+DPI = 100
+
+
+def overview() -> Figure:
+    """The example well: hook load over bit depth, and the side force along the string."""
+    case = fctd.load_case(WELL)
+    kinds = ["trip_in", "rotate_off_bottom", "trip_out"]
+    chart = fctd.torque_drag(case, kinds, range(200, 3001, 100))
+    profile = fctd.equilibrium(case, operation="trip_out", bit_depth=3000).profile
+    figure = Figure(figsize=(10, 4.6), layout="constrained")
+    left, right = figure.subplots(1, 2, sharey=True)
+    for kind, label in zip(kinds, ("slacking off", "rotating", "picking up"), strict=True):
+        rows = chart[chart["operation"] == kind]
+        left.plot(rows["hookload_N"] / 1e3, rows["bit_depth_m"], label=label)
+    left.set(xlabel="hook load [kN]", ylabel="measured depth [m]", title="Hook load")
+    left.invert_yaxis()
+    left.legend()
+    touching = profile[profile["contact_force_N"] > 0]
+    low = touching["contact_angle_deg"].between(90, 270)
+    for rows, label, colour in ((touching[low], "low side", "#0072B2"), (touching[~low], "high side", "#D55E00")):
+        right.barh(rows["md_m"], rows["contact_force_N"] / 1e3, height=18, label=label, color=colour)
+    right.set(xlabel="side force at a contact [kN]", title="Contact, picking up from 3000 m")
+    right.legend()
+    return figure
+
+
+def chart() -> Figure:
+    """The broomstick and torque of the paper's well."""
+    case = fctd.load_case(PAPER)
+    kinds = ["trip_in", "rotate_off_bottom", "trip_out"]
+    return plots.chart_figure(fctd.torque_drag(case, kinds, range(1750, 2451, 25)), "si", case.name)
+
+
+PICTURES: dict[str, Callable[[], Figure]] = {"overview": overview, "chart": chart}
+
+
+def draw(name: str, folder: Path) -> Path:
+    """Write a picture as PNG; returns its file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{name}.png"
+    with mpl.rc_context(plots.RC):
+        PICTURES[name]().savefig(path, dpi=DPI)
+    return path

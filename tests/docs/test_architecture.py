@@ -1,0 +1,50 @@
+"""The map and the walks of docs/architecture.md name what is there."""
+
+import importlib
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+TEXT = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+NAME = re.compile(r"`((?:fctd|references|validation|reports)(?:\.\w+)+)`")
+WALKS = {part.split("\n")[0]: NAME.findall(part) for part in TEXT.split("\n## ")[1:] if part.startswith("From ")}
+
+
+def found(name: str) -> object:
+    """What a dotted name stands for: its longest part that is a module, and the attributes after it."""
+    parts = name.split(".")
+    for count in range(len(parts), 0, -1):
+        try:
+            here: object = importlib.import_module(".".join(parts[:count]))
+        except ModuleNotFoundError:
+            continue
+        for part in parts[count:]:
+            here = getattr(here, part)
+        return here
+    raise ModuleNotFoundError(name)
+
+
+@pytest.mark.parametrize("name", sorted(set(NAME.findall(TEXT))))
+def test_a_name_is_there(name: str) -> None:
+    pytest.importorskip("jinja2", reason="the page is drawn with jinja2")
+    assert found(name) is not None
+
+
+def test_a_wrong_name_is_found() -> None:
+    for name in ("fctd.mechanics.dynamics.leap", "fctd.mechanics.leaps.step"):
+        with pytest.raises(AttributeError):
+            found(name)
+
+
+def test_the_walks_are_those_of_a_station_a_penetration_and_a_number() -> None:
+    starts = [names[0] for names in WALKS.values()]
+    assert starts == ["fctd.case.load.load_case", "fctd.simulation.run.Run.advance", "validation.__main__.main"]
+    assert min(map(len, WALKS.values())) >= 10
+
+
+@pytest.mark.parametrize("package", ["fctd", "references", "validation"])
+def test_every_room_is_in_the_map(package: str) -> None:
+    rooms = {path.parent.name for path in (ROOT / package).glob("*/__init__.py")}
+    assert set(re.findall(rf"^\| `{package}/(\w+)/` \|", TEXT, re.MULTILINE)) == rooms

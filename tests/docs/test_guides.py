@@ -1,0 +1,209 @@
+"""What the README and the guides promise: their commands and Python blocks run, and their links lead somewhere."""
+
+import contextlib
+import re
+import runpy
+import shlex
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.case.load import KINDS, load_case
+from fctd.cli import main
+from fctd.model.operations import rad_per_s, steady_rates
+from fctd.results.notes import MEANINGS
+from validation.harness.registry import STUDIES
+
+ROOT = Path(__file__).parents[2]
+GUIDES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
+DOCUMENTS = [*GUIDES, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", ROOT / "benchmarks" / "README.md"]
+
+# Commands that no test runs, and why.
+NOT_RUN = {
+    "make ": "installs the environment that this test runs in, or takes minutes",
+    ".venv/bin/python -m pytest benchmarks/": "measures times for minutes",
+    "python -m benchmarks ": "measures times for minutes",
+}
+# What a Python block prints.
+PRINTED = {
+    "README.md": ["converged", "contact_angle_deg"],
+    "adding_a_contact_method.md": ["completed straight_down"],
+    "references.md": ["valid 42", "settled hook load"],
+    "steady.md": ["converged", "trip_out"],
+    "time.md": ["completed", "[0.04205]"],
+}
+
+
+def blocks(document: Path, language: str) -> list[str]:
+    """Code blocks of one language."""
+    return re.findall(rf"^```{language}\n(.*?)^```", document.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+
+
+def commands(document: Path) -> list[str]:
+    """The commands of a document, one line each."""
+    lines = "".join(blocks(document, "sh")).replace("\\\n", " ").splitlines()
+    return [" ".join(line.partition(" # ")[0].split()) for line in lines]
+
+
+COMMANDS = [(document, command) for document in DOCUMENTS for command in commands(document)]
+RUN = [(document, command) for document, command in COMMANDS if not command.startswith(tuple(NOT_RUN))]
+
+
+def name(value: Path | str) -> str:
+    """A test's name: the document, or a command without its options."""
+    return value.name if isinstance(value, Path) else " ".join(value.split(" --")[0].split()[:5])
+
+
+def shorter(command: str) -> str:
+    """A chart with its first and last depth alone; every other command as it is."""
+    return re.sub(
+        r"(--depths )([\d.]+):([\d.]+):[\d.]+", lambda m: f"{m[1]}{m[2]}:{m[3]}:{float(m[3]) - float(m[2])}", command
+    )
+
+
+@pytest.fixture
+def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder in which the paths of the guides lead into the checkout, and what is written stays out of it."""
+    for folder in ("examples", "validation"):
+        (tmp_path / folder).symlink_to(ROOT / folder)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@contextlib.contextmanager
+def exit_code_0() -> Iterator[None]:
+    with pytest.raises(SystemExit) as stopped:
+        yield
+    assert not stopped.value.code
+
+
+def need_what_it_names(command: str) -> None:
+    """Skip a command whose optional package is missing."""
+    pytest.importorskip("matplotlib")
+    for package in re.findall(r"--(?:contact|engine) (\w+)", command):
+        pytest.importorskip(package)
+
+
+@pytest.mark.parametrize(("document", "command"), RUN, ids=name)
+def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    need_what_it_names(command)
+    monkeypatch.setattr(sys, "argv", shlex.split(shorter(command)))
+    program, *rest = sys.argv
+    with exit_code_0():
+        if program == ".venv/bin/fctd":
+            main.main()
+        else:
+            assert (program, rest[0]) == (".venv/bin/python", "-m"), (
+                f"a program that this test does not know: {command}"
+            )
+            sys.argv = rest[1:]
+            runpy.run_module(rest[1], run_name="__main__", alter_sys=True)
+    for target in re.findall(r"--(?:out|plot|plot-profile) (\S+)", command):
+        assert (checkout / target).exists()
+
+
+def test_what_is_not_run_is_named_and_is_there() -> None:
+    for prefix in NOT_RUN:
+        assert any(command.startswith(prefix) for _, command in COMMANDS), prefix
+
+
+@pytest.mark.parametrize("document", [d for d in GUIDES if blocks(d, "python")], ids=name)
+def test_the_python_blocks_run(document: Path, checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("matplotlib")
+    if "mujoco" in "".join(blocks(document, "python")):
+        pytest.importorskip("mujoco")
+    for block in blocks(document, "python"):
+        names: dict[str, Any] = {"__name__": "__main__"}
+        exec(compile(block, str(document), "exec"), names)
+    printed = capsys.readouterr().out
+    for part in PRINTED[document.name]:
+        assert part in printed
+
+
+def anchors(document: Path) -> set[str]:
+    """The headings of a document as links name them."""
+    headings = re.findall(r"^#+ (.*)$", document.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def links(document: Path) -> list[str]:
+    return re.findall(r"\]\(([^)\s]+)\)", document.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_links_lead_somewhere(document: Path) -> None:
+    for link in links(document):
+        if link.startswith("https://"):
+            continue
+        file, _, anchor = link.partition("#")
+        target = document.parent / file if file else document
+        assert target.is_file(), link
+        assert not anchor or anchor in anchors(target), link
+
+
+def test_every_guide_is_reached_from_the_readme() -> None:
+    reached = {(ROOT / link.partition("#")[0]).resolve() for link in links(ROOT / "README.md")}
+    assert {guide.resolve() for guide in GUIDES} - reached == {ROOT / "README.md"}
+
+
+def test_every_folder_of_the_map_is_there() -> None:
+    folders = re.findall(r"^\| `(\w+)/` \|", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
+    packages = {path.parent.name for path in ROOT.glob("*/__init__.py")}
+    assert set(folders) == packages | {"tests"}
+
+
+def test_the_readme_is_short() -> None:
+    assert len((ROOT / "README.md").read_text(encoding="utf-8").split()) <= 750
+
+
+def test_studies_are_called_by_their_names() -> None:
+    text = "".join(document.read_text(encoding="utf-8") for document in DOCUMENTS)
+    named = set(re.findall(r"python -m validation ([a-z]\w*)", text)) | set(re.findall(r"[Ss]tudy\s+`(\w+)`", text))
+    assert len(named) >= 5
+    assert named <= {*STUDIES, "claims"}
+
+
+def test_pictures_are_small_and_those_of_the_command() -> None:
+    pytest.importorskip("matplotlib")
+    from docs import pictures
+
+    files = {path.stem: path for path in (ROOT / "docs" / "pictures").iterdir()}
+    assert set(files) == set(pictures.PICTURES)
+    shown = {Path(link).stem for guide in GUIDES for link in links(guide) if link.endswith(".png")}
+    assert set(files) == shown
+    assert max(path.stat().st_size for path in files.values()) <= 150_000
+
+
+def test_a_picture_is_drawn(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    from docs import pictures
+
+    assert pictures.draw("overview", tmp_path).stat().st_size > 10_000
+
+
+def test_the_message_in_the_guide_is_the_one_that_is_printed() -> None:
+    guide = (ROOT / "docs" / "well.md").read_text(encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        load_case(ROOT / "examples" / "my_well.toml", {"wellbore.intervals[0].diameter": "-2 mm"})
+    assert str(refused.value).removeprefix(f"{ROOT}/examples/") in guide.splitlines()
+
+
+def test_every_note_has_its_line() -> None:
+    assert set(re.findall(r"^\| `(\w+)` \| [A-Z]", (ROOT / "docs" / "steady.md").read_text(), re.MULTILINE)) == set(
+        MEANINGS
+    )
+
+
+def test_the_default_rates_are_those_of_the_guide() -> None:
+    case = load_case(ROOT / "examples" / "my_well.toml", {"operations": None})
+    row = re.compile(r"^\| `(\w+)` \| [^|]* \| (?:([\d.]+) m/s|–) \| (?:([\d.]+) rev/min|none) \|$", re.MULTILINE)
+    rates = row.findall((ROOT / "docs" / "steady.md").read_text(encoding="utf-8"))
+    assert [kind for kind, _, _ in rates] == list(KINDS)
+    for kind, speed, rpm in rates:
+        rate = steady_rates(case, kind)
+        assert abs(rate.speed) == float(speed or 0)
+        assert rate.spin == rad_per_s(float(rpm or 0))

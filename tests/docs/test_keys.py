@@ -1,0 +1,27 @@
+"""The table of case keys is that of the models."""
+
+from pathlib import Path
+
+from docs import keys
+from fctd.case.load import KINDS, Case
+
+PAGE = Path(__file__).parents[2] / "docs" / "keys.md"
+
+
+def test_the_page_is_up_to_date() -> None:
+    assert PAGE.read_text(encoding="utf-8") == keys.page(), "run: python -m docs"
+
+
+def test_every_key_has_its_line() -> None:
+    models = {"wellbore": Case.model_fields["wellbore"].annotation, **KINDS}
+    for model in models.values():
+        assert model is not None
+        for key in set(model.model_fields) - {"kind", "intervals"}:
+            assert f"\n| `{key}` | " in keys.page()
+
+
+def test_defaults_have_their_units() -> None:
+    page = keys.page()
+    assert "| `overlap` | a length such as '12 m' or '40 ft' | `0.2 m` |" in page
+    assert "| `0.002 m` without `cylinder_length` |" in page
+    assert "| that of `outer_diameter` |" in page
