@@ -18,8 +18,8 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.typing import RcKeyType
 from numpy.typing import NDArray
 
+from fctd.case.operations import KINDS
 from fctd.case.text import printable
-from fctd.model.operations import OPERATION_NAMES
 from fctd.results.unit_systems import System, shown
 from fctd.results.whole_file import whole_file
 from fctd.steady.equilibrium import Equilibrium
@@ -263,8 +263,8 @@ def _handle(kind: str, status: str = "converged") -> Line2D:
     """The legend's line for an operation, with a status that is worth a word."""
     colour, marker = LOOKS[kind]
     if status != "converged" and status not in FLAGS:
-        return Line2D([], [], **LOST, label=f"{OPERATION_NAMES[kind]}: no answer ({status})")
-    label = OPERATION_NAMES[kind] if status == "converged" else f"{OPERATION_NAMES[kind]} ({status})"
+        return Line2D([], [], **LOST, label=f"{KINDS[kind].label}: no answer ({status})")
+    label = KINDS[kind].label if status == "converged" else f"{KINDS[kind].label} ({status})"
     return Line2D([], [], color=colour, marker=marker, markersize=4.5, label=label)
 
 

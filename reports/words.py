@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from fctd.model.operations import OPERATION_NAMES
+from fctd.case.operations import KINDS
 
 # Endings of column names, longest first, so that ``_kN_m`` is not taken for metres.
 UNITS = {
@@ -53,7 +53,7 @@ def heading(column: str) -> tuple[str, str]:
 
 def name(identifier: str) -> str:
     """An operation in the driller's words; other names as they stand."""
-    return OPERATION_NAMES.get(identifier, identifier)
+    return KINDS[identifier].label if identifier in KINDS else identifier
 
 
 def number(value: float) -> str:

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fctd import plots
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
 from fctd.steady.equilibrium import Equilibrium, equilibrium
 from tests.cases import make_case, pipe
 

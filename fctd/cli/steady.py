@@ -14,7 +14,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from fctd.case.errors import InputError
-from fctd.case.load import KINDS, Case, check_bit_depth, naming_file
+from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.case.units import LENGTH, SPEED
 from fctd.cli.options import (
@@ -74,18 +75,24 @@ WORDS = {
     "von_mises_Pa": "von Mises stress",
 }
 
+
+def _defaults(rate: str) -> str:
+    """What a rate is by default, kind by kind."""
+    return ", ".join(f"{name} {getattr(kind, rate):g}" for name, kind in KINDS.items() if getattr(kind, rate))
+
+
 KIND_HELP = f"Kind of operation: {', '.join(KINDS)}"
 Speed = Annotated[
     str | None,
     typer.Option(
         "--speed",
         metavar="V",
-        help="Along the hole, '0.3 m/s'; else the case's, else 0.3 m/s tripping, 0.1 back-reaming, 0.003 drilling.",
+        help=f"Along the hole, '0.3 m/s'; else the case's, else {_defaults('default_speed')} m/s.",
     ),
 ]
 Rpm = Annotated[
     float | None,
-    typer.Option("--rpm", metavar="N", help="Rev/min; else the case's, else 60, drilling 120, tripping and sliding 0."),
+    typer.Option("--rpm", metavar="N", help=f"Rev/min; else the case's, else {_defaults('default_rpm')}."),
 ]
 Units = Annotated[System, typer.Option("--units", help="Units of tables, pictures and screen.")]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
-from fctd.case.load import DRILLING, Case, naming_file
+from fctd.case.load import Case, naming_file
 from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.faults import UnstableError, check
@@ -177,7 +177,7 @@ def _check_dynamic(case: Case) -> None:
     """Raise InputError for what only the steady solver knows: a bit on bottom, a bent housing."""
     steady = "(fctd equilibrium and fctd chart know more)"
     for i, operation in enumerate(case.operations):
-        if operation.kind in DRILLING:
+        if operation.on_bottom:
             raise InputError(
                 f"an operation off bottom to simulate {steady}", key=f"operations[{i}].kind", value=operation.kind
             )

@@ -11,7 +11,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd.case.load import DRILLING, Case, check_bit_depth, naming_file
+from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operations import KINDS
 from fctd.case.units import bare
 from fctd.mechanics import state
 from fctd.mechanics.contact import START_MD
@@ -166,7 +167,7 @@ class Solver:
         if self.work.segments < n:
             self.work = Workspace(n)
         pipe = fill(self.work.S, string, case)
-        on_bottom = operation in DRILLING
+        on_bottom = KINDS[operation].on_bottom
         weight_on_bit = case.bit.weight_on_bit if on_bottom else 0.0
         _, (downhole,) = hole.at(np.array([bit_depth]))
         push = [float(-weight_on_bit * d) for d in downhole]
@@ -297,7 +298,7 @@ def equilibrium(
     """The steady string of an operation with the bit at ``bit_depth`` [m].
 
     operation : a kind of operation.  speed [m/s], rpm : else those of the case's operation of that kind, else
-    ``operations.DEFAULT_RATES``.  Weight on bit and bit torque are the case's.  Raises InputError for input
+    the kind's defaults.  Weight on bit and bit torque are the case's.  Raises InputError for input
     that cannot be used; a string that finds no balance is told by ``status``.
     """
     with naming_file(case):

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import fctd
 from fctd.case.errors import InputError
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
 from fctd.cli.steady import MOST_DEPTHS, read_depths, stretches
 from tests.cli.test_main import run
 

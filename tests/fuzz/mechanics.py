@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, Equilibrium, SimulationResult, Wellbore, find_contacts
-from fctd.case.load import DRILLING
+from fctd.case.operations import KINDS
 from fctd.model.drillstring import String, lay_out
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import ANSWERED, SOUND
@@ -79,7 +79,7 @@ def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
         yield f"contact forces of {normal.sum():.6g} N in the profile, {point.total_contact_force:.6g} N in all"
     if (profile["von_mises_Pa"] < 0).any() or not profile["contact_angle_deg"].between(0, 360).all():
         yield "a stress below 0, or a contact angle beyond 0 to 360"
-    drilling = point.operation in DRILLING
+    drilling = KINDS[point.operation].on_bottom
     weight_on_bit, bit_torque = (case.bit.weight_on_bit, case.bit.torque) if drilling else (0.0, 0.0)
     if profile["effective_tension_N"].iloc[-1] != -weight_on_bit:
         yield f"a tension of {profile['effective_tension_N'].iloc[-1]} N at the bit"

@@ -6,7 +6,7 @@ from typing import Any
 import pandas as pd
 
 from fctd import torque_drag
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
 from fctd.steady.equilibrium import ANSWERED
 from validation.cases.wells import real_well
 from validation.harness.study import Check, Context, Outcome, Study
