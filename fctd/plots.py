@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
+from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
 from fctd.results.whole_file import whole_file
 from fctd.steady.equilibrium import Equilibrium
@@ -262,7 +263,7 @@ def _title(figure: Figure, text: str) -> None:
 def _handle(kind: str, status: str = "converged") -> Line2D:
     """The legend's line for an operation, with a status that is worth a word."""
     colour, marker = LOOKS[kind]
-    if status != "converged" and status not in FLAGS:
+    if not SteadyStatus(status).has_loads:
         return Line2D([], [], **LOST, label=f"{KINDS[kind].label}: no answer ({status})")
     label = KINDS[kind].label if status == "converged" else f"{KINDS[kind].label} ({status})"
     return Line2D([], [], color=colour, marker=marker, markersize=4.5, label=label)
@@ -272,5 +273,5 @@ def _flag_handles(statuses: "pd.Series[str]") -> list[Line2D]:
     """The legend's lines for statuses other than converged."""
     found = [str(status) for status in statuses.unique() if status != "converged"]
     handles = [Line2D([], [], color=QUIET, label=status, **FLAGS[status]) for status in found if status in FLAGS]
-    none = [status for status in found if status not in FLAGS]
+    none = [status for status in found if not SteadyStatus(status).has_loads]
     return handles + ([Line2D([], [], **LOST, label=f"no answer: {', '.join(none)}")] if none else [])

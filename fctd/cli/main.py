@@ -34,6 +34,7 @@ from fctd.cli.options import (
 )
 from fctd.cli.refine import refine_command
 from fctd.cli.steady import chart_command, equilibrium_command
+from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult, check_result_folder, own_files, result_files
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.run import LONGEST_SETTLING
@@ -101,17 +102,17 @@ def simulate_file(
         if result is not None:
             _summarise(result)
     print_written(written)
-    if result.status == "interrupted":
+    if result.status is RunStatus.INTERRUPTED:
         raise typer.Exit(INTERRUPTED)
-    if result.status != "completed":
+    if not result.status.acceptable:
         raise typer.Exit(FAILED)
 
 
 def _summarise(result: SimulationResult) -> None:
     """Print the state at the end and the numbers of the run."""
-    if result.message and result.status != "completed":
+    if result.message and not result.status.acceptable:
         print_status(result.status, result.message)
-    print_notes(note for note in result.notes if str(note) != result.message or result.status == "completed")
+    print_notes(note for note in result.notes if str(note) != result.message or result.status.acceptable)
     if len(result.history):
         last = result.history.iloc[-1]
         name = printable(result.case.name)

@@ -74,7 +74,7 @@ def refine_command(
         refined = refine(
             case, share, operations or None, depth, graded, most, **read_drive(speed, rpm), progress=status.update
         )
-    target = out if refined.status != "no_answer" else None
+    target = out if refined.status.has_loads else None
     try:  # the file first, since whoever reads the screen may close it; the screen also where the file fails
         if target is not None:
             changes = dict(parse_override(text) for text in overrides)
@@ -87,7 +87,7 @@ def refine_command(
         print_written([target])
     elif out is not None:
         messages.print("Nothing is written: no string has an answer.")
-    if refined.status != "within_tolerance":
+    if not refined.status.acceptable:
         raise typer.Exit(FAILED)
 
 
@@ -119,7 +119,7 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
             table.add_row(name, kind, *loads, f"{1e3 * row['time_s']:.0f}")
             name = ""
     screen.print(table)
-    if refined.status == "within_tolerance":
+    if refined.status.acceptable:
         cut = f"{refined.layout} segments" if graded else "segments"
         screen.print(
             f"{refined.segments} {cut}, from {refined.shortest * metre.factor:.3g} {metre.label} up: an error of "

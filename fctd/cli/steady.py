@@ -36,9 +36,10 @@ from fctd.cli.options import (
 )
 from fctd.model.operations import rates_of_all
 from fctd.results.notes import MEANINGS, as_metadata, meanings_of
+from fctd.results.status import SteadyStatus
 from fctd.results.tables import versions, write_table
 from fctd.results.unit_systems import System, in_field_units, shown
-from fctd.steady.equilibrium import SOUND, Equilibrium, Solver, equilibrium
+from fctd.steady.equilibrium import Equilibrium, Solver, equilibrium
 from fctd.steady.torque_drag import torque_drag, with_friction
 
 TABLES, PICTURES = (".csv", ".parquet"), (".png", ".svg")
@@ -124,7 +125,8 @@ def equilibrium_command(
     refuse_sources(case, out, "--out")
     refuse_sources(case, plot, "--plot")
     depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
-    _check_in_hole(case, [depth], "--bit-depth", bit_depth)
+    with naming_file(case):
+        check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
     drive = read_drive(speed, rpm)
     point = equilibrium(case, operation, depth, **drive)
     written = []
@@ -141,7 +143,7 @@ def equilibrium_command(
     if not point.answered and (out is not None or plot is not None):
         messages.print("Nothing is written: without a balance there is no profile.")
     print_written(written)
-    if point.status not in SOUND:
+    if not point.status.acceptable:
         raise typer.Exit(FAILED)
 
 
@@ -163,7 +165,8 @@ def chart_command(
     out: Annotated[Path | None, _file("--out", "The chart, a row for every string, .csv or .parquet.")] = None,
     plot: Annotated[Path | None, _file("--plot", "Hook load and torque against depth, .png or .svg.")] = None,
     plot_profile: Annotated[
-        Path | None, _file("--plot-profile", "Profiles at the last depth, first friction factor, .png or .svg.")
+        Path | None,
+        _file("--plot-profile", "Profiles at the last possible depth, first friction factor, .png or .svg."),
     ] = None,
     units: Units = "si",
     quiet: Quiet = False,
@@ -175,7 +178,6 @@ def chart_command(
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key)
     bit_depths = read_depths(depths)
-    _check_in_hole(case, bit_depths, "--depths", depths)
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
     factors = list(dict.fromkeys(frictions))
     drive = read_drive(speed, rpm)
@@ -199,12 +201,14 @@ def chart_command(
         if plots is not None and plot_profile is not None:
             one = with_friction(case, factors[0]) if factors else case
             solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
-            points = [solver.solve(kind, rates[kind], bit_depths[-1]) for kind in kinds]
+            # At the last depth at which string and hole fit.
+            last = chart.loc[chart["status"] != SteadyStatus.NOT_POSSIBLE, "bit_depth_m"].max()
+            points = [solver.solve(kind, rates[kind], float(last)) for kind in kinds]
             written += plots.save(plots.profile_figure(points, units), plot_profile)
     finally:
         _print_chart(chart, case.name, units)
     print_written(written)
-    if not chart["status"].isin(SOUND).all():
+    if not all(SteadyStatus(status).acceptable for status in chart["status"]):
         raise typer.Exit(FAILED)
 
 
@@ -226,13 +230,6 @@ def read_depths(text: str) -> list[float]:
 def read_drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
     """Rates as they were asked for: speed [m/s], rpm, None where the case decides."""
     return {"speed": None if speed is None else read_quantity(speed, SPEED, "--speed"), "rpm": rpm}
-
-
-def _check_in_hole(case: Case, depths: Sequence[float], key: str, text: str) -> None:
-    """Refuse bit depths outside the hole, before the first is solved."""
-    for depth in (depths[0], depths[-1]):
-        with naming_file(case):
-            check_bit_depth(depth, *case.depths, key, text)
 
 
 def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
@@ -345,7 +342,12 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
 def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
     """The runs of rows of one series that are not converged, and those with the same note, a line each."""
     depths = rows["bit_depth_m"] * factor
-    lines = [f"{status} at {where}" for status, where in _runs(rows["status"], depths, label) if status != "converged"]
+    reasons = dict(zip(rows["status"], rows["reason"], strict=True))  # the last, at the greatest depth, of each status
+    lines = [
+        f"{status} at {where}: {reasons[status]}"
+        for status, where in _runs(rows["status"], depths, label)
+        if status != SteadyStatus.CONVERGED
+    ]
     for code, meaning in MEANINGS.items():
         noted = rows["notes"].str.split(", ").map(lambda codes, code=code: code in codes)
         lines += [

@@ -13,6 +13,7 @@ from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
 from fctd.model.operations import Phase
 from fctd.results import notes
+from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.recorder import Recorder
@@ -44,10 +45,10 @@ def simulate(
     try:
         residual = settle(run, progress=settling)
     except UnstableError as error:
-        return Recorder(run).result("unsettled", f"before the start: {error}", 0.0, float("nan"))
+        return Recorder(run).result(RunStatus.UNSETTLED, f"before the start: {error}", 0.0, float("nan"))
     start_from_rest(run)
     recorder = Recorder(run)
-    status, message = "completed", ""
+    status, message = RunStatus.COMPLETED, ""
     total = sum(s.motion.duration for s in phases)
     began = time.perf_counter()
     try:
@@ -62,15 +63,15 @@ def simulate(
                     progress(now, total, now / max(time.perf_counter() - began, 1e-9))
         _check_fed(run, phases)
     except UnstableError as error:
-        status, message = "unstable", f"at {run.top[topdrive.TOP_TIME]:.4g} s: {error}"
+        status, message = RunStatus.UNSTABLE, f"at {run.top[topdrive.TOP_TIME]:.4g} s: {error}"
     except KeyboardInterrupt:
-        status, message = "interrupted", f"at {run.top[topdrive.TOP_TIME]:.4g} s"
+        status, message = RunStatus.INTERRUPTED, f"at {run.top[topdrive.TOP_TIME]:.4g} s"
         if run.top[topdrive.TOP_TIME] > recorder.last_time:  # a part of a record interval
             run.refresh()
             recorder.record(operation)
     wall = time.perf_counter() - began
     result = recorder.result(status, message, wall, residual)
-    return _finished(result, run, phases) if status == "completed" else result
+    return _finished(result, run, phases) if status.acceptable else result
 
 
 def _check_fed(run: Run, phases: list[Phase]) -> None:
@@ -94,7 +95,7 @@ def _finished(result: SimulationResult, run: Run, phases: list[Phase]) -> Simula
     ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
     found = tuple(note for note in (ledger, ringing, *result.notes) if note is not None)
     if ledger is not None and not error <= notes.INACCURATE:
-        return replace(result, status="inaccurate", message=str(ledger), notes=found)
+        return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
     return replace(result, message="; ".join(map(str, found)), notes=found)
 
 

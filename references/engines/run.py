@@ -13,6 +13,7 @@ from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
 from fctd.model.operations import Phase
+from fctd.results.status import RunStatus
 from fctd.simulation.recorder import LOSSES, Recorder
 from fctd.simulation.run import Run, prepare, settle, start_from_rest
 from references.engines import EngineRun, Stepper, Window
@@ -81,7 +82,7 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     finally:
         stepper.close()
     wall = time.perf_counter() - began
-    result = recorder.result("", "", wall, 0.0)
+    result = recorder.result(RunStatus.COMPLETED, "", wall, 0.0)
     ledger = _ledger(result.energy, held)
     checks = examine(run, window.start, result.history, result.profile, ledger, broken)
     failed = [f"{row.check} ({row.value:.3g}, at most {row.bound:g})" for row in checks.itertuples() if not row.passed]
