@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
+from fctd.results.columns import COLUMNS, DEPTH
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
 from fctd.results.whole_file import whole_file
@@ -75,7 +76,7 @@ FLAGS: dict[str, dict[str, Any]] = {
     "unstable": {"marker": "o", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
 }
 LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": QUIET}
-# The panels of a profile, and what they and those of a chart are called.
+# The panels of a profile.
 TRACKS = (
     "inclination_deg",
     "effective_tension_N",
@@ -86,19 +87,6 @@ TRACKS = (
     "offset_high_m",
     "offset_right_m",
 )
-OFFSETS = ("offset_high_m", "offset_right_m")
-LABELS = {
-    "inclination_deg": "inclination",
-    "effective_tension_N": "effective tension",
-    "torque_N_m": "torque",
-    "contact_force_N": "side force at a contact",
-    "bending_moment_N_m": "bending moment",
-    "von_mises_Pa": "von Mises stress",
-    "offset_high_m": "low | offset | high",
-    "offset_right_m": "left | offset | right",
-    "hookload_N": "hook load",
-    "surface_torque_N_m": "surface torque",
-}
 LIMITS: dict[str, Any] = {"sinusoidal": (0, (4, 2)), "helical": (0, (1, 1.2))}
 BUCKLED: dict[str, dict[str, Any]] = {
     "sinusoidal": {"marker": "o", "linestyle": "none", "color": "#E69F00", "markersize": 4},
@@ -129,7 +117,7 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> 
                 for place, (kind, rows) in enumerate(fan.groupby("operation", sort=False)):
                     _series(ax, rows, column, str(kind), DASHES[k % len(DASHES)], units, place)
             _label(ax, column, units)
-        panels[0].set_ylabel(f"bit depth, {shown('bit_depth_m', units).label}")
+        panels[0].set_ylabel(f"{DEPTH.label}, {shown(DEPTH.name, units).label}")
         panels[0].invert_yaxis()
         handles = [_handle(kind) for kind in LOOKS if kind in set(chart["operation"])]
         figure.legend(handles=handles, loc="outside lower left", ncols=2)
@@ -163,7 +151,7 @@ def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figur
             _label(ax, column, units)
         if answers:
             _limits(panels[TRACKS.index("effective_tension_N")], [point.profile for point in answers], units)
-        panels[0].set_ylabel(f"measured depth, {shown('md_m', units).label}")
+        panels[0].set_ylabel(f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}")
         panels[0].invert_yaxis()
         handles = [_handle(point.operation, point.status) for point in points]
         handles += [
@@ -216,7 +204,7 @@ def _track(ax: Axes, point: Equilibrium, column: str, units: System, *, alone: b
         touching = value > 0
         ax.plot(value[touching], md[touching], color=colour, marker=marker, linestyle="none", markersize=3)
         return set()
-    if column in OFFSETS:
+    if COLUMNS[column].across:
         clearance = profile["clearance_m"].to_numpy(float) * factor
         ax.fill_betweenx(md, -clearance, clearance, color=SHADE, linewidth=0, zorder=0)
     ax.plot(value, md, color=colour, marker=marker, markevery=max(len(md) // MARKS, 1), markersize=4, linewidth=1.2)
@@ -248,7 +236,8 @@ def _limits(ax: Axes, profiles: Sequence[pd.DataFrame], units: System) -> None:
 def _label(ax: Axes, column: str, units: System) -> None:
     """Name and unit below an axis whose few ticks leave room for the next one's."""
     unit = shown(column, units).label
-    ax.set_xlabel(f"{LABELS[column]},\n{unit}" if column in TRACKS else f"{LABELS[column]}, {unit}")
+    label = COLUMNS[column].label
+    ax.set_xlabel(f"{label},\n{unit}" if column in TRACKS else f"{label}, {unit}")
     left, right = ax.get_xlim()
     if right - left < NOISE:
         ax.set_xlim(-1, 1)

@@ -34,8 +34,10 @@ from fctd.cli.options import (
 )
 from fctd.cli.refine import refine_command
 from fctd.cli.steady import chart_command, equilibrium_command
+from fctd.results.columns import COLUMNS
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult, check_result_folder, own_files, result_files
+from fctd.results.unit_systems import shown
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.run import LONGEST_SETTLING
 from fctd.simulation.simulate import simulate
@@ -117,15 +119,13 @@ def _summarise(result: SimulationResult) -> None:
         last = result.history.iloc[-1]
         name = printable(result.case.name)
         table = Table(title=f"{name}: {last['operation']}, bit at {last['bit_depth_m']:.1f} m")
-        for heading in ("hook load kN", "surface torque kN·m", "Σ r μ F_n kN·m", "contact force kN", "contacts"):
-            table.add_column(heading, justify="right")
-        table.add_row(
-            f"{last['hookload_N'] / 1e3:.1f}",
-            f"{last['surface_torque_N_m'] / 1e3:.3f}",
-            f"{last['sum_r_mu_fn_N_m'] / 1e3:.3f}",
-            f"{last['total_contact_force_N'] / 1e3:.1f}",
-            f"{last['contact_count']}",
-        )
+        cells = []
+        for name in ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "total_contact_force_N"):
+            column, unit = COLUMNS[name], shown(name, "si")
+            table.add_column(f"{column.label} {unit.label}", justify="right")
+            cells.append(f"{last[name] * unit.factor:.{column.digits}f}")
+        table.add_column("contacts", justify="right")
+        table.add_row(*cells, f"{last['contact_count']}")
         screen.print(table)
     run = result.run
     screen.print(

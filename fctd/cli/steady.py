@@ -35,6 +35,7 @@ from fctd.cli.options import (
     screen,
 )
 from fctd.model.operations import rates_of_all
+from fctd.results.columns import COLUMNS, DEPTH, IN_CHART, LOADS
 from fctd.results.notes import MEANINGS, as_metadata, meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.results.tables import versions, write_table
@@ -45,36 +46,8 @@ from fctd.steady.torque_drag import torque_drag, with_friction
 TABLES, PICTURES = (".csv", ".parquet"), (".png", ".svg")
 MOST_DEPTHS = 10_000  # more is a slip in the step
 SCREEN_ROWS = 36
-# Columns of a chart on the screen: heading, and digits after the point.
-CHART_SHOWS = {
-    "bit_depth_m": ("bit", 1),
-    "hookload_N": ("hook load", 1),
-    "surface_torque_N_m": ("torque", 3),
-    "total_contact_force_N": ("Σ F_n", 1),
-}
-# What a string is asked for: attributes of Equilibrium by the name of their column.
-LOADS = {
-    "hookload_N": "hookload",
-    "surface_torque_N_m": "surface_torque",
-    "weight_indicator_N": "weight_indicator",
-    "drive_torque_N_m": "drive_torque",
-    "total_contact_force_N": "total_contact_force",
-    "sum_r_ft_N_m": "sum_r_ft",
-    "sum_r_mu_fn_N_m": "sum_r_mu_fn",
-}
-WORDS = {
-    "bit_depth_m": "bit depth",
-    "hookload_N": "hook load",
-    "surface_torque_N_m": "surface torque",
-    "weight_indicator_N": "weight indicator",
-    "drive_torque_N_m": "drive torque",
-    "total_contact_force_N": "contact force, all",
-    "sum_r_ft_N_m": "Σ r F_t",
-    "sum_r_mu_fn_N_m": "Σ r μ F_n",
-    "effective_tension_N": "effective tension",
-    "contact_force_N": "contact force",
-    "von_mises_Pa": "von Mises stress",
-}
+# Columns of a chart on the screen.
+SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
 
 
 def _defaults(rate: str) -> str:
@@ -267,7 +240,7 @@ def _metadata(case: Case, units: System, kinds: Sequence[str], drive: Mapping[st
 
 def _loads(point: Equilibrium) -> dict[str, float]:
     """Loads of a point by column name."""
-    return {name: getattr(point, attribute) for name, attribute in LOADS.items()}
+    return {load.name: load.value(point) for load in LOADS}
 
 
 def _print_point(point: Equilibrium, units: System) -> None:
@@ -279,13 +252,13 @@ def _print_point(point: Equilibrium, units: System) -> None:
     for name, value in _loads(point).items():
         unit = shown(name, units)
         text = f"{value * unit.factor:z.3f}" if point.answered else "–"
-        table.add_row(WORDS[name], text, unit.label)
+        table.add_row(COLUMNS[name].label, text, unit.label)
     if point.answered:
         profile = point.profile
         for name, worst in (("effective_tension_N", "min"), ("contact_force_N", "max"), ("von_mises_Pa", "max")):
             unit, row = shown(name, units), profile.loc[profile[name].agg(f"idx{worst}")]
             where = f"at {row['md_m'] * metre.factor:.0f} {metre.label}"
-            table.add_row(f"{worst}. {WORDS[name]}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
+            table.add_row(f"{worst}. {COLUMNS[name].label}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
         for mode in ("sinusoidal", "helical"):
             for first, last in stretches(profile, mode):
                 where = f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"
@@ -310,13 +283,13 @@ def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
 
 def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     """Print a table that fits the screen, and every row that is more than a converged number."""
-    units_of = {column: shown(column, units) for column in CHART_SHOWS}
+    units_of = {column.name: shown(column.name, units) for column in SHOWN}
     screen.print(printable(name), style="bold")
     table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
     for heading in ("operation", "μ"):
         table.add_column(heading, no_wrap=True)
-    for column, (heading, _) in CHART_SHOWS.items():
-        table.add_column(f"{heading}\n{units_of[column].label}", justify="right", overflow="fold")
+    for column in SHOWN:
+        table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
     table.add_column("status", overflow="fold")
     series = list(chart.groupby(["operation", "friction"], sort=False, dropna=False))
     each = max(SCREEN_ROWS // len(series), 1)
@@ -325,8 +298,8 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
         picked = np.unique(np.linspace(len(rows) - 1, 0, min(each, len(rows))).round().astype(int))
         for k, row in enumerate(rows.iloc[picked].to_dict("records")):
             values = [
-                "–" if np.isnan(row[column]) else f"{row[column] * units_of[column].factor:z.{digits}f}"
-                for column, (_, digits) in CHART_SHOWS.items()
+                "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
+                for name, digits in ((column.name, column.digits) for column in SHOWN)
             ]
             names = ("", "") if k else (str(operation), _factor(friction))
             table.add_row(*names, *values, row["status"])

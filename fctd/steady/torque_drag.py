@@ -9,6 +9,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.units import FRICTION, bare
 from fctd.model.operations import rates_of_all
+from fctd.results.columns import IN_CHART
 from fctd.results.notes import codes_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Equilibrium, Solver
@@ -30,11 +31,11 @@ def torque_drag(
 
     operation : kind or kinds; bit_depths [m] : rising; friction : kinetic factor or factors for every interval
     in turn, None for the case's own.  speed [m/s], rpm : as of ``equilibrium``, for the kinds that have them.
-    Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, hookload_N,
-    surface_torque_N_m, weight_indicator_N, drive_torque_N_m, total_contact_force_N, status (of ``SteadyStatus``),
-    iterations, notes (codes of ``notes.MEANINGS``, or none), reason (of a status that is not converged, or none).  A
-    row without an answer (status) has NaN for its loads; at a depth where string and hole do not fit it is
-    ``not_possible``.  Raises InputError for what cannot be used, and where they fit at none of the depths.
+    Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, the loads of
+    ``columns.IN_CHART`` (hookload_N and so on), status (of ``SteadyStatus``), iterations, notes (codes of
+    ``notes.MEANINGS``, or none), reason (of a status that is not converged, or none).  A row without an answer (status)
+    has NaN for its loads; at a depth where string and hole do not fit it is ``not_possible``.  Raises InputError for
+    what cannot be used, and where string and hole fit at none of the depths.
     """
     with naming_file(case):
         depths = _check_depths(bit_depths)
@@ -85,20 +86,13 @@ def _misfits(solver: Solver, depths: Sequence[float]) -> dict[float, str]:
 def _row(case: Case, kind: str, depth: float, point: Equilibrium | None, misfit: str | None) -> dict[str, object]:
     """A row of a string that was solved, or of a depth where there is none."""
     answer = point if point is not None and point.answered else None
-
-    def load(name: str) -> float:
-        # What an unfinished iteration left there is no load.
-        return float("nan") if answer is None else getattr(answer, name)
-
+    # What an unfinished iteration left there is no load.
+    loads = {load.name: float("nan") if answer is None else load.value(answer) for load in IN_CHART}
     return {
         "operation": kind,
         "friction": own_friction(case),
         "bit_depth_m": depth,
-        "hookload_N": load("hookload"),
-        "surface_torque_N_m": load("surface_torque"),
-        "weight_indicator_N": load("weight_indicator"),
-        "drive_torque_N_m": load("drive_torque"),
-        "total_contact_force_N": load("total_contact_force"),
+        **loads,
         "status": str(SteadyStatus.NOT_POSSIBLE if point is None else point.status),
         "iterations": 0 if point is None else point.iterations,
         "notes": codes_of(() if point is None else point.notes),
