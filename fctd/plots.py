@@ -13,7 +13,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
 from matplotlib.ticker import MaxNLocator
 from matplotlib.typing import RcKeyType
 from numpy.typing import NDArray
@@ -21,6 +23,7 @@ from numpy.typing import NDArray
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.results.columns import COLUMNS, DEPTH
+from fctd.results.notes import meanings_of, worst
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
 from fctd.results.whole_file import whole_file
@@ -93,6 +96,7 @@ BUCKLED: dict[str, dict[str, Any]] = {
     "helical": {"marker": "X", "linestyle": "none", "color": "#A00000", "markersize": 5},
 }
 NOISE = 1e-6  # an axis that spans less shows zeros
+NOTE_LINE = 0.14  # height of a line of small type [in]
 MARKS = 8  # about as many markers on a line
 
 
@@ -106,7 +110,8 @@ def save(figure: Figure, path: Path) -> list[Path]:
 def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> Figure:
     """Hook load (the broomstick) and torque against bit depth: a line per operation and friction factor.
 
-    chart : as of ``fctd.torque_drag``, SI.  Rows without an answer are crossed where their line is broken.
+    chart : as of ``fctd.torque_drag``, SI.  Rows without an answer are crossed where their line is broken; notes stand
+    below the title.
     """
     factors = [float(factor) for factor in chart["friction"].unique()]
     with mpl.rc_context(RC):
@@ -128,7 +133,11 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> 
         figure.legend(handles=handles + _flag_handles(chart["status"]), loc="outside lower right", ncols=2)
         one = len(factors) == 1 and np.isfinite(factors[0])
         words = [title] if title else []
-        _title(figure, ", ".join([*words, f"friction factor {factors[0]:g}"] if one else words))
+        _title(
+            figure,
+            ", ".join([*words, f"friction factor {factors[0]:g}"] if one else words),
+            [f"{code}: {meaning['headline']}" for code, meaning in meanings_of(chart.get("notes", ())).items()],
+        )
         return figure
 
 
@@ -162,7 +171,11 @@ def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figur
         depth = shown("bit_depth_m", units)
         friction = own_friction(points[0].case)
         rubs = "" if np.isnan(friction) else f", friction factor {friction:g}"
-        _title(figure, f"{points[0].case.name}, bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}{rubs}")
+        _title(
+            figure,
+            f"{points[0].case.name}, bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}{rubs}",
+            [f"{note.code}: {note.text}" for note in worst(note for point in answers for note in point.notes)],
+        )
         return figure
 
 
@@ -244,9 +257,17 @@ def _label(ax: Axes, column: str, units: System) -> None:
     ax.xaxis.set_major_locator(MaxNLocator(3 if column in TRACKS else 6))
 
 
-def _title(figure: Figure, text: str) -> None:
-    """A heading; what a case is called is no formula."""
-    figure.suptitle(printable(text), parse_math=False, x=0.01, ha="left", fontsize=10.5, fontweight="bold")
+def _title(figure: Figure, text: str, notes: Sequence[str]) -> None:
+    """A heading, and the notes in small type below it; what a case is called is no formula."""
+    heading = figure.suptitle(printable(text), parse_math=False, x=0.01, ha="left", fontsize=10.5, fontweight="bold")
+    layout = figure.get_layout_engine()
+    if notes and isinstance(layout, ConstrainedLayoutEngine):
+        # The layout makes room for the heading only.
+        layout.set(rect=(0, 0, 1, 1 - len(notes) * NOTE_LINE / figure.get_figheight()))
+        lines = "\n".join(f"note {printable(note)}" for note in notes)
+        small = Annotation(lines, (0, 0), xycoords=heading, va="top", fontsize=7.5, color=QUIET, parse_math=False)
+        small.set_in_layout(False)
+        figure.add_artist(small)
 
 
 def _handle(kind: str, status: str = "converged") -> Line2D:

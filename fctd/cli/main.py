@@ -16,7 +16,6 @@ from fctd.cli.compile import compile_command, telling
 from fctd.cli.interrupts import as_interrupts
 from fctd.cli.options import (
     BAD_INPUT,
-    FAILED,
     INTERRUPTED,
     CaseFile,
     Csv,
@@ -24,6 +23,8 @@ from fctd.cli.options import (
     Out,
     Overrides,
     Quiet,
+    Strict,
+    finish,
     messages,
     print_notes,
     print_status,
@@ -58,9 +59,10 @@ def simulate_command(
     friction: Friction = None,
     csv: Csv = False,
     quiet: Quiet = False,
+    strict: Strict = False,
 ) -> None:
     """Run the operations of a case and write history, profile and energy tables."""
-    simulate_file(case_file, out, overrides, friction, csv, quiet)
+    simulate_file(case_file, out, overrides, friction, csv, quiet, strict=strict)
 
 
 def simulate_file(
@@ -71,6 +73,8 @@ def simulate_file(
     csv: bool,
     quiet: bool,
     contact: Callable[[Case], WallQuery] | None = None,
+    *,
+    strict: bool = False,
 ) -> None:
     """What ``simulate`` does; ``contact`` builds another contact method for the case (see fctd.simulate)."""
     case = read_case(case_file, overrides, friction)
@@ -106,8 +110,7 @@ def simulate_file(
     print_written(written)
     if result.status is RunStatus.INTERRUPTED:
         raise typer.Exit(INTERRUPTED)
-    if not result.status.acceptable:
-        raise typer.Exit(FAILED)
+    finish(result.status.acceptable, (note.code for note in result.notes), strict)
 
 
 def _summarise(result: SimulationResult) -> None:

@@ -12,13 +12,15 @@ from fctd.case.load import parse_override
 from fctd.case.text import printable
 from fctd.case.units import LENGTH
 from fctd.cli.options import (
-    FAILED,
     CaseFile,
     Friction,
     Overrides,
     Quiet,
+    Strict,
     check_target,
+    finish,
     messages,
+    print_notes,
     print_status,
     print_written,
     read_case,
@@ -59,6 +61,7 @@ def refine_command(
     ] = None,
     units: Units = "si",
     quiet: Quiet = False,
+    strict: Strict = False,
 ) -> None:
     """Cut the string of a case finer until hook load and torque no longer change, and say what error is left."""
     check_target(out, "--out", (".toml",))
@@ -87,8 +90,7 @@ def refine_command(
         print_written([target])
     elif out is not None:
         messages.print("Nothing is written: no string has an answer.")
-    if not refined.status.acceptable:
-        raise typer.Exit(FAILED)
+    finish(refined.status.acceptable, (note.code for note in refined.notes), strict)
 
 
 def _print(refined: Refinement, graded: bool, units: System) -> None:
@@ -130,6 +132,7 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
             screen.print("Grading would not save a tenth of them.", soft_wrap=True)
     else:
         print_status(refined.status, refined.message)
+    print_notes(refined.notes)
 
 
 def _percent(share: float) -> str:

@@ -19,12 +19,13 @@ from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.case.units import LENGTH, SPEED
 from fctd.cli.options import (
-    FAILED,
     CaseFile,
     Friction,
     Overrides,
     Quiet,
+    Strict,
     check_target,
+    finish,
     messages,
     print_notes,
     print_status,
@@ -87,6 +88,7 @@ def equilibrium_command(
     out: Annotated[Path | None, _file("--out", "Profile of the string, .csv or .parquet.")] = None,
     plot: Annotated[Path | None, _file("--plot", "Picture of the profile, .png or .svg.")] = None,
     units: Units = "si",
+    strict: Strict = False,
 ) -> None:
     """Find the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
     check_target(out, "--out", TABLES)
@@ -116,8 +118,7 @@ def equilibrium_command(
     if not point.answered and (out is not None or plot is not None):
         messages.print("Nothing is written: without a balance there is no profile.")
     print_written(written)
-    if not point.status.acceptable:
-        raise typer.Exit(FAILED)
+    finish(point.status.acceptable, (note.code for note in point.notes), strict)
 
 
 def chart_command(
@@ -143,6 +144,7 @@ def chart_command(
     ] = None,
     units: Units = "si",
     quiet: Quiet = False,
+    strict: Strict = False,
 ) -> None:
     """Draw up a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
     check_target(out, "--out", TABLES)
@@ -181,8 +183,8 @@ def chart_command(
     finally:
         _print_chart(chart, case.name, units)
     print_written(written)
-    if not all(SteadyStatus(status).acceptable for status in chart["status"]):
-        raise typer.Exit(FAILED)
+    acceptable = all(SteadyStatus(status).acceptable for status in chart["status"])
+    finish(acceptable, meanings_of(chart["notes"]), strict)
 
 
 def read_depths(text: str) -> list[float]:

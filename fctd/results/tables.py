@@ -22,7 +22,7 @@ import pyarrow.parquet as pq
 from fctd.case.errors import InputError
 from fctd.case.input_file import check_regular
 from fctd.case.load import Case
-from fctd.results.notes import Note, as_metadata
+from fctd.results.notes import Note, as_metadata, from_metadata
 from fctd.results.status import RunStatus
 from fctd.results.whole_file import check_file, left_overs, whole_file
 from fctd.results.whole_folder import PAUSE, check_folder, repair, whole_folder
@@ -148,9 +148,15 @@ def _read(folder: Path) -> SimulationResult:
         case = Case.model_validate_json(origin[b"case"])
         status, message, run = (origin[key].decode() for key in (b"status", b"message", b"run"))
         return SimulationResult(
-            case, RunStatus(status), message, **tables, run=json.loads(run), identity=runs["history"]
+            case,
+            RunStatus(status),
+            message,
+            **tables,
+            run=json.loads(run),
+            notes=from_metadata(json.loads(origin[b"notes"])),
+            identity=runs["history"],
         )
-    except (KeyError, ValueError) as error:
+    except (KeyError, TypeError, ValueError) as error:
         expected = f"the metadata that fctd simulate writes ({type(error).__name__}: {error})"
         raise InputError(expected, value=folder / "history.parquet") from error
 

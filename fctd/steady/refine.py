@@ -25,6 +25,7 @@ from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import layouts, survey
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.results.notes import Note, worst
 from fctd.results.status import RefineStatus
 from fctd.steady.equilibrium import Equilibrium, Solver
 
@@ -58,6 +59,7 @@ class Refinement:
     steps : a row per stage, layout, level and operation; columns stage, layout, level, operation, segments,
     shortest_m, chord_m (the most a cylinder misses the hole by), hookload_N, surface_torque_N_m, hookload_change,
     torque_change, hookload_error, torque_error (all relative; NaN where there is none yet), status, time_s.
+    notes : on the last strings that have answers, each code once.
     """
 
     status: RefineStatus
@@ -71,6 +73,7 @@ class Refinement:
     segments: int
     shortest: float
     steps: pd.DataFrame
+    notes: tuple[Note, ...] = ()
 
 
 def refine(
@@ -254,13 +257,14 @@ def _result(
     """What the levels come to."""
     answered = [k for k, level in enumerate(strings) if level.answered]
     steps = pd.DataFrame(_rows(task, holes) + _rows(task, strings))
+    notes = worst(note for point in (strings[answered[-1]].points if answered else []) for note in point.notes)
 
     def finish(
         status: RefineStatus, message: str, of: Case, error: float, segments: int, shortest: float
     ) -> Refinement:
         return Refinement(
             status, message, of, tuple(task.rates), task.bit_depth, tolerance, error, strings[0].layout, segments,
-            shortest, steps,
+            shortest, steps, notes,
         )  # fmt: skip
 
     if not answered:
