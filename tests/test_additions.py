@@ -1,4 +1,4 @@
-"""What is written once is added once: a result column by one line, in a copy of the package."""
+"""What is written once is added once, in a copy of the package: a column by a line, a law by a file and a line."""
 
 import os
 import shutil
@@ -72,3 +72,72 @@ def test_a_result_column_is_one_line(copy: Path) -> None:
     assert "spare pull" in fctd(
         copy, STORE.folder, "equilibrium", "well.toml", "--operation", "trip_out", "--bit-depth", "800"
     )
+
+
+VISCOUS = '''"""Law ``viscous``: a drag along the axis and a couple about it that grow with the speed at the wall."""
+
+from fctd.mechanics.friction import Law
+from fctd.mechanics.jit import inlined
+from fctd.mechanics.state import INVERSE_JA, INVERSE_MASS, RADIUS
+
+PER_SPEED = 0.5  # share of the limit for each metre per second
+
+
+@inlined
+def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
+    r = S[RADIUS + j]
+    k, q = PER_SPEED * limit * S[INVERSE_MASS + j], PER_SPEED * limit * r * r * S[INVERSE_JA + j]
+    return 0.0 * w, 0.0 * w, -w * k / (1 + k), 0.0 * w, 0.0 * w, -c * q / (1 + q)
+
+
+@inlined
+def steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
+    drag, torque = -PER_SPEED * limit * speed, -PER_SPEED * limit * radius * radius * spin
+    return drag * ax, drag * ay, drag * az, torque * ax, torque * ay, torque * az, torque
+
+
+@inlined
+def shares(speed, turning):
+    return PER_SPEED * speed, PER_SPEED * turning, 0.0
+
+
+LAW = Law("viscous", impulse, steady_load, shares)
+'''
+RUN = """
+import fctd
+
+case = fctd.load_case("well.toml", {"contact.friction_law": "viscous"})
+run = fctd.simulate(case)
+assert run.status == "completed", run.message
+end = run.history.iloc[-1]
+print(end["hookload_N"], end["surface_torque_N_m"])
+for rpm in (30, 60):
+    point = fctd.equilibrium(case, "rotate_off_bottom", 700.0, rpm=rpm)
+    assert point.status == "converged"
+    print(point.hookload, point.surface_torque)
+"""
+ROTATE = '[[operations]]\nkind = "rotate_off_bottom"\nat_md = 700\nduration = 60\nrpm = 60\nramp_time = 5\n'
+
+
+def test_a_friction_law_is_one_file_and_one_line(copy: Path) -> None:
+    """A case may name it; stepper and steady solver agree on its torque, which is proportional to the rotation."""
+    laws = copy / "fctd" / "mechanics" / "laws"
+    (laws / "viscous.py").write_text(VISCOUS)
+    add_line(
+        laws / "__init__.py",
+        "from fctd.mechanics.laws.paper import LAW as PAPER  # noqa: F401",
+        "from fctd.mechanics.laws.viscous import LAW as VISCOUS",
+    )
+    (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 70") + ROTATE)
+    assert STORE.folder is not None
+    # The cache of the copy is that of its sources, and outlives the test.
+    environment = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
+    environment |= {"PYTHONPATH": str(copy), "XDG_CACHE_HOME": str(STORE.folder)}
+    done = subprocess.run(
+        [sys.executable, "-c", RUN], cwd=copy, env=environment, capture_output=True, text=True
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    moved, slow, fast = ([float(part) for part in line.split()] for line in done.stdout.splitlines())
+    assert fast[1] == pytest.approx(2 * slow[1], rel=1e-6)
+    assert slow[1] > 100
+    assert moved == pytest.approx(fast, rel=1e-2)

@@ -12,6 +12,7 @@ from fctd.case.load import Case, naming_file
 from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.faults import UnstableError, check
+from fctd.mechanics.laws import CODES
 from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.mechanics.topdrive import Motion, PerMetre
@@ -133,7 +134,7 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     phases = schedule(case.operations)
     laws = state.Laws(
         geometry=hole.geometry if case.contact.enabled else state.OPEN,
-        friction=state.PAPER if case.contact.friction_law == "paper" else state.COULOMB,
+        friction=CODES[case.contact.friction_law],
         friction_scale=1.0,
         contact_damping=case.contact.damping,
         joint_damping=case.solver.joint_damping,

@@ -16,6 +16,7 @@ from fctd.case.operations import KINDS
 from fctd.case.units import bare
 from fctd.mechanics import state
 from fctd.mechanics.contact import START_MD
+from fctd.mechanics.laws import CODES
 from fctd.model.drillstring import String, check_fit, fill, lay_out
 from fctd.model.operations import SteadyRates, sensors, steady_rates
 from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
@@ -148,7 +149,7 @@ class Solver:
         self.hole = build_wellbore(case)
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
-        self.law = state.PAPER if case.contact.friction_law == "paper" else state.COULOMB
+        self.law = CODES[case.contact.friction_law]
         self.work = Workspace(0)
 
     def lay_out(self, bit_depth: float) -> String:
