@@ -6,7 +6,7 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from benchmarks.records import describe
 from benchmarks.strings import BIT, trip
 from fctd import torque_drag
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 

@@ -9,7 +9,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from fctd.case.errors import Expects, Table
-from fctd.case.load import KINDS, Case
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
 from fctd.case.units import Quantity
 
 HEAD = """# The keys of a case

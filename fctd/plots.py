@@ -13,13 +13,18 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
 from matplotlib.ticker import MaxNLocator
 from matplotlib.typing import RcKeyType
 from numpy.typing import NDArray
 
+from fctd.case.operations import KINDS
 from fctd.case.text import printable
-from fctd.model.operations import OPERATION_NAMES
+from fctd.results.columns import COLUMNS, DEPTH
+from fctd.results.notes import meanings_of, worst
+from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
 from fctd.results.whole_file import whole_file
 from fctd.steady.equilibrium import Equilibrium
@@ -74,7 +79,7 @@ FLAGS: dict[str, dict[str, Any]] = {
     "unstable": {"marker": "o", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
 }
 LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": QUIET}
-# The panels of a profile, and what they and those of a chart are called.
+# The panels of a profile.
 TRACKS = (
     "inclination_deg",
     "effective_tension_N",
@@ -85,25 +90,13 @@ TRACKS = (
     "offset_high_m",
     "offset_right_m",
 )
-OFFSETS = ("offset_high_m", "offset_right_m")
-LABELS = {
-    "inclination_deg": "inclination",
-    "effective_tension_N": "effective tension",
-    "torque_N_m": "torque",
-    "contact_force_N": "side force at a contact",
-    "bending_moment_N_m": "bending moment",
-    "von_mises_Pa": "von Mises stress",
-    "offset_high_m": "low | offset | high",
-    "offset_right_m": "left | offset | right",
-    "hookload_N": "hook load",
-    "surface_torque_N_m": "surface torque",
-}
 LIMITS: dict[str, Any] = {"sinusoidal": (0, (4, 2)), "helical": (0, (1, 1.2))}
 BUCKLED: dict[str, dict[str, Any]] = {
     "sinusoidal": {"marker": "o", "linestyle": "none", "color": "#E69F00", "markersize": 4},
     "helical": {"marker": "X", "linestyle": "none", "color": "#A00000", "markersize": 5},
 }
 NOISE = 1e-6  # an axis that spans less shows zeros
+NOTE_LINE = 0.14  # height of a line of small type [in]
 MARKS = 8  # about as many markers on a line
 
 
@@ -117,7 +110,8 @@ def save(figure: Figure, path: Path) -> list[Path]:
 def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> Figure:
     """Hook load (the broomstick) and torque against bit depth: a line per operation and friction factor.
 
-    chart : as of ``fctd.torque_drag``, SI.  Rows without an answer are crossed where their line is broken.
+    chart : as of ``fctd.torque_drag``, SI.  Rows without an answer are crossed where their line is broken; notes stand
+    below the title.
     """
     factors = [float(factor) for factor in chart["friction"].unique()]
     with mpl.rc_context(RC):
@@ -128,7 +122,7 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> 
                 for place, (kind, rows) in enumerate(fan.groupby("operation", sort=False)):
                     _series(ax, rows, column, str(kind), DASHES[k % len(DASHES)], units, place)
             _label(ax, column, units)
-        panels[0].set_ylabel(f"bit depth, {shown('bit_depth_m', units).label}")
+        panels[0].set_ylabel(f"{DEPTH.label}, {shown(DEPTH.name, units).label}")
         panels[0].invert_yaxis()
         handles = [_handle(kind) for kind in LOOKS if kind in set(chart["operation"])]
         figure.legend(handles=handles, loc="outside lower left", ncols=2)
@@ -139,7 +133,11 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> 
         figure.legend(handles=handles + _flag_handles(chart["status"]), loc="outside lower right", ncols=2)
         one = len(factors) == 1 and np.isfinite(factors[0])
         words = [title] if title else []
-        _title(figure, ", ".join([*words, f"friction factor {factors[0]:g}"] if one else words))
+        _title(
+            figure,
+            ", ".join([*words, f"friction factor {factors[0]:g}"] if one else words),
+            [f"{code}: {meaning['headline']}" for code, meaning in meanings_of(chart.get("notes", ())).items()],
+        )
         return figure
 
 
@@ -162,7 +160,7 @@ def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figur
             _label(ax, column, units)
         if answers:
             _limits(panels[TRACKS.index("effective_tension_N")], [point.profile for point in answers], units)
-        panels[0].set_ylabel(f"measured depth, {shown('md_m', units).label}")
+        panels[0].set_ylabel(f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}")
         panels[0].invert_yaxis()
         handles = [_handle(point.operation, point.status) for point in points]
         handles += [
@@ -173,7 +171,11 @@ def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figur
         depth = shown("bit_depth_m", units)
         friction = own_friction(points[0].case)
         rubs = "" if np.isnan(friction) else f", friction factor {friction:g}"
-        _title(figure, f"{points[0].case.name}, bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}{rubs}")
+        _title(
+            figure,
+            f"{points[0].case.name}, bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}{rubs}",
+            [f"{note.code}: {note.text}" for note in worst(note for point in answers for note in point.notes)],
+        )
         return figure
 
 
@@ -215,7 +217,7 @@ def _track(ax: Axes, point: Equilibrium, column: str, units: System, *, alone: b
         touching = value > 0
         ax.plot(value[touching], md[touching], color=colour, marker=marker, linestyle="none", markersize=3)
         return set()
-    if column in OFFSETS:
+    if COLUMNS[column].across:
         clearance = profile["clearance_m"].to_numpy(float) * factor
         ax.fill_betweenx(md, -clearance, clearance, color=SHADE, linewidth=0, zorder=0)
     ax.plot(value, md, color=colour, marker=marker, markevery=max(len(md) // MARKS, 1), markersize=4, linewidth=1.2)
@@ -247,24 +249,33 @@ def _limits(ax: Axes, profiles: Sequence[pd.DataFrame], units: System) -> None:
 def _label(ax: Axes, column: str, units: System) -> None:
     """Name and unit below an axis whose few ticks leave room for the next one's."""
     unit = shown(column, units).label
-    ax.set_xlabel(f"{LABELS[column]},\n{unit}" if column in TRACKS else f"{LABELS[column]}, {unit}")
+    label = COLUMNS[column].label
+    ax.set_xlabel(f"{label},\n{unit}" if column in TRACKS else f"{label}, {unit}")
     left, right = ax.get_xlim()
     if right - left < NOISE:
         ax.set_xlim(-1, 1)
     ax.xaxis.set_major_locator(MaxNLocator(3 if column in TRACKS else 6))
 
 
-def _title(figure: Figure, text: str) -> None:
-    """A heading; what a case is called is no formula."""
-    figure.suptitle(printable(text), parse_math=False, x=0.01, ha="left", fontsize=10.5, fontweight="bold")
+def _title(figure: Figure, text: str, notes: Sequence[str]) -> None:
+    """A heading, and the notes in small type below it; what a case is called is no formula."""
+    heading = figure.suptitle(printable(text), parse_math=False, x=0.01, ha="left", fontsize=10.5, fontweight="bold")
+    layout = figure.get_layout_engine()
+    if notes and isinstance(layout, ConstrainedLayoutEngine):
+        # The layout makes room for the heading only.
+        layout.set(rect=(0, 0, 1, 1 - len(notes) * NOTE_LINE / figure.get_figheight()))
+        lines = "\n".join(f"note {printable(note)}" for note in notes)
+        small = Annotation(lines, (0, 0), xycoords=heading, va="top", fontsize=7.5, color=QUIET, parse_math=False)
+        small.set_in_layout(False)
+        figure.add_artist(small)
 
 
 def _handle(kind: str, status: str = "converged") -> Line2D:
     """The legend's line for an operation, with a status that is worth a word."""
     colour, marker = LOOKS[kind]
-    if status != "converged" and status not in FLAGS:
-        return Line2D([], [], **LOST, label=f"{OPERATION_NAMES[kind]}: no answer ({status})")
-    label = OPERATION_NAMES[kind] if status == "converged" else f"{OPERATION_NAMES[kind]} ({status})"
+    if not SteadyStatus(status).has_loads:
+        return Line2D([], [], **LOST, label=f"{KINDS[kind].label}: no answer ({status})")
+    label = KINDS[kind].label if status == "converged" else f"{KINDS[kind].label} ({status})"
     return Line2D([], [], color=colour, marker=marker, markersize=4.5, label=label)
 
 
@@ -272,5 +283,5 @@ def _flag_handles(statuses: "pd.Series[str]") -> list[Line2D]:
     """The legend's lines for statuses other than converged."""
     found = [str(status) for status in statuses.unique() if status != "converged"]
     handles = [Line2D([], [], color=QUIET, label=status, **FLAGS[status]) for status in found if status in FLAGS]
-    none = [status for status in found if status not in FLAGS]
+    none = [status for status in found if not SteadyStatus(status).has_loads]
     return handles + ([Line2D([], [], **LOST, label=f"no answer: {', '.join(none)}")] if none else [])

@@ -5,7 +5,8 @@ from typing import Any
 
 import pandas as pd
 
-from fctd.model.operations import OPERATION_NAMES
+from fctd.case.operations import KINDS
+from fctd.results.columns import COLUMNS
 
 # Endings of column names, longest first, so that ``_kN_m`` is not taken for metres.
 UNITS = {
@@ -28,13 +29,13 @@ UNITS = {
     "s": "s",
 }
 
+# Labels of the engine's own columns that their names do not spell out, and of the studies'.
 SYMBOLS = {
-    "md": "measured depth",
-    "hookload": "hook load",
+    COLUMNS[name].stem: COLUMNS[name].label for name in ("md_m", "hookload_N", "sum_r_mu_fn_N_m", "sum_r_ft_N_m")
+}
+SYMBOLS |= {
     "soft_hookload": "soft hook load",
     "hookload_difference": "hook load difference",
-    "sum_r_mu_fn": "Σ rμFₙ",
-    "sum_r_ft": "Σ rFₜ",
 }
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -53,7 +54,7 @@ def heading(column: str) -> tuple[str, str]:
 
 def name(identifier: str) -> str:
     """An operation in the driller's words; other names as they stand."""
-    return OPERATION_NAMES.get(identifier, identifier)
+    return KINDS[identifier].label if identifier in KINDS else identifier
 
 
 def number(value: float) -> str:

@@ -1,5 +1,6 @@
 """Pictures: what is drawn is what the tables hold, in the units of the axes, and no text covers another."""
 
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -14,9 +15,11 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
 
 from fctd import plots
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
+from fctd.results.notes import MEANINGS, Note
 from fctd.steady.equilibrium import Equilibrium, equilibrium
 from tests.cases import make_case, pipe
 
@@ -34,6 +37,7 @@ def chart(kinds: list[str], frictions: list[float], lost: dict[str, str] | None 
             "hookload_N": 400.0 * depth + 1e5 * friction * k,
             "surface_torque_N_m": 10.0 * friction * depth * (k + 1) ** 2,
             "status": "converged",
+            "notes": "none",
         }
         for k, kind in enumerate(kinds)
         for friction in frictions
@@ -69,7 +73,7 @@ def texts_that_overlap(figure: Figure) -> list[tuple[str, str]]:
     """Pairs of visible texts of which one covers part of the other."""
     renderer = FigureCanvasAgg(figure).get_renderer()
     figure.draw(renderer)
-    shown = [figure._suptitle] if figure._suptitle else []
+    shown = [*([figure._suptitle] if figure._suptitle else []), *figure.findobj(Annotation)]
     for ax in figure.axes:
         shown += [ax.xaxis.label, ax.yaxis.label, ax.title, ax.xaxis.get_offset_text()]
         for axis in (ax.xaxis, ax.yaxis) if ax is figure.axes[0] else (ax.xaxis,):
@@ -198,6 +202,30 @@ def test_no_text_covers_another(points: list[Equilibrium], units: Any) -> None:
     assert texts_that_overlap(plots.profile_figure(points, units)) == []
     for point in points:
         assert texts_that_overlap(plots.profile_figure([point], units)) == []
+
+
+def test_notes_stand_below_the_title(points: list[Equilibrium]) -> None:
+    """Each code once, with its worst numbers, clear of everything else."""
+    note = Note("yield", "the stress at 700 m is 2000 MPa", "remedy", 700.0, 2.0)
+    worse = replace(note, text="the stress at 800 m is 3000 MPa, $\\frac", excess=3.0)
+    deep = Note("penetration", "a contact point at 5 m is 9 mm deep", "remedy", 5.0)
+    noted = [replace(point) for point in points if point.answered]
+    for point, found in zip(noted, ((note,), (worse, deep)), strict=False):
+        point.__dict__["notes"] = found
+    figure = plots.profile_figure(noted)
+    (small,) = figure.findobj(Annotation)
+    assert small.get_text() == (
+        "note penetration: a contact point at 5 m is 9 mm deep\nnote yield: the stress at 800 m is 3000 MPa, $\\frac"
+    )
+    assert texts_that_overlap(figure) == []
+
+    table = chart(["trip_in"], [0.2])
+    table.loc[3, "notes"] = "yield, penetration"
+    figure = plots.chart_figure(table, title="well")
+    (small,) = figure.findobj(Annotation)
+    assert small.get_text() == "\n".join(f"note {code}: {MEANINGS[code].headline}" for code in ("penetration", "yield"))
+    assert texts_that_overlap(figure) == []
+    assert plots.chart_figure(chart(["trip_in"], [0.2])).findobj(Annotation) == []
 
 
 def test_files_are_as_their_suffix_says_and_the_same_each_time(tmp_path: Path) -> None:

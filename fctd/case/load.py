@@ -1,6 +1,6 @@
 """A case file: TOML to a frozen, validated `Case` in which every float is SI.
 
-The operations and the case as a whole; `load_case` reads, overrides and validates.
+The case as a whole; `load_case` reads, overrides and validates.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Final, Literal, Self
+from typing import Annotated, Any, Final, Self
 
 from pydantic import Field, ValidationError, field_validator, model_validator
 
-from fctd.case import units
 from fctd.case.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
 from fctd.case.input_file import read_text
+from fctd.case.operations import KINDS, Operation
 from fctd.case.specs import (
     BitSpec,
     ContactSpec,
@@ -33,103 +33,6 @@ from fctd.case.text import is_utf8
 
 LARGEST_FILE: Final = 4  # MiB: 100,000 stations written out; the TOML reader takes some seconds for them
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
-
-
-class _Operation(Table):
-    """What all kinds of operation share; the class keys name its first and last depth in the file."""
-
-    start_key: ClassVar[str]
-    end_key: ClassVar[str]
-    downwards: ClassVar[bool] = False
-    ramp_time: units.PositiveTime = 10.0
-
-    @property
-    def start_md(self) -> float:
-        """Bit depth at the start [m]."""
-        return float(getattr(self, self.start_key))
-
-    @property
-    def end_md(self) -> float:
-        """Bit depth at the end [m]."""
-        return float(getattr(self, self.end_key))
-
-
-class _Move(_Operation):
-    """The bit goes from one depth [m] to another at a speed [m/s]; the kind sets the direction."""
-
-    start_key = "from_md"
-    end_key = "to_md"
-    from_md: units.Length
-    to_md: units.Length
-    speed: units.PositiveSpeed
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        if self.to_md == self.from_md or (self.to_md > self.from_md) != self.downwards:
-            side = "below" if self.downwards else "above"
-            raise InputError(f"a depth {side} from_md, {self.from_md:g} m", key="to_md")
-        return self
-
-
-class TripIn(_Move):
-    """Into the hole: slack-off."""
-
-    kind: Literal["trip_in"]
-    downwards = True
-    rpm: units.Rpm = 0.0
-
-
-class TripOut(_Move):
-    """Out of the hole: pick-up."""
-
-    kind: Literal["trip_out"]
-    rpm: units.Rpm = 0.0
-
-
-class BackReam(_Move):
-    """Out of the hole while rotating."""
-
-    kind: Literal["back_ream"]
-    rpm: units.PositiveRpm
-
-
-class RotateOffBottom(_Operation):
-    """Rotation in place for a duration [s]."""
-
-    start_key = end_key = "at_md"
-    kind: Literal["rotate_off_bottom"]
-    at_md: units.Length
-    duration: units.PositiveTime
-    rpm: units.PositiveRpm
-    speed: ClassVar[float] = 0.0
-
-
-class DrillRotating(_Move):
-    """Ahead with the bit on bottom, the whole string rotating; `speed` is the rate of penetration."""
-
-    kind: Literal["drill_rotating"]
-    downwards = True
-    rpm: units.PositiveRpm
-
-
-class DrillSliding(_Move):
-    """Ahead with the bit on bottom, turned by a motor while the string slides."""
-
-    kind: Literal["drill_sliding"]
-    downwards = True
-    rpm: ClassVar[float] = 0.0
-
-
-Operation = TripIn | TripOut | BackReam | RotateOffBottom | DrillRotating | DrillSliding
-KINDS: Final[dict[str, type[Operation]]] = {
-    "trip_in": TripIn,
-    "trip_out": TripOut,
-    "rotate_off_bottom": RotateOffBottom,
-    "back_ream": BackReam,
-    "drill_rotating": DrillRotating,
-    "drill_sliding": DrillSliding,
-}
-DRILLING: Final = ("drill_rotating", "drill_sliding")
 
 
 class Case(Table):

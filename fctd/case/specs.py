@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from fctd.case import units
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.case.survey_file import StationKey, check_stations, read_stations
 from fctd.case.text import is_utf8
+from fctd.mechanics.laws import NAMES
 
 
 def _as_path(raw: object) -> object:
@@ -28,6 +29,10 @@ def _as_path(raw: object) -> object:
 
 
 FileName = Annotated[Path, BeforeValidator(_as_path)]
+if TYPE_CHECKING:
+    FrictionLaw = str
+else:
+    FrictionLaw = Literal[NAMES]  # the table's names
 
 
 class IntervalSpec(Table):
@@ -237,7 +242,7 @@ class ContactSpec(Table):
     """The law of friction, and the damping of a contact point [N*s/m]; not `enabled`: no wall at all."""
 
     enabled: StrictBool = True
-    friction_law: Literal["coulomb", "paper"] = "coulomb"
+    friction_law: FrictionLaw = "coulomb"
     damping: units.Damping = 1e4
 
 

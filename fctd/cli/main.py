@@ -16,7 +16,6 @@ from fctd.cli.compile import compile_command, telling
 from fctd.cli.interrupts import as_interrupts
 from fctd.cli.options import (
     BAD_INPUT,
-    FAILED,
     INTERRUPTED,
     CaseFile,
     Csv,
@@ -24,6 +23,8 @@ from fctd.cli.options import (
     Out,
     Overrides,
     Quiet,
+    Strict,
+    finish,
     messages,
     print_notes,
     print_status,
@@ -34,7 +35,10 @@ from fctd.cli.options import (
 )
 from fctd.cli.refine import refine_command
 from fctd.cli.steady import chart_command, equilibrium_command
+from fctd.results.columns import COLUMNS
+from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult, check_result_folder, own_files, result_files
+from fctd.results.unit_systems import shown
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.run import LONGEST_SETTLING
 from fctd.simulation.simulate import simulate
@@ -55,9 +59,10 @@ def simulate_command(
     friction: Friction = None,
     csv: Csv = False,
     quiet: Quiet = False,
+    strict: Strict = False,
 ) -> None:
     """Run the operations of a case and write history, profile and energy tables."""
-    simulate_file(case_file, out, overrides, friction, csv, quiet)
+    simulate_file(case_file, out, overrides, friction, csv, quiet, strict=strict)
 
 
 def simulate_file(
@@ -68,6 +73,8 @@ def simulate_file(
     csv: bool,
     quiet: bool,
     contact: Callable[[Case], WallQuery] | None = None,
+    *,
+    strict: bool = False,
 ) -> None:
     """What ``simulate`` does; ``contact`` builds another contact method for the case (see fctd.simulate)."""
     case = read_case(case_file, overrides, friction)
@@ -101,30 +108,27 @@ def simulate_file(
         if result is not None:
             _summarise(result)
     print_written(written)
-    if result.status == "interrupted":
+    if result.status is RunStatus.INTERRUPTED:
         raise typer.Exit(INTERRUPTED)
-    if result.status != "completed":
-        raise typer.Exit(FAILED)
+    finish(result.status.acceptable, (note.code for note in result.notes), strict)
 
 
 def _summarise(result: SimulationResult) -> None:
     """Print the state at the end and the numbers of the run."""
-    if result.message and result.status != "completed":
+    if result.message and not result.status.acceptable:
         print_status(result.status, result.message)
-    print_notes(note for note in result.notes if str(note) != result.message or result.status == "completed")
+    print_notes(note for note in result.notes if str(note) != result.message or result.status.acceptable)
     if len(result.history):
         last = result.history.iloc[-1]
         name = printable(result.case.name)
         table = Table(title=f"{name}: {last['operation']}, bit at {last['bit_depth_m']:.1f} m")
-        for heading in ("hook load kN", "surface torque kN·m", "Σ r μ F_n kN·m", "contact force kN", "contacts"):
-            table.add_column(heading, justify="right")
-        table.add_row(
-            f"{last['hookload_N'] / 1e3:.1f}",
-            f"{last['surface_torque_N_m'] / 1e3:.3f}",
-            f"{last['sum_r_mu_fn_N_m'] / 1e3:.3f}",
-            f"{last['total_contact_force_N'] / 1e3:.1f}",
-            f"{last['contact_count']}",
-        )
+        cells = []
+        for name in ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "total_contact_force_N"):
+            column, unit = COLUMNS[name], shown(name, "si")
+            table.add_column(f"{column.label} {unit.label}", justify="right")
+            cells.append(f"{last[name] * unit.factor:.{column.digits}f}")
+        table.add_column("contacts", justify="right")
+        table.add_row(*cells, f"{last['contact_count']}")
         screen.print(table)
     run = result.run
     screen.print(

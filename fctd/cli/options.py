@@ -48,6 +48,9 @@ Out = Annotated[
     Path | None, typer.Option("--out", metavar="FOLDER", help="Where results go; default: CASE-NAME-result.")
 ]
 Csv = Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")]
+Strict = Annotated[
+    bool, typer.Option("--strict", help="Exit code 1 where there is a note; results are written all the same.")
+]
 Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
 
 
@@ -58,6 +61,15 @@ def read_case(path: Path, overrides: Sequence[str], friction: float | None = Non
     if friction is not None:
         changes["friction"] = friction
     return load_case(path, changes)
+
+
+def finish(acceptable: bool, codes: Iterable[str], strict: bool) -> None:
+    """End a command with exit code 1 where its status is not acceptable, or where ``strict`` finds a note's code."""
+    found = sorted(set(codes)) if strict else []
+    if found:
+        messages.print(f"strict: notes are errors ({', '.join(found)})", soft_wrap=True)
+    if found or not acceptable:
+        raise typer.Exit(FAILED)
 
 
 def print_notes(notes: Iterable[Note]) -> None:

@@ -12,13 +12,15 @@ from fctd.case.load import parse_override
 from fctd.case.text import printable
 from fctd.case.units import LENGTH
 from fctd.cli.options import (
-    FAILED,
     CaseFile,
     Friction,
     Overrides,
     Quiet,
+    Strict,
     check_target,
+    finish,
     messages,
+    print_notes,
     print_status,
     print_written,
     read_case,
@@ -59,6 +61,7 @@ def refine_command(
     ] = None,
     units: Units = "si",
     quiet: Quiet = False,
+    strict: Strict = False,
 ) -> None:
     """Cut the string of a case finer until hook load and torque no longer change, and say what error is left."""
     check_target(out, "--out", (".toml",))
@@ -74,7 +77,7 @@ def refine_command(
         refined = refine(
             case, share, operations or None, depth, graded, most, **read_drive(speed, rpm), progress=status.update
         )
-    target = out if refined.status != "no_answer" else None
+    target = out if refined.status.has_loads else None
     try:  # the file first, since whoever reads the screen may close it; the screen also where the file fails
         if target is not None:
             changes = dict(parse_override(text) for text in overrides)
@@ -87,8 +90,7 @@ def refine_command(
         print_written([target])
     elif out is not None:
         messages.print("Nothing is written: no string has an answer.")
-    if refined.status != "within_tolerance":
-        raise typer.Exit(FAILED)
+    finish(refined.status.acceptable, (note.code for note in refined.notes), strict)
 
 
 def _print(refined: Refinement, graded: bool, units: System) -> None:
@@ -119,7 +121,7 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
             table.add_row(name, kind, *loads, f"{1e3 * row['time_s']:.0f}")
             name = ""
     screen.print(table)
-    if refined.status == "within_tolerance":
+    if refined.status.acceptable:
         cut = f"{refined.layout} segments" if graded else "segments"
         screen.print(
             f"{refined.segments} {cut}, from {refined.shortest * metre.factor:.3g} {metre.label} up: an error of "
@@ -130,6 +132,7 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
             screen.print("Grading would not save a tenth of them.", soft_wrap=True)
     else:
         print_status(refined.status, refined.message)
+    print_notes(refined.notes)
 
 
 def _percent(share: float) -> str:

@@ -14,16 +14,18 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from fctd.case.errors import InputError
-from fctd.case.load import KINDS, Case, check_bit_depth, naming_file
+from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.case.units import LENGTH, SPEED
 from fctd.cli.options import (
-    FAILED,
     CaseFile,
     Friction,
     Overrides,
     Quiet,
+    Strict,
     check_target,
+    finish,
     messages,
     print_notes,
     print_status,
@@ -34,45 +36,25 @@ from fctd.cli.options import (
     screen,
 )
 from fctd.model.operations import rates_of_all
+from fctd.results.columns import COLUMNS, DEPTH, IN_CHART, LOADS
 from fctd.results.notes import MEANINGS, as_metadata, meanings_of
+from fctd.results.status import SteadyStatus
 from fctd.results.tables import versions, write_table
 from fctd.results.unit_systems import System, in_field_units, shown
-from fctd.steady.equilibrium import SOUND, Equilibrium, Solver, equilibrium
+from fctd.steady.equilibrium import Equilibrium, Solver, equilibrium
 from fctd.steady.torque_drag import torque_drag, with_friction
 
 TABLES, PICTURES = (".csv", ".parquet"), (".png", ".svg")
 MOST_DEPTHS = 10_000  # more is a slip in the step
 SCREEN_ROWS = 36
-# Columns of a chart on the screen: heading, and digits after the point.
-CHART_SHOWS = {
-    "bit_depth_m": ("bit", 1),
-    "hookload_N": ("hook load", 1),
-    "surface_torque_N_m": ("torque", 3),
-    "total_contact_force_N": ("Σ F_n", 1),
-}
-# What a string is asked for: attributes of Equilibrium by the name of their column.
-LOADS = {
-    "hookload_N": "hookload",
-    "surface_torque_N_m": "surface_torque",
-    "weight_indicator_N": "weight_indicator",
-    "drive_torque_N_m": "drive_torque",
-    "total_contact_force_N": "total_contact_force",
-    "sum_r_ft_N_m": "sum_r_ft",
-    "sum_r_mu_fn_N_m": "sum_r_mu_fn",
-}
-WORDS = {
-    "bit_depth_m": "bit depth",
-    "hookload_N": "hook load",
-    "surface_torque_N_m": "surface torque",
-    "weight_indicator_N": "weight indicator",
-    "drive_torque_N_m": "drive torque",
-    "total_contact_force_N": "contact force, all",
-    "sum_r_ft_N_m": "Σ r F_t",
-    "sum_r_mu_fn_N_m": "Σ r μ F_n",
-    "effective_tension_N": "effective tension",
-    "contact_force_N": "contact force",
-    "von_mises_Pa": "von Mises stress",
-}
+# Columns of a chart on the screen.
+SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
+
+
+def _defaults(rate: str) -> str:
+    """What a rate is by default, kind by kind."""
+    return ", ".join(f"{name} {getattr(kind, rate):g}" for name, kind in KINDS.items() if getattr(kind, rate))
+
 
 KIND_HELP = f"Kind of operation: {', '.join(KINDS)}"
 Speed = Annotated[
@@ -80,12 +62,12 @@ Speed = Annotated[
     typer.Option(
         "--speed",
         metavar="V",
-        help="Along the hole, '0.3 m/s'; else the case's, else 0.3 m/s tripping, 0.1 back-reaming, 0.003 drilling.",
+        help=f"Along the hole, '0.3 m/s'; else the case's, else {_defaults('default_speed')} m/s.",
     ),
 ]
 Rpm = Annotated[
     float | None,
-    typer.Option("--rpm", metavar="N", help="Rev/min; else the case's, else 60, drilling 120, tripping and sliding 0."),
+    typer.Option("--rpm", metavar="N", help=f"Rev/min; else the case's, else {_defaults('default_rpm')}."),
 ]
 Units = Annotated[System, typer.Option("--units", help="Units of tables, pictures and screen.")]
 
@@ -106,6 +88,7 @@ def equilibrium_command(
     out: Annotated[Path | None, _file("--out", "Profile of the string, .csv or .parquet.")] = None,
     plot: Annotated[Path | None, _file("--plot", "Picture of the profile, .png or .svg.")] = None,
     units: Units = "si",
+    strict: Strict = False,
 ) -> None:
     """Find the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
     check_target(out, "--out", TABLES)
@@ -117,7 +100,8 @@ def equilibrium_command(
     refuse_sources(case, out, "--out")
     refuse_sources(case, plot, "--plot")
     depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
-    _check_in_hole(case, [depth], "--bit-depth", bit_depth)
+    with naming_file(case):
+        check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
     drive = read_drive(speed, rpm)
     point = equilibrium(case, operation, depth, **drive)
     written = []
@@ -134,8 +118,7 @@ def equilibrium_command(
     if not point.answered and (out is not None or plot is not None):
         messages.print("Nothing is written: without a balance there is no profile.")
     print_written(written)
-    if point.status not in SOUND:
-        raise typer.Exit(FAILED)
+    finish(point.status.acceptable, (note.code for note in point.notes), strict)
 
 
 def chart_command(
@@ -156,10 +139,12 @@ def chart_command(
     out: Annotated[Path | None, _file("--out", "The chart, a row for every string, .csv or .parquet.")] = None,
     plot: Annotated[Path | None, _file("--plot", "Hook load and torque against depth, .png or .svg.")] = None,
     plot_profile: Annotated[
-        Path | None, _file("--plot-profile", "Profiles at the last depth, first friction factor, .png or .svg.")
+        Path | None,
+        _file("--plot-profile", "Profiles at the last possible depth, first friction factor, .png or .svg."),
     ] = None,
     units: Units = "si",
     quiet: Quiet = False,
+    strict: Strict = False,
 ) -> None:
     """Draw up a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
     check_target(out, "--out", TABLES)
@@ -168,7 +153,6 @@ def chart_command(
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key)
     bit_depths = read_depths(depths)
-    _check_in_hole(case, bit_depths, "--depths", depths)
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
     factors = list(dict.fromkeys(frictions))
     drive = read_drive(speed, rpm)
@@ -192,13 +176,15 @@ def chart_command(
         if plots is not None and plot_profile is not None:
             one = with_friction(case, factors[0]) if factors else case
             solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
-            points = [solver.solve(kind, rates[kind], bit_depths[-1]) for kind in kinds]
+            # At the last depth at which string and hole fit.
+            last = chart.loc[chart["status"] != SteadyStatus.NOT_POSSIBLE, "bit_depth_m"].max()
+            points = [solver.solve(kind, rates[kind], float(last)) for kind in kinds]
             written += plots.save(plots.profile_figure(points, units), plot_profile)
     finally:
         _print_chart(chart, case.name, units)
     print_written(written)
-    if not chart["status"].isin(SOUND).all():
-        raise typer.Exit(FAILED)
+    acceptable = all(SteadyStatus(status).acceptable for status in chart["status"])
+    finish(acceptable, meanings_of(chart["notes"]), strict)
 
 
 def read_depths(text: str) -> list[float]:
@@ -219,13 +205,6 @@ def read_depths(text: str) -> list[float]:
 def read_drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
     """Rates as they were asked for: speed [m/s], rpm, None where the case decides."""
     return {"speed": None if speed is None else read_quantity(speed, SPEED, "--speed"), "rpm": rpm}
-
-
-def _check_in_hole(case: Case, depths: Sequence[float], key: str, text: str) -> None:
-    """Refuse bit depths outside the hole, before the first is solved."""
-    for depth in (depths[0], depths[-1]):
-        with naming_file(case):
-            check_bit_depth(depth, *case.depths, key, text)
 
 
 def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
@@ -263,7 +242,7 @@ def _metadata(case: Case, units: System, kinds: Sequence[str], drive: Mapping[st
 
 def _loads(point: Equilibrium) -> dict[str, float]:
     """Loads of a point by column name."""
-    return {name: getattr(point, attribute) for name, attribute in LOADS.items()}
+    return {load.name: load.value(point) for load in LOADS}
 
 
 def _print_point(point: Equilibrium, units: System) -> None:
@@ -275,13 +254,13 @@ def _print_point(point: Equilibrium, units: System) -> None:
     for name, value in _loads(point).items():
         unit = shown(name, units)
         text = f"{value * unit.factor:z.3f}" if point.answered else "–"
-        table.add_row(WORDS[name], text, unit.label)
+        table.add_row(COLUMNS[name].label, text, unit.label)
     if point.answered:
         profile = point.profile
         for name, worst in (("effective_tension_N", "min"), ("contact_force_N", "max"), ("von_mises_Pa", "max")):
             unit, row = shown(name, units), profile.loc[profile[name].agg(f"idx{worst}")]
             where = f"at {row['md_m'] * metre.factor:.0f} {metre.label}"
-            table.add_row(f"{worst}. {WORDS[name]}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
+            table.add_row(f"{worst}. {COLUMNS[name].label}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
         for mode in ("sinusoidal", "helical"):
             for first, last in stretches(profile, mode):
                 where = f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"
@@ -306,13 +285,13 @@ def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
 
 def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     """Print a table that fits the screen, and every row that is more than a converged number."""
-    units_of = {column: shown(column, units) for column in CHART_SHOWS}
+    units_of = {column.name: shown(column.name, units) for column in SHOWN}
     screen.print(printable(name), style="bold")
     table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
     for heading in ("operation", "μ"):
         table.add_column(heading, no_wrap=True)
-    for column, (heading, _) in CHART_SHOWS.items():
-        table.add_column(f"{heading}\n{units_of[column].label}", justify="right", overflow="fold")
+    for column in SHOWN:
+        table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
     table.add_column("status", overflow="fold")
     series = list(chart.groupby(["operation", "friction"], sort=False, dropna=False))
     each = max(SCREEN_ROWS // len(series), 1)
@@ -321,8 +300,8 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
         picked = np.unique(np.linspace(len(rows) - 1, 0, min(each, len(rows))).round().astype(int))
         for k, row in enumerate(rows.iloc[picked].to_dict("records")):
             values = [
-                "–" if np.isnan(row[column]) else f"{row[column] * units_of[column].factor:z.{digits}f}"
-                for column, (_, digits) in CHART_SHOWS.items()
+                "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
+                for name, digits in ((column.name, column.digits) for column in SHOWN)
             ]
             names = ("", "") if k else (str(operation), _factor(friction))
             table.add_row(*names, *values, row["status"])
@@ -338,7 +317,12 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
 def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
     """The runs of rows of one series that are not converged, and those with the same note, a line each."""
     depths = rows["bit_depth_m"] * factor
-    lines = [f"{status} at {where}" for status, where in _runs(rows["status"], depths, label) if status != "converged"]
+    reasons = dict(zip(rows["status"], rows["reason"], strict=True))  # the last, at the greatest depth, of each status
+    lines = [
+        f"{status} at {where}: {reasons[status]}"
+        for status, where in _runs(rows["status"], depths, label)
+        if status != SteadyStatus.CONVERGED
+    ]
     for code, meaning in MEANINGS.items():
         noted = rows["notes"].str.split(", ").map(lambda codes, code=code: code in codes)
         lines += [

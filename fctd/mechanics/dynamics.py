@@ -6,10 +6,13 @@ settling damping by the implicit factor 1/(1 + c dt/m), wall friction by a clamp
 dissipating impulse by the velocity after it, which is what moves the body.
 """
 
+from typing import Any
+
 from fctd.mechanics.contact import update_walls
-from fctd.mechanics.friction import approach, coulomb_impulse, normal_impulse, paper_impulse, wall_normal
+from fctd.mechanics.friction import Law, approach, normal_impulse, wall_normal
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import update_joint_loads
+from fctd.mechanics.laws import LAWS, chain
 from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import (
     ARM_CONTACT,
@@ -39,7 +42,6 @@ from fctd.mechanics.state import (
     MUD_LATERAL,
     MUD_SPIN,
     OPEN,
-    PAPER,
     QW,
     QX,
     QY,
@@ -211,16 +213,20 @@ def push_in_hole(S, n, friction_impulse, laws, dt):
                 store_motion(S, j, u, v, w, a, b, c)
 
 
-@inlined
-def push_with_coulomb(S, n, laws, dt):
-    """Update velocity and spin of every body in a hole with law ``coulomb`` (stages 4 and 5)."""
-    push_in_hole(S, n, coulomb_impulse, laws, dt)
+def push_with(law: Law) -> Any:
+    """A function that updates velocity and spin of every body in a hole with a law of friction (stages 4 and 5)."""
+    impulse = law.impulse
+
+    @inlined
+    def push(S, n, laws, dt):
+        push_in_hole(S, n, impulse, laws, dt)
+
+    return push
 
 
-@inlined
-def push_with_paper(S, n, laws, dt):
-    """Update velocity and spin of every body in a hole with law ``paper`` (stages 4 and 5)."""
-    push_in_hole(S, n, paper_impulse, laws, dt)
+# By a law's code.
+PUSHES = tuple(push_with(law) for law in LAWS)
+push_by_law = chain(PUSHES)
 
 
 @inlined
@@ -263,10 +269,8 @@ def update_velocities(S, n, laws, dt):
     """Update velocity and spin of every body by springs, weight, wall and mud, given joint loads and walls."""
     if laws.geometry == OPEN:
         push_freely(S, n, laws, dt)
-    elif laws.friction == PAPER:
-        push_with_paper(S, n, laws, dt)
     else:
-        push_with_coulomb(S, n, laws, dt)
+        push_by_law(laws.friction, S, n, laws, dt)
 
 
 @inlined

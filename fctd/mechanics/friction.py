@@ -1,4 +1,6 @@
-"""Stages 3 to 5 at one contact point: the wall's normal impulse and the two laws of friction (§4.3–4.5)."""
+"""Stages 3 to 5 at one contact point: the wall's normal impulse and what a law of friction is (§4.3–4.5)."""
+
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -7,14 +9,10 @@ from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.state import (
     ARM_CONTACT,
     HOLE,
-    INVERSE_JA,
     INVERSE_JT,
     INVERSE_MASS,
-    J_AXIAL,
     K_WALL,
-    MASS,
     RADIUS,
-    TINY,
     quaternion,
     radial,
 )
@@ -70,44 +68,19 @@ def along_wall(sx, sy, sz, nx, ny, nz):
     return sx - into * nx, sy - into * ny, sz - into * nz
 
 
-@inlined
-def coulomb_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
-    """Law ``coulomb``: one impulse against the sliding velocity at the wall side of the string.
+class Law(NamedTuple):
+    """A law of friction: its name in a case, and three functions to be expanded where they are called.
 
-    limit : μ × normal impulse [N s].  It acts at T + r_ds·normal, hence gives force and torque, and at most
-    stops the sliding of the free body (implicit clamp).  Returns the change of velocity and spin (6).
+    impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit) : change of velocity and spin (6) of body j, both in its own
+    frame, by an impulse that at most stops what it acts on; n : the wall's normal; limit : μ × normal impulse [N s].
+    steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz) : force [N] and moment [N m] (6, global)
+    and torque about the axis [N m] on a body that slides at ``speed`` [m/s] along the hole t and spins about its axis a
+    [rad/s]; limit : μ × normal force [N].  It is differentiated by a complex step.
+    shares(speed, turning) : of the friction factor that act along the string downwards and around it, −1 to 1, and that
+    by which a turning string climbs the wall: for the first guess.
     """
-    im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
-    r = S[RADIUS + j]
-    rx, ry, rz = r * nx, r * ny, S[ARM_CONTACT + j] + r * nz
-    sx = u + b * rz - c * ry
-    sy = v + c * rx - a * rz
-    sz = w + a * ry - b * rx
-    sx, sy, sz = along_wall(sx, sy, sz, nx, ny, nz)
-    mx, my, mz = ry * sz - rz * sy, rz * sx - rx * sz, rx * sy - ry * sx
-    square = sx * sx + sy * sy + sz * sz
-    speed = np.sqrt(square)
-    # The body's response to an impulse −f·s, f the smaller of limit/|s| and |s|²/response: one division.
-    response = square * im + (mx * mx + my * my) * it + mz * mz * ia
-    sliding, stopping = limit * response, speed * square
-    f = (sliding if sliding < stopping else stopping) / (speed * response + TINY)
-    return (
-        -f * im * sx, -f * im * sy, -f * im * sz,
-        -f * it * mx, -f * it * my, -f * ia * mz,
-    )  # fmt: skip
 
-
-@inlined
-def paper_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
-    """Law ``paper`` (Eqs 15–16): axial drag μF_n and a couple r μ F_n about the axis, each in full.
-
-    Signature and return as ``coulomb_impulse``.
-    """
-    m, ja, im, ia = S[MASS + j], S[J_AXIAL + j], S[INVERSE_MASS + j], S[INVERSE_JA + j]
-    sliding, spinning = np.sqrt(w * w), np.sqrt(c * c)
-    drag = limit if limit < m * sliding else m * sliding
-    couple = S[RADIUS + j] * limit
-    couple = couple if couple < ja * spinning else ja * spinning
-    dw = drag * im if w < 0 else -drag * im
-    dc = couple * ia if c < 0 else -couple * ia
-    return 0.0 * w, 0.0 * w, dw, 0.0 * w, 0.0 * w, dc
+    name: str
+    impulse: Any
+    steady_load: Any
+    shares: Any

@@ -84,7 +84,7 @@ ROWS = 79
 class Laws(NamedTuple):
     """Choices and constants of a run, scalars so that one stepper serves every case.
 
-    geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : COULOMB or PAPER.
+    geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : a law's code, of ``laws.CODES``.
     friction_scale : multiplies every friction factor (0 while the string settles).
     contact_damping : wall damping [N s/m].  joint_damping : stiffness-proportional damping time [s].
     settling : artificial mass-proportional damping rate [1/s], 0 in a run.
@@ -102,7 +102,6 @@ class Laws(NamedTuple):
 TINY = 1e-300
 
 CYLINDERS, ARCS, OPEN = 0, 1, 2
-COULOMB, PAPER = 0, 1
 
 
 def new_state(segments: int) -> np.ndarray:

@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.case.errors import InputError, nearest
-from fctd.case.load import KINDS, Case, Operation
+from fctd.case.load import Case
+from fctd.case.operations import KINDS, Operation, RotateOffBottom
 from fctd.case.units import FASTEST, MOST_RPM, bare
 from fctd.mechanics.topdrive import Motion
 
@@ -19,17 +20,6 @@ class Phase(NamedTuple):
 
     motion: Motion
     operation: int
-
-
-# Kinds of operation in the driller's words.
-OPERATION_NAMES = {
-    "trip_out": "picking up",
-    "rotate_off_bottom": "rotating off bottom",
-    "trip_in": "slacking off",
-    "back_ream": "back-reaming",
-    "drill_rotating": "drilling, rotating",
-    "drill_sliding": "drilling, sliding",
-}
 
 
 def rad_per_s(rpm: float) -> float:
@@ -67,7 +57,7 @@ def schedule(operations: Sequence[Operation]) -> list[Phase]:
 
 def _feed(operation: Operation, stops: bool) -> list[tuple[float, float, float]]:
     """Duration [s], feed speed downwards at the start and at the end [m/s] of the parts of an operation."""
-    if operation.kind == "rotate_off_bottom":
+    if isinstance(operation, RotateOffBottom):
         ramp = min(operation.ramp_time, operation.duration)
         parts = [(ramp, 0.0, 0.0), (operation.duration - ramp, 0.0, 0.0)]
     else:
@@ -94,9 +84,7 @@ def sensors(case: Case, kind: str, hookload: float, torque: float) -> tuple[floa
     by drilling.
     """
     rig = case.rig
-    moves = DEFAULT_RATES[kind][0] > 0
-    hoisting = 0 if not moves else -1 if KINDS[kind].downwards else 1
-    indicator = (hookload + rig.block_weight) * rig.sheave_efficiency**hoisting
+    indicator = (hookload + rig.block_weight) * rig.sheave_efficiency ** -KINDS[kind].direction
     return indicator, torque + rig.torque_offset
 
 
@@ -107,42 +95,33 @@ class SteadyRates(NamedTuple):
     spin: float
 
 
-# Speed [m/s] and rotation [rev/min] of a steady operation of which neither call nor case says more.
-DEFAULT_RATES = {
-    "trip_in": (0.3, 0.0),
-    "trip_out": (0.3, 0.0),
-    "rotate_off_bottom": (0.0, 60.0),
-    "back_ream": (0.1, 60.0),
-    "drill_rotating": (0.003, 120.0),
-    "drill_sliding": (0.003, 0.0),
-}
 # Kinds that have a speed, and those that can have a rotation.
-MOVES = tuple(kind for kind, (speed, _) in DEFAULT_RATES.items() if speed > 0)
-MAY_TURN = tuple(kind for kind, (_, rpm) in DEFAULT_RATES.items() if rpm > 0 or kind.startswith("trip"))
+MOVING = frozenset(name for name, kind in KINDS.items() if kind.direction)
+TURNING = frozenset(name for name, kind in KINDS.items() if kind.may_turn)
 
 
 def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float | None = None) -> SteadyRates:
-    """Rates of an operation: as given, else as the case's first operation of that kind, else DEFAULT_RATES.
+    """Rates of an operation: as given, else as the case's first operation of that kind, else the kind's defaults.
 
     speed [m/s] and rpm are not negative; the kind sets the direction.  Raises InputError for an unknown kind,
     for rates that are not of its kind and for rates beyond ``units.FASTEST`` and ``units.MOST_RPM``.
     """
     if kind not in KINDS:
         raise InputError(nearest(kind, KINDS, "kind"), key="operation", value=kind)
+    of = KINDS[kind]
     own = next((o for o in case.operations if o.kind == kind), None)
-    defaults = DEFAULT_RATES[kind] if own is None else (own.speed, own.rpm)
-    moves, turns, may_turn = kind in MOVES, DEFAULT_RATES[kind][1] > 0, kind in MAY_TURN
+    defaults = (of.default_speed, of.default_rpm) if own is None else (own.speed, own.rpm)
     speed, rpm = defaults[0] if speed is None else speed, defaults[1] if rpm is None else rpm
     bare(speed, "speed", "a number of metres per second")
     bare(rpm, "rpm", "a number of revolutions per minute")
-    if not (0 < speed <= FASTEST if moves else speed == 0):
-        wanted = f"above 0 and at most {FASTEST:g} m/s" if moves else "of 0"
+    if not (0 < speed <= FASTEST if of.direction else speed == 0):
+        wanted = f"above 0 and at most {FASTEST:g} m/s" if of.direction else "of 0"
         raise InputError(f"a speed {wanted} for {kind}", key="speed", value=speed)
-    if not (0 <= rpm <= MOST_RPM and (rpm > 0 if turns else may_turn or rpm == 0)):
-        wanted = "above 0" if turns else "at least 0" if may_turn else "of 0"
-        wanted += f" and at most {MOST_RPM:g}" if may_turn else ""
+    if not (0 <= rpm <= MOST_RPM and (rpm > 0 if of.turns else of.may_turn or rpm == 0)):
+        wanted = "above 0" if of.turns else "at least 0" if of.may_turn else "of 0"
+        wanted += f" and at most {MOST_RPM:g}" if of.may_turn else ""
         raise InputError(f"rev/min {wanted} for {kind}", key="rpm", value=rpm)
-    return SteadyRates(speed if KINDS[kind].downwards else -speed, rad_per_s(rpm))
+    return SteadyRates(of.direction * speed, rad_per_s(rpm))
 
 
 def rates_of_all(
@@ -153,7 +132,15 @@ def rates_of_all(
     Raises InputError as ``steady_rates`` does, and where none of the kinds has what is given.
     """
 
-    def of(kind: str, value: float | None, having: Sequence[str]) -> float | None:
-        return value if kind in having or not set(kinds) & set(having) else None
+    moving, turning = ([k for k in kinds if k in having] for having in (MOVING, TURNING))
 
-    return {kind: steady_rates(case, kind, of(kind, speed, MOVES), of(kind, rpm, MAY_TURN)) for kind in kinds}
+    def rates(kind: str) -> SteadyRates:
+        # Where no kind has what is given, the first one refuses it.
+        return steady_rates(
+            case,
+            kind,
+            speed if kind in moving or not moving else None,
+            rpm if kind in turning or not turning else None,
+        )
+
+    return {kind: rates(kind) for kind in kinds}

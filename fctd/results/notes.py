@@ -70,6 +70,15 @@ def _note(code: str, text: str, excess: float, place: float | None = None) -> No
     return Note(code, text, MEANINGS[code].remedy, place, excess)
 
 
+def worst(notes: Iterable[Note]) -> tuple[Note, ...]:
+    """Each code once, where it is worst, in the order of ``MEANINGS``."""
+    found: dict[str, Note] = {}
+    for note in notes:
+        if note.code not in found or note.excess > found[note.code].excess:
+            found[note.code] = note
+    return tuple(found[code] for code in MEANINGS if code in found)
+
+
 def codes_of(notes: Iterable[Note]) -> str:
     """The codes in one cell of a table; "none" without any, as an empty cell is read back as a missing value."""
     return ", ".join(note.code for note in notes) or "none"
@@ -78,6 +87,11 @@ def codes_of(notes: Iterable[Note]) -> str:
 def as_metadata(notes: Iterable[Note]) -> list[dict[str, Any]]:
     """Notes as files keep them."""
     return [asdict(note) for note in notes]
+
+
+def from_metadata(kept: Iterable[dict[str, Any]]) -> tuple[Note, ...]:
+    """Notes as files have kept them."""
+    return tuple(Note(**note) for note in kept)
 
 
 def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:

@@ -22,7 +22,8 @@ import pyarrow.parquet as pq
 from fctd.case.errors import InputError
 from fctd.case.input_file import check_regular
 from fctd.case.load import Case
-from fctd.results.notes import Note, as_metadata
+from fctd.results.notes import Note, as_metadata, from_metadata
+from fctd.results.status import RunStatus
 from fctd.results.whole_file import check_file, left_overs, whole_file
 from fctd.results.whole_folder import PAUSE, check_folder, repair, whole_folder
 
@@ -34,8 +35,7 @@ LOOKS = 20  # at a folder that another process may just be replacing
 class SimulationResult:
     """Outcome of ``fctd.simulate``.
 
-    status : ``completed``, ``inaccurate`` (the energy ledger is off by more than a tenth of the work), ``unstable``,
-    ``unsettled`` or ``interrupted``; message says more when there is more to say.  history : a row per record
+    status : how the run ended; message says more when there is more to say.  history : a row per record
     interval; loads are means over the interval, depths and energies values at its end.  profile : a row per contact
     point from the top to the bit, for every recorded bit depth.  energy : the ledger, a row per record interval.  run :
     segments, step, counts and timing.  notes : what to know before using the numbers, each code once, where it was
@@ -43,7 +43,7 @@ class SimulationResult:
     """
 
     case: Case
-    status: str
+    status: RunStatus
     message: str
     history: pd.DataFrame
     profile: pd.DataFrame
@@ -147,8 +147,16 @@ def _read(folder: Path) -> SimulationResult:
     try:
         case = Case.model_validate_json(origin[b"case"])
         status, message, run = (origin[key].decode() for key in (b"status", b"message", b"run"))
-        return SimulationResult(case, status, message, **tables, run=json.loads(run), identity=runs["history"])
-    except (KeyError, ValueError) as error:
+        return SimulationResult(
+            case,
+            RunStatus(status),
+            message,
+            **tables,
+            run=json.loads(run),
+            notes=from_metadata(json.loads(origin[b"notes"])),
+            identity=runs["history"],
+        )
+    except (KeyError, TypeError, ValueError) as error:
         expected = f"the metadata that fctd simulate writes ({type(error).__name__}: {error})"
         raise InputError(expected, value=folder / "history.parquet") from error
 

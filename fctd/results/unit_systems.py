@@ -8,6 +8,7 @@ from typing import Final, Literal, NamedTuple
 import pandas as pd
 
 from fctd.case.units import conversion
+from fctd.results.columns import COLUMNS
 
 System = Literal["si", "field"]
 
@@ -29,7 +30,6 @@ MEASURES: Final = (
 )
 # Lengths across the hole, for which metres and feet are too coarse.
 ACROSS: Final = Measure("m", "mm", "in")
-ACROSS_COLUMNS: Final = ("offset_high_m", "offset_right_m", "clearance_m")
 
 
 class Shown(NamedTuple):
@@ -41,7 +41,7 @@ class Shown(NamedTuple):
 
 def measure_of(column: str) -> Measure | None:
     """What a column of an SI table measures; None for names, counts, angles and plain numbers."""
-    if column in ACROSS_COLUMNS:
+    if column in COLUMNS and COLUMNS[column].across:
         return ACROSS
     return next((measure for measure in MEASURES if column.endswith(_ending(measure.table))), None)
 

@@ -16,6 +16,7 @@ from fctd.model.operations import sensors
 from fctd.results import ledger
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
+from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
 from fctd.simulation.run import Run, contact_points
 
@@ -92,7 +93,7 @@ class Recorder:
             self.wanted = [depth for depth in self.wanted if depth not in passed]
             self.profiles[self.last_time] = self._profile()
 
-    def result(self, status: str, message: str, wall: float, residual: float) -> SimulationResult:
+    def result(self, status: RunStatus, message: str, wall: float, residual: float) -> SimulationResult:
         """Everything recorded, with the profile of the end and the numbers of the run."""
         run = self.run
         profiles = self.profiles | ({self.last_time: self._profile()} if self.history else {})

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
-from fctd.case.load import DRILLING, Case, naming_file
+from fctd.case.load import Case, naming_file
 from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.faults import UnstableError
+from fctd.mechanics.laws import CODES
 from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
 from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
@@ -86,7 +87,7 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     phases = schedule(case.operations)
     laws = state.Laws(
         geometry=hole.geometry if case.contact.enabled else state.OPEN,
-        friction=state.PAPER if case.contact.friction_law == "paper" else state.COULOMB,
+        friction=CODES[case.contact.friction_law],
         friction_scale=1.0,
         contact_damping=case.contact.damping,
         joint_damping=case.solver.joint_damping,
@@ -139,7 +140,7 @@ def _check_dynamic(case: Case) -> None:
     """Raise InputError for what only the steady solver knows: a bit on bottom, a bent housing."""
     steady = "(fctd equilibrium and fctd chart know more)"
     for i, operation in enumerate(case.operations):
-        if operation.kind in DRILLING:
+        if operation.on_bottom:
             raise InputError(
                 f"an operation off bottom to simulate {steady}", key=f"operations[{i}].kind", value=operation.kind
             )

@@ -14,6 +14,7 @@ from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
 from fctd.results import notes
+from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.intervals import Window, whole_schedule, within
@@ -73,7 +74,7 @@ class Simulation(Iterator[Record]):
                 else within(self.phases, self.window, case.record.interval)
             )
         self.done = 0  # of the intervals
-        self.status, self.message = "interrupted", "before the start"  # until it has ended in another way
+        self.status, self.message = RunStatus.INTERRUPTED, "before the start"  # until it has ended in another way
         self.wall_s = 0.0  # spent since the start
         self.settling_residual = float("nan")
         self.stepper: Stepper = self.run
@@ -100,7 +101,7 @@ class Simulation(Iterator[Record]):
         try:
             self.settling_residual = settle(self.run, progress=self._settling)
         except UnstableError as error:
-            self.status, self.message = "unsettled", f"before the start: {error}"
+            self.status, self.message = RunStatus.UNSETTLED, f"before the start: {error}"
             raise
         start_from_rest(self.run)
         start = 0.0 if self.window is None else self.window.start
@@ -116,7 +117,7 @@ class Simulation(Iterator[Record]):
 
     def __next__(self) -> Record:
         """Run to the end of the next interval and record it; ends the iteration also where the string is unstable."""
-        if self.status != "interrupted":
+        if self.status != RunStatus.INTERRUPTED:
             raise StopIteration
         try:
             self.start()
@@ -126,7 +127,7 @@ class Simulation(Iterator[Record]):
             return self._record_next()
         except UnstableError as error:
             if self.started:
-                self.status, self.message = "unstable", f"at {self.run.time:.4g} s: {error}"
+                self.status, self.message = RunStatus.UNSTABLE, f"at {self.run.time:.4g} s: {error}"
             raise StopIteration from None
 
     def _record_next(self) -> Record:
@@ -160,14 +161,14 @@ class Simulation(Iterator[Record]):
         """What has been recorded so far; ``interrupted`` before the end.  A completed schedule is judged as a whole."""
         if self._recorder is None:
             return Recorder(self.run).result(self.status, self.message, 0.0, float("nan"))
-        message = f"at {self.run.time:.4g} s" if self.status == "interrupted" else self.message
+        message = f"at {self.run.time:.4g} s" if self.status == RunStatus.INTERRUPTED else self.message
         result = self._recorder.result(self.status, message, self.wall_s, self.settling_residual)
-        return self._judged(result) if self.status == "completed" and self.window is None else result
+        return self._judged(result) if self.status == RunStatus.COMPLETED and self.window is None else result
 
     def _complete(self) -> None:
         if self.window is None:
             self._check_fed()
-        self.status, self.message = "completed", ""
+        self.status, self.message = RunStatus.COMPLETED, ""
 
     def _check_fed(self) -> None:
         """Raise AssertionError when the string of a finished run is not as long as its bit should be deep."""
@@ -191,7 +192,7 @@ class Simulation(Iterator[Record]):
         ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
         found = tuple(note for note in (ledger, ringing, *result.notes) if note is not None)
         if ledger is not None and not error <= notes.INACCURATE:
-            return replace(result, status="inaccurate", message=str(ledger), notes=found)
+            return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
 
 

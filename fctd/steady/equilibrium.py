@@ -11,16 +11,19 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd.case.load import DRILLING, Case, check_bit_depth, naming_file
+from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operations import KINDS
 from fctd.case.units import bare
 from fctd.mechanics import state
 from fctd.mechanics.contact import START_MD
+from fctd.mechanics.laws import CODES
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String, check_fit, fill, lay_out
 from fctd.model.operations import SteadyRates, sensors, steady_rates
 from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
+from fctd.results.status import SteadyStatus
 from fctd.steady import tangent
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, take_step
@@ -47,10 +50,6 @@ from fctd.steady.tangent import (
 
 Array = NDArray[np.float64]
 
-# Statuses whose numbers are those of a balance.
-ANSWERED = ("converged", "locked_up", "unstable")
-# Of these, a string that is locked up is an answer; nobody drills with one that would leave its balance.
-SOUND = ("converged", "locked_up")
 # What is left out of balance at a body, over the weight of the string.
 TOLERANCE = 1e-7
 # Imperfection of a first guess, so that a straight string may buckle [m].
@@ -72,16 +71,15 @@ LARGEST_TURN = 0.1  # [rad] a step
 class Equilibrium:
     """A steady string with the bit at one depth.
 
-    status : ``converged``; ``locked_up`` (the top would have to be pushed with more than the block weight) and
-    ``unstable`` (a balance that the string would not keep) are answers too; ``max_iterations``, ``diverged`` and
-    ``not_finite`` are none.  bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N];
-    surface_torque, drive_torque [N m]; sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
+    status : those with loads are answers, also ``locked_up`` and ``unstable``; message says more.  bit_depth [m];
+    hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m]; sum_r_ft,
+    sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
 
     case: Case
     operation: str
     bit_depth: float
-    status: str
+    status: SteadyStatus
     message: str
     iterations: int
     hookload: float
@@ -97,7 +95,7 @@ class Equilibrium:
     @property
     def answered(self) -> bool:
         """Whether the numbers are those of a balance."""
-        return self.status in ANSWERED
+        return self.status.has_loads
 
     @cached_property
     def profile(self) -> pd.DataFrame:
@@ -172,22 +170,26 @@ class Solver:
         self.hole = build_wellbore(case) if hole is None else hole
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
-        self.law = state.PAPER if case.contact.friction_law == "paper" else state.COULOMB
+        self.law = CODES[case.contact.friction_law]
         self.work = Workspace(0)
+
+    def lay_out(self, bit_depth: float) -> String:
+        """The string with the bit at a depth [m]; raises InputError when string and hole do not fit there."""
+        check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
+        string = lay_out(self.case, bit_depth)
+        check_fit(self.case, string, self.hole, bit_depth)
+        return string
 
     # Of a string that has flown apart only the status is read; its numbers may be anything.
     @np.errstate(over="ignore", invalid="ignore")
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
-        case, hole = self.case, self.hole
-        check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
-        string = lay_out(case, bit_depth)
-        check_fit(case, string, hole, bit_depth)
+        case, hole, string = self.case, self.hole, self.lay_out(bit_depth)
         n = string.segments
         if self.work.segments < n:
             self.work = Workspace(n)
         pipe = fill(self.work.S, string, case)
-        on_bottom = operation in DRILLING
+        on_bottom = KINDS[operation].on_bottom
         weight_on_bit = case.bit.weight_on_bit if on_bottom else 0.0
         _, (downhole,) = hole.at(np.array([bit_depth]))
         push = [float(-weight_on_bit * d) for d in downhole]
@@ -290,26 +292,29 @@ class Solver:
             half = 0.5 * component.bend
             kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
 
-    def _judge(self, code: int, negative: int, pushed: bool, shape: Shape, imbalance: float) -> tuple[str, str]:
+    def _judge(
+        self, code: int, negative: int, pushed: bool, shape: Shape, imbalance: float
+    ) -> tuple[SteadyStatus, str]:
         """Status and message of a solution."""
         if code == NOT_FINITE:
-            return "not_finite", "a force is not finite"
+            return SteadyStatus.NOT_FINITE, SteadyStatus.NOT_FINITE.message
         if self.geometry != state.OPEN:
             # Deeper in the wall than the hole's radius, as for a string in motion (faults.py).
             outside = np.linalg.norm(shape.walls.offset, axis=1) + shape.radius > 2 * shape.walls.radius
             if outside.any():
                 text = f"segment {int(np.argmax(outside)) + 1} lies deeper in the wall than the hole's radius"
-                return "diverged", f"{text}: a stiffer wall, or less load"
+                return SteadyStatus.DIVERGED, f"{text}: a stiffer wall, or less load"
         if code != CONVERGED:
             return (
-                "max_iterations",
+                SteadyStatus.MAX_ITERATIONS,
                 f"forces are out of balance by {imbalance:.3g} N: the string may have no steady shape",
             )
         if pushed:
-            return "locked_up", "the top would have to be pushed with more than the block weight"
+            return SteadyStatus.LOCKED_UP, SteadyStatus.LOCKED_UP.message
         if negative:
-            return "unstable", f"a balance that would be left without friction in {negative} mode{'s' * (negative > 1)}"
-        return "converged", ""
+            modes = f"{negative} mode{'s' * (negative > 1)}"
+            return SteadyStatus.UNSTABLE, f"a balance that would be left without friction in {modes}"
+        return SteadyStatus.CONVERGED, ""
 
 
 def equilibrium(
@@ -318,7 +323,7 @@ def equilibrium(
     """The steady string of an operation with the bit at ``bit_depth`` [m].
 
     operation : a kind of operation.  speed [m/s], rpm : else those of the case's operation of that kind, else
-    ``operations.DEFAULT_RATES``.  Weight on bit and bit torque are the case's.  Raises InputError for input
+    the kind's defaults.  Weight on bit and bit torque are the case's.  Raises InputError for input
     that cannot be used; a string that finds no balance is told by ``status``.
     """
     with naming_file(case):

@@ -8,20 +8,19 @@ would save a tenth of the iterations and make every row of a chart depend on the
 import numpy as np
 
 from fctd.mechanics.contact import CURVATURE, DIRECTION, FACTOR, HOLE_RADIUS, NORMAL, START, START_MD, STIFFNESS
-from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.jit import entry, kernel
 from fctd.mechanics.joints import cross
+from fctd.mechanics.laws import shares
 from fctd.mechanics.state import (
     ARCS,
     ARM_BOTTOM,
     ARM_TOP,
-    COULOMB,
     K_AXIAL,
     K_TWIST,
     MUD_AXIAL,
     MUD_SPIN,
     OPEN,
     RADIUS,
-    TINY,
     TRIBUTARY,
     WEIGHT,
 )
@@ -62,16 +61,6 @@ def axis_at(C, geometry, i, md):
     )  # fmt: skip
 
 
-@inlined
-def sliding_shares(laws, radius):
-    """Shares of the friction factor that act along the string, downwards, and around it: each −1 to 1."""
-    if laws.friction == COULOMB:
-        turning = radius * laws.spin
-        speed = np.sqrt(laws.speed * laws.speed + turning * turning) + TINY
-        return laws.speed / speed, turning / speed
-    return np.sign(laws.speed), np.sign(laws.spin)
-
-
 @kernel
 def soft_string(S, n, C, laws, top_md, bit_tension, G):
     """Fill G (n + 1, NODE) with tension, torque and offset of a soft string, node by node from the bit up."""
@@ -100,13 +89,13 @@ def soft_string(S, n, C, laws, top_md, bit_tension, G):
         qx, qy, qz = qx - inline * tx, qy - inline * ty, qz - inline * tz
         side = np.sqrt(qx * qx + qy * qy + qz * qz)
         mu = laws.friction_scale * C[i, FACTOR]
-        along, around = sliding_shares(laws, S[RADIUS + j])
+        along, around, climbing = shares(laws.friction, laws.speed, S[RADIUS + j] * laws.spin)
         if laws.geometry == OPEN or side == 0:
             side, ux, uy, uz = 0.0, 0.0, 0.0, 0.0
         else:
             # With law coulomb a turning string climbs the wall until friction and normal force together bear
             # the load.
-            climb = mu * around if laws.friction == COULOMB else 0.0
+            climb = mu * climbing
             norm = 1 / np.sqrt(1 + climb * climb)
             ux, uy, uz = norm * qx / side, norm * qy / side, norm * qz / side
             cx, cy, cz = cross(tx, ty, tz, ux, uy, uz)

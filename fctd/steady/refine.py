@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -25,13 +25,14 @@ from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import layouts, survey
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import SteadyRates, rates_of_all
-from fctd.steady.equilibrium import SOUND, Equilibrium, Solver
+from fctd.results.notes import Note, worst
+from fctd.results.status import RefineStatus
+from fctd.steady.equilibrium import Equilibrium, Solver
 
 Array = NDArray[np.float64]
 # Called before every level with what is about to be solved.
 Progress = Callable[[str], None]
 
-# A string in its balance, or one that cannot be pushed: the others' loads are nobody's.
 # Segments of a first string, and of the one in which the hole is refined.
 FIRST, IN_HOLE = 16, (128, 512)
 # Cylinders are halved so many times at most.
@@ -46,23 +47,22 @@ ANSWERS, UNANSWERED = 3, 2
 WORTH = 0.9
 # A load near zero is measured against this share of what it is made of.
 SHARE_OF_WHOLE = 0.1
-Status = Literal["within_tolerance", "not_reached", "no_answer"]
 
 
 @dataclass(frozen=True)
 class Refinement:
     """A case cut finely enough, or as finely as was tried.
 
-    status : ``within_tolerance``, ``not_reached`` (the estimate stayed above the tolerance up to the most segments)
-    or ``no_answer`` (no string found its balance).  case : the last string that has an answer, else the one given.
+    status : how the search ended; message says more.  case : the last string that has an answer, else the one given.
     tolerance, error : allowed and estimated relative error of hook load and torque, the largest over the
     operations.  layout : ``uniform`` or ``graded``.  segments : of the string in the hole.  shortest : of them [m].
     steps : a row per stage, layout, level and operation; columns stage, layout, level, operation, segments,
     shortest_m, chord_m (the most a cylinder misses the hole by), hookload_N, surface_torque_N_m, hookload_change,
     torque_change, hookload_error, torque_error (all relative; NaN where there is none yet), status, time_s.
+    notes : on the last strings that have answers, each code once.
     """
 
-    status: Status
+    status: RefineStatus
     message: str
     case: Case
     operations: tuple[str, ...]
@@ -73,6 +73,7 @@ class Refinement:
     segments: int
     shortest: float
     steps: pd.DataFrame
+    notes: tuple[Note, ...] = ()
 
 
 def refine(
@@ -108,7 +109,7 @@ def refine(
         found = _result(case, task, tolerance, error_of_hole, holes, strings)
         if not graded:
             return found
-        fewer = task._replace(most=int(WORTH * found.segments)) if found.status == "within_tolerance" else task
+        fewer = task._replace(most=int(WORTH * found.segments)) if found.status.acceptable else task
         strings = _refine_string(held, fewer, "graded", tolerance - error_of_hole)
         return _better(found, _result(case, task, tolerance, error_of_hole, holes, strings))
 
@@ -191,7 +192,7 @@ def _solve(stage: str, layout: str, case: Case, task: _Task) -> _Level:
         points.append(solver.solve(kind, rates, task.bit_depth))
         seconds.append(time.perf_counter() - began)
         began = time.perf_counter()
-    loads = [_loads(p) if p.status in SOUND else (np.nan, np.nan) for p in points]
+    loads = [_loads(p) if p.status.acceptable else (np.nan, np.nan) for p in points]
     scales = [_scales(p, weight, rates.spin) for p, rates in zip(points, task.rates.values(), strict=True)]
     return _Level(
         stage, layout, case, string.segments, float(string.length.min()), np.array(loads), np.array(scales), points,
@@ -256,38 +257,41 @@ def _result(
     """What the levels come to."""
     answered = [k for k, level in enumerate(strings) if level.answered]
     steps = pd.DataFrame(_rows(task, holes) + _rows(task, strings))
+    notes = worst(note for point in (strings[answered[-1]].points if answered else []) for note in point.notes)
 
-    def finish(status: Status, message: str, of: Case, error: float, segments: int, shortest: float) -> Refinement:
+    def finish(
+        status: RefineStatus, message: str, of: Case, error: float, segments: int, shortest: float
+    ) -> Refinement:
         return Refinement(
             status, message, of, tuple(task.rates), task.bit_depth, tolerance, error, strings[0].layout, segments,
-            shortest, steps,
+            shortest, steps, notes,
         )  # fmt: skip
 
     if not answered:
-        point = next(point for point in strings[-1].points if point.status not in SOUND)
+        point = next(point for point in strings[-1].points if not point.status.acceptable)
         message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has an answer in "
         message += f"{point.operation} ({point.status}: {point.message})"
-        return finish("no_answer", message, case, np.inf, 0, np.nan)
+        return finish(RefineStatus.NO_ANSWER, message, case, np.inf, 0, np.nan)
     found = strings[answered[-1]]
     error = error_of_hole + _error(strings[: answered[-1] + 1])
     if answered[-1] == len(strings) - 1 and error <= tolerance and len(answered) >= ANSWERS:
-        return finish("within_tolerance", "", found.case, error, found.segments, found.shortest)
+        return finish(RefineStatus.WITHIN_TOLERANCE, "", found.case, error, found.segments, found.shortest)
     left = f"an error of {100 * error:.3g} %" if np.isfinite(error) else "an unknown error"
     message = f"{left} is left at {found.segments} segments, the most that were tried"
     if answered[-1] != len(strings) - 1:
-        lost = next(point for point in strings[-1].points if point.status not in SOUND)
+        lost = next(point for point in strings[-1].points if not point.status.acceptable)
         why = f"{lost.operation}: {lost.status}"
         message = f"strings of more than {found.segments} segments have no answer ({why}); {left} is left there"
     if tolerance < error_of_hole < np.inf:
         message += f"; {100 * error_of_hole:.3g} % of it is the cylinders'"
-    return finish("not_reached", message, found.case, error, found.segments, found.shortest)
+    return finish(RefineStatus.NOT_REACHED, message, found.case, error, found.segments, found.shortest)
 
 
 def _better(uniform: Refinement, graded: Refinement) -> Refinement:
     """The one within the tolerance with the fewest segments, else the one with the least error; steps of both."""
 
     def merit(found: Refinement) -> tuple[bool, float]:
-        within = found.status == "within_tolerance"
+        within = found.status.acceptable
         return not within, found.segments if within else found.error
 
     steps = pd.concat([uniform.steps, graded.steps[graded.steps["stage"] == "string"]], ignore_index=True)
@@ -315,7 +319,7 @@ def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
                     "torque_change": change[i, 1],
                     "hookload_error": error[i, 0],
                     "torque_error": error[i, 1],
-                    "status": level.points[i].status,
+                    "status": level.points[i].status.value,
                     "time_s": level.seconds[i],
                 }
             )

@@ -13,9 +13,9 @@ import numpy as np
 
 from fctd.mechanics.contact import arc_direction, arc_owner, arc_wall, cylinder_direction, cylinder_owner, cylinder_wall
 from fctd.mechanics.dual import reciprocal, root
-from fctd.mechanics.friction import along_wall
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.joints import arms_to_gap, cross, gap, joint_loads
+from fctd.mechanics.laws import steady_load
 from fctd.mechanics.rotations import rotation_columns, twist_angle
 from fctd.mechanics.state import (
     ARCS,
@@ -29,7 +29,6 @@ from fctd.mechanics.state import (
     MUD_AXIAL,
     MUD_SPIN,
     OPEN,
-    PAPER,
     RADIUS,
     TINY,
     TRIBUTARY,
@@ -159,23 +158,9 @@ def wall_loads(C, i, laws, x, y, z, w, qx, qy, qz, arm, radius, tributary):
     nx, ny, nz = k * rx, k * ry, k * rz
     normal = stiffness * tributary * penetration
     limit = laws.friction_scale * factor * normal
-    if laws.friction == PAPER:
-        # Eqs 15-16: axial drag and a couple about the axis, each in full.
-        drag = -limit * np.sign(laws.speed)
-        fx, fy, fz = drag * ax, drag * ay, drag * az
-        torque = -radius * limit * np.sign(laws.spin)
-        mx, my, mz = torque * ax, torque * ay, torque * az
-    else:
-        # One force against the sliding of the string's side that touches, acting there.
-        cx, cy, cz = cross(ax, ay, az, nx, ny, nz)
-        turning = laws.spin * radius
-        sx, sy, sz = along_wall(
-            laws.speed * tx + turning * cx, laws.speed * ty + turning * cy, laws.speed * tz + turning * cz, nx, ny, nz
-        )
-        share = limit * reciprocal(root(sx * sx + sy * sy + sz * sz) + TINY)
-        fx, fy, fz = -share * sx, -share * sy, -share * sz
-        mx, my, mz = cross(radius * nx, radius * ny, radius * nz, fx, fy, fz)
-        torque = mx * ax + my * ay + mz * az
+    fx, fy, fz, mx, my, mz, torque = steady_load(
+        laws.friction, laws.speed, laws.spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz
+    )
     fx, fy, fz = fx - normal * nx, fy - normal * ny, fz - normal * nz
     ox, oy, oz = cross(arm * ax, arm * ay, arm * az, fx, fy, fz)
     ma, mb, mc = in_frame(w, qx, qy, qz, mx + ox, my + oy, mz + oz)

@@ -8,9 +8,11 @@ import pandas as pd
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.units import FRICTION, bare
-from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import build_wellbore
+from fctd.results.columns import IN_CHART
 from fctd.results.notes import codes_of
+from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Equilibrium, Solver
 
 # Called after every row with the number of rows done and of all.
@@ -30,10 +32,11 @@ def torque_drag(
 
     operation : kind or kinds; bit_depths [m] : rising; friction : kinetic factor or factors for every interval
     in turn, None for the case's own.  speed [m/s], rpm : as of ``equilibrium``, for the kinds that have them.
-    Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, hookload_N,
-    surface_torque_N_m, weight_indicator_N, drive_torque_N_m, total_contact_force_N, status, iterations, notes
-    (codes of ``notes.MEANINGS``, or none).  A row without an answer (status) has NaN for its loads.  Raises InputError
-    for what cannot be used.
+    Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, the loads of
+    ``columns.IN_CHART`` (hookload_N and so on), status (of ``SteadyStatus``), iterations, notes (codes of
+    ``notes.MEANINGS``, or none), reason (of a status that is not converged, or none).  A row without an answer (status)
+    has NaN for its loads; at a depth where string and hole do not fit it is ``not_possible``.  Raises InputError for
+    what cannot be used, and where string and hole fit at none of the depths.
     """
     with naming_file(case):
         depths = _check_depths(bit_depths)
@@ -47,11 +50,14 @@ def torque_drag(
             Solver(case, hole) if factor is None else Solver(with_friction(case, factor), hole.with_friction(factor))
             for factor in factors
         ]
+        misfits = _misfits(solvers[0], depths)
         rows = []
         for kind in kinds:
             for solver in solvers:
                 for depth in depths:
-                    rows.append(_row(solver, kind, rates[kind], depth))
+                    misfit = misfits.get(depth)
+                    point = solver.solve(kind, rates[kind], depth) if misfit is None else None
+                    rows.append(_row(solver.case, kind, depth, point, misfit))
                     if progress is not None:
                         progress(len(rows), len(kinds) * len(solvers) * len(depths))
         return pd.DataFrame(rows)
@@ -69,26 +75,34 @@ def own_friction(case: Case) -> float:
     return factors.pop() if len(factors) == 1 else float("nan")
 
 
-def _row(solver: Solver, kind: str, rates: SteadyRates, depth: float) -> dict[str, object]:
-    point = solver.solve(kind, rates, depth)
+def _misfits(solver: Solver, depths: Sequence[float]) -> dict[float, str]:
+    """Depths at which string and hole do not fit, and why; raises InputError where it is all of them."""
+    found: dict[float, InputError] = {}
+    for depth in depths:
+        try:
+            solver.lay_out(depth)
+        except InputError as error:
+            found[depth] = error
+    if len(found) == len(depths):
+        raise found[depths[0]]
+    return {depth: str(error) for depth, error in found.items()}
+
+
+def _row(case: Case, kind: str, depth: float, point: Equilibrium | None, misfit: str | None) -> dict[str, object]:
+    """A row of a string that was solved, or of a depth where there is none."""
+    answer = point if point is not None and point.answered else None
+    # What an unfinished iteration left there is no load.
+    loads = {load.name: float("nan") if answer is None else load.value(answer) for load in IN_CHART}
     return {
         "operation": kind,
-        "friction": own_friction(solver.case),
+        "friction": own_friction(case),
         "bit_depth_m": depth,
-        "hookload_N": _answer(point, point.hookload),
-        "surface_torque_N_m": _answer(point, point.surface_torque),
-        "weight_indicator_N": _answer(point, point.weight_indicator),
-        "drive_torque_N_m": _answer(point, point.drive_torque),
-        "total_contact_force_N": _answer(point, point.total_contact_force),
-        "status": point.status,
-        "iterations": point.iterations,
-        "notes": codes_of(point.notes),
+        **loads,
+        "status": str(SteadyStatus.NOT_POSSIBLE if point is None else point.status),
+        "iterations": 0 if point is None else point.iterations,
+        "notes": codes_of(() if point is None else point.notes),
+        "reason": misfit or (point.message if point is not None else "") or "none",
     }
-
-
-def _answer(point: Equilibrium, value: float) -> float:
-    """A load of a row; what an unfinished iteration left there is nobody's load."""
-    return value if point.answered else float("nan")
 
 
 def _check_depths(bit_depths: Sequence[float]) -> list[float]:

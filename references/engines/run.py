@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd.case.load import Case
+from fctd.results.status import RunStatus
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
 from references.engines import EngineRun, Stepper, Window
@@ -37,7 +38,7 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     try:
         for _ in simulation:
             pass
-        if simulation.status == "unstable":
+        if simulation.status == RunStatus.UNSTABLE:
             simulation.record_part()  # for the checks, which say how
     finally:
         stepper.close()

@@ -15,19 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.case.errors import InputError, nearest
-from fctd.case.load import DRILLING, Case
+from fctd.case.load import Case
+from fctd.case.operations import KINDS, Operation
 from fctd.model.operations import rad_per_s
-
-# Which way friction pulls at the string: down the hole (+1), up (−1), or not at all along it.
-DRAG_SIGN = {
-    "trip_in": -1.0,
-    "trip_out": 1.0,
-    "rotate_off_bottom": 0.0,
-    "back_ream": 1.0,
-    "drill_rotating": -1.0,
-    "drill_sliding": -1.0,
-}
-TURNING = ("rotate_off_bottom", "back_ream", "drill_rotating")
 
 
 class Friction(NamedTuple):
@@ -43,7 +33,7 @@ class Friction(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """What the whole string does: drag_sign of `DRAG_SIGN`, speed ≥ 0 [m/s], spin ≥ 0 [rad/s]."""
+    """What the whole string does: drag_sign (+1: friction pulls down the hole), speed ≥ 0 [m/s], spin ≥ 0 [rad/s]."""
 
     drag_sign: float
     speed: float
@@ -68,10 +58,9 @@ def motion_of(case: Case, operation: str, speed: float | None = None, rpm: float
     rotation, or rotates without sliding, needs no value; a trip rotates only if the arguments or the case say so.
     Raises InputError for an unknown operation, and for a speed or rpm that is missing or does not fit the operation.
     """
-    if operation not in DRAG_SIGN:
-        raise InputError(nearest(operation, DRAG_SIGN, "operation"), key="operation", value=operation)
     planned = next((o for o in case.operations if o.kind == operation), None)
-    moves, turns = DRAG_SIGN[operation] != 0, operation in TURNING
+    kind = _kind(operation)
+    moves, turns = kind.direction != 0, kind.turns
     if speed is None:
         speed = planned.speed if planned else None if moves else 0.0
     if rpm is None:
@@ -80,11 +69,17 @@ def motion_of(case: Case, operation: str, speed: float | None = None, rpm: float
         speed = 1.0
     if rpm is None and not moves:
         rpm = 1.0
-    _check("rpm", rpm, needed=turns, allowed=operation != "drill_sliding")
+    _check("rpm", rpm, needed=turns, allowed=kind.may_turn)
     _check("speed", speed, needed=moves, allowed=moves)
     assert speed is not None
     assert rpm is not None
-    return Motion(DRAG_SIGN[operation], speed, rad_per_s(rpm))
+    return Motion(float(-kind.direction), speed, rad_per_s(rpm))
+
+
+def _kind(operation: str) -> type[Operation]:
+    if operation not in KINDS:
+        raise InputError(nearest(operation, KINDS, "operation"), key="operation", value=operation)
+    return KINDS[operation]
 
 
 def _check(key: str, value: float | None, *, needed: bool, allowed: bool) -> None:
@@ -98,6 +93,6 @@ def _check(key: str, value: float | None, *, needed: bool, allowed: bool) -> Non
 
 def loads_at_bit(case: Case, operation: str) -> tuple[float, float]:
     """Effective tension [N] and torque [N m] at the bit: −WOB and the bit torque on bottom, else none."""
-    if operation in DRILLING:
+    if _kind(operation).on_bottom:
         return -case.bit.weight_on_bit, case.bit.torque
     return 0.0, 0.0

@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 
 from fctd.case import units
 from fctd.case.errors import MISSING, InputError
-from fctd.case.load import Case, RotateOffBottom, TripOut, load_case, parse_override
+from fctd.case.load import Case, load_case, parse_override
+from fctd.case.operations import RotateOffBottom, TripOut
 from tests.strategies import CASE, COMBINED, RULES, cases, corrupted_cases, write_case
 
 

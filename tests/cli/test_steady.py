@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 import fctd
 from fctd.case.errors import InputError
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
 from fctd.cli.steady import MOST_DEPTHS, read_depths, stretches
 from tests.cli.test_main import run
 
@@ -37,6 +37,7 @@ segment_length = "40 m"
 CHART_COLUMNS = [
     "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "status", "iterations", "notes",
+    "reason",
 ]  # fmt: skip
 # A pound-force and a foot in SI, exact by definition (NIST SP 811, appendix B.8).
 LBF, FOOT = 4.4482216152605, 0.3048
@@ -200,6 +201,27 @@ def test_a_row_without_an_answer_shows_in_row_screen_and_exit_code(
     assert picture.exists()
 
 
+def test_a_chart_goes_on_below_the_hole(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Depths at which string and hole do not fit have rows of their own; the profile is that of the last that does."""
+    pytest.importorskip("matplotlib")
+    out, pictures = tmp_path / "chart.csv", [tmp_path / "chart.png", tmp_path / "profile.png"]
+    code = run(
+        monkeypatch, "chart", case_file, "--operation", "trip_out", "--depths", "800:1000:100", "--out", out,
+        "--plot", pictures[0], "--plot-profile", pictures[1],
+    )  # fmt: skip
+    assert code == 1
+    screen, errors = capsys.readouterr()
+    assert "not_possible" in screen
+    assert 'trip_out, friction 0.2: not_possible at 1000 m (1 of 3): bit_depth = "1000 m": expected a depth' in errors
+    table = pd.read_csv(out)
+    assert table["status"].tolist() == ["converged", "converged", "not_possible"]
+    assert table["hookload_N"].isna().tolist() == [False, False, True]
+    assert table["reason"].str.contains("within survey and intervals, 900 m").tolist() == [False, False, True]
+    assert all(picture.exists() for picture in pictures)
+
+
 def test_equilibrium_without_an_answer_writes_nothing(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -252,8 +274,7 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
     [
         ("chart", {"--operation": "trip_inn"}, ["tiny.toml", "operation", "trip_inn", "the kind trip_in"]),
         ("chart", {"--operation": "drill"}, ["operation", "drill"]),
-        ("chart", {"--depths": "500:1000:100"}, ["tiny.toml", "--depths", "500:1000:100", "900 m"]),
-        ("chart", {"--depths": "0:800:100"}, ["tiny.toml", "--depths", "0:800:100", "below string.top_md"]),
+        ("chart", {"--depths": "1000:1200:100"}, ["tiny.toml", 'bit_depth = "1000 m"', "900 m"]),
         ("chart", {"--depths": "800:500:100"}, ["--depths", "800:500:100", "rise"]),
         ("chart", {"--depths": "500:800:0"}, ["--depths", "500:800:0", "STEP above 0"]),
         ("chart", {"--depths": "500:800:-10"}, ["--depths", "-10", "a length"]),

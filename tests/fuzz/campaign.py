@@ -11,7 +11,8 @@ from pathlib import Path
 from random import Random
 
 from fctd import Case, Equilibrium, InputError, build_wellbore, equilibrium, load_case, simulate, torque_drag
-from fctd.case.load import KINDS, parse_override
+from fctd.case.load import parse_override
+from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
 from fctd.simulation.run import prepare
 from fctd.steady.equilibrium import Solver

@@ -7,13 +7,11 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, Equilibrium, SimulationResult, Wellbore, find_contacts
-from fctd.case.load import DRILLING
+from fctd.case.operations import KINDS
 from fctd.model.drillstring import String, lay_out
 from fctd.model.operations import steady_rates
-from fctd.steady.equilibrium import ANSWERED, SOUND
+from fctd.results.status import RunStatus, SteadyStatus
 
-STATUSES = (*ANSWERED, "max_iterations", "diverged", "not_finite")
-RUN_STATUSES = ("completed", "unstable", "unsettled", "interrupted")
 LOADS = (
     "hookload", "surface_torque", "weight_indicator", "drive_torque", "total_contact_force", "sum_r_ft", "sum_r_mu_fn",
     "imbalance",
@@ -25,8 +23,9 @@ SAME_LENGTH = 1e-6  # [m]
 
 def finite(point: Equilibrium) -> Iterator[str]:
     """What is amiss with any answer, plausible or not: a status that is not documented, numbers that are none."""
-    if point.status not in STATUSES:
+    if point.status not in list(SteadyStatus):
         yield f"status {point.status!r}"
+        return
     if not point.answered:
         return
     for name in LOADS:
@@ -48,7 +47,7 @@ def steadiness(case: Case, point: Equilibrium) -> Iterator[str]:
 
     The lower end, which nothing holds, buckles at half the force of a string that goes on (a semi-infinite beam).
     """
-    if point.status in SOUND or (point.status == "unstable" and any(c.bend for c in case.string.components)):
+    if point.status.acceptable or (point.status == "unstable" and any(c.bend for c in case.string.components)):
         return
     profile, wall = point.profile, case.wellbore
     if point.status == "diverged" and wall.stiffness is not None:
@@ -79,7 +78,7 @@ def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
         yield f"contact forces of {normal.sum():.6g} N in the profile, {point.total_contact_force:.6g} N in all"
     if (profile["von_mises_Pa"] < 0).any() or not profile["contact_angle_deg"].between(0, 360).all():
         yield "a stress below 0, or a contact angle beyond 0 to 360"
-    drilling = point.operation in DRILLING
+    drilling = KINDS[point.operation].on_bottom
     weight_on_bit, bit_torque = (case.bit.weight_on_bit, case.bit.torque) if drilling else (0.0, 0.0)
     if profile["effective_tension_N"].iloc[-1] != -weight_on_bit:
         yield f"a tension of {profile['effective_tension_N'].iloc[-1]} N at the bit"
@@ -145,7 +144,7 @@ def axis(hole: Wellbore) -> Iterator[str]:
 
 def ordered(points: Mapping[str, Equilibrium]) -> Iterator[str]:
     """Hook loads of operations at one depth that are not in the order of their motions."""
-    sound = {kind: point for kind, point in points.items() if point.status in SOUND}
+    sound = {kind: point for kind, point in points.items() if point.status.acceptable}
     chain = [kind for kind in ("trip_in", "rotate_off_bottom", "back_ream", "trip_out") if kind in sound]
     for lower, upper in pairwise(chain):
         a, b = sound[lower], sound[upper]
@@ -156,7 +155,7 @@ def ordered(points: Mapping[str, Equilibrium]) -> Iterator[str]:
 
 def run(case: Case, result: SimulationResult) -> Iterator[str]:
     """What is amiss with a short run of a plausible case."""
-    if result.status not in RUN_STATUSES:
+    if result.status not in list(RunStatus):
         yield f"status {result.status!r}"
     if result.status != "completed":
         return

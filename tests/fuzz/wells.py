@@ -3,7 +3,7 @@
 from random import Random
 from typing import Any, NamedTuple
 
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
 from tests.fuzz.items import Item
 from tests.fuzz.paths import path
 from tests.strategies import write_case
@@ -104,7 +104,7 @@ def _string(rng: Random, size: float, coarse: bool) -> list[dict[str, Any]]:
 
 def _short(rng: Random, top: float, depth: float) -> dict[str, Any]:
     """An operation of a few seconds that ends at or near total depth."""
-    kind = rng.choice([kind for kind in KINDS if not kind.startswith("drill")])
+    kind = rng.choice([kind for kind in KINDS if not KINDS[kind].on_bottom])
     operation: dict[str, Any] = {"kind": kind, "ramp_time": 2.0}
     if kind != "trip_in" and kind != "trip_out":
         operation["rpm"] = rng.choice([30, 60, 120])

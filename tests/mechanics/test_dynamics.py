@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from fctd.mechanics import dynamics, joints, query, state, topdrive
 from fctd.mechanics.contact import COLUMNS, Arc, follow_arcs, follow_cylinders
 from fctd.mechanics.faults import UnstableError
+from fctd.mechanics.laws import CODES
 from fctd.simulation.run import Run, prepare, settle
 from tests.bodies import (
     AXIS,
@@ -31,7 +32,7 @@ from tests.bodies import (
 )
 from tests.cases import make_case, pipe, rotation
 
-FREE = state.Laws(state.OPEN, state.COULOMB, 1.0, 0.0, 0.0, 0.0)
+FREE = state.Laws(state.OPEN, CODES["coulomb"], 1.0, 0.0, 0.0, 0.0)
 STILL = topdrive.Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 NO_PIPE = topdrive.PerMetre(*[0.0] * 10)._replace(EA=1.0)
 NO_HOLE = np.zeros((1, COLUMNS))
@@ -214,8 +215,8 @@ def test_stepper_converges_at_first_order() -> None:
         (joints.update_joint_loads, (1e-4, 1e-3)),
         (follow_cylinders, ()),
         (follow_arcs, ()),
-        (dynamics.push_with_coulomb, (FREE, 1e-3)),
-        (dynamics.push_with_paper, (FREE, 1e-3)),
+        (dynamics.PUSHES[CODES["coulomb"]], (FREE, 1e-3)),
+        (dynamics.PUSHES[CODES["paper"]], (FREE, 1e-3)),
         (dynamics.push_freely, (FREE, 1e-3)),
         (dynamics.move_bodies, (1e-3,)),
     ],

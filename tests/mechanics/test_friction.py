@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from fctd.mechanics import dynamics, friction, state
+from fctd.mechanics.laws import CODES, coulomb, paper
 from fctd.mechanics.state import Laws
 from tests.bodies import SPIN, TO_WALL, VELOCITY, Array, at, place, put, set_body
 
@@ -39,7 +40,7 @@ class Pushed:
         return float(self.S[name + 1])
 
 
-def pushed(turn, off, velocity, spin, depth=2e-3, damping=0.0, mu=0.25, law=state.COULOMB) -> Pushed:
+def pushed(turn, off, velocity, spin, depth=2e-3, damping=0.0, mu=0.25, law=CODES["coulomb"]) -> Pushed:
     """A body in a hole, of any orientation and motion (global), pressed into the wall by ``depth`` [m]."""
     S = state.new_state(1)
     set_body(S, 1, MASS, INERTIA[0], INERTIA[2])
@@ -51,7 +52,7 @@ def pushed(turn, off, velocity, spin, depth=2e-3, damping=0.0, mu=0.25, law=stat
     put(S, 1, TO_WALL, (HOLE - RADIUS + depth) * normal)
     put(S, 1, VELOCITY, velocity)
     put(S, 1, SPIN, turned.inv().apply(spin))
-    push = dynamics.push_with_coulomb if law == state.COULOMB else dynamics.push_with_paper
+    push = dynamics.PUSHES[law]
     push(S, state.LANES, Laws(state.ARCS, law, 1.0, damping, 0.0, 0.0), DT)
     after = at(S, 1, VELOCITY), turned.apply(at(S, 1, SPIN))
     moment = turned.apply(INERTIA * turned.inv().apply(after[1] - spin))
@@ -117,7 +118,7 @@ def test_coulomb_friction_is_one_force_against_the_sliding_at_the_wall_side(turn
 def test_paper_friction_is_a_drag_along_the_axis_and_a_couple_about_it(turn, off, velocity, spin, depth) -> None:
     """Eqs 15–16: μN along the string and r μN about it, each at most what stops that motion."""
     mu = 0.25
-    body, loose = (pushed(turn, off, velocity, spin, depth=depth, mu=m, law=state.PAPER) for m in (mu, 0.0))
+    body, loose = (pushed(turn, off, velocity, spin, depth=depth, mu=m, law=CODES["paper"]) for m in (mu, 0.0))
     force, moment = split(body, loose)
     axis = body.turned.apply([0, 0, 1])
     limit = mu * loose.given(state.SUM_NORMAL)
@@ -144,7 +145,7 @@ def test_no_impulse_clear_of_the_wall(depth: float) -> None:
     np.testing.assert_allclose(body.moment, 0, atol=1e-11)
 
 
-@pytest.mark.parametrize("law", [friction.coulomb_impulse, friction.paper_impulse])
+@pytest.mark.parametrize("law", [coulomb.impulse, paper.impulse])
 @pytest.mark.parametrize("limit", [1e-3, 1e9])
 def test_friction_opposes_sliding_and_at_most_stops_it(law, limit: float) -> None:
     S = state.new_state(1)
@@ -158,7 +159,7 @@ def test_friction_opposes_sliding_and_at_most_stops_it(law, limit: float) -> Non
         return float(200 * (m[:3] ** 2).sum() + 1500 * (m[3:5] ** 2).sum() + 0.5 * m[5] ** 2)
 
     assert kinetic(after) < kinetic(motion)
-    if law is friction.paper_impulse:
+    if law is paper.impulse:
         assert after[2] * motion[2] >= -1e-12
         assert after[5] * motion[5] >= -1e-12
         if limit > 1:
@@ -181,14 +182,14 @@ def test_a_turning_body_on_the_axis_of_its_hole_touches_nothing(offset):
     penetration, *normal = friction.wall_normal(S, 1)
     assert penetration == pytest.approx(-0.95)
     assert np.linalg.norm(normal) <= 1 + 1e-12
-    change = friction.coulomb_impulse(S, 1, 0.0, 0.0, 0.0, 0.0, 0.0, 6.28, *normal, 0.0)
+    change = coulomb.impulse(S, 1, 0.0, 0.0, 0.0, 0.0, 0.0, 6.28, *normal, 0.0)
     assert change == (0.0,) * 6
 
 
 @pytest.mark.parametrize(("geometry", "law", "pressed", "rubbed"), [
-    (state.OPEN, state.COULOMB, False, False), (state.OPEN, state.PAPER, False, False),
-    (state.CYLINDERS, state.PAPER, True, False), (state.ARCS, state.PAPER, True, False),
-    (state.CYLINDERS, state.COULOMB, True, True), (state.ARCS, state.COULOMB, True, True),
+    (state.OPEN, CODES["coulomb"], False, False), (state.OPEN, CODES["paper"], False, False),
+    (state.CYLINDERS, CODES["paper"], True, False), (state.ARCS, CODES["paper"], True, False),
+    (state.CYLINDERS, CODES["coulomb"], True, True), (state.ARCS, CODES["coulomb"], True, True),
 ])  # fmt: skip
 def test_a_run_follows_its_laws(geometry: int, law: int, pressed: bool, rubbed: bool) -> None:
     """A body that slides around the wall: only ``coulomb`` friction resists that, and without a hole nothing does."""

@@ -6,18 +6,8 @@ import numpy as np
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.case.load import KINDS
-from fctd.model.operations import (
-    DEFAULT_RATES,
-    MAY_TURN,
-    MOVES,
-    OPERATION_NAMES,
-    depth_range,
-    rates_of_all,
-    schedule,
-    sensors,
-    steady_rates,
-)
+from fctd.case.operations import KINDS
+from fctd.model.operations import depth_range, rates_of_all, schedule, sensors, steady_rates
 from tests.cases import make_case, rotation, trip
 
 TURN = 2 * np.pi  # 60 rev/min [rad/s]
@@ -82,17 +72,26 @@ def test_the_dead_line_reads_more_when_hoisting(kind: str, power: int) -> None:
     assert torque == 1300.0
 
 
-def test_every_kind_has_rates_and_a_name() -> None:
-    assert set(DEFAULT_RATES) == set(OPERATION_NAMES) == set(KINDS)
-
-
-def test_documented_rates() -> None:
-    assert {kind: DEFAULT_RATES[kind] for kind in DEFAULT_RATES} == {
-        "trip_in": (0.3, 0.0), "trip_out": (0.3, 0.0), "rotate_off_bottom": (0.0, 60.0), "back_ream": (0.1, 60.0),
-        "drill_rotating": (0.003, 120.0), "drill_sliding": (0.003, 0.0),
+def test_documented_kinds() -> None:
+    assert {name: (kind.direction, kind.default_speed, kind.default_rpm) for name, kind in KINDS.items()} == {
+        "trip_in": (1, 0.3, 0.0), "trip_out": (-1, 0.3, 0.0), "rotate_off_bottom": (0, 0.0, 60.0),
+        "back_ream": (-1, 0.1, 60.0), "drill_rotating": (1, 0.003, 120.0), "drill_sliding": (1, 0.003, 0.0),
     }  # fmt: skip
-    assert set(MOVES) == set(DEFAULT_RATES) - {"rotate_off_bottom"}
-    assert set(MAY_TURN) == set(DEFAULT_RATES) - {"drill_sliding"}
+    assert {name for name, kind in KINDS.items() if kind.turns} == {"rotate_off_bottom", "back_ream", "drill_rotating"}
+    assert {name for name, kind in KINDS.items() if not kind.may_turn} == {"drill_sliding"}
+    assert {name for name, kind in KINDS.items() if kind.on_bottom} == {"drill_rotating", "drill_sliding"}
+
+
+def test_rates_of_a_kind_are_its_own() -> None:
+    """A kind that moves has a speed, one that turns a rotation, and the defaults are rates it accepts."""
+    for name, kind in KINDS.items():
+        assert (kind.default_speed > 0) == (kind.direction != 0)
+        assert (kind.default_rpm > 0) <= kind.may_turn
+        found = steady_rates(make_case(), name)
+        assert found == (kind.direction * kind.default_speed, pytest.approx(kind.default_rpm * np.pi / 30))
+
+
+def test_rates_of_several_kinds_are_of_those_that_have_them() -> None:
     rates = rates_of_all(make_case(), ["trip_in", "rotate_off_bottom", "back_ream"], speed=0.7, rpm=30)
     found = {kind: (rate.speed, rate.spin) for kind, rate in rates.items()}
     half = pytest.approx(0.5 * TURN)

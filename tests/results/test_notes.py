@@ -10,7 +10,7 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from fctd import Case, equilibrium, simulate, torque_drag
+from fctd import Case, equilibrium, open_result, simulate, torque_drag
 from fctd.case.units import conversion
 from fctd.results import notes
 from fctd.steady.equilibrium import Equilibrium
@@ -223,7 +223,23 @@ def test_the_screen_has_a_line_for_every_note_and_stretch_of_depths(
     assert line == f"trip_out, friction 0.5: note yield at {where}: {headline}: {remedy}"
     assert json.loads((tmp_path / "chart.csv.json").read_text())["notes"]["yield"]["headline"] == headline
 
+    assert run(monkeypatch, "chart", case, *asked, "--out", out, "--strict") == 1
+    assert "strict: notes are errors (tensile_capacity, yield)" in capsys.readouterr().err
+    assert pd.read_csv(out).equals(table)
+
     asked = ("--operation", "trip_out", "--bit-depth", "1800")
+    assert run(monkeypatch, "equilibrium", case, *asked, "--strict", "--out", tmp_path / "strict.csv") == 1
+    assert capsys.readouterr().err.splitlines()[-1].startswith("strict: notes are errors")
+    assert (tmp_path / "strict.csv").exists()
+    assert run(monkeypatch, "refine", case, *asked, "--tolerance", "20 %", "--quiet") == 0
+    assert "note: " in capsys.readouterr().err
+    assert run(monkeypatch, "refine", case, *asked, "--tolerance", "20 %", "--quiet", "--strict") == 1
+    assert "strict: notes are errors" in capsys.readouterr().err
+    # A string without a note is as before.
+    light = ("--operation", "rotate_off_bottom", "--bit-depth", "500", "--friction", "0.1")
+    assert run(monkeypatch, "equilibrium", case, *light, "--strict") == 0
+    capsys.readouterr()
+
     assert run(monkeypatch, "equilibrium", case, *asked, "--out", tmp_path / "p.parquet") == 0
     lines = [line for line in capsys.readouterr().err.splitlines() if line.startswith("note: ")]
     kept = json.loads(pq.read_schema(tmp_path / "p.parquet").metadata[b"notes"])
@@ -236,6 +252,12 @@ def test_the_screen_has_a_line_for_every_note_and_stretch_of_depths(
     assert errors.startswith("inaccurate: the energy ledger is off by")
     assert "\nnote: the stress at" in errors
     assert pq.read_schema(tmp_path / "run" / "history.parquet").metadata[b"status"] == b"inaccurate"
+    kept = open_result(tmp_path / "run").notes
+    assert {note.code for note in kept} >= {"ledger", "yield"}
+    assert f"\nnote: {next(note for note in kept if note.code == 'yield')}" in errors
+
+    assert run(monkeypatch, "simulate", case, "--out", tmp_path / "run", "--quiet", "--strict") == 1
+    assert "strict: notes are errors (ledger" in capsys.readouterr().err
 
 
 def test_a_note_is_what_it_says() -> None:

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from fctd import Case, InputError, equilibrium, simulate
 from fctd.mechanics import state, topdrive
+from fctd.mechanics.laws import CODES
 from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.model.layouts import graded, uniform, with_components
 from fctd.model.operations import Phase, depth_range, schedule
@@ -196,7 +197,7 @@ def test_profiles_may_be_wanted_at_both_ends_of_a_trip() -> None:
             prepare(make_case(operations=[trip(990, 1000)], record={"profile_at": [995.0, depth]}))
 
 
-@pytest.mark.parametrize(("law", "number"), [("coulomb", state.COULOMB), ("paper", state.PAPER)])
+@pytest.mark.parametrize(("law", "number"), [("coulomb", CODES["coulomb"]), ("paper", CODES["paper"])])
 @pytest.mark.parametrize(("enabled", "geometry"), [(True, state.ARCS), (False, state.OPEN)])
 def test_the_laws_of_a_run_are_those_of_its_case(law: str, number: int, enabled: bool, geometry: int) -> None:
     contact = {"friction_law": law, "damping": 123.0, "enabled": enabled}

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import fctd
 from fctd import Case, InputError, equilibrium
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
 from fctd.model.wellbore import build_wellbore, hole_frame
 from fctd.steady.block_thomas import solve_with_pivoting

@@ -14,8 +14,9 @@ from fctd import Case, Equilibrium, InputError
 from fctd.model.drillstring import lay_out
 from fctd.model.layouts import uniform, with_components
 from fctd.model.operations import SteadyRates, steady_rates
+from fctd.results.status import RefineStatus, SteadyStatus
 from fctd.steady.equilibrium import Solver
-from fctd.steady.refine import SAFETY, Refinement, Status, _better, _errors, _Level, relative_difference
+from fctd.steady.refine import SAFETY, Refinement, _better, _errors, _Level, relative_difference
 from tests.cases import make_case, pipe, rotation, trip
 from validation.parts.refinement import finer
 
@@ -112,11 +113,12 @@ def test_a_hole_that_bends_alike_everywhere_is_cut_alike() -> None:
     ],
 )
 def test_the_better_string_is_the_one_that_is_enough_with_fewer(
-    uniform: tuple[Status, float, int], graded: tuple[Status, float, int], better: str
+    uniform: tuple[str, float, int], graded: tuple[str, float, int], better: str
 ) -> None:
-    def found(layout: str, status: Status, error: float, segments: int) -> Refinement:
+    def found(layout: str, status: str, error: float, segments: int) -> Refinement:
         steps = pd.DataFrame({"stage": ["hole", "string"], "layout": ["uniform", layout]})
-        return Refinement(status, "", build_case(), ("trip_in",), 1300.0, 0.01, error, layout, segments, 1.0, steps)
+        ended = RefineStatus(status)
+        return Refinement(ended, "", build_case(), ("trip_in",), 1300.0, 0.01, error, layout, segments, 1.0, steps)
 
     chosen = _better(found("uniform", *uniform), found("graded", *graded))
     assert chosen.layout == better
@@ -276,7 +278,7 @@ def test_finer_strings_without_an_answer_end_the_search(monkeypatch: pytest.Monk
 
     def short_of_breath(self: Solver, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         point = solve(self, operation, rates, bit_depth)
-        return replace(point, status="max_iterations") if len(point.profile) > 70 else point
+        return replace(point, status=SteadyStatus.MAX_ITERATIONS) if len(point.profile) > 70 else point
 
     monkeypatch.setattr(Solver, "solve", short_of_breath)
     case = build_case(wellbore={"geometry": "arcs"})

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fctd.case.load import DRILLING, Case
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
 from fctd.mechanics import dynamics, state
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.joints import update_joint_loads
@@ -44,8 +45,8 @@ def case_of(geometry: str, law: str, **more: Any) -> Case:
 def laws_of(solver: Solver, kind: str) -> Steady:
     """The laws of an operation, with the bit pushed up a slanting hole."""
     rates = steady_rates(solver.case, kind)
-    push = np.array([0.3, -0.2, -0.9]) * (3e4 if kind in DRILLING else 0.0)
-    torque = 2e3 if kind in DRILLING else 0.0
+    push = np.array([0.3, -0.2, -0.9]) * (3e4 if KINDS[kind].on_bottom else 0.0)
+    torque = 2e3 if KINDS[kind].on_bottom else 0.0
     return Steady(solver.geometry, solver.law, 1.0, rates.speed, rates.spin, *push, torque)
 
 

@@ -12,6 +12,7 @@ STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
 COLUMNS = [
     "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "status", "iterations", "notes",
+    "reason",
 ]  # fmt: skip
 
 
@@ -60,7 +61,7 @@ def test_a_row_per_operation_friction_and_depth() -> None:
         ({"bit_depths": []}, "bit_depths = []: expected at least one bit depth"),
         ({"bit_depths": [500, 400]}, 'bit_depths = "400 m": expected finite bit depths, each below the one before'),
         ({"bit_depths": [500, float("nan")]}, "expected finite bit depths"),
-        ({"bit_depths": [500, 950]}, 'bit_depth = "950 m": expected a depth below string.top_md, 0 m, within'),
+        ({"bit_depths": [950, 960]}, 'bit_depth = "950 m": expected a depth below string.top_md, 0 m, within'),
         ({"operation": []}, "expected at least one kind of operation"),
         ({"operation": ["trip_in", "wiggle"]}, 'operation = "wiggle": expected one of the kinds'),
         ({"friction": -0.1}, "friction = -0.1: expected a friction factor at least 0"),
@@ -89,4 +90,21 @@ def test_an_error_names_the_case_file(tmp_path: Any) -> None:
         "inner_diameter = 0.05\nsegment_length = 30\n"
     )
     with pytest.raises(InputError, match=r"well\.toml: bit_depth = \"1000 m\""):
-        torque_drag(load_case(file), "trip_in", [500.0, 1000.0])
+        torque_drag(load_case(file), "trip_in", [1000.0])
+
+
+def test_a_depth_that_does_not_fit_is_a_row_with_its_reason() -> None:
+    """Too shallow, in the hole, too wide for the hole below 600 m, and beyond the survey."""
+    hole = [{"to_md": 600, "diameter": 0.3, "friction": 0.2}, {"to_md": 900, "diameter": 0.12, "friction": 0.2}]
+    case = make_case(
+        [[0, 0, 0], [900, 0, 0]], [pipe(None, None, 0.15, segment_length=20.0)], wellbore={"intervals": hole}
+    )
+    chart = torque_drag(case, ["trip_in", "trip_out"], [0.0, 500.0, 700.0, 1000.0], friction=[0.1, 0.2])
+    assert chart["status"].tolist() == 4 * ["not_possible", "converged", "not_possible", "not_possible"]
+    lost = chart["status"] == "not_possible"
+    assert chart.loc[lost, "hookload_N":"total_contact_force_N"].isna().all(axis=None)
+    assert (chart.loc[lost, "iterations"] == 0).all()
+    assert chart["reason"].tolist()[:2] == ['bit_depth = "0 m": expected a depth below string.top_md, 0 m, within '
+                                            "survey and intervals, 900 m", "none"]  # fmt: skip
+    assert "contact_diameter" in chart["reason"][2]
+    assert type(chart["status"][0]) is str

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
 from fctd.mechanics import topdrive
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion

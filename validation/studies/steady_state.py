@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from fctd import simulate, torque_drag
-from fctd.case.load import KINDS
+from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from validation.cases import load, rotation

@@ -1,0 +1,140 @@
+"""The kinds of operation of a case: what a file says of each, and what the program knows of its kind.
+
+A new kind is a class here and its name in ``Operation``; every table of kinds follows from these.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar, Final, Literal, Self, get_args
+
+from pydantic import model_validator
+
+from fctd.case import units
+from fctd.case.errors import InputError, Table
+
+
+class _Operation(Table):
+    """What all kinds of operation share.
+
+    start_key, end_key : names of the first and the last depth in the file.  label : the kind in the driller's words.
+    direction : of the string along the hole, 1 down, −1 up, 0 not at all.  on_bottom : whether the bit carries weight
+    and torque.  default_speed [m/s], default_rpm : of a steady string where neither call nor case says more.
+    turns : whether the string has to turn; may_turn : whether it can.
+    """
+
+    start_key: ClassVar[str]
+    end_key: ClassVar[str]
+    label: ClassVar[str]
+    direction: ClassVar[Literal[-1, 0, 1]]
+    on_bottom: ClassVar[bool] = False
+    default_speed: ClassVar[float]
+    default_rpm: ClassVar[float] = 0.0
+    turns: ClassVar[bool] = False
+    may_turn: ClassVar[bool] = True
+    ramp_time: units.PositiveTime = 10.0
+
+    @property
+    def start_md(self) -> float:
+        """Bit depth at the start [m]."""
+        return float(getattr(self, self.start_key))
+
+    @property
+    def end_md(self) -> float:
+        """Bit depth at the end [m]."""
+        return float(getattr(self, self.end_key))
+
+
+class _Move(_Operation):
+    """The bit goes from one depth [m] to another at a speed [m/s]; the kind sets the direction."""
+
+    start_key = "from_md"
+    end_key = "to_md"
+    from_md: units.Length
+    to_md: units.Length
+    speed: units.PositiveSpeed
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.to_md - self.from_md) * self.direction <= 0:
+            side = "below" if self.direction > 0 else "above"
+            raise InputError(f"a depth {side} from_md, {self.from_md:g} m", key="to_md")
+        return self
+
+
+class TripIn(_Move):
+    """Into the hole: slack-off."""
+
+    kind: Literal["trip_in"]
+    label = "slacking off"
+    direction = 1
+    default_speed = 0.3
+    rpm: units.Rpm = 0.0
+
+
+class TripOut(_Move):
+    """Out of the hole: pick-up."""
+
+    kind: Literal["trip_out"]
+    label = "picking up"
+    direction = -1
+    default_speed = 0.3
+    rpm: units.Rpm = 0.0
+
+
+class RotateOffBottom(_Operation):
+    """Rotation in place for a duration [s]."""
+
+    start_key = end_key = "at_md"
+    kind: Literal["rotate_off_bottom"]
+    label = "rotating off bottom"
+    direction = 0
+    default_speed = 0.0
+    default_rpm = 60.0
+    turns = True
+    at_md: units.Length
+    duration: units.PositiveTime
+    rpm: units.PositiveRpm
+    speed: ClassVar[float] = 0.0
+
+
+class BackReam(_Move):
+    """Out of the hole while rotating."""
+
+    kind: Literal["back_ream"]
+    label = "back-reaming"
+    direction = -1
+    default_speed = 0.1
+    default_rpm = 60.0
+    turns = True
+    rpm: units.PositiveRpm
+
+
+class DrillRotating(_Move):
+    """Ahead with the bit on bottom, the whole string rotating; `speed` is the rate of penetration."""
+
+    kind: Literal["drill_rotating"]
+    label = "drilling, rotating"
+    direction = 1
+    on_bottom = True
+    default_speed = 0.003
+    default_rpm = 120.0
+    turns = True
+    rpm: units.PositiveRpm
+
+
+class DrillSliding(_Move):
+    """Ahead with the bit on bottom, turned by a motor while the string slides."""
+
+    kind: Literal["drill_sliding"]
+    label = "drilling, sliding"
+    direction = 1
+    on_bottom = True
+    default_speed = 0.003
+    may_turn = False
+    rpm: ClassVar[float] = 0.0
+
+
+Operation = TripIn | TripOut | RotateOffBottom | BackReam | DrillRotating | DrillSliding
+KINDS: Final[dict[str, type[Operation]]] = {
+    get_args(kind.model_fields["kind"].annotation)[0]: kind for kind in get_args(Operation)
+}

@@ -1,0 +1,46 @@
+"""The laws of friction, a line each, and the choice between them at run time.
+
+numba has to know a function when it compiles its caller, so the choice is a chain of comparisons, built once from the
+table: the code of a law is its place there.
+"""
+
+from typing import Any, Final
+
+from fctd.mechanics.friction import Law
+from fctd.mechanics.jit import inlined
+from fctd.mechanics.laws.coulomb import LAW as COULOMB  # noqa: F401 (the table is made of what is imported here)
+from fctd.mechanics.laws.paper import LAW as PAPER  # noqa: F401
+
+LAWS: Final = tuple(law for law in list(globals().values()) if isinstance(law, Law))
+CODES: Final = {law.name: code for code, law in enumerate(LAWS)}
+NAMES: Final = tuple(CODES)
+
+
+def chain(functions: Any) -> Any:
+    """A function of a law's code and further arguments that calls the function of that law, expanded in place."""
+    chosen = _only(functions[0])
+    for code, function in enumerate(functions[1:], start=1):
+        chosen = _either(code, function, chosen)
+    return chosen
+
+
+def _only(function: Any) -> Any:
+    @inlined
+    def chosen(law, *arguments):
+        return function(*arguments)
+
+    return chosen
+
+
+def _either(code: int, function: Any, others: Any) -> Any:
+    @inlined
+    def chosen(law, *arguments):
+        if law == code:
+            return function(*arguments)
+        return others(law, *arguments)
+
+    return chosen
+
+
+steady_load: Final = chain([law.steady_load for law in LAWS])
+shares: Final = chain([law.shares for law in LAWS])

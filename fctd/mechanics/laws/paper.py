@@ -1,0 +1,37 @@
+"""Law ``paper`` (Eqs 15–16): axial drag μF_n and a couple r μ F_n about the axis, each in full."""
+
+import numpy as np
+
+from fctd.mechanics.friction import Law
+from fctd.mechanics.jit import inlined
+from fctd.mechanics.state import INVERSE_JA, INVERSE_MASS, J_AXIAL, MASS, RADIUS
+
+
+@inlined
+def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
+    """Axial drag and a couple about the axis, each of which at most stops its own motion; as of ``Law``."""
+    m, ja, im, ia = S[MASS + j], S[J_AXIAL + j], S[INVERSE_MASS + j], S[INVERSE_JA + j]
+    sliding, spinning = np.sqrt(w * w), np.sqrt(c * c)
+    drag = limit if limit < m * sliding else m * sliding
+    couple = S[RADIUS + j] * limit
+    couple = couple if couple < ja * spinning else ja * spinning
+    dw = drag * im if w < 0 else -drag * im
+    dc = couple * ia if c < 0 else -couple * ia
+    return 0.0 * w, 0.0 * w, dw, 0.0 * w, 0.0 * w, dc
+
+
+@inlined
+def steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
+    """Axial drag and a couple about the axis, each in full; as of ``Law``."""
+    drag = -limit * np.sign(speed)
+    torque = -radius * limit * np.sign(spin)
+    return drag * ax, drag * ay, drag * az, torque * ax, torque * ay, torque * az, torque
+
+
+@inlined
+def shares(speed, turning):
+    """Each in full; friction around the hole is a couple and bears nothing."""
+    return np.sign(speed), np.sign(turning), 0.0
+
+
+LAW = Law("paper", impulse, steady_load, shares)

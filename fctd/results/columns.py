@@ -1,0 +1,65 @@
+"""The columns of results that are shown: each with its label, digits and value, once.
+
+A column's name ends in its SI unit; from it follow the units on the screen, in pictures and in field units
+(unit_systems.py).  A load that is added to ``LOADS`` is in charts, on the screen, and beside every profile.
+"""
+
+from collections.abc import Callable
+from typing import Any, Final, NamedTuple
+
+# Endings of names by unit; in this order, since a column that ends in `_N_m` is no length.
+ENDINGS: Final = ("_N_m", "_Pa", "_N", "_m", "_deg")
+
+
+class Column(NamedTuple):
+    """A column of a result.
+
+    name : as in tables, with its unit.  label : in pictures and on the screen.  digits : after the point in tables on
+    the screen.  heading : short, where a chart on the screen shows the column; else empty.  across : whether it is
+    a length across the hole, for which metres and feet are too coarse.  of : a load of a steady string, SI; else the
+    attribute that is called like the column without its unit.  in_chart : whether a load is in charts.
+    """
+
+    name: str
+    label: str
+    digits: int = 1
+    heading: str = ""
+    across: bool = False
+    of: Callable[[Any], float] | None = None
+    in_chart: bool = True
+
+    @property
+    def stem(self) -> str:
+        """The name without its unit."""
+        return next((self.name.removesuffix(end) for end in ENDINGS if self.name.endswith(end)), self.name)
+
+    def value(self, point: Any) -> float:
+        """The load of a steady string, SI; point : an ``Equilibrium``."""
+        return float(getattr(point, self.stem) if self.of is None else self.of(point))
+
+
+# What a string is asked for, in the order of tables.
+LOADS: Final = (
+    Column("hookload_N", "hook load", heading="hook load"),
+    Column("surface_torque_N_m", "surface torque", digits=3, heading="torque"),
+    Column("weight_indicator_N", "weight indicator"),
+    Column("drive_torque_N_m", "drive torque", digits=3),
+    Column("total_contact_force_N", "contact force, all", heading="Σ Fₙ"),
+    Column("sum_r_ft_N_m", "Σ rFₜ", digits=3, in_chart=False),
+    Column("sum_r_mu_fn_N_m", "Σ rμFₙ", digits=3, in_chart=False),
+)
+DEPTH: Final = Column("bit_depth_m", "bit depth", heading="bit")
+PROFILE: Final = (
+    Column("md_m", "measured depth"),
+    Column("inclination_deg", "inclination"),
+    Column("effective_tension_N", "effective tension"),
+    Column("torque_N_m", "torque"),
+    Column("contact_force_N", "side force at a contact"),
+    Column("bending_moment_N_m", "bending moment"),
+    Column("von_mises_Pa", "von Mises stress"),
+    Column("offset_high_m", "low | offset | high", across=True),
+    Column("offset_right_m", "left | offset | right", across=True),
+    Column("clearance_m", "clearance", across=True),
+)
+COLUMNS: Final = {column.name: column for column in (DEPTH, *LOADS, *PROFILE)}
+IN_CHART: Final = tuple(load for load in LOADS if load.in_chart)

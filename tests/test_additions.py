@@ -1,0 +1,143 @@
+"""What is written once is added once, in a copy of the package: a column by a line, a law by a file and a line."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from fctd.mechanics.compile_cache import STORE
+
+ROOT = Path(__file__).parents[1]
+WELL = """
+name = "tiny"
+[wellbore]
+stations = [[0, 0, 0], [100, 0, 0], [550, 90, 0], [900, 90, 0]]
+[[wellbore.intervals]]
+to_md = 900
+diameter = 0.2159
+friction = 0.2
+[string]
+[[string.components]]
+name = "pipe"
+outer_diameter = 0.127
+inner_diameter = 0.1086
+segment_length = 40
+"""
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Path:
+    """A folder with a copy of the package and a case."""
+    shutil.copytree(ROOT / "fctd", tmp_path / "fctd", ignore=shutil.ignore_patterns("__pycache__"))
+    (tmp_path / "well.toml").write_text(WELL)
+    return tmp_path
+
+
+def add_line(file: Path, after: str, line: str) -> None:
+    """Add one line to a file below the one that reads so."""
+    lines = file.read_text().splitlines()
+    lines.insert(lines.index(after) + 1, line)
+    file.write_text("\n".join(lines) + "\n")
+
+
+def fctd(copy: Path, cache: Path, *arguments: str) -> str:
+    """What the copy's command prints."""
+    environment = os.environ | {"PYTHONPATH": str(copy), "NUMBA_CACHE_DIR": str(cache), "COLUMNS": "160"}
+    done = subprocess.run(
+        [sys.executable, "-m", "fctd", *arguments], cwd=copy, env=environment, capture_output=True, text=True
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_a_result_column_is_one_line(copy: Path) -> None:
+    """It is in charts and their field units, on the screen and beside a profile."""
+    add_line(
+        copy / "fctd" / "results" / "columns.py",
+        "LOADS: Final = (",
+        '    Column("spare_N", "spare pull", 2, "spare", of=lambda point: 1e6 - point.hookload),',
+    )
+    assert STORE.folder is not None
+    chart = ("chart", "well.toml", "--operation", "trip_out", "--depths", "500:800:300", "--units", "field")
+    screen = fctd(copy, STORE.folder, *chart, "--out", "chart.csv")
+    table = pd.read_csv(copy / "chart.csv")
+    spare = 1e3 / 4.4482216152605 - table["hookload_klbf"]
+    assert table["spare_klbf"].to_numpy() == pytest.approx(spare.to_numpy())
+    assert "spare" in screen
+    assert all(f"{value:.2f}" in screen for value in spare)
+    assert "spare pull" in fctd(
+        copy, STORE.folder, "equilibrium", "well.toml", "--operation", "trip_out", "--bit-depth", "800"
+    )
+
+
+VISCOUS = '''"""Law ``viscous``: a drag along the axis and a couple about it that grow with the speed at the wall."""
+
+from fctd.mechanics.friction import Law
+from fctd.mechanics.jit import inlined
+from fctd.mechanics.state import INVERSE_JA, INVERSE_MASS, RADIUS
+
+PER_SPEED = 0.5  # share of the limit for each metre per second
+
+
+@inlined
+def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
+    r = S[RADIUS + j]
+    k, q = PER_SPEED * limit * S[INVERSE_MASS + j], PER_SPEED * limit * r * r * S[INVERSE_JA + j]
+    return 0.0 * w, 0.0 * w, -w * k / (1 + k), 0.0 * w, 0.0 * w, -c * q / (1 + q)
+
+
+@inlined
+def steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
+    drag, torque = -PER_SPEED * limit * speed, -PER_SPEED * limit * radius * radius * spin
+    return drag * ax, drag * ay, drag * az, torque * ax, torque * ay, torque * az, torque
+
+
+@inlined
+def shares(speed, turning):
+    return PER_SPEED * speed, PER_SPEED * turning, 0.0
+
+
+LAW = Law("viscous", impulse, steady_load, shares)
+'''
+RUN = """
+import fctd
+
+case = fctd.load_case("well.toml", {"contact.friction_law": "viscous"})
+run = fctd.simulate(case)
+assert run.status == "completed", run.message
+end = run.history.iloc[-1]
+print(end["hookload_N"], end["surface_torque_N_m"])
+for rpm in (30, 60):
+    point = fctd.equilibrium(case, "rotate_off_bottom", 700.0, rpm=rpm)
+    assert point.status == "converged"
+    print(point.hookload, point.surface_torque)
+"""
+ROTATE = '[[operations]]\nkind = "rotate_off_bottom"\nat_md = 700\nduration = 60\nrpm = 60\nramp_time = 5\n'
+
+
+def test_a_friction_law_is_one_file_and_one_line(copy: Path) -> None:
+    """A case may name it; stepper and steady solver agree on its torque, which is proportional to the rotation."""
+    laws = copy / "fctd" / "mechanics" / "laws"
+    (laws / "viscous.py").write_text(VISCOUS)
+    add_line(
+        laws / "__init__.py",
+        "from fctd.mechanics.laws.paper import LAW as PAPER  # noqa: F401",
+        "from fctd.mechanics.laws.viscous import LAW as VISCOUS",
+    )
+    (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 70") + ROTATE)
+    assert STORE.folder is not None
+    # The cache of the copy is that of its sources, and outlives the test.
+    environment = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
+    environment |= {"PYTHONPATH": str(copy), "XDG_CACHE_HOME": str(STORE.folder)}
+    done = subprocess.run(
+        [sys.executable, "-c", RUN], cwd=copy, env=environment, capture_output=True, text=True
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    moved, slow, fast = ([float(part) for part in line.split()] for line in done.stdout.splitlines())
+    assert fast[1] == pytest.approx(2 * slow[1], rel=1e-6)
+    assert slow[1] > 100
+    assert moved == pytest.approx(fast, rel=1e-2)
