@@ -40,7 +40,7 @@ def test_a_wrong_name_is_found() -> None:
 
 def test_the_walks_are_those_of_a_station_a_penetration_and_a_number() -> None:
     starts = [names[0] for names in WALKS.values()]
-    assert starts == ["fctd.case.load.load_case", "fctd.simulation.run.Run.advance", "validation.__main__.main"]
+    assert starts == ["fctd.case.load.load_case", "fctd.simulation.simulate.Simulation", "validation.__main__.main"]
     assert min(map(len, WALKS.values())) >= 10
 
 

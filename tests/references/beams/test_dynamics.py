@@ -6,6 +6,7 @@ import pytest
 
 pytest.importorskip("skfem")
 
+from fctd.case.survey_file import to_radians
 from fctd.model.drillstring import Section
 from references.beams.dynamics import generalised_alpha, lower
 from references.beams.elements import Beam, Surroundings
@@ -13,7 +14,7 @@ from references.beams.planar_hole import PlanarHole
 
 # 50 mm pipe into a bend of 2 deg/m with 25 mm of clearance.
 PIPE = Section(9.86, 96.7, 4.2e-3, 2.1e-3, 2.6e8, 4.2e4, 5.5e4, 6.2e7, 0.025, 0.015, 0.025, 931e6)
-HOLE = PlanarHole(np.array([[0, 0, 0], [6, 0, 0], [24, 36, 0]], dtype=float))
+HOLE = PlanarHole(to_radians(np.array([[0, 0, 0], [6, 0, 0], [24, 36, 0]], dtype=float)))
 DEEP = 4.0  # [m] lowered, from the start of the bend
 
 

@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
 from skfem import BilinearForm, LinearForm
 
+from fctd.case.survey_file import to_radians
 from fctd.model.drillstring import Section
 from references.beams.elements import Beam, ConvergenceError, Surroundings, newton, statics
 from references.beams.planar_hole import PlanarHole
@@ -31,7 +32,7 @@ def clamped(given, q, load=None):
 
 
 def test_tangent_is_the_derivative_of_the_forces():
-    hole = PlanarHole(np.array([[0, 0, 0], [5, 0, 0], [25, 60, 0]], dtype=float))
+    hole = PlanarHole(to_radians(np.array([[0, 0, 0], [5, 0, 0], [25, 60, 0]], dtype=float)))
     around = Surroundings(hole, 0.02, 3e3, 0.2, 0.025, 0.05, 20.0, 5.0, 9.0)
     bent = Beam(np.linspace(0, 20, 9), section(1e4, 50.0, 4e3), around)
     rng = np.random.default_rng(1)
@@ -145,7 +146,7 @@ def test_thin_beam_does_not_lock():
 
 
 def test_pipe_lies_on_the_low_side_of_an_inclined_hole():
-    hole = PlanarHole(np.array([[0, 60, 0], [40, 60, 0]], dtype=float))
+    hole = PlanarHole(to_radians(np.array([[0, 60, 0], [40, 60, 0]], dtype=float)))
     around = Surroundings(hole, clearance=0.05, stiffness=1e5, weight=30.0)
     model = Beam(np.linspace(0, 20, 11), section(1e6, 10.0, 1e6), around)
     s, numbers = model.points()
@@ -163,7 +164,7 @@ def test_pipe_lies_on_the_low_side_of_an_inclined_hole():
 @pytest.mark.parametrize("side", [1, -1])
 def test_friction_acts_where_the_pipe_touches(side):
     """A section that rotates about its point at the wall does not slide; one that rotates in place does."""
-    hole = PlanarHole(np.array([[0, 30, 0], [40, 30, 0]], dtype=float))
+    hole = PlanarHole(to_radians(np.array([[0, 30, 0], [40, 30, 0]], dtype=float)))
     radius, turning, deep = 0.3, 0.7, 1e-3
     around = Surroundings(hole, 0.05, 1e3, friction=0.5, radius=radius, creep=1e-4)
     model = Beam(np.array([0.0, 1.0]), section(1e4, 1.0, 4e3), around)
@@ -184,7 +185,7 @@ def test_friction_acts_where_the_pipe_touches(side):
 
 
 def test_a_wall_at_the_ends_of_elements_is_the_trapezoidal_rule():
-    hole = PlanarHole(np.array([[0, 0, 0], [40, 0, 0]], dtype=float))
+    hole = PlanarHole(to_radians(np.array([[0, 0, 0], [40, 0, 0]], dtype=float)))
     around = Surroundings(hole, clearance=0.05, stiffness=1e3, weight=3.0)
     coarse = Beam(np.array([0.0, 0.6, 1.0]), section(1e4, 1.0, 4e3), around, at_ends=True)
     q, (s, numbers) = coarse.straight(0.0), coarse.points()
