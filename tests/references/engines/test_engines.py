@@ -14,7 +14,7 @@ from fctd import Case, InputError
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy, energy_of
 from fctd.simulation.run import Run, prepare
-from references import engines, packages
+from references import engines, registry
 from references.engines import EngineRun, Window
 from references.engines.best_step import best_step, ladder
 from references.engines.checks import axial_period, drift, energy_error
@@ -389,7 +389,7 @@ def test_a_missing_package_is_named(name: str, module: str, monkeypatch: pytest.
 
 def test_pybullet_is_to_be_had_in_two_ways_where_it_has_no_wheels(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pybullet", None)
-    monkeypatch.setattr(packages, "NO_PYBULLET", sys.version_info[:2])
+    monkeypatch.setattr(registry, "NO_PYBULLET", sys.version_info[:2])
     with pytest.raises(InputError, match=r"run on Python 3\.11, or build it by 'make bullet'"):
         engines.build("bullet")
     (note,) = left_out(["Bullet"])
