@@ -2,7 +2,6 @@
 
 import contextlib
 import re
-import runpy
 import shlex
 import sys
 from collections.abc import Iterator
@@ -16,6 +15,7 @@ from fctd.case.load import KINDS, load_case
 from fctd.cli import main
 from fctd.model.operations import rad_per_s, steady_rates
 from fctd.results.notes import MEANINGS
+from references import __main__ as references
 from validation.harness.registry import STUDIES
 
 ROOT = Path(__file__).parents[2]
@@ -28,6 +28,8 @@ NOT_RUN = {
     ".venv/bin/python -m pytest benchmarks/": "measures times for minutes",
     "python -m benchmarks ": "measures times for minutes",
 }
+# Programs of .venv/bin that run in this process.
+PROGRAMS = {"fctd": main.app, "python -m references": references.app}
 # What a Python block prints.
 PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],
@@ -91,17 +93,11 @@ def need_what_it_names(command: str) -> None:
 @pytest.mark.parametrize(("document", "command"), RUN, ids=name)
 def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     need_what_it_names(command)
-    monkeypatch.setattr(sys, "argv", shlex.split(shorter(command)))
-    program, *rest = sys.argv
+    program = next((program for program in PROGRAMS if command.startswith(f".venv/bin/{program} ")), None)
+    assert program is not None, f"a program that this test does not know: {command}"
+    monkeypatch.setattr(sys, "argv", [program, *shlex.split(shorter(command).removeprefix(f".venv/bin/{program} "))])
     with exit_code_0():
-        if program == ".venv/bin/fctd":
-            main.main()
-        else:
-            assert (program, rest[0]) == (".venv/bin/python", "-m"), (
-                f"a program that this test does not know: {command}"
-            )
-            sys.argv = rest[1:]
-            runpy.run_module(rest[1], run_name="__main__", alter_sys=True)
+        main.run(PROGRAMS[program])
     for target in re.findall(r"--(?:out|plot|plot-profile) (\S+)", command):
         assert (checkout / target).exists()
 
