@@ -1,4 +1,4 @@
-"""The joint law of DESIGN §4: loads are the potential's derivatives, balanced, and do no net work."""
+"""The joint law: loads are the potential's derivatives, balanced, and do no net work."""
 
 import math
 

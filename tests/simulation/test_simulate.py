@@ -34,7 +34,7 @@ ROTATE = rotation(1000, 30, ramp=10)
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 @pytest.mark.parametrize("law", ["coulomb", "paper"])
 def test_torque_balance_at_steady_rotation(geometry: str, law: str) -> None:
-    """Top reaction = Σ r F_t without dampers, and + mud torque with them (DESIGN §4), within 0.5 %."""
+    """Top reaction = Σ r F_t without dampers, and + mud torque with them, within 0.5 %."""
     for mud in ({}, {"mud": {"rotational_damping": 0.5, "axial_damping": 1.0, "lateral_damping": 5.0}}):
         result = simulate(
             build_case(ROTATE, wellbore={"geometry": geometry}, contact={"friction_law": law}, **mud)

@@ -1,4 +1,7 @@
-"""One contract for every contact method: the exact tube within the method's own geometric error."""
+"""One contract for every contact method of the registry: the exact tube within the method's own geometric error.
+
+Cylinders, arcs, meshes and libraries are tested together here; most modules of the room have no test file of their own.
+"""
 
 import numpy as np
 import pytest

@@ -1,29 +1,15 @@
-"""Another contact method in the engine's loop: the same run where it is the same wall, and a fault that stops one."""
+"""Other contact methods in the engine's loop: the same run where they are the same wall."""
 
 import numpy as np
 import pytest
 
-from fctd import Case, InputError, simulate
+from fctd import simulate
 from fctd.mechanics import state
-from fctd.model.wellbore import Contacts, build_wellbore
+from fctd.model.wellbore import build_wellbore
 from fctd.simulation.run import prepare
 from references import contact
 from references.contact.for_loop import advance_with_for_loop
-from tests.cases import make_case, pipe, rotation
-
-STATIONS = [[0, 0, 0], [100, 0, 0], [400, 60, 30], [600, 60, 30]]
-SIZES = [{"to_md": 350, "diameter": 0.24, "friction": 0.3}, {"to_md": 600, "diameter": 0.2159, "friction": 0.2}]
-
-
-def turning(geometry: str = "cylinders", **sections) -> Case:
-    return make_case(
-        STATIONS,
-        [pipe(500, 25)],
-        [rotation(500, 3, ramp=1)],
-        wellbore={"geometry": geometry, "intervals": SIZES},
-        record={"interval": 0.5},
-        **sections,
-    )
+from tests.simulation.test_external_contact import turning
 
 
 @pytest.mark.parametrize(
@@ -66,42 +52,6 @@ def test_fcl_turns_the_string_like_the_engine() -> None:
     mesh = simulate(case, contact=contact.build("fcl", case, facets=96)).history.iloc[-1]
     assert mesh["total_contact_force_N"] == pytest.approx(own["total_contact_force_N"], rel=0.02)
     assert mesh["surface_torque_N_m"] == pytest.approx(own["surface_torque_N_m"], rel=0.1)
-
-
-class Faulty:
-    """Cylinders whose answer is spoiled after some queries."""
-
-    name = "faulty"
-
-    def __init__(self, case: Case, spoil) -> None:
-        self.good, self.spoil, self.asked = contact.build("cylinders", case), spoil, 0
-
-    def query(self, points, radii) -> Contacts:
-        self.asked += 1
-        hits = self.good.query(points, radii)
-        return self.spoil(hits) if self.asked > 1000 else hits
-
-
-def test_a_method_that_answers_nonsense_stops_the_run_and_keeps_its_rows() -> None:
-    case = turning()
-
-    nowhere = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)))
-    result = simulate(case, contact=nowhere)
-    assert result.status == "unstable"
-    assert "not finite" in result.message
-    assert len(result.history) > 0
-
-
-def test_an_answer_of_the_wrong_shape_is_an_error() -> None:
-    case = turning()
-    with pytest.raises(ValueError, match=r"faulty.*25 points"):
-        simulate(case, contact=Faulty(case, lambda hits: hits._replace(md=hits.md[:-1])))
-
-
-def test_no_wall_and_another_contact_method_exclude_each_other() -> None:
-    case = turning(contact={"enabled": False})
-    with pytest.raises(InputError, match=r"contact\.enabled"):
-        simulate(case, contact=contact.build("cylinders", case))
 
 
 def test_the_wall_along_the_hole_leads_from_one_size_to_the_next() -> None:

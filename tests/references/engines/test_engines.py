@@ -69,7 +69,7 @@ def own() -> EngineRun:
 
 @pytest.mark.parametrize("name", CONTACT)
 def test_the_same_string_gives_the_same_loads(name: str, own: EngineRun) -> None:
-    """Within the bounds of the issue: hook load 1 %, torque 5 %."""
+    """Hook load within 1 %, torque within 5 %."""
     run = engines.build(name).run(turning(), WINDOW)
     assert run.status == "valid", run.message
     assert mean(own, "sum_r_ft_N_m") > 100
