@@ -8,10 +8,11 @@ from typing import Any, TextIO
 
 import typer
 from numba.core import event
+from rich.console import Console
 
 from fctd.case.load import Case
 from fctd.cli.options import FAILED, Quiet, messages, screen
-from fctd.mechanics.compile_cache import STORE, CompileCacheWarning, KeptCode
+from fctd.mechanics.compile_cache import STORE, CompileCacheWarning, KeptCode, Store
 from fctd.simulation.simulate import simulate
 from fctd.steady.equilibrium import equilibrium
 
@@ -33,6 +34,11 @@ SMALL: dict[str, Any] = {
 
 def compile_command(quiet: Quiet = False) -> None:
     """Compile the engine now, which otherwise the first run of a command does."""
+    compile_into(STORE, compile_all, quiet)
+
+
+def compile_into(store: Store, compiling: Callable[[], object], quiet: bool = False) -> None:
+    """Call ``compiling`` and say which functions it compiled, and where ``store`` keeps them; exit code 1 where not."""
     began, names = time.perf_counter(), set[str]()
 
     def progress(name: str) -> None:
@@ -41,12 +47,12 @@ def compile_command(quiet: Quiet = False) -> None:
             messages.print(f"  {name}", highlight=False, markup=False)
 
     with listening(progress):
-        compile_all()
-    if not STORE.lasting:
+        compiling()
+    if not store.lasting:
         messages.print("compiled code could not be kept", style="bold")
         raise typer.Exit(FAILED)
     taken = f"{len(names)} functions in {time.perf_counter() - began:.0f} s" if names else "nothing to do"
-    screen.print(f"Compiled: {taken}, kept in {STORE.folder}", soft_wrap=True, highlight=False, markup=False)
+    screen.print(f"Compiled: {taken}, kept in {store.folder}", soft_wrap=True, highlight=False, markup=False)
 
 
 def compile_all() -> None:
@@ -77,7 +83,7 @@ class _Listener(event.Listener):
 
 
 @contextmanager
-def telling() -> Iterator[None]:
+def telling(messages: Console = messages) -> Iterator[None]:
     """Inside, say on standard error why the first run waits, and plainly what is wrong with the compile cache."""
     said: list[str] = []
 
