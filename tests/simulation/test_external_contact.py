@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 
 from fctd import Case, InputError, simulate
 from fctd.mechanics import state
-from fctd.model.drillstring import fill, lay_out
 from fctd.model.wellbore import Contacts, build_wellbore, find_contacts
-from fctd.simulation.external_contact import QueriedWall
+from fctd.simulation.run import prepare
 from tests.cases import make_case, pipe, rotation
 
 Array = NDArray[np.float64]
@@ -95,11 +94,10 @@ def test_walls_change_size_stiffness_and_friction_over_the_length_of_a_shoe() ->
         {"to_md": 300, "diameter": 0.22, "friction": 0.3},
     ]
     case = make_case([[0, 30, 0], [300, 30, 0]], [pipe(None, 30)], wellbore={"intervals": intervals, "overlap": 20.0})
-    hole = build_wellbore(case)
-    string = lay_out(case, 300.0)
-    S = state.new_state(string.segments)
-    fill(S, string, case)
-    QueriedWall(Everywhere(string.segments), hole, string.segments).refresh(S)
+    case = case.model_copy(update={"operations": make_case(operations=[rotation(300, 1)]).operations})
+    run, _ = prepare(case, Everywhere(30))
+    run.refresh()
+    S = run.S
     # Depths of the query: 5, 15, 25 ... m; the shoe leads from 100 to 120 m.
     md = 10.0 * np.arange(30) + 5.0
     share = np.clip((md - 100) / 20, 0, 1)

@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from fctd.mechanics import state
+from fctd.mechanics.laws import CODES
 from fctd.model.drillstring import fill, lay_out
 from fctd.steady.continuation import (
     CONVERGED,
@@ -36,7 +37,7 @@ class Chain:
         self.hole = Solver(case).hole
         self.work = Workspace(SEGMENTS)
         fill(self.work.S, lay_out(case, 60.0), case)
-        self.laws = Steady(state.OPEN, state.COULOMB, 1.0, 0.3, 0.0, 0.0, 0.0, 0.0, 0.0)
+        self.laws = Steady(state.OPEN, CODES["coulomb"], 1.0, 0.3, 0.0, 0.0, 0.0, 0.0, 0.0)
         self.kinks = np.zeros((SEGMENTS + 2, 4))
         self.kinks[:, 0] = 1.0
         w = self.work
