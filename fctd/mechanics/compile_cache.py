@@ -1,7 +1,8 @@
-"""Compiled code kept on disk: where, whose it is, and whether what is read is what was written.
+"""The cache of compiled code on disk: its folder, who may write to it, and the check of every file.
 
-Whoever reads compiled code runs it.  The folder and its files therefore have to be this user's alone, and every file
-begins with a hash of its name and contents: numba's own cache has none, and a damaged file ends the program there.
+Compiled code that is read is also run.  The folder and its files must therefore belong to this user, and no other user
+may write to them.  Every file begins with a hash of its name and contents: numba's own cache stores no hash, and a
+damaged file crashes the program there.
 """
 
 import atexit
@@ -29,19 +30,19 @@ HASH_SIZE = hashlib.sha256().digest_size
 
 
 class CompileCacheWarning(RuntimeWarning):
-    """Compiled code was not kept, or was not what it should be and has been compiled anew."""
+    """Compiled code could not be stored on disk, or a stored file was unusable and is compiled again."""
 
 
 class Store:
-    """The folder with compiled code, None where code is kept in memory only; lasting : whether it outlives this run."""
+    """The folder of compiled code, None where code is kept in memory only; lasting : whether it outlives this run."""
 
     def __init__(self, folder: Path | None, trouble: str = "") -> None:
         self.folder = folder
         self.lasting = not trouble
-        self._trouble = trouble  # said when the first function is compiled
+        self._trouble = trouble  # reported when the first function is compiled
 
     def read(self, name: str) -> bytes | None:
-        """What was written under a name; None where nothing was, or not this."""
+        """The data stored under a name; None where there is none or its file is unusable."""
         if self._trouble:
             _warn(self._trouble)
             self._trouble = ""
@@ -50,27 +51,27 @@ class Store:
         path = self.folder / name
         try:
             with path.open("rb") as file:
-                stranger = _stranger(os.fstat(file.fileno()))
+                exposed = _exposed(os.fstat(file.fileno()))
                 data = file.read()
         except FileNotFoundError:
             return None
         except OSError as error:
             wrong = f"cannot be read ({error.strerror})"
         else:
-            if stranger:
-                wrong = stranger
+            if exposed:
+                wrong = exposed
             elif data[:HASH_SIZE] == _hash(name, data[HASH_SIZE:]):
                 return data[HASH_SIZE:]
             else:
                 wrong = "is damaged"
-        _warn(f"compiled code in {path} {wrong}: it is compiled anew and replaced")
+        _warn(f"compiled code in {path} {wrong}: it is compiled again and replaced")
         with suppress(OSError):
             if path.is_dir():  # a file is replaced, a folder cannot be
                 shutil.rmtree(path)
         return None
 
     def write(self, name: str, data: bytes) -> None:
-        """Keep data under a name, wholly or not at all; from the first failure on, keep nothing."""
+        """Store data under a name, completely or not at all; after the first failure nothing is stored any more."""
         if self.folder is None:
             return
         scratch = None
@@ -84,13 +85,14 @@ class Store:
             self.folder, self.lasting = None, False
         finally:
             if scratch is not None:
-                with suppress(OSError):  # none where it has become the file
+                with suppress(OSError):  # it no longer exists once it is renamed to the file
                     os.unlink(scratch)
 
 
 def open_store() -> Store:
-    """The folder for exactly these sources, or the one that NUMBA_CACHE_DIR names; another for this run where that
-    cannot be used.
+    """The folder for exactly these sources, or the one that NUMBA_CACHE_DIR names.
+
+    Where that folder cannot be used, a temporary one serves this run.
 
     numba does not notice an edit in a function that a cached function calls, so the folder carries a hash of all
     sources.
@@ -99,7 +101,7 @@ def open_store() -> Store:
         base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
         folder = Path(os.environ.get("NUMBA_CACHE_DIR") or base / "fctd" / _hash_of_sources()).absolute()
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        wrong = _stranger(folder.stat())
+        wrong = _exposed(folder.stat())
         if not wrong and os.access(folder, os.W_OK | os.X_OK):
             return Store(folder)
         wrong = f"compiled code is not kept, since {folder} {wrong or 'cannot be written'}"
@@ -108,7 +110,7 @@ def open_store() -> Store:
     except RuntimeError:
         wrong = "compiled code is not kept, since there is no home folder"
     name = "NUMBA_CACHE_DIR" if os.environ.get("NUMBA_CACHE_DIR") else "XDG_CACHE_HOME"
-    trouble = f"{wrong}: every run compiles anew; let {name} name a folder of your own"
+    trouble = f"{wrong}: every run compiles again; set {name} to a folder of your own"
     try:
         scratch = tempfile.TemporaryDirectory(prefix="fctd-")
     except OSError:
@@ -124,7 +126,7 @@ class KeptCode(_Cache):
         self._store = store
         self._label = f"{function.__module__}.{function.__qualname__}"
         source = Path(function.__code__.co_filename).read_bytes()
-        # What decides whether code may be used again, beside argument types and processor.
+        # With argument types and processor, these decide whether stored code may be used.
         self._versions = (numba.__version__, llvmlite.__version__, sys.version, hashlib.sha256(source).hexdigest())
         self._enabled = True
 
@@ -142,10 +144,10 @@ class KeptCode(_Cache):
         return None if data is None else CompileResult._rebuild(target_context, *pickle.loads(data))
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep a compiled form."""
+        """Store a compiled form."""
         if self._enabled:
             if data.lifted or data.library.has_dynamic_globals:
-                raise ValueError(f"{self._label} holds what only this process has and cannot be kept")
+                raise ValueError(f"{self._label} refers to objects of this process and cannot be stored on disk")
             self._store.write(self._name(sig, data.codegen), dumps(data._reduce()))
 
     def _name(self, sig: Any, codegen: Any) -> str:
@@ -162,13 +164,13 @@ class KeptCode(_Cache):
         self._enabled = False
 
     def flush(self) -> None:
-        """Forget what is kept of this function."""
+        """Delete the stored code of this function."""
         for path in self._store.folder.glob(f"{self._label}-*") if self._store.folder else ():
             path.unlink()
 
 
-def _stranger(info: os.stat_result) -> str:
-    """What lets another user put code here; empty where none can."""
+def _exposed(info: os.stat_result) -> str:
+    """Why another user can write code here; empty where none can."""
     if os.name == "posix" and info.st_uid != os.geteuid():
         return "belongs to another user"
     if os.name == "posix" and info.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
@@ -177,7 +179,7 @@ def _stranger(info: os.stat_result) -> str:
 
 
 def _hash(name: str, data: bytes) -> bytes:
-    """Hash by which damage shows, and a file under another's name."""
+    """Hash that reveals damage, and a file stored under another function's name."""
     return hashlib.sha256(name.encode() + b"\0" + data).digest()
 
 
@@ -194,6 +196,6 @@ def _warn(text: str) -> None:
 
 STORE = open_store()
 if STORE.folder is not None:
-    # For functions outside the engine, which numba keeps itself; it has read the environment when it was imported.
+    # For functions outside the engine, which numba stores itself; numba reads the environment when it is imported.
     os.environ["NUMBA_CACHE_DIR"] = str(STORE.folder)
-    setattr(numba.config, "CACHE_DIR", str(STORE.folder))  # noqa: B010 (made at run time)
+    setattr(numba.config, "CACHE_DIR", str(STORE.folder))  # noqa: B010 (numba defines it at run time)

@@ -1,9 +1,9 @@
-"""Stages 2 and 3 of the contact algorithm (§4.2–4.4): which piece of hole owns a point, and the wall there.
+"""Stages 2 and 3 of the contact algorithm (§4.2–4.4): the piece of hole that owns a point, and the wall there.
 
 A hole is a table with one row per piece, cylinder or arc, columns below.  The owner of a point is the first
 piece from the top whose lower end lies beyond the point, as in the paper's FOR-loop, but found by walking
 from the piece that owned it last.  The walk costs the same for a hundred cylinders as for a hundred
-thousand, and it never meets the far parts of the well whose infinite slab the point may also lie in.
+thousand, and it never reaches distant pieces of the well whose infinite slab may also contain the point.
 
 Every contact point keeps a copy of its piece in the state buffer.  While the point stays well inside the
 piece, stages 2 and 3 are then packed arithmetic and one comparison; only a point near the ends of its
@@ -52,12 +52,12 @@ from fctd.mechanics.state import (
 # [m], hole radius [m], wall stiffness [N/m or N/m/m], friction factor, measured depth of A [m].
 START, DIRECTION, LENGTH = 0, 3, 6
 HOLE_RADIUS, STIFFNESS, FACTOR, START_MD = 7, 8, 9, 10
-# Cylinders: the length shared with the next one [m], and between which distances from A no other one has a say
-# about a point of the hole [m], without end at the ends of the hole.
+# Cylinders: the length shared with the next one [m], and the distances from A between which the wall depends on
+# this cylinder alone [m]; infinite at the ends of the hole.
 OVERLAP, ALONE_FROM, ALONE_TO = 11, 12, 13
-# Arcs: curvature [1/m], unit vector from A towards the centre of curvature, and what radius, stiffness and
-# friction gain along the piece (a shoe between two sizes of hole) [1/m]; cosine of half the arc's angle, and its
-# sine over the curvature [m].
+# Arcs: curvature [1/m], unit vector from A towards the centre of curvature, and the gains of radius,
+# stiffness and friction per metre along the piece (a shoe between two sizes of hole) [1/m]; cosine of half the arc's
+# angle, and its sine over the curvature [m].
 CURVATURE, NORMAL = 11, 12
 RADIUS_GAIN, STIFFNESS_GAIN, FACTOR_GAIN = 15, 16, 17
 HALF_COS, HALF_SINE = 18, 19
@@ -133,7 +133,7 @@ def cylinder_wall(C, i, x, y, z):
 
 @inlined
 def arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz):
-    """PT of a circular arc from its closest point, all in one formula that stays exact as κ → 0.
+    """PT of a circular arc from its closest point, by one formula that stays exact as κ → 0.
 
     u, v, w : T − A along the tangent, towards the centre and along the binormal [m]; k : curvature κ [1/m].
     With ρ the distance from the centre over the radius, the offset towards the centre is
@@ -147,7 +147,7 @@ def arc_offset(u, v, w, k, tx, ty, tz, nx, ny, nz, bx, by, bz):
 
 
 class Arc(NamedTuple):
-    """A row of the table of arcs in scalars, which a packed loop needs; columns above."""
+    """A row of the table of arcs as scalars, which a packed loop needs; columns above."""
 
     x: float
     y: float
@@ -210,7 +210,7 @@ def arc_wall(C, i, x, y, z):
 
 @inlined
 def cylinder_direction(C, i, x, y, z):
-    """Unit vector along cylinder i; in an overlap between its own direction and the next one's."""
+    """Unit vector along cylinder i; in an overlap, blended with the direction of the next one."""
     tx, ty, tz = C[i, DIRECTION] + 0 * x, C[i, DIRECTION + 1] + 0 * x, C[i, DIRECTION + 2] + 0 * x
     into = distance_along(C, i, x, y, z) - C[i, ALONE_TO]
     if into.real > 0:
@@ -254,7 +254,7 @@ def contact_point(S, j):
 
 @inlined
 def store_slack(S, j, start, end):
-    """Write how far point j is inside its piece, given distances past the start and along the end of it [m]."""
+    """Write how far point j is inside its piece, given its distances past the piece's start and along its end [m]."""
     start, end = start - S[MARGIN_TOP + j], S[MARGIN_END + j] - end
     S[SLACK + j] = start if start < end else end
 
@@ -308,7 +308,7 @@ def follow_arcs(S, n):
 
 @kernel
 def refresh_arcs(S, owner, n, C):
-    """Look up in the table every point that has left its arc, or is in one whose wall changes along it."""
+    """Look up in the table every point that has left its arc, or lies in an arc whose wall changes along it."""
     last = C.shape[0] - 1
     for j in range(1, n + 1):
         if S[SLACK + j] > 0:
@@ -337,8 +337,8 @@ def update_walls(S, owner, n, packed, C, geometry):
     """Update owners and the wall beside every contact point, given positions (stages 2 and 3).
 
     n, packed : bodies, and columns that fill whole packed operations.
-    owner : int64 (n + 2,), remembered piece of each point, near the right one to begin with.  A fresh buffer
-    (zeros) sends every point to the table.
+    owner : int64 (n + 2,), the last owner of each point; at the first call a piece near the right one.  In a fresh
+    buffer (zeros) every point is looked up in the table.
     """
     if geometry == CYLINDERS:
         follow_cylinders(S, packed)

@@ -1,7 +1,7 @@
-"""Square root and reciprocal that a complex step passes through without branches.
+"""Square root and reciprocal without branches, for differentiation by a complex step.
 
 numba's complex square root and division guard against overflow, which costs a dozen branches and keeps a loop
-from packing.  A complex step of 1e-30 needs none of it: the first-order rule is exact to rounding.  For a float
+from packing.  A complex step of 1e-30 needs no such guard: the first-order rule is exact to rounding.  For a float
 these are the plain operations.
 """
 

@@ -1,9 +1,9 @@
 """One step of the string's motion, in the order of §4, and the compiled loop over steps.
 
 Symplectic Euler: loads at the present positions change the velocities, the new velocities move the bodies.
-Everything that dissipates is applied to each body as an impulse that at most stops what it acts on: mud and
-settling damping by the implicit factor 1/(1 + c dt/m), wall friction by a clamp.  The ledger multiplies every
-dissipating impulse by the velocity after it, which is what moves the body.
+Mud, settling damping and wall friction act on each body as impulses that can stop its motion but not reverse it:
+mud and settling damping by the implicit factor 1/(1 + c dt/m), friction by a clamp.  The energy ledger multiplies
+each of these impulses by the velocity after it, with which the body then moves.
 """
 
 from typing import Any
@@ -72,7 +72,7 @@ from fctd.mechanics.state import (
 )
 from fctd.mechanics.topdrive import drive_top, move_top_drive
 
-# Share of the room beside the string that certainly does not touch, far more than rounding takes from 1.
+# Share of the clearance within which a string certainly does not touch; 1 − NEARLY is far above rounding.
 NEARLY = 1 - 1e-6
 
 
@@ -97,9 +97,9 @@ def update_axes(S, n):
 
 @inlined
 def free_motion(S, j, dt):
-    """Velocity and spin of body j in its own frame after springs and weight, before mud and wall.
+    """Velocity and spin of body j in its own frame after springs and weight act, before mud and wall.
 
-    Newton–Euler (Eqs 1–2) but for the gyroscopic term, which ``move`` applies.  Returns velocity and
+    Newton–Euler (Eqs 1–2) without the gyroscopic term, which ``move_bodies`` applies.  Returns velocity and
     spin (6).
     """
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(*quaternion(S, j))
@@ -127,12 +127,12 @@ def free_motion(S, j, dt):
 
 @inlined
 def mud_factors(S, j, settling, dt):
-    """Factors that mud (and artificial settling) damping leaves of lateral, axial and spin velocity."""
+    """Factors by which mud and artificial settling damping multiply lateral, axial and spin velocity."""
     slow = 1 + dt * settling
     lateral = slow + dt * S[INVERSE_MASS + j] * S[MUD_LATERAL + j]
     axial = slow + dt * S[INVERSE_MASS + j] * S[MUD_AXIAL + j]
     rotational = slow + dt * S[INVERSE_JA + j] * S[MUD_SPIN + j]
-    # One division in place of three: division is the slowest packed operation there is.
+    # One division in place of three: division is the slowest packed operation.
     k = 1 / (lateral * axial * rotational)
     return k * axial * rotational, k * lateral * rotational, k * lateral * axial
 
@@ -184,18 +184,18 @@ def may_touch(S, first):
     for lane in range(LANES):
         j = first + lane
         px, py, pz = radial(S, j)
-        # The square of what the string may be off the axis, negative where it is thicker than the hole.
+        # The clearance; negative where the string is thicker than the hole.
         room = S[HOLE + j] - S[RADIUS + j]
-        # Written so that what is not a number touches, and stops the run.
+        # Written so that NaN counts as contact; the check of the state then stops the run.
         found |= not (px * px + py * py + pz * pz <= NEARLY * room * abs(room))
     return found
 
 
 @inlined
 def push_in_hole(S, n, friction_impulse, laws, dt):
-    """Update velocity and spin of every body in a hole; n is whole packed operations.
+    """Update velocity and spin of every body in a hole; n is a multiple of LANES.
 
-    Where no body of an operation touches the wall, its normal and friction impulses are exactly nothing.
+    Where no body of an operation touches the wall, the wall's normal and friction impulses are exactly 0.
     """
     for block in range(1, n + 1, LANES):
         first = block & COLUMN_BITS
@@ -214,7 +214,7 @@ def push_in_hole(S, n, friction_impulse, laws, dt):
 
 
 def push_with(law: Law) -> Any:
-    """A function that updates velocity and spin of every body in a hole with a law of friction (stages 4 and 5)."""
+    """A function that updates velocity and spin of every body in a hole by a given law of friction (stage 4)."""
     impulse = law.impulse
 
     @inlined
@@ -224,7 +224,7 @@ def push_with(law: Law) -> Any:
     return push
 
 
-# By a law's code.
+# Indexed by a law's code.
 PUSHES = tuple(push_with(law) for law in LAWS)
 push_by_law = chain(PUSHES)
 
@@ -284,17 +284,17 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     """Advance the string by one step: the stages of §4 and Fig. 7 in order.
 
     find_walls : ``update_walls``, or another search for the walls beside the contact points, with its arguments.
-    Compiled into its caller: code that hands a function on as an argument could not be kept on disk.
+    Compiled into its caller: code that takes a function as an argument cannot be stored on disk.
     """
     packed = padded_columns(n)
-    # 1: where the segments and their ends are, and what joints and top drive do to them there.
+    # 1: loads of the joints and of the top drive at the present positions.
     update_joint_loads(S, packed, laws.joint_damping, dt)
     feed, rate = drive_top(S, top, motion, pipe, dt)
-    # 2 and 3: the piece of hole that owns each contact point, and how far from its axis and wall the point is.
+    # 2 and 3: the piece of hole that owns each contact point, and the point's distance from its axis and wall.
     find_walls(S, owner, n, packed, C, laws.geometry)
-    # 4: normal and friction impulses, with those of springs, weight and mud.
+    # 4: impulses of the wall, normal and friction, and those of springs, weight and mud.
     update_velocities(S, packed, laws, dt)
-    # 5: the motion that follows, of the bodies and of the top drive.
+    # 5: motion of the bodies and of the top drive.
     move_bodies(S, packed, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)
 

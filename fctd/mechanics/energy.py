@@ -12,7 +12,7 @@ from fctd.mechanics.state import HOLE, J_AXIAL, J_TRANSVERSE, K_WALL, MASS, RADI
 
 
 class Energy(NamedTuple):
-    """Energies of a state [J]; gravity is zero at the rotary table, contact is in the wall's springs."""
+    """Energies of a state [J]; gravity is zero at the rotary table; contact is the energy of the wall's springs."""
 
     kinetic: float
     gravity: float

@@ -1,4 +1,4 @@
-"""What the model cannot describe: looked for after every stretch of steps."""
+"""Checks that end a run: a state that is not finite, or that the model cannot describe."""
 
 import math
 
@@ -9,12 +9,12 @@ from fctd.mechanics.state import HOLE, RADIUS, VX, WZ, axis, position, quaternio
 
 
 class UnstableError(Exception):
-    """The run left what the model can describe; its text says how."""
+    """The state is not finite or outside the model's range; the text says why."""
 
 
 @entry
 def _worst(S, n):
-    """Whether all is finite, and the worst of three measures of bodies 1..n with the body it is found at.
+    """Whether all values are finite, and the worst of three measures of bodies 1..n, each with its body.
 
     Distance beyond twice the hole radius, less the contact radius [m], above 0 outside; cosine of the bend and
     of half the twist against the body above, below 0 past a right angle.
@@ -44,9 +44,9 @@ def _worst(S, n):
 
 
 def check(S: np.ndarray, n: int) -> None:
-    """Raise UnstableError when the state is no longer finite, or has left the hole or the joint law.
+    """Raise UnstableError when the state is not finite, or the string has left the hole or bends or twists too far.
 
-    Given axes and walls that belong to the positions.
+    Axes and walls must belong to the positions.
     """
     finite, outside, bend, twist = _worst(S, n)
     if not finite:
@@ -56,4 +56,5 @@ def check(S: np.ndarray, n: int) -> None:
     if bend[0] < 0:
         raise UnstableError(f"the string has folded at segment {bend[1]}")
     if twist[0] < 0:
-        raise UnstableError(f"segment {twist[1]} is twisted by more than half a turn against the one above: too long")
+        text = f"segment {twist[1]} is twisted by more than half a turn against the one above"
+        raise UnstableError(f"{text}: use shorter segments")

@@ -1,4 +1,4 @@
-"""Stages 3 to 5 at one contact point: the wall's normal impulse and what a law of friction is (§4.3–4.5)."""
+"""Stages 3 and 4 at one contact point: the wall's normal impulse, and the parts of a law of friction (§4.3–4.5)."""
 
 from typing import Any, NamedTuple
 
@@ -17,7 +17,7 @@ from fctd.mechanics.state import (
     radial,
 )
 
-ON_AXIS = 1e-150  # far above the root of the smallest number, far below any offset that matters [m]
+ON_AXIS = 1e-150  # far above the root of the smallest float, far below any offset that matters [m]
 
 
 @inlined
@@ -26,7 +26,7 @@ def wall_normal(S, j):
     px, py, pz = radial(S, j)
     distance = np.sqrt(px * px + py * py + pz * pz)
     # A point on the hole axis has no direction, and the square of an offset below 1e-162 m is 0.  Such offsets
-    # occur: the front of a wave enters a long straight chain laid on the axis with every power of ten below it.
+    # occur: ahead of a wave that enters a long straight chain on the axis they fall off through all powers of ten.
     k = 1 / (distance + ON_AXIS)
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(*quaternion(S, j))
     return (
@@ -45,7 +45,7 @@ def approach(S, j, u, v, w, a, b, nx, ny, nz):
 
 @inlined
 def normal_impulse(S, j, u, v, w, a, b, nx, ny, nz, penetration, damping, dt):
-    """Impulse of the wall's normal force on body j (Eq. 12 with damping) and the damper's part of it [N s].
+    """Impulse of the wall's normal force on body j (Eq. 12 with damping) and the damper's share of it [N s].
 
     The damper is implicit in the velocity it changes.  The wall never pulls.
     """
@@ -69,15 +69,16 @@ def along_wall(sx, sy, sz, nx, ny, nz):
 
 
 class Law(NamedTuple):
-    """A law of friction: its name in a case, and three functions to be expanded where they are called.
+    """A law of friction: its name in a case file, and three functions that are compiled into their callers.
 
     impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit) : change of velocity and spin (6) of body j, both in its own
-    frame, by an impulse that at most stops what it acts on; n : the wall's normal; limit : μ × normal impulse [N s].
+    frame, by an impulse that may stop the sliding but not reverse it; n : the wall's normal; limit : μ × normal impulse
+    [N s].
     steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz) : force [N] and moment [N m] (6, global)
     and torque about the axis [N m] on a body that slides at ``speed`` [m/s] along the hole t and spins about its axis a
     [rad/s]; limit : μ × normal force [N].  It is differentiated by a complex step.
-    shares(speed, turning) : of the friction factor that act along the string downwards and around it, −1 to 1, and that
-    by which a turning string climbs the wall: for the first guess.
+    shares(speed, turning) : shares of the friction factor that act along the string (downwards) and around it, −1 to 1,
+    and the share by which a turning string climbs the wall; used by the first guess of the steady solver.
     """
 
     name: str

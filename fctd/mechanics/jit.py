@@ -1,8 +1,8 @@
-"""How the engine's functions are compiled: three decorators that leave no option open.
+"""How the engine's functions are compiled: three decorators that set every option.
 
-numba lets a function that does not set ``fastmath``, ``error_model`` or ``forceinline`` take it from the caller that
-happens to compile it first.  The same source then became other machine code, with other roundings, depending on
-which command had run before.
+In numba a function that does not set ``fastmath``, ``error_model`` or ``forceinline`` takes it from the caller that
+compiles it first.  The same source would then give different machine code, with different rounding, depending on
+the command that ran before.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ def inlined(function: Callable[..., Any]) -> Any:
 
 
 def entry(function: Callable[..., Any], store: Store = STORE) -> Any:
-    """Compile a function that Python calls, and keep it in a store on disk."""
+    """Compile a function that Python calls, and keep its code in a store on disk."""
     compiled: Any = njit(**OPTIONS)(function)
     if hasattr(compiled, "_cache"):  # a plain function has none (NUMBA_DISABLE_JIT)
         compiled._cache = KeptCode(function, store)

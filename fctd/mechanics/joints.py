@@ -5,11 +5,11 @@ between the axes and τ the twist, t = (a + b)/|a + b| is the direction half-way
 
     U = ½ k_a (t·d)² + ½ k_s (|d|² − (t·d)²) + ½ k_b β² + ½ k_t τ².
 
-A drill string is round, so shear and bending need no lateral directions: the half-way direction is all of
-the mid-frame that the potential sees, and bending does not mix with any amount of twist.  The loads are
-minus the exact derivatives of U.  Taken in the middle of the gap they are one force and one couple, opposite
-on the two bodies.  Net force and moment on a free pair therefore vanish, a closed path does
-no work, and the torque about each body's own axis is k_t τ whatever the bend.
+A drill string is round, so shear and bending need no lateral directions: of the mid-frame the potential needs
+only the half-way direction, and bending is independent of twist.  The loads are minus the exact derivatives of U.
+Taken in the middle of the gap they are one force and one couple, opposite on the two bodies.  Therefore net force and
+moment on a free pair vanish, the work over a closed path is zero, and the torque about each body's own axis is k_t τ
+for any bend.
 """
 
 import math
@@ -67,8 +67,8 @@ def joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt):
 
     a, b : unit axes of the upper and lower body; d : gap from the upper to the lower hinge point [m];
     twist [rad]; ka, ks [N/m], kb, kt [N m/rad].  Returns the force on the lower body in the middle of the
-    gap [N], the couple on it [N m] and the tension [N], all global: seven scalars.  The upper body feels the
-    opposite force and couple.
+    gap [N], the couple on it [N m] and the tension [N], all global: seven scalars.  The force and couple
+    on the upper body are opposite.
     """
     c = ax * bx + ay * by + az * bz
     sx, sy, sz, share = halfway(ax, ay, az, bx, by, bz)
@@ -78,8 +78,8 @@ def joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt):
     fy = -ks * dy - offset * sy
     fz = -ks * dz - offset * sz
 
-    # Bending turns b towards a; twist acts along a + b, whose share along either axis is exactly k_t τ;
-    # the rest is the moment of the hinge offset, shared by the turning of the half-way direction.
+    # Bending turns b towards a; twist acts along a + b, with a component along either axis of exactly k_t τ;
+    # the last term is the moment of the hinge offset, since the half-way direction turns with either body.
     bend = kb * angle_over_sine(c) + offset * along
     torque = 2 * share * kt * twist
     half = 0.5 * offset
@@ -96,7 +96,7 @@ def joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt):
 
 @inlined
 def joint_damping(ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz, ca, cs, cb, ct):
-    """Damping of one joint, on relative motion only.
+    """Damping of one joint by its relative motion.
 
     a, b : unit axes of the upper and lower body; r : velocity [m/s] and w : spin [rad/s] of the lower body
     relative to the upper, both in the middle of the gap; ca, cs [N s/m], cb, ct [N m s/rad].  Returns force and

@@ -1,6 +1,6 @@
-"""The bare loop: a string of segments is advanced by so many steps, with a wall around it and given damping.
+"""The bare loop: advances a string of segments by a number of steps, with a wall around it and given damping.
 
-Neither schedule nor records: a run adds those, and whoever wants to relax a string needs neither.
+Schedule and records are added by a run (``fctd.simulation``); relaxing a string needs neither.
 """
 
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 # The top drive at rest.
 STILL = Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
-# Compiled code does not see Ctrl-C: it is left after so many steps of a segment, a fraction of a second.
+# Ctrl-C does not interrupt compiled code, so a call takes at most so many segment steps, a fraction of a second.
 AT_ONCE = 2_000_000
 
 
@@ -54,10 +54,10 @@ SUM_ROWS = (
 
 @dataclass(kw_only=True)
 class MovingString:
-    """A string in motion: the buffers that a step changes, and what the step is taken with.
+    """A string in motion: the buffers that a step changes, and the pipe, laws, wall and step length that it uses.
 
-    S, top, owner : state buffers (state.py, topdrive.py, contact.py); pipe : what is fed in at the top; step : the
-    longest to be taken [s]; steps : how many were taken; at_once : most steps of a segment in one compiled call.
+    S, top, owner : state buffers (state.py, topdrive.py, contact.py); pipe : fed in at the top; step : the
+    longest step [s]; steps : number of steps taken; at_once : most segment steps in one compiled call.
     """
 
     S: Array
@@ -79,7 +79,7 @@ class MovingString:
     def advance(self, motion: Motion, duration: float, laws: Laws | None = None) -> None:
         """Advance by ``duration`` [s] in equal steps no longer than ``step``; Ctrl-C stops it between two calls.
 
-        laws : in place of the string's own, as for artificial damping.
+        laws : used in place of the string's own, for example with artificial damping.
         """
         steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
         laws, dt = laws or self.laws, duration / steps
@@ -90,12 +90,12 @@ class MovingString:
             self.steps += count
 
     def refresh(self) -> None:
-        """Bring axes and walls up to the present positions."""
+        """Update axes and walls to the present positions."""
         dynamics.update_axes(self.S, self.segments)
         self.wall.refresh(self)
 
     def check(self) -> None:
-        """Raise UnstableError when the state is no longer finite, or has left the hole or the joint law."""
+        """Raise UnstableError when the state is not finite or outside the model's range; see ``faults.check``."""
         check(self.S, self.segments)
 
     def energy(self) -> Energy:
@@ -103,7 +103,7 @@ class MovingString:
         return energy_of(self.S, self.segments)
 
     def drain(self) -> Sums:
-        """The sums of loads since they were last drained or cleared, which are cleared."""
+        """Return the sums of loads since the last call or ``clear``, and set them to zero."""
         rows = [state.row(self.S, offset, self.segments) for offset in SUM_ROWS]
         at_top = [topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]
         sums = Sums._make([*(row.copy() for row in rows), *map(float, self.top[at_top])])
@@ -113,7 +113,7 @@ class MovingString:
         return sums
 
     def clear(self) -> None:
-        """Clear sums, losses, the top drive's work, the energy of fed pipe and the count of steps."""
+        """Set sums, losses, the top drive's work, the energy of fed pipe and the count of steps to zero."""
         self.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
         top = topdrive
         self.top[[top.SUM_HOOKLOAD, top.SUM_TOP_TORQUE, top.TOP_WORK, top.FED_ENERGY]] = 0.0
@@ -121,10 +121,11 @@ class MovingString:
 
 
 class Wall(Protocol):
-    """What stands around a string, and takes its steps, since every step asks for it between loads and motion.
+    """The wall around a string.  It also advances the string, since every step needs the wall between loads and motion.
 
-    name : goes into the result.  jumps : the contact of a point at rest may jump between steps, so that forces are
-    balanced on average only.  seams : of cylinders, past which a sliding string may ring.
+    name : of the contact method, for the result.  jumps : whether the contact of a point at rest may jump between
+    steps, so that forces balance on average only.  seams : whether the wall has seams between cylinders, which can
+    set a sliding string ringing.
     """
 
     name: str
@@ -141,7 +142,7 @@ class Wall(Protocol):
 class HoleWall:
     """The wall of the hole's own pieces, compiled.
 
-    pieces : of a Wellbore; geometry : its name, ``cylinders`` or ``arcs``.
+    pieces : table of the pieces of a Wellbore; geometry : ``cylinders`` or ``arcs``.
     """
 
     jumps = False

@@ -1,4 +1,4 @@
-"""Stages 2 and 3 of the contact algorithm for free points, which have no copy of their piece (see contact.py)."""
+"""Stages 2 and 3 of the contact algorithm for free points, which keep no copy of their piece (see contact.py)."""
 
 from typing import NamedTuple
 
@@ -23,7 +23,7 @@ from fctd.mechanics.contact import (
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.state import ARCS, LANES
 
-# Points of one arc that are worked on together; one or two are not worth a packed operation.
+# Points of one arc in a packed operation; with one or two points it does not pay.
 TOGETHER, FEW = 64, 2
 
 
@@ -32,10 +32,10 @@ WALL_COLUMNS = 7
 
 
 class Walls(NamedTuple):
-    """Walls beside points, one row a point.
+    """Walls beside points, one row per point.
 
-    offset (n, 3) : PT, from the hole axis to the point [m]; radius (n,) : of the hole [m]; stiffness (n,) [N/m, or
-    N/m/m]; friction (n,) : factor; md (n,) [m].
+    offset (n, 3) : PT, from the hole axis to the point [m]; radius (n,) : hole radius [m]; stiffness (n,) [N/m, or
+    N/m/m]; friction (n,) : factor; md (n,) : measured depth [m].
     """
 
     offset: NDArray[np.float64]
@@ -58,7 +58,7 @@ def write_wall(out, j, wall):
 
 @kernel
 def look_up_cylinder(C, points, j, owner, out):
-    """Wall beside point j by a walk along the table: not inlined, since its roots would slow the loop."""
+    """Wall beside point j by a walk along the table; not inlined, since its square roots would slow the loop."""
     x, y, z = points[j, 0], points[j, 1], points[j, 2]
     owner[j] = cylinder_owner(C, owner[j], x, y, z)
     write_wall(out, j, cylinder_wall(C, owner[j], x, y, z))
@@ -73,7 +73,7 @@ def query_cylinders(C, points, owner, out):
         px, py, pz, s = axis_offset(C, i, x, y, z)
         hole = C[i, HOLE_RADIUS]
         in_hole = px * px + py * py + pz * pz <= hole * hole
-        # One branch: taken apart they are guessed wrongly more often.
+        # One branch: the processor predicts two separate ones wrongly more often.
         if in_hole & (C[i, ALONE_FROM] < s) & (s <= C[i, ALONE_TO]):
             write_wall(out, j, (px, py, pz, hole, C[i, STIFFNESS], C[i, FACTOR], C[i, START_MD] + s))
         else:
@@ -92,7 +92,7 @@ def walls_of_arc(arc, W, count):
 
 @kernel
 def query_arcs(C, points, owner, out):
-    """``query_walls`` in a hole of arcs: neighbours in the list that lie in one arc are packed."""
+    """``query_walls`` in a hole of arcs: consecutive points in one arc are packed."""
     W = np.zeros(10 * TOGETHER)
     first, n = 0, points.shape[0]
     while first < n:
@@ -120,7 +120,7 @@ def query_arcs(C, points, owner, out):
 def query_walls(C, geometry, points, owner, out):
     """Walls beside free points.  points : (n, 3) [m]; owner : (n,) first guess in, owner out.
 
-    out : (n, WALL_COLUMNS), by name as ``walls_in`` has them.
+    out : (n, WALL_COLUMNS); ``walls_in`` gives its columns by name.
     """
     if geometry == ARCS:
         query_arcs(C, points, owner, out)

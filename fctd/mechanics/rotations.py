@@ -9,7 +9,7 @@ import numpy as np
 from fctd.mechanics.dual import reciprocal, root
 from fctd.mechanics.jit import inlined
 
-# In place of 0 in the denominator of a tangent, small beside rounding; the eighth power of 1/WHOLE_TURN is a number.
+# Replaces 0 in the denominator of a tangent; below rounding, and the eighth power of 1/WHOLE_TURN is still finite.
 WHOLE_TURN = 1e-30
 
 
@@ -30,11 +30,11 @@ def rotation_columns(w, x, y, z):
 def turned(w, x, y, z, a, b, c):
     """Quaternion after a further rotation by the body-frame vector (a, b, c) [rad], renormalised.
 
-    Sine and cosine of the half angle by series, exact to 1e-14 for less than 0.2 rad a step, which the
-    step limit on spin guarantees.
+    Sine and cosine of the half angle by series, exact to 1e-14 for less than 0.2 rad per step, which
+    the step limit on spin guarantees.
     """
     h = 0.25 * (a * a + b * b + c * c)
-    # The factors are written as powers of h: division by a constant is a division too.
+    # The factors are written as powers of h: a division by a constant costs as much as any other.
     s = 0.5 + h * (-1 / 12 + h * (1 / 240 - h * (1 / 10080)))
     p = 1 + h * (-1 / 2 + h * (1 / 24 - h * (1 / 720)))
     a, b, c = s * a, s * b, s * c
@@ -70,8 +70,8 @@ def twist_angle(aw, ax, ay, az, bw, bx, by, bz):
     """Twist of body b against body a about their common direction [rad], within a whole turn; see ``half_twist``.
 
     The arc tangent is taken at a quarter of the twist, where its approximant is good to 1e-10 at 2 rad and to
-    2e-7 at π.  At a whole turn it is large and without meaning, but finite: the bit turns like that against the
-    inert column below it, whose stiffness is 0.
+    2e-7 at π.  At a whole turn it is large and meaningless, but finite: the bit reaches it against the inert
+    column below, whose stiffness is 0.
     """
     w, z = half_twist(aw, ax, ay, az, bw, bx, by, bz)
     u = z * reciprocal(w + root(w * w + z * z) + WHOLE_TURN)
@@ -89,7 +89,7 @@ def angle_over_sine(c):
 def quaternion_from_axis(axis: np.ndarray) -> np.ndarray:
     """Twist-free quaternions that turn +z into each unit ``axis`` (shape (n, 3) → (n, 4)).
 
-    An axis that points straight up has no unique answer; a half turn about x is returned.
+    For an axis that points straight up, where many solutions exist, a half turn about x is returned.
     """
     axis = np.atleast_2d(axis)
     q = np.stack([1 + axis[:, 2], -axis[:, 1], axis[:, 0], np.zeros(len(axis))], axis=1)

@@ -7,18 +7,18 @@ from fctd.mechanics import state
 
 Array = NDArray[np.float64]
 
-# Share of the stable step that a named ``step`` takes.  The bound is exact for the axial mode of a uniform
-# string and a few percent short of the real limit where the wall or shear sets it; tension, overlap and
+# Share of the largest stable step for each named ``step``.  The bound is exact for the axial mode of a uniform
+# string and a few percent below the real limit where the wall or shear sets it; tension, overlap and
 # curvature shift a mode by a fraction of that.
 SHARES = {"auto": 0.8, "largest": 1.0}
-# The quaternion update is exact to rounding below this angle a step [rad].
-TURN_A_STEP = 0.2
+# The quaternion update is exact to rounding below this angle per step [rad].
+TURN_PER_STEP = 0.2
 
 
 def stiffest_mode(S: Array, n: int, wall_stiffness: float) -> float:
     """Upper bound of the highest angular frequency of string and wall [rad/s].
 
-    Every body shares its mass and inertia equally between its two joints; no mode of the whole is then
+    Every body shares its mass and inertia equally between its two joints; no mode of the string is then
     faster than the fastest mode of a single joint with its two half-bodies (Irons & Treharne 1971, the
     theorem used for elements).  The wall spring under a body is taken with the joint above it.  For a
     uniform string this gives the exact 2c/Δz of the axial mode.
@@ -30,9 +30,9 @@ def stiffest_mode(S: Array, n: int, wall_stiffness: float) -> float:
     def upper(offset: int) -> Array:
         return S[offset : offset + n]
 
-    held = np.arange(n) == 0  # the top drive does not give way
+    clamped = np.arange(n) == 0  # the top drive does not yield
     inverse_mass, inverse_jt, inverse_ja = (
-        (np.where(held, 0.0, 2 * upper(k)), 2 * bodies(k))
+        (np.where(clamped, 0.0, 2 * upper(k)), 2 * bodies(k))
         for k in (state.INVERSE_MASS, state.INVERSE_JT, state.INVERSE_JA)
     )
     axial = bodies(state.K_AXIAL) * (inverse_mass[0] + inverse_mass[1])
@@ -57,9 +57,9 @@ def stable_step(frequency: float, damping_time: float, spin: float) -> float:
     """Largest stable step [s] of symplectic Euler with explicit stiffness-proportional damping.
 
     frequency : stiffest mode [rad/s]; damping_time [s]; spin : fastest rotation of the run [rad/s].
-    A mode is stable while ω²h² + 2ηω²h ≤ 4.
+    A mode is stable for ω²h² + 2ηω²h ≤ 4.
     """
-    # √(η² + 4/ω²) − η without the difference, in which a stiff string's step is lost.
+    # √(η² + 4/ω²) − η without the difference, which loses its digits for a stiff string.
     softness = 4 / frequency**2
     step = softness / (np.sqrt(damping_time**2 + softness) + damping_time)
-    return float(min(step, TURN_A_STEP / spin) if spin > 0 else step)
+    return float(min(step, TURN_PER_STEP / spin) if spin > 0 else step)

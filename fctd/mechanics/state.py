@@ -2,12 +2,12 @@
 
 LLVM packs a loop only when it can prove that rows do not overlap.  It can when every row is a constant
 offset into one buffer, so the offsets are written out below and a row is reached as ``S[VX + j]``.
-NamedTuples of arrays, 2-D arrays and reshapes inside a kernel all stay scalar.
+With NamedTuples of arrays, 2-D arrays or reshapes inside a kernel the loop stays scalar.
 
 Column 0 is the top drive, columns 1..n are the rigid segments from the top to the bit.  Joint j connects
-bodies j - 1 and j.  The columns after n are inert (no mass, no stiffness): they stand for the free end
-below the bit and fill the last packed operation, since a scalar remainder loop would cost as much as all
-the rest of a 60-segment string.
+bodies j - 1 and j.  The columns after n are inert (no mass, no stiffness): the first of them serves as
+lower body of the free joint below the bit, and they fill the last packed operation, since a scalar remainder loop
+would take as long as the rest of a 60-segment string.
 """
 
 from typing import NamedTuple
@@ -21,8 +21,8 @@ MAX_SEGMENTS = 10_000
 LANES = 8
 # An odd number of cache lines: column 1 of every row can begin one, and rows spread over all cache sets.
 STRIDE = 1255 * LANES
-# All bits of a column's number.  ``block & COLUMN_BITS`` is ``block``, but tells LLVM that no index in a loop over one
-# packed operation is negative: it packs no loop in which one could be, and have to count from the end.
+# All bits of a column's number.  ``block & COLUMN_BITS`` is ``block``, but shows LLVM that no index in a loop over one
+# packed operation is negative.  It does not pack a loop with indices that may be negative and count from the end.
 COLUMN_BITS = 2**14 - 1
 
 # Centre of mass, global frame (x north, y east, z down) [m]; velocity, global [m/s].
@@ -42,16 +42,16 @@ INVERSE_MASS, INVERSE_JT, INVERSE_JA = 22 * STRIDE, 23 * STRIDE, 24 * STRIDE
 WEIGHT = 25 * STRIDE
 # Arms from the centre of mass along the axis to the upper joint, lower joint and contact point [m].
 ARM_TOP, ARM_BOTTOM, ARM_CONTACT = 26 * STRIDE, 27 * STRIDE, 28 * STRIDE
-# Contact radius [m]; multiplier of the wall stiffness (1 a point, or tributary length [m]).
+# Contact radius [m]; multiplier of the wall stiffness (1 per point, or tributary length [m]).
 RADIUS, TRIBUTARY = 29 * STRIDE, 30 * STRIDE
 # Mud damping of the whole segment: axial, lateral [N s/m], rotational [N m s].
 MUD_AXIAL, MUD_LATERAL, MUD_SPIN = 31 * STRIDE, 32 * STRIDE, 33 * STRIDE
 
-# Joint constants: axial, shear [N/m], bending, torsional [N m/rad] stiffness; whole turns of twist that
-# the quaternions cannot hold [rad].
+# Joint constants: axial, shear [N/m], bending, torsional [N m/rad] stiffness; whole turns of twist,
+# which quaternions cannot represent [rad].
 K_AXIAL, K_SHEAR, K_BEND, K_TWIST = 34 * STRIDE, 35 * STRIDE, 36 * STRIDE, 37 * STRIDE
 TURNS = 38 * STRIDE
-# Joint loads, global: force on the lower body [N] (the upper feels the opposite), moments about the centres
+# Joint loads, global: force on the lower body [N] (opposite on the upper), moments about the centres
 # of mass of the upper and of the lower body [N m].
 FX, FY, FZ = 39 * STRIDE, 40 * STRIDE, 41 * STRIDE
 UX, UY, UZ = 42 * STRIDE, 43 * STRIDE, 44 * STRIDE
@@ -61,14 +61,14 @@ LX, LY, LZ = 45 * STRIDE, 46 * STRIDE, 47 * STRIDE
 # |PT| - HOLE + RADIUS is the penetration [m], stiffness [N/m], friction factor.
 PX, PY, PZ, HOLE = 48 * STRIDE, 49 * STRIDE, 50 * STRIDE, 51 * STRIDE
 K_WALL, FRICTION = 52 * STRIDE, 53 * STRIDE
-# The piece of hole that the contact point remembers (see contact.py): start, axis there; for arcs also normal,
+# Copy of the piece of hole that owns the contact point (see contact.py): start, axis there; for arcs also normal,
 # curvature and the direction of the end.
 OX, OY, OZ = 54 * STRIDE, 55 * STRIDE, 56 * STRIDE
 TX, TY, TZ = 57 * STRIDE, 58 * STRIDE, 59 * STRIDE
 NX, NY, NZ = 60 * STRIDE, 61 * STRIDE, 62 * STRIDE
 CURVE, END_COS, END_SIN = 63 * STRIDE, 64 * STRIDE, 65 * STRIDE
-# Between which distances past its start and along its end the point may be without a new search; how far it
-# is inside them, 0 or less sends it to the table [m].
+# Limits of the distances past the piece's start and along its end within which the point needs no new search;
+# how far it is inside them, where 0 or less makes it look up the table [m].
 MARGIN_TOP, MARGIN_END, SLACK = 66 * STRIDE, 67 * STRIDE, 68 * STRIDE
 
 # Sums over the steps since the last record: impulses of the wall's normal force [N s], of the friction
@@ -82,9 +82,9 @@ ROWS = 79
 
 
 class Laws(NamedTuple):
-    """Choices and constants of a run, scalars so that one stepper serves every case.
+    """Choices and constants of a run, as scalars, so that one compiled stepper serves every case.
 
-    geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : a law's code, of ``laws.CODES``.
+    geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : a law's code of ``laws.CODES``.
     friction_scale : multiplies every friction factor (0 while the string settles).
     contact_damping : wall damping [N s/m].  joint_damping : stiffness-proportional damping time [s].
     settling : artificial mass-proportional damping rate [1/s], 0 in a run.
@@ -107,7 +107,7 @@ CYLINDERS, ARCS, OPEN = 0, 1, 2
 def new_state(segments: int) -> np.ndarray:
     """Return a fresh buffer for ``segments`` bodies: at rest at the origin, upright, without mass.
 
-    Raises ValueError for more bodies than the buffer holds; ``lay_out`` refuses such a string before.
+    Raises ValueError for more bodies than fit into the buffer; ``lay_out`` rejects such a string before.
     """
     if segments > MAX_SEGMENTS:
         raise ValueError(f"at most {MAX_SEGMENTS} segments fit into a buffer, not {segments}")
@@ -118,7 +118,7 @@ def new_state(segments: int) -> np.ndarray:
 
 
 def copy_state(S: np.ndarray) -> np.ndarray:
-    """Return a copy of a buffer that is as fast to step as the original."""
+    """Return a copy of a buffer with the same alignment, so that steps are as fast."""
     copied = _aligned()
     copied[:] = S
     return copied
@@ -127,7 +127,7 @@ def copy_state(S: np.ndarray) -> np.ndarray:
 def _aligned() -> np.ndarray:
     """A buffer of zeros whose rows begin on cache lines.
 
-    numpy aligns to less than a cache line, and a load that crosses two takes twice as long.
+    numpy aligns to less than a cache line, and a load across two lines takes twice as long.
     """
     numbers = np.zeros(ROWS * STRIDE + LANES)
     first = -(numbers.ctypes.data // numbers.itemsize + 1) % LANES
@@ -177,7 +177,7 @@ def global_spin(S, j):
 
 @inlined
 def joint_force(S, j):
-    """Force of joint j on body j [N], global; body j - 1 feels the opposite."""
+    """Force of joint j on body j [N], global; opposite on body j - 1."""
     return S[FX + j], S[FY + j], S[FZ + j]
 
 

@@ -1,4 +1,4 @@
-"""The top drive holds the string's upper end, turns it and feeds pipe in; its reactions are the outputs."""
+"""The top drive clamps the string's upper end, turns it and feeds pipe in; its reactions are hook load and torque."""
 
 import math
 from typing import NamedTuple
@@ -50,7 +50,7 @@ GRAVITY = 9.80665
 
 
 class Motion(NamedTuple):
-    """What the top drive does during one stretch of a run; a ramp when the ends differ.
+    """Feed and rotation of the top drive during one part of a run; a ramp when the ends differ.
 
     start, duration [s]; feed speed downwards [m/s] and rotation speed [rad/s] at both ends.
     """
@@ -64,7 +64,7 @@ class Motion(NamedTuple):
 
 
 class PerMetre(NamedTuple):
-    """The pipe that is fed in at the top, per metre: the long segment's properties follow its length.
+    """Properties per metre of the pipe fed in at the top, from which the long segment's follow by its length.
 
     mass [kg/m], weight (buoyed) [N/m], axial_inertia [kg m], EA [N], GJ, EI [N m^2], shear (κGA) [N],
     mud damping axial, lateral [N s/m^2], rotational [N s].
@@ -91,7 +91,7 @@ TOP_SIZE = 6
 
 @inlined
 def ramp(at, start, duration, first, last):
-    """Smooth step from ``first`` to ``last``: no jump of acceleration to set the string ringing."""
+    """Smooth step from ``first`` to ``last``: no jump of acceleration, which would set the string ringing."""
     u = min(max((at - start) / duration, 0.0), 1.0)
     return first + (last - first) * u * u * (3 - 2 * u)
 
@@ -100,8 +100,8 @@ def ramp(at, start, duration, first, last):
 def set_long_segment(S, length, pipe):
     """Update the long segment (body 1 and joint 1) to its length [m].
 
-    A massless arm with springs EA/L and GJ/L, half its mass lumped at the lower end (§6.2, §5.1): hanging
-    it stretches by its load and by its own weight exactly.
+    A massless arm with springs EA/L and GJ/L, half its mass lumped at the lower end (§6.2, §5.1): its
+    stretch by its load and by its own weight is exact.
     """
     half = 0.5 * length
     S[ARM_TOP + 1] = length
@@ -133,7 +133,7 @@ def long_segment_energy(S):
 
 @inlined
 def spring_tension(S):
-    """What the springs of joint 1 pull along the top drive's axis [N]: its tension less that of its damper."""
+    """Pull of the springs of joint 1 along the top drive's axis [N], without its damper."""
     ax, ay, az = axis(S, 0)
     bx, by, bz = axis(S, 1)
     dx, dy, dz = hinge_gap(S, 1)
@@ -154,12 +154,12 @@ def planned_speeds(top, motion, dt):
 def read_top_drive(S, top, pipe, fed, turned_by, dt):
     """Update the sums of hook load and torque, work and fed energy, given the loads of joint 1.
 
-    fed [m], turned_by [rad] : what the top drive will do in this step.
+    fed [m], turned_by [rad] : feed and rotation of the top drive in this step.
     """
     ax, ay, az = axis(S, 0)
     fx, fy, fz = joint_force(S, 1)
-    # The half of the long segment that is not lumped below hangs on the top drive itself and moves with it, its
-    # mud included: impulses of the mud's drag [N s] and torque [N m s].
+    # Half of the long segment is lumped at its lower end.  The other half hangs on the top drive and moves with it;
+    # it contributes impulses of the mud's drag [N s] and torque [N m s].
     tension = -(fx * ax + fy * ay + fz * az)
     half = 0.5 * top[TOP_LENGTH]
     hanging = tension + pipe.weight * half
@@ -175,17 +175,17 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
         # The pipe passes the clamp stretched, (1 + T/EA) times its unstretched length.
         raised = hanging * fed * (1 + tension / pipe.EA)
         top[TOP_WORK] -= raised
-        # The energy that longer pipe holds, by a central difference about the length at which the loads were
-        # taken: a one-sided one would leave ½k dL² of every step in the ledger.  The joint's damper pulls on the
-        # pipe that passes the clamp and stores nothing.
+        # Energy of the longer pipe by a central difference about the length at which the loads were taken: a
+        # one-sided difference would leave an error of ½k dL² per step in the ledger.  The joint's damper pulls on
+        # the pipe that passes the clamp, and stores no energy.
         damped = (tension - spring_tension(S)) * fed
         set_long_segment(S, top[TOP_LENGTH] - 0.5 * fed, pipe)
         before = long_segment_energy(S)
         set_long_segment(S, top[TOP_LENGTH] + 0.5 * fed, pipe)
         top[FED_ENERGY] += raised - damped + long_segment_energy(S) - before
         set_long_segment(S, top[TOP_LENGTH], pipe)
-    # Quaternions hold twist within two turns: a whole turn is moved into TURNS long before, and the top
-    # drive's quaternion changes sign, as it does by turning once.
+    # Quaternions represent twist within two turns.  Past half a turn a whole one is moved into TURNS, and the top
+    # drive's quaternion changes sign, as a turn would change it.
     w, x, y, z = quaternion(S, 0)
     cosine, sine = half_twist(w, x, y, z, *quaternion(S, 1))
     if cosine < 0:
@@ -195,7 +195,7 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
 
 @inlined
 def drive_top(S, top, motion, pipe, dt):
-    """Read the top drive as it is driven over the step, given joint loads; returns feed [m/s] and rotation [rad/s]."""
+    """Update the top drive's readings over this step, given joint loads; returns feed [m/s] and rotation [rad/s]."""
     feed, rate = planned_speeds(top, motion, dt)
     read_top_drive(S, top, pipe, dt * feed, dt * rate, dt)
     return feed, rate

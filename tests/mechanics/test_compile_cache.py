@@ -1,4 +1,4 @@
-"""Compiled code on disk: damage, full disks, folders of others."""
+"""Compiled code on disk: damage, full disks, folders of other users."""
 
 import os
 import pickle
@@ -56,9 +56,9 @@ DAMAGES: dict[str, Callable[[Path], bytes]] = {
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
-def test_damaged_code_is_compiled_anew_once(damage: str, store: Store, file: Path) -> None:
+def test_damaged_code_is_compiled_again_once(damage: str, store: Store, file: Path) -> None:
     file.write_bytes(DAMAGES[damage](file))
-    with pytest.warns(CompileCacheWarning, match=r"twice-\w+ is damaged: it is compiled anew and replaced"):
+    with pytest.warns(CompileCacheWarning, match=r"twice-\w+ is damaged: it is compiled again and replaced"):
         assert hits(store, twice, 3.0) == 0
     assert hits(store, twice, 3.0) == 1
 
@@ -73,7 +73,7 @@ def test_a_folder_in_place_of_a_file_is_replaced(store: Store, file: Path) -> No
 
 def test_code_that_another_user_may_have_written_is_not_run(store: Store, file: Path) -> None:
     file.chmod(0o620)
-    with pytest.warns(CompileCacheWarning, match="may be written by other users: it is compiled anew"):
+    with pytest.warns(CompileCacheWarning, match="may be written by other users: it is compiled again"):
         assert hits(store, twice, 3.0) == 0
     assert hits(store, twice, 3.0) == 1
 
@@ -89,7 +89,7 @@ def test_an_error_in_sound_code_is_not_taken_for_damage(store: Store, monkeypatc
 
 @contextmanager
 def files_limited_to(size: int) -> Iterator[None]:
-    """Inside, no file can be written beyond a size, as on a disk that is full."""
+    """A context in which no file can exceed a size, as on a full disk."""
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
     try:
@@ -98,16 +98,16 @@ def files_limited_to(size: int) -> Iterator[None]:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
-def test_a_full_disk_is_told_once_and_everything_still_runs(store: Store, file: Path) -> None:
-    told = pytest.warns(CompileCacheWarning, match="cannot be kept in .*: it is kept for this run only")
-    with told, files_limited_to(1000):
+def test_a_full_disk_gives_one_warning_and_everything_still_runs(store: Store, file: Path) -> None:
+    warned = pytest.warns(CompileCacheWarning, match="cannot be kept in .*: it is kept for this run only")
+    with warned, files_limited_to(1000):
         assert hits(store, thrice, 4.5) == 0
     assert not store.lasting
     assert list(file.parent.iterdir()) == [file]  # what was there, and no scratch file
     assert hits(store, thrice, 4.5) == 0
 
 
-def test_a_folder_removed_meanwhile_is_told(store: Store, file: Path) -> None:
+def test_a_folder_removed_meanwhile_gives_a_warning(store: Store, file: Path) -> None:
     shutil.rmtree(file.parent)
     with pytest.warns(CompileCacheWarning, match="cannot be kept in .* \\(No such file or directory\\)"):
         assert hits(store, twice, 3.0) == 0
@@ -126,7 +126,7 @@ def test_a_new_folder_is_this_users_alone(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 def refused(monkeypatch: pytest.MonkeyPatch, folder: Path, message: str) -> None:
-    """A store beside a folder that cannot be used: private, for this run only, and said once."""
+    """A store beside a folder that cannot be used: private, for this run only, with one warning."""
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(folder))
     store = open_store()
     assert store.folder != folder
@@ -143,7 +143,7 @@ def refused(monkeypatch: pytest.MonkeyPatch, folder: Path, message: str) -> None
 @pytest.mark.parametrize("mode", [0o777, 0o770, 0o1777])
 def test_a_folder_that_others_may_write_is_refused(mode: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tmp_path.chmod(mode)
-    refused(monkeypatch, tmp_path, "may be written by other users: every run compiles anew")
+    refused(monkeypatch, tmp_path, "may be written by other users: every run compiles again")
 
 
 def test_another_users_folder_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -158,7 +158,7 @@ def test_another_users_folder_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_a_folder_that_cannot_be_written_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "access", lambda *_: False)
-    refused(monkeypatch, tmp_path, "cannot be written: every run compiles anew; let NUMBA_CACHE_DIR name")
+    refused(monkeypatch, tmp_path, "cannot be written: every run compiles again; set NUMBA_CACHE_DIR to")
 
 
 class Nowhere:

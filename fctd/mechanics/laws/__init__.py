@@ -1,14 +1,14 @@
-"""The laws of friction, a line each, and the choice between them at run time.
+"""The laws of friction, one import line each, and the choice between them at run time.
 
-numba has to know a function when it compiles its caller, so the choice is a chain of comparisons, built once from the
-table: the code of a law is its place there.
+numba needs a function when it compiles its caller, so the choice is a chain of comparisons, built once from the
+table; the code of a law is its index there.
 """
 
 from typing import Any, Final
 
 from fctd.mechanics.friction import Law
 from fctd.mechanics.jit import inlined
-from fctd.mechanics.laws.coulomb import LAW as COULOMB  # noqa: F401 (the table is made of what is imported here)
+from fctd.mechanics.laws.coulomb import LAW as COULOMB  # noqa: F401 (the table collects the laws imported here)
 from fctd.mechanics.laws.paper import LAW as PAPER  # noqa: F401
 
 LAWS: Final = tuple(law for law in list(globals().values()) if isinstance(law, Law))
@@ -17,7 +17,7 @@ NAMES: Final = tuple(CODES)
 
 
 def chain(functions: Any) -> Any:
-    """A function of a law's code and further arguments that calls the function of that law, expanded in place."""
+    """A function of a law's code and further arguments that calls that law's function, compiled into the caller."""
     chosen = _only(functions[0])
     for code, function in enumerate(functions[1:], start=1):
         chosen = _either(code, function, chosen)

@@ -1,4 +1,4 @@
-"""Law ``coulomb``: one force μN against the sliding of the string's side that touches the wall."""
+"""Law ``coulomb``: one force μN against the sliding velocity of the string's surface at the wall."""
 
 import numpy as np
 
@@ -11,10 +11,10 @@ from fctd.mechanics.state import ARM_CONTACT, INVERSE_JA, INVERSE_JT, INVERSE_MA
 
 @inlined
 def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
-    """One impulse against the sliding velocity at the wall side of the string.
+    """One impulse against the sliding velocity of the string's surface at the wall.
 
-    limit : μ × normal impulse [N s].  It acts at T + r_ds·normal, hence gives force and torque, and at most
-    stops the sliding of the free body (implicit clamp).  Returns the change of velocity and spin (6).
+    limit : μ × normal impulse [N s].  It acts at T + r_ds·normal, hence gives force and torque, and may stop
+    the sliding of the free body but not reverse it (implicit clamp).  Returns the change of velocity and spin (6).
     """
     im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
     r = S[RADIUS + j]
@@ -38,7 +38,7 @@ def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
 
 @inlined
 def steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
-    """One force against the sliding of the string's side that touches, acting there; as of ``Law``."""
+    """One force against the sliding velocity of the string's surface, acting there; see ``Law``."""
     cx, cy, cz = cross(ax, ay, az, nx, ny, nz)
     turning = spin * radius
     sx, sy, sz = along_wall(speed * tx + turning * cx, speed * ty + turning * cy, speed * tz + turning * cz, nx, ny, nz)
@@ -50,7 +50,7 @@ def steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
 
 @inlined
 def shares(speed, turning):
-    """Along and around by the direction of sliding; friction around the hole bears part of the load across it."""
+    """Along and around by the direction of sliding; friction around the hole bears part of the lateral load."""
     sliding = np.sqrt(speed * speed + turning * turning) + TINY
     return speed / sliding, turning / sliding, turning / sliding
 

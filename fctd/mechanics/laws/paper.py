@@ -9,7 +9,7 @@ from fctd.mechanics.state import INVERSE_JA, INVERSE_MASS, J_AXIAL, MASS, RADIUS
 
 @inlined
 def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
-    """Axial drag and a couple about the axis, each of which at most stops its own motion; as of ``Law``."""
+    """Axial drag and a couple about the axis; each may stop its motion but not reverse it; see ``Law``."""
     m, ja, im, ia = S[MASS + j], S[J_AXIAL + j], S[INVERSE_MASS + j], S[INVERSE_JA + j]
     sliding, spinning = np.sqrt(w * w), np.sqrt(c * c)
     drag = limit if limit < m * sliding else m * sliding
@@ -22,7 +22,7 @@ def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
 
 @inlined
 def steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
-    """Axial drag and a couple about the axis, each in full; as of ``Law``."""
+    """Axial drag and a couple about the axis, each in full; see ``Law``."""
     drag = -limit * np.sign(speed)
     torque = -radius * limit * np.sign(spin)
     return drag * ax, drag * ay, drag * az, torque * ax, torque * ay, torque * az, torque
@@ -30,7 +30,7 @@ def steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
 
 @inlined
 def shares(speed, turning):
-    """Each in full; friction around the hole is a couple and bears nothing."""
+    """Each in full; friction around the hole is a couple and bears no lateral load."""
     return np.sign(speed), np.sign(turning), 0.0
 
 
