@@ -1,7 +1,7 @@
-"""The engine's loop with another contact method in place of its own: only stages 2 and 3 change hands.
+"""The engine's loop with another contact method in place of its own, which does stages 2 and 3.
 
-One compiled call before the query and one after; the query itself is a Python call per step, which costs some
-microseconds whatever the method does.
+Every step makes one compiled call before the query and one after.  The query is a Python call, which alone costs some
+microseconds.
 """
 
 from typing import Protocol
@@ -21,12 +21,12 @@ from fctd.model.wellbore import FRICTION, RADIUS, STIFFNESS, TO_MD, Contacts, We
 
 Array = NDArray[np.float64]
 
-# Where a method reports no contact the wall is put this far beyond the string [m].
+# Where a method reports no contact the wall is placed this far from the string [m].
 OUT_OF_REACH = 1.0
 
 
 class WallQuery(Protocol):
-    """A contact method as the loop needs it; ``name`` goes into the result."""
+    """A contact method as the loop needs it; ``name`` is written into the result."""
 
     name: str
 
@@ -70,7 +70,7 @@ def _store(S, n, radii, penetration, normal, md, wall):
 
 @entry
 def _before(S, top, n, laws, motion, pipe, dt, points):
-    """Stage 1 of ``dynamics.step``, and the points (n, 3) to ask about; returns feed and rotation."""
+    """Stage 1 of ``dynamics.step``, and the points (n, 3) to query; returns feed [m/s] and rotation [rad/s]."""
     update_joint_loads(S, padded_columns(n), laws.joint_damping, dt)
     feed, rate = drive_top(S, top, motion, pipe, dt)
     _points(S, n, points)
@@ -88,9 +88,9 @@ def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md
 
 
 class QueriedWall:
-    """A contact method as a Wall: the loop of ``dynamics.advance`` with its answers for the wall."""
+    """A contact method as a Wall: the loop of ``dynamics.advance`` with the walls that the method returns."""
 
-    # In the corner between two facets of a mesh the one contact of a point goes from side to side.
+    # In the corner between two facets of a mesh a point's only contact alternates between them.
     jumps = True
     seams = False
 
@@ -107,7 +107,7 @@ class QueriedWall:
         update_axes(S, padded_columns(n))
         for _ in range(steps):
             feed, rate = _before(S, top, n, laws, motion, pipe, dt, self._points)
-            hits = self._ask(radii)
+            hits = self._query(radii)
             _after(S, top, n, laws, pipe, feed, rate, dt, radii, *hits, self._wall)
 
     def refresh(self, string: MovingString) -> None:
@@ -115,16 +115,16 @@ class QueriedWall:
         S = string.S
         radii = self._radii(S)
         _points(S, self._segments, self._points)
-        _store(S, self._segments, radii, *self._ask(radii), self._wall)
+        _store(S, self._segments, radii, *self._query(radii), self._wall)
 
     def _radii(self, S: Array) -> Array:
         return state.row(S, state.RADIUS, self._segments).copy()
 
-    def _ask(self, radii: Array) -> Contacts:
-        """The method's answer; ValueError when its shapes are not those asked for."""
+    def _query(self, radii: Array) -> Contacts:
+        """The method's contacts; raises ValueError when their shapes do not match the points."""
         n = self._segments
         hits = self._method.query(self._points, radii)
         shapes = [part.shape for part in hits]
         if shapes != [(n,), (n, 3), (n,)]:
-            raise ValueError(f"contact method {self.name!r} answered {n} points with shapes {shapes}")
+            raise ValueError(f"contact method {self.name!r} returned shapes {shapes} for {n} points")
         return hits

@@ -10,7 +10,7 @@ from fctd.model.operations import Phase
 
 
 class Interval(NamedTuple):
-    """A part of a phase: what the top drive does, the index of the operation, and the time at its end [s]."""
+    """A part of a phase: motion of the top drive, index of the operation, and time at the interval's end [s]."""
 
     motion: Motion
     operation: int
@@ -25,7 +25,7 @@ class Window(NamedTuple):
 
 
 def whole_schedule(phases: list[Phase], interval: float) -> list[Interval]:
-    """All of a schedule, recorded at the multiples of an interval [s] and at the end of every phase."""
+    """A whole schedule, recorded at the multiples of an interval [s] and at the end of every phase."""
     parts = []
     for motion, operation in phases:
         end = motion.start + motion.duration

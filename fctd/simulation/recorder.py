@@ -1,4 +1,4 @@
-"""What is kept of a run: history, profiles along the string, and the energy ledger."""
+"""The records of a run: history, profiles along the string, and the energy ledger."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -22,13 +22,13 @@ from fctd.simulation.run import Run, contact_points
 
 Array = NDArray[np.float64]
 
-SAME_DEPTH = 1e-3  # [m]: the schedule meets its depths to the rounding of a step
+SAME_DEPTH = 1e-3  # [m]: the schedule reaches its depths to the rounding of a step
 
 
 class Recorder:
-    """Reads a run, settled and brought to its start, and again after every record interval; changes nothing in it.
+    """Reads a settled run at its start and after every record interval, without changing it.
 
-    time : of the start [s]; energy : tells what the string holds, without it the run itself.
+    time : at the start [s]; energy : returns the string's energy, by default that of the run.
     """
 
     def __init__(self, run: Run, time: float = 0.0, energy: Callable[[], Energy] | None = None) -> None:
@@ -43,10 +43,10 @@ class Recorder:
         self.ledger: list[dict[str, float]] = []
         self.profiles: dict[float, pd.DataFrame] = {}  # by time
         self.wanted = list(run.case.record.profile_at)
-        self.notes: dict[str, Note] = {}  # by code, the worst of each
+        self.notes: dict[str, Note] = {}  # by code, the one with the largest excess
 
     def rows(self, offset: int) -> Array:
-        """One quantity of every segment."""
+        """One quantity of every segment (n,)."""
         return state.row(self.run.S, offset, self.run.segments)
 
     @property
@@ -55,9 +55,9 @@ class Recorder:
         return self.start_depth + float(self.run.top[topdrive.TOP_LENGTH]) - self.start_length
 
     def record(self, operation: int, sums: Sums) -> None:
-        """Append a row of history and ledger, and a profile at a wanted depth.
+        """Append a row of history and ledger, and a profile at a depth of ``record.profile_at``.
 
-        sums : drained from the run, of the time since the last record.
+        sums : drained from the run, over the time since the last record.
         """
         case = self.run.case
         self.mean = mean = sums.over(self.run.time - self.last_time)
@@ -86,7 +86,7 @@ class Recorder:
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
-        self._look(hookload)
+        self._keep_notes(hookload)
         low, high = sorted((before, self.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]
         if passed:
@@ -94,7 +94,7 @@ class Recorder:
             self.profiles[self.last_time] = self._profile()
 
     def result(self, status: RunStatus, message: str, wall: float, residual: float) -> SimulationResult:
-        """Everything recorded, with the profile of the end and the numbers of the run."""
+        """All records, with a profile at the end and the numbers of the run."""
         run = self.run
         profiles = self.profiles | ({self.last_time: self._profile()} if self.history else {})
         energy = pd.DataFrame(self.ledger)
@@ -116,7 +116,7 @@ class Recorder:
         return SimulationResult(run.case, status, message, history, profile, energy, numbers, notes)
 
     def _bit_md(self) -> float:
-        """Where the bit is along the hole [m]."""
+        """Measured depth of the bit [m]."""
         run, n = self.run, self.run.segments
         place, arm = run.S[[state.X + n, state.Y + n, state.Z + n]], run.S[state.ARM_CONTACT + n]
         bit = place + arm * run.S[[state.AX + n, state.AY + n, state.AZ + n]]
@@ -127,8 +127,8 @@ class Recorder:
         points = contact_points(self.run.S, self.run.segments)
         return points, self.run.hole.walls(points, self.run.owner[1 : self.run.segments + 1])
 
-    def _look(self, hookload: float) -> None:
-        """Keep a note that is new, or says worse than the one before."""
+    def _keep_notes(self, hookload: float) -> None:
+        """Keep each note that is new, or whose excess is larger than before."""
         run = self.run
         _, walls = self._walls()
         radius, in_hole = self.rows(state.RADIUS), run.case.contact.enabled
@@ -137,13 +137,13 @@ class Recorder:
                 self.notes[note.code] = replace(note, text=f"{note.text}, with the bit at {self.bit_depth:.0f} m")
 
     def _loads(self) -> Loads:
-        """What the string carries: means over the last interval, bending as it is."""
+        """Loads of the string: means over the last interval, but bending at its end."""
         run = self.run
         axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
         turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
         tension, torque = self.mean.tension.copy(), self.mean.torque.copy()
         if run.string.long_segment:
-            # Half of a long segment's weight and mud is not lumped below but at the top.
+            # Half of a long segment's weight and mud load is lumped at the top.
             tension[0], torque[0] = self.mean.hookload, self.mean.top_torque
         return Loads(
             tension=tension,
@@ -153,9 +153,9 @@ class Recorder:
         )
 
     def _profile(self) -> pd.DataFrame:
-        """The string from the top to the bit: loads are means over the last interval.
+        """Profile from the top to the bit: a row for the top and one per contact point.
 
-        A row per contact point and one for the top.
+        Loads are means over the last interval.
         """
         run = self.run
         points, walls = self._walls()

@@ -1,14 +1,14 @@
-"""What the joints of the hole's cylinders do to a string that slides past them: it may ring along itself.
+"""Axial ringing of a string that slides past the seams between the hole's cylinders, estimated without time steps.
 
-A cylinder is a chord of the bend.  Along it the wall's force is tilted against the hole, from −½κℓ to ½κℓ, and jumps
-back at the joint.  Contact points that are whole cylinders apart meet their joints together, and where a harmonic of
-speed over cylinder length meets a frequency of the string, nothing but mud damps what builds up.  The real hole has no
-joints, nor have arcs.
+A cylinder is a chord of the bend.  Along it the direction of the wall's force is tilted against the hole, from −½κℓ to
+½κℓ, and jumps back at the seam.  Contact points whose distance is a multiple of the cylinder length pass seams
+together, and where a harmonic of speed over cylinder length meets a natural frequency of the string, only mud damps
+the oscillation.  The real hole has no seams, and a hole of arcs has none either.
 
-How much builds up is found without a time step: the contact forces are those of a soft string without friction, the
-modes those of the chain of masses and springs, and a mode whose frequency ω changes slowly reaches the integral of its
-force times exp(−i∫ω dt).  That is an estimate, within a factor of two or three: stiffness, clearance and friction are
-left out, as is that points which leave the hole's own axis lengthen the path.
+The contact forces of the estimate are those of a soft string without friction, the modes those of the chain of masses
+and springs.  A mode whose frequency ω changes slowly reaches the integral of its force times exp(−i∫ω dt).  The
+estimate is good within a factor of two or three: it leaves out stiffness, clearance and friction, and the longer path
+of points that leave the hole's axis.
 """
 
 from typing import NamedTuple
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 MODES = 2
 STRIDE, SPAN = 10.0, 20.0  # [m] and [s] over which modes and contact forces are taken as constant, at most
-SAMPLES = 8  # of the forces in a period of the fastest mode, each the mean of its span
+SAMPLES = 8  # of the forces per period of the fastest mode, each a mean over its span
 
 
 class Ringing(NamedTuple):
@@ -49,7 +49,7 @@ class Ringing(NamedTuple):
 
 
 class Tilt(NamedTuple):
-    """Direction of the cylinders less that of the hole, integrated over measured depth: (k, 3) [m].
+    """Direction of the cylinders minus that of the hole, integrated over measured depth: (k, 3) [m].
 
     start, step : first measured depth and distance of the rows [m].
     """
@@ -79,7 +79,7 @@ class Modes(NamedTuple):
 
 
 def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
-    """Ringing that joints of cylinders cause where a run feeds pipe at constant speed, each phase from rest."""
+    """Ringing caused by the seams between cylinders where a run feeds pipe at constant speed, each phase from rest."""
     depths: list[float] = []
     frequencies: list[Array] = []
     amplitudes: list[Array] = []
@@ -141,7 +141,7 @@ def _modes(run: Run, string: String, probe: Array) -> Modes:
 def _forces(run: Run, string: String, tilt: Tilt, modes: Modes, length: float, speed: float) -> tuple[Array, float]:
     """Modal forces (m, MODES) over a stride about the string's depth, and the time of each [s].
 
-    length [m] and speed [m/s] of the stride, both below 0 where pipe is pulled.
+    length [m] and speed [m/s] of the stride, both negative where pipe is pulled out.
     """
     n = string.segments
     weight = string.of("weight") * string.length
@@ -151,7 +151,7 @@ def _forces(run: Run, string: String, tilt: Tilt, modes: Modes, length: float, s
         tension = np.append(np.cumsum((weight * tangents[:, 2])[:0:-1])[::-1], 0.0)
         chords = np.diff(points, axis=0)
         reach = np.linalg.norm(chords, axis=1)
-        # A segment is a chord of the bend and stretched: a few centimetres, which matter to joints.
+        # A segment is a chord of the bend and stretched; these few centimetres decide when it passes a seam.
         md[1:] += np.cumsum(string.length[1:] * (1 + tension[:-1] / string.of("EA")[1:]) - reach)
     load = np.zeros((n, 3))
     load[:, 2] = 0.5 * (weight + np.append(weight[1:], 0.0))

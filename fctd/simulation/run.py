@@ -1,4 +1,4 @@
-"""A run before its first step: hole, string, step, and the string settled at its start."""
+"""Preparation of a run: hole, string and step, and the settling of the string before the first step."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -25,11 +25,11 @@ Array = NDArray[np.float64]
 # The string is settled when no force is out of balance by more than this share of its weight.
 SETTLED = 1e-6
 LONGEST_SETTLING = 400.0  # [s] simulated
-# The same for another contact method's wall, averaged over a window, and the least number of windows.
-HANDED_OVER, LEAST_WINDOWS = 1e-3, 3
+# The same for another contact method's wall, averaged over a window, and the smallest number of windows.
+SETTLED_ON_AVERAGE, LEAST_WINDOWS = 1e-3, 3
 VELOCITY, PLACE = (state.VX, state.VY, state.VZ), (state.X, state.Y, state.Z)
-# Beyond these a run would take hours or not fit into memory: a slip in the case, not a wish.  A step of one segment
-# takes some 20 ns, a record keeps 2 kB and a row of a profile 200 bytes.
+# Above these limits a run would take hours or not fit into memory, most likely by an error in the case.  A step of one
+# segment takes some 20 ns, a record keeps 2 kB and a row of a profile 200 bytes.
 MOST_SEGMENT_STEPS = 1e12
 MOST_RECORDS = 200_000
 MOST_PROFILE_ROWS = 2_000_000
@@ -39,7 +39,7 @@ Settling = Callable[[float, float], None]
 
 @dataclass(kw_only=True)
 class Run(MovingString):
-    """The string of a case in motion: everything the stepper works on, and what it was built from."""
+    """The string of a case in motion, with the case, the hole and the string it was built from."""
 
     case: Case
     hole: Wellbore
@@ -49,14 +49,14 @@ class Run(MovingString):
 def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Phase]]:
     """Build hole and string of a case, lay the string on the axis of the hole and choose the step.
 
-    contact : answers for the wall in place of the hole's own pieces.  Raises InputError for a case that cannot
-    be simulated.
+    contact : a contact method that replaces the hole's own pieces.  Raises InputError for a case that cannot be
+    simulated.
     """
     with naming_file(case):
         run, phases = _prepare(case)
         if contact is not None:
             if not case.contact.enabled:
-                raise InputError("true, since another contact method is to be run", key="contact.enabled", value=False)
+                raise InputError("true, since a contact method was passed", key="contact.enabled", value=False)
             run.wall = QueriedWall(contact, run.hole, run.segments)
         return run, phases
 
@@ -101,7 +101,7 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
             f"'auto', 'largest' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
         )
     _check_cost(case, n, step, sum(s.motion.duration for s in phases))
-    # A walk from the top would stop at the first slab a point lies in, which past 90° may be a far one's.
+    # A walk from the top would stop at the first slab that contains a point; past 90° that may be a distant piece.
     owner = np.zeros(n + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
     run = Run(
@@ -112,12 +112,12 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
 
 
 def own_wall(case: Case, hole: Wellbore) -> HoleWall:
-    """The wall of a case by the pieces of its own hole."""
+    """The wall made of the pieces of the case's own hole."""
     return HoleWall(hole.pieces, case.wellbore.geometry)
 
 
 def _check_cost(case: Case, segments: int, step: float, duration: float) -> None:
-    """Raise InputError for a run that would take hours or more memory than there is; step and duration [s]."""
+    """Raise InputError for a run that would take hours or too much memory; step and duration [s]."""
     most = MOST_SEGMENT_STEPS / dynamics.padded_columns(segments)
     if (duration + LONGEST_SETTLING) / step > most:
         raise InputError(
@@ -137,24 +137,25 @@ def _check_cost(case: Case, segments: int, step: float, duration: float) -> None
 
 
 def _check_dynamic(case: Case) -> None:
-    """Raise InputError for what only the steady solver knows: a bit on bottom, a bent housing."""
-    steady = "(fctd equilibrium and fctd chart know more)"
+    """Raise InputError for what only the steady solver supports: a bit on bottom, a bent housing."""
+    steady = "(fctd equilibrium and fctd chart support it)"
     for i, operation in enumerate(case.operations):
         if operation.on_bottom:
             raise InputError(
-                f"an operation off bottom to simulate {steady}", key=f"operations[{i}].kind", value=operation.kind
+                f"an operation off bottom in a simulation {steady}", key=f"operations[{i}].kind", value=operation.kind
             )
     for i, component in enumerate(case.string.components):
         if component.bend:
             raise InputError(
-                f"no bend to simulate {steady}", key=f"string.components[{i}].bend", value=f"{component.bend:g} rad"
+                f"no bend in a simulation {steady}", key=f"string.components[{i}].bend", value=f"{component.bend:g} rad"
             )
 
 
 def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float) -> float:
     """Largest stable step of the run [s]; the top segment is stiffest where it is shortest.
 
-    Raises InputError for masses and stiffnesses that are out of all proportion.
+    shrinks [m] : change of the top segment's length to its shortest.  Raises InputError where masses and stiffnesses
+    give no finite frequency.
     """
     spin = max(rad_per_s(o.rpm) for o in case.operations)
     probe = S.copy()
@@ -176,7 +177,7 @@ def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerM
 
 
 def contact_points(S: Array, n: int) -> Array:
-    """Contact points of the segments (n, 3) [m], given axes."""
+    """Contact points of the segments (n, 3) [m]; axes must be up to date."""
     arm = state.row(S, state.ARM_CONTACT, n)
     pairs = ((state.X, state.AX), (state.Y, state.AY), (state.Z, state.AZ))
     return np.stack([state.row(S, p, n) + arm * state.row(S, a, n) for p, a in pairs], axis=1)
@@ -188,7 +189,7 @@ def lie_on_axis(S: Array, string: String, hole: Wellbore) -> None:
     (start,), (tangent,) = hole.at(np.array([md]))
     joints = [start]
     for length in string.length:
-        # The chord is what has to equal the segment: the axis is a little longer in a bend.
+        # The chord must be as long as the segment; in a bend the axis is a little longer.
         guess = md + length
         for _ in range(3):
             guess += length - np.linalg.norm(hole.at(np.array([guess]))[0][0] - joints[-1])
@@ -228,12 +229,12 @@ def settle(run: Run, tolerance: float = SETTLED, progress: Settling | None = Non
 
     Raises UnstableError when the string does not come to rest or leaves the hole.
 
-    Damping proportional to mass, a few times critical for the slowest swing of the hanging string: damping
-    critical for its stretching would leave the swing creeping for minutes.
+    The damping is proportional to mass and a few times critical for the slowest swing of the hanging string.  With
+    damping critical for the axial modes, the swing would take minutes to decay.
     """
     if run.wall.jumps:
         settle(replace(run, wall=own_wall(run.case, run.hole)), tolerance, progress)
-        return _hand_over(run, progress)
+        return _settle_on_average(run, progress)
     laws, weight = relaxing(run)
     residual = np.inf
     for k in range(int(LONGEST_SETTLING * laws.settling)):
@@ -241,7 +242,7 @@ def settle(run: Run, tolerance: float = SETTLED, progress: Settling | None = Non
         before = _three(run, VELOCITY)
         run.advance(STILL, run.step, laws)
         after = _three(run, VELOCITY)
-        # What moves a body is the imbalance of all forces but the artificial drag.
+        # The imbalance is the sum of all forces without the artificial drag.
         pull = (after - before) / run.step + laws.settling * after
         residual = float(np.abs(state.row(run.S, state.MASS, run.segments) * pull).max()) / weight
         run.refresh()
@@ -253,10 +254,10 @@ def settle(run: Run, tolerance: float = SETTLED, progress: Settling | None = Non
     raise UnstableError(f"forces are out of balance by {residual:.2g} of the weight after {LONGEST_SETTLING:g} s")
 
 
-def _hand_over(run: Run, progress: Settling | None) -> float:
-    """Relax a string that the hole's own pieces have settled once more, against a wall whose contacts jump.
+def _settle_on_average(run: Run, progress: Settling | None) -> float:
+    """Relax a string, already settled on the hole's own pieces, against a wall whose contacts jump.
 
-    Returns the imbalance as ``settle``, but of forces averaged over a window, since no single step is ever in balance.
+    Returns the imbalance as ``settle`` does, but of forces averaged over a window: no single step is in balance.
     """
     laws, weight = relaxing(run)
     residual, window = np.inf, 1 / laws.settling
@@ -269,13 +270,13 @@ def _hand_over(run: Run, progress: Settling | None) -> float:
         run.check()
         if progress is not None:
             progress((k + 1) * window, residual)
-        if residual < HANDED_OVER and k + 1 >= LEAST_WINDOWS:
+        if residual < SETTLED_ON_AVERAGE and k + 1 >= LEAST_WINDOWS:
             return residual
     raise UnstableError(f"forces are out of balance by {residual:.2g} of the weight after {LONGEST_SETTLING:g} s")
 
 
 def relaxing(run: Run) -> tuple[state.Laws, float]:
-    """The laws under which a string settles, and its weight [N]."""
+    """The laws with which a string settles, and its weight [N]."""
     weight = float((run.string.of("weight") * run.string.length).sum())
     rate = 12 * np.sqrt(topdrive.GRAVITY / float(run.string.length.sum()))
     return run.laws._replace(friction_scale=0.0, settling=rate), weight
@@ -287,7 +288,7 @@ def _three(run: Run, rows: tuple[int, int, int]) -> Array:
 
 
 def start_from_rest(run: Run) -> None:
-    """Bring the settled string to rest and clear clock, sums and losses: the run starts here."""
+    """Set the settled string's velocities, clock, sums and losses to zero, for the start of the run."""
     for offset in (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ):
         state.row(run.S, offset, run.segments)[:] = 0.0
     run.clear()

@@ -26,34 +26,34 @@ from fctd.simulation.run import Run, Settling, prepare, settle, start_from_rest
 Progress = Callable[[float, float, float], None]
 # A row of the history by its column names.
 Record = dict[str, Any]
-# A string that cylinders ring by more than this share of its hook load gets a note.
+# Ringing at the seams between cylinders above this share of the hook load gets a note.
 RINGING = 0.005
 
 
 class Stepper(Protocol):
-    """What advances the string of a run; ``Run`` itself is one, another engine may take its place."""
+    """Advances the string of a run: ``Run`` itself, or another engine in its place."""
 
     def advance(self, motion: Motion, duration: float) -> None:
         """Advance by ``duration`` [s]; adds to time, sums, losses and work of the run."""
 
     def refresh(self) -> None:
-        """Bring poses, velocities, axes and walls of the run up to the present."""
+        """Update poses, velocities, axes and walls of the run to the present time."""
 
     def energy(self) -> Energy:
-        """What the string holds [J], after ``refresh``."""
+        """Energy of the string [J], after ``refresh``."""
 
 
 class Simulation(Iterator[Record]):
     """A case's operations, one record at a time: ``for record in Simulation(case): ...``.
 
-    contact : another contact method, built for the hole of this case, that answers for the wall at every step;
+    contact : another contact method, built for the hole of this case, that finds the wall at every step;
     friction, force law and step stay the same.  window : the part of the schedule that is run and recorded, as start
-    and duration [s]; the string is advanced to its start without a record.  stepper : begins another engine with the
-    run at its start, in place of the own stepper.  settling : called while the string settles before the start.
+    and duration [s]; the string is advanced to its start without a record.  stepper : creates another engine from
+    the run at its start, in place of the run's own stepper.  settling : called while the string settles.
 
     A record is a row of the history.  The string settles before the first one.  Ctrl-C leaves the iteration with its
-    KeyboardInterrupt; ``record_part`` then keeps what has passed of a record interval.  ``result`` gives at any time
-    what has been recorded so far.  Raises InputError for a case or a window that cannot be simulated.
+    KeyboardInterrupt; ``record_part`` then records the elapsed part of a record interval.  ``result`` may be called at
+    any time and returns the records so far.  Raises InputError for a case or a window that cannot be simulated.
     """
 
     def __init__(
@@ -73,9 +73,9 @@ class Simulation(Iterator[Record]):
                 if self.window is None
                 else within(self.phases, self.window, case.record.interval)
             )
-        self.done = 0  # of the intervals
-        self.status, self.message = RunStatus.INTERRUPTED, "before the start"  # until it has ended in another way
-        self.wall_s = 0.0  # spent since the start
+        self.done = 0  # number of completed intervals
+        self.status, self.message = RunStatus.INTERRUPTED, "before the start"  # until the run ends in another way
+        self.wall_s = 0.0  # wall-clock time since the start
         self.settling_residual = float("nan")
         self.stepper: Stepper = self.run
         self._begin, self._settling = stepper, settling
@@ -83,7 +83,7 @@ class Simulation(Iterator[Record]):
 
     @property
     def started(self) -> bool:
-        """Whether the string has been settled and stands at the start."""
+        """Whether the string has been settled and brought to the start."""
         return self._recorder is not None
 
     @property
@@ -92,7 +92,7 @@ class Simulation(Iterator[Record]):
         return self.intervals[-1].end
 
     def start(self) -> None:
-        """Settle the string and bring it to the start, where the first record interval begins; only the first call.
+        """Settle the string and bring it to the start of the first record interval; later calls have no effect.
 
         Raises UnstableError when the string does not settle.
         """
@@ -116,7 +116,7 @@ class Simulation(Iterator[Record]):
         self._recorder = Recorder(self.run, start, self.stepper.energy)
 
     def __next__(self) -> Record:
-        """Run to the end of the next interval and record it; ends the iteration also where the string is unstable."""
+        """Run to the end of the next interval and record it; the iteration also ends where the run becomes unstable."""
         if self.status != RunStatus.INTERRUPTED:
             raise StopIteration
         try:
@@ -149,16 +149,16 @@ class Simulation(Iterator[Record]):
         return self._recorder.history[-1]
 
     def record_part(self) -> None:
-        """Record what has passed of an interval that was left before its end, if anything has.
+        """Record the elapsed part of an interval that was interrupted before its end, if there is any.
 
-        Iterating again goes on with the rest of the interval.
+        Further iteration continues with the rest of the interval.
         """
         if self._recorder is not None and self.run.time > self._recorder.last_time:
             self.stepper.refresh()
             self._record()
 
     def result(self) -> SimulationResult:
-        """What has been recorded so far; ``interrupted`` before the end.  A completed schedule is judged as a whole."""
+        """The records so far, with status ``interrupted`` before the end.  A complete schedule gets its final notes."""
         if self._recorder is None:
             return Recorder(self.run).result(self.status, self.message, 0.0, float("nan"))
         message = f"at {self.run.time:.4g} s" if self.status == RunStatus.INTERRUPTED else self.message
@@ -171,12 +171,12 @@ class Simulation(Iterator[Record]):
         self.status, self.message = RunStatus.COMPLETED, ""
 
     def _check_fed(self) -> None:
-        """Raise AssertionError when the string of a finished run is not as long as its bit should be deep."""
+        """Raise AssertionError when the fed string of a finished run does not reach the scheduled bit depth."""
         run, end = self.run, self.case.operations[-1].end_md
         length = float(run.top[topdrive.TOP_LENGTH])
         fed = length - float(run.string.length[0]) if run.string.long_segment else 0.0
-        # A step feeds by the speed in its middle, exact but for h²/24 times the change of the ramp's slope, at most
-        # 3 Δv/T, and rounds the length.
+        # A step feeds with the speed at its middle.  The error is h²/24 times the change of the ramp's slope, which is
+        # at most 3 Δv/T, and the rounding of the length.
         allowed = SAME_LENGTH + run.steps * float(np.spacing(length))
         allowed += sum(run.step**2 * abs(m.feed_to - m.feed_from) / (8 * m.duration) for m, _ in self.phases)
         if not abs(run.string.bit_depth + fed - end) <= allowed:
@@ -185,7 +185,7 @@ class Simulation(Iterator[Record]):
             )
 
     def _judged(self, result: SimulationResult) -> SimulationResult:
-        """A run that came to its end, with what can be said of all of it."""
+        """The result of a completed run, with the notes on its energy ledger and on ringing, and its final status."""
         error = result.run["energy_error"]
         swing, frequency, depth = expected_ringing(self.run, self.phases).largest()
         bound = RINGING * float(result.history["hookload_N"].abs().mean())
@@ -205,11 +205,11 @@ def simulate(
 ) -> SimulationResult:
     """Simulate a case's operations.
 
-    contact : another contact method, built for the hole of this case, that answers for the wall at every step;
+    contact : another contact method, built for the hole of this case, that finds the wall at every step;
     friction, force law and step stay the same.  settling : called while the string settles before the start.
 
-    Returns whatever was reached: ``status`` is ``completed``, or says why it stopped and ``message`` when.
-    Raises InputError for a case that cannot be simulated.
+    Returns all records up to the end of the run: ``status`` is ``completed`` or the reason for the stop, ``message``
+    its time.  Raises InputError for a case that cannot be simulated.
     """
     simulation = Simulation(case, contact, settling=settling)
     try:

@@ -1,1 +1,1 @@
-"""The string at rest in its motion: root finding, charts, and the choice of segments."""
+"""The steady string: root finding, torque-and-drag charts, and the choice of segments."""

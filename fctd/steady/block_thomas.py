@@ -1,4 +1,4 @@
-"""Linear equations whose matrix is block tridiagonal, as of a chain of bodies: block Thomas elimination."""
+"""Linear equations with a block tridiagonal matrix, as a chain of bodies has it: block Thomas elimination."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ from fctd.mechanics.jit import entry
 
 Array = NDArray[np.float64]
 SIZE = 6
-# A block whose pivots differ by more than this has lost the digits that matter.
+# A block whose pivots have a smaller ratio than this is near singular, and the solution inaccurate.
 WORST_PIVOTS = 1e-13
 
 
@@ -22,7 +22,7 @@ def eliminate(D, A, U, R, n, W):
     sound = True
     M = np.empty((SIZE, 2 * SIZE + 1))
     for j in range(1, n + 1):
-        # Row j with the solution of row j − 1 put in: [diagonal | upper block | right-hand side].
+        # Row j with the solution of row j − 1 substituted: [diagonal | upper block | right-hand side].
         for r in range(SIZE):
             for c in range(SIZE):
                 M[r, c] = D[j, r, c]
@@ -77,7 +77,7 @@ def negative_pivots(D, A, U, n):
     """
     count = 0
     M = np.empty((SIZE, 2 * SIZE))
-    last = np.zeros((SIZE, SIZE))  # what row j − 1 takes from row j: Uᵀ D⁻¹ U
+    last = np.zeros((SIZE, SIZE))  # what row j − 1 subtracts from row j: Uᵀ D⁻¹ U
     for j in range(1, n + 1):
         for r in range(SIZE):
             for c in range(SIZE):
@@ -104,7 +104,7 @@ def negative_pivots(D, A, U, n):
 
 
 def solve_with_pivoting(D: Array, A: Array, U: Array, R: Array, n: int) -> Array:
-    """The same solution (n, 6) with pivoting across blocks (LAPACK), for systems that ``eliminate`` finds unsound.
+    """The same solution (n, 6) with pivoting across blocks (LAPACK), for systems with a near singular block.
 
     Raises LinAlgError when the matrix is singular.
     """

@@ -1,9 +1,9 @@
-"""Newton's method for a steady string, led by pseudo-transient continuation.
+"""Newton's method for a steady string, with pseudo-transient continuation.
 
-A step solves (K + M/τ²) Δ = R: over a pseudo-time τ the bodies' own masses hold a string back that is far from
-balance.  τ grows with every step that needs no shortening, until the steps are Newton's own (Kelley & Keyes
-1998; their rule, growth as the residual falls, often trips over the wall: a point that touches it for the first
-time raises the residual by orders of magnitude and is brought back by the next step).
+A step solves (K + M/τ²) Δ = R: with the bodies' masses M and the pseudo-time τ, the term M/τ² limits the step of
+a string far from balance.  τ grows with every step that needs no shortening, until the steps are Newton's (Kelley &
+Keyes 1998).  Their own rule, growth as the residual falls, often fails at the wall: a point that touches it for the
+first time raises the residual by orders of magnitude, and the next step moves it back.
 """
 
 from typing import NamedTuple
@@ -20,10 +20,10 @@ CONVERGED, MAX_ITERATIONS, NOT_FINITE, UNSOUND = range(4)
 
 
 class Pace(NamedTuple):
-    """How boldly to step, and when to stop.
+    """Step sizes and stopping criteria of the iteration.
 
-    iterations : at most.  tau : first pseudo-time [s]; growth : its factor after a step that was not shortened;
-    shrink : its factor after a step that made things ten times worse (1 : never mind).
+    iterations : largest number.  tau : first pseudo-time [s]; growth : its factor after a step that was not shortened;
+    shrink : its factor after a step that raised the imbalance more than tenfold (1 : unchanged).
     shift [m], turn [rad] : a body's largest lateral step and largest rotation.
     force [N], moment [N m] : largest imbalance of a body when converged.
     """
@@ -40,7 +40,7 @@ class Pace(NamedTuple):
 
 @kernel
 def imbalance(R, n, pace):
-    """Largest force and moment out of balance over what is allowed: converged at 1, NaN when not finite."""
+    """Largest ratio of a force or moment out of balance to its allowed value: converged at 1, NaN when not finite."""
     worst = 0.0
     for j in range(1, n + 1):
         force = np.sqrt(R[j, 0] ** 2 + R[j, 1] ** 2 + R[j, 2] ** 2)
@@ -65,7 +65,7 @@ def add_pseudo_mass(S, n, tau, D):
 
 @kernel
 def allowed_share(S, n, P, X, pace):
-    """Share of the step X (n + 1, 6) that moves no contact point sideways and turns no body too far."""
+    """Share of the step X (n + 1, 6) that keeps to the largest lateral step and rotation of a body."""
     share = 1.0
     for j in range(1, n + 1):
         xx, xy, xz, yx, yy, yz, _, _, _ = rotation_columns(*quaternion(P, j))
@@ -91,8 +91,9 @@ def take_step(P, n, X, share):
 def converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, tau):
     """Iterate from pose P towards balance; returns status, iterations and the last pseudo-time.
 
-    R then holds what is out of balance and, in row 0, the reactions of the top drive.  ``UNSOUND`` : the
-    elimination lost its digits; `assemble` and `add_pseudo_mass` build the system again for another solver.
+    R then contains the forces and moments out of balance and, in row 0, the reactions of the top drive.
+    ``UNSOUND`` : the elimination met a near singular block; ``assemble`` and ``add_pseudo_mass`` build the system
+    again for another solver.
     """
     before = np.inf
     share = 0.0

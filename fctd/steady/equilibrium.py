@@ -1,7 +1,7 @@
-"""The steady string by root finding: where it lies, what it carries and what the rig reads, in milliseconds.
+"""The steady string by root finding: its position, its loads and the readings of the rig, in milliseconds.
 
 The string slides or turns at constant rates while its shape stands still; the forces are the stepper's own
-(tangent.py), the solution is Newton's from a soft string's guess (first_guess.py, continuation.py).
+(tangent.py), Newton's method starts from the guess of a soft string (first_guess.py, continuation.py).
 """
 
 from dataclasses import dataclass, field
@@ -50,13 +50,13 @@ from fctd.steady.tangent import (
 
 Array = NDArray[np.float64]
 
-# What is left out of balance at a body, over the weight of the string.
+# Largest force out of balance at a body, over the weight of the string.
 TOLERANCE = 1e-7
-# Imperfection of a first guess, so that a straight string may buckle [m].
+# Lateral imperfection of the first guess, so that a straight string may buckle [m].
 SEED = 1e-4
-# Bold steps converge in some eight iterations.  A string that hardly fits its hole needs steps that mind the
-# imbalance, one that buckles needs small ones, to converge at all or to find a stable shape.
-# Iterations, first pseudo-time [s], growth, shrink, largest lateral step [m]: as of Pace.
+# With large steps most strings converge in some eight iterations.  A string with little clearance needs a pseudo-time
+# that shrinks when the imbalance rises; one that buckles needs small steps to converge or to find a stable shape.
+# Fields of Pace: iterations, first pseudo-time [s], growth, shrink, largest lateral step [m].
 ATTEMPTS = (
     (25, 0.2, 3.0, 1.0, 0.05),
     (60, 0.05, 3.0, 0.3, 0.02),
@@ -64,16 +64,16 @@ ATTEMPTS = (
     (200, 0.1, 1.1, 1.0, 0.01),
     (300, 0.05, 1.5, 0.3, 0.005),
 )
-LARGEST_TURN = 0.1  # [rad] a step
+LARGEST_TURN = 0.1  # [rad] per step
 
 
 @dataclass(frozen=True)
 class Equilibrium:
     """A steady string with the bit at one depth.
 
-    status : those with loads are answers, also ``locked_up`` and ``unstable``; message says more.  bit_depth [m];
-    hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m]; sum_r_ft,
-    sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
+    status : loads are valid where ``status.has_loads``, also for ``locked_up`` and ``unstable``; message : details.
+    bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
+    sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
 
     case: Case
@@ -94,19 +94,19 @@ class Equilibrium:
 
     @property
     def answered(self) -> bool:
-        """Whether the numbers are those of a balance."""
+        """Whether the numbers belong to a balance of forces."""
         return self.status.has_loads
 
     @cached_property
     def profile(self) -> pd.DataFrame:
-        """The string from the top to the bit, a row per contact point; columns as of ``profile_table``."""
+        """The string from the top to the bit, a row per contact point; columns of ``profile_table``."""
         shape, mud = self._shape, self.case.mud.density
         points = shape.contacts[:, PLACE]
         return profile_table(shape.hole, shape.string, mud, shape.top, points, shape.walls, shape.loads)
 
     @cached_property
     def notes(self) -> tuple[Note, ...]:
-        """What to know before using the numbers; nothing where there are none."""
+        """Warnings about the loads; empty where there are no loads."""
         if not self.answered:
             return ()
         shape, in_hole = self._shape, self.case.contact.enabled
@@ -115,7 +115,7 @@ class Equilibrium:
 
 @dataclass(frozen=True)
 class Shape:
-    """What a profile is made of: rows of ``tangent.read_loads`` (n, ...), and where the string hangs.
+    """The data of a profile: rows of ``tangent.read_loads`` (n, ...), and the place of the string's top.
 
     top (3,), radius (n,) of the contact points [m].
     """
@@ -137,13 +137,13 @@ class Shape:
 
     @property
     def loads(self) -> Loads:
-        """What the string carries."""
+        """Loads of the string."""
         tension, torque, bending = (self.joints[:, column] for column in (JOINT_TENSION, JOINT_TORQUE, JOINT_BENDING))
         return Loads(tension, torque, bending, self.contacts[:, NORMAL_FORCE], self.bit_tension, self.bit_torque)
 
 
 class Workspace:
-    """The solver's arrays, made once for a whole chart.
+    """The solver's arrays, allocated once for a whole chart.
 
     S : engine's buffer, for the constants of bodies and joints; P (n + 1, POSE) pose; G (n + 1, NODE) guess;
     R (n + 1, 6) imbalance; D, A, U (n + 1, 6, 6) tangent; W elimination; owner (n + 2,) pieces of the hole.
@@ -162,7 +162,7 @@ class Workspace:
 class Solver:
     """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
-    hole : that of the case, where it is built already.
+    hole : the case's hole, if it has been built already.
     """
 
     def __init__(self, case: Case, hole: Wellbore | None = None) -> None:
@@ -180,7 +180,7 @@ class Solver:
         check_fit(self.case, string, self.hole, bit_depth)
         return string
 
-    # Of a string that has flown apart only the status is read; its numbers may be anything.
+    # Of an iteration that diverged only the status is used; its numbers may overflow.
     @np.errstate(over="ignore", invalid="ignore")
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
@@ -198,7 +198,7 @@ class Solver:
             case.bit.torque if on_bottom else 0.0,
         )  # fmt: skip
         weight = float(string.of("weight") @ string.length) + weight_on_bit
-        # Positions are rounded: the shortest, stiffest segments turn that into force.
+        # The stiffness of the shortest segments turns the rounding of positions into force.
         rounding = np.finfo(float).eps * bit_depth * float(state.row(self.work.S, state.K_AXIAL, n).max())
         allowed = max(TOLERANCE * weight, 16 * rounding)
         code, iterations, negative, kinks = self._balance(string, laws, weight_on_bit, allowed)
@@ -208,13 +208,13 @@ class Solver:
         joints, contacts = np.zeros((n + 1, JOINT_COLUMNS)), np.zeros((n + 1, CONTACT_COLUMNS))
         read_loads(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, joints, contacts)
         top_axis = hole.at(np.array([string.top_md]))[1][0]
-        # The half of a long segment that is not lumped below hangs on the top drive itself, in mud that resists it.
+        # Half of a long segment is lumped at the top: the top drive carries its weight and mud load.
         half = 0.5 * string.length[0] if string.long_segment else 0.0
-        held, resisted = half * (pipe.weight - pipe.mud_axial * rates.speed), half * pipe.mud_spin * rates.spin
-        hookload, torque = float(w.R[0, FORCE] @ top_axis) + held, resisted - float(w.R[0, AXIAL_MOMENT])
-        joints[1, [JOINT_TENSION, JOINT_TORQUE]] += held, resisted
+        hung, resisted = half * (pipe.weight - pipe.mud_axial * rates.speed), half * pipe.mud_spin * rates.spin
+        hookload, torque = float(w.R[0, FORCE] @ top_axis) + hung, resisted - float(w.R[0, AXIAL_MOMENT])
+        joints[1, [JOINT_TENSION, JOINT_TORQUE]] += hung, resisted
         imbalance = float(np.linalg.norm(w.R[1 : n + 1, FORCE], axis=1).max())
-        # A string that lies level pulls neither way, to rounding.
+        # The hook load of a horizontal string is 0 within rounding.
         pushed = -hookload - case.rig.block_weight > n * allowed
         shape = Shape(
             hole, string, w.P[0, PLACE].copy(), joints[1:], contacts[1:], state.row(w.S, state.RADIUS, n).copy(),
@@ -258,7 +258,7 @@ class Solver:
         return code, total, negative, kinks
 
     def _iterate(self, n: int, kinks: Array, laws: Steady, pace: Pace) -> tuple[int, int]:
-        """Run the compiled iteration, and take the steps by hand whose equations it cannot solve soundly."""
+        """Run the compiled iteration; steps with a near singular block are solved by ``solve_with_pivoting``."""
         w, pieces = self.work, self.hole.pieces
         done, tau = 0, pace.tau
         while True:
@@ -279,9 +279,9 @@ class Solver:
             done += 1
 
     def _bend(self, string: String, kinks: Array) -> None:
-        """Write the bent housings into ``kinks``, given the pose of the laid-out string."""
+        """Write the bent housings into ``kinks``; the workspace must contain the first guess."""
         for k, component in enumerate(self.case.string.components[: len(string.sections)]):
-            # The joint above the component's uppermost segment; at the top drive there is nothing to bend.
+            # The joint above the component's uppermost segment; joint 1 at the top drive has no bend.
             j = int(np.argmax(string.component == k)) + 1
             if component.bend == 0 or j == 1:
                 continue
@@ -299,11 +299,11 @@ class Solver:
         if code == NOT_FINITE:
             return SteadyStatus.NOT_FINITE, SteadyStatus.NOT_FINITE.message
         if self.geometry != state.OPEN:
-            # Deeper in the wall than the hole's radius, as for a string in motion (faults.py).
+            # The limit of a string in motion (faults.py): deeper in the wall than the hole's radius.
             outside = np.linalg.norm(shape.walls.offset, axis=1) + shape.radius > 2 * shape.walls.radius
             if outside.any():
                 text = f"segment {int(np.argmax(outside)) + 1} lies deeper in the wall than the hole's radius"
-                return SteadyStatus.DIVERGED, f"{text}: a stiffer wall, or less load"
+                return SteadyStatus.DIVERGED, f"{text}: use a stiffer wall or a smaller load"
         if code != CONVERGED:
             return (
                 SteadyStatus.MAX_ITERATIONS,
@@ -313,7 +313,7 @@ class Solver:
             return SteadyStatus.LOCKED_UP, SteadyStatus.LOCKED_UP.message
         if negative:
             modes = f"{negative} mode{'s' * (negative > 1)}"
-            return SteadyStatus.UNSTABLE, f"a balance that would be left without friction in {modes}"
+            return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {modes}"
         return SteadyStatus.CONVERGED, ""
 
 
@@ -322,9 +322,9 @@ def equilibrium(
 ) -> Equilibrium:
     """The steady string of an operation with the bit at ``bit_depth`` [m].
 
-    operation : a kind of operation.  speed [m/s], rpm : else those of the case's operation of that kind, else
-    the kind's defaults.  Weight on bit and bit torque are the case's.  Raises InputError for input
-    that cannot be used; a string that finds no balance is told by ``status``.
+    operation : a kind of operation.  speed [m/s], rpm : by default those of the case's operation of that kind, else
+    the kind's defaults.  Weight on bit and bit torque are the case's.  Raises InputError for input that cannot be
+    used; ``status`` says whether a balance was found.
     """
     with naming_file(case):
         depth = bare(bit_depth, "bit_depth", "a number of metres")

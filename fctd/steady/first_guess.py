@@ -1,8 +1,8 @@
-"""Where a steady string may lie: on the side of the hole that a soft string presses on.
+"""First guess of a steady string: it lies on the side of the hole that a soft string presses on.
 
-Newton's method converges in a few iterations from a chain that touches the right side of the hole, is
-stretched by about the right tension and wound up by about the right torque.  The offsets of a neighbouring depth
-would save a tenth of the iterations and make every row of a chart depend on the rows before it.
+Newton's method converges in a few iterations from a chain that touches the right side of the hole, with nearly the
+right tension and torque.  The offsets of a neighbouring depth would save a tenth of the iterations, but every row of a
+chart would then depend on the rows before it.
 """
 
 import numpy as np
@@ -26,7 +26,7 @@ from fctd.mechanics.state import (
 )
 from fctd.steady.tangent import SPIN, quaternion
 
-# Columns of what is known at a node, the lower end of a body: tension [N], torque [N m] just above it, offset
+# Columns of a node, the lower end of a body: tension [N], torque [N m] just above it, offset
 # from the hole axis (global) [m], measured depth [m].
 TENSION, TORQUE, OFFSET, MD = 0, 1, 2, 5
 NODE = 6
@@ -34,7 +34,7 @@ NODE = 6
 
 @kernel
 def piece_at(C, i, md):
-    """Index of the piece that holds a measured depth, walking from piece i."""
+    """Index of the piece that contains a measured depth, by a walk from piece i."""
     while i > 0 and md < C[i, START_MD]:
         i -= 1
     while i < C.shape[0] - 1 and md >= C[i + 1, START_MD]:
@@ -79,7 +79,7 @@ def soft_string(S, n, C, laws, top_md, bit_tension, G):
         x0, y0, z0, _, _, _ = axis_at(C, laws.geometry, k, G[j - 1, MD])
         length = np.sqrt((x - x0) ** 2 + (y - y0) ** 2 + (z - z0) ** 2)
         ax, ay, az = (x - x0) / length, (y - y0) / length, (z - z0) / length
-        # Half the weight of either neighbour presses on the node, and the tension on its bend.
+        # Half the weight of both neighbours and the tension in the bend press the node against the wall.
         weight = 0.5 * S[WEIGHT + j] + (0.5 * S[WEIGHT + j + 1] if j < n else 0.0)
         turn = 0.0 if j == n else tension
         qx = turn * (bx - ax) - weight * tz * tx
@@ -93,8 +93,8 @@ def soft_string(S, n, C, laws, top_md, bit_tension, G):
         if laws.geometry == OPEN or side == 0:
             side, ux, uy, uz = 0.0, 0.0, 0.0, 0.0
         else:
-            # With law coulomb a turning string climbs the wall until friction and normal force together bear
-            # the load.
+            # With law coulomb a turning string climbs the wall until friction and normal force together
+            # carry the lateral load.
             climb = mu * climbing
             norm = 1 / np.sqrt(1 + climb * climb)
             ux, uy, uz = norm * qx / side, norm * qy / side, norm * qz / side
@@ -115,8 +115,8 @@ def soft_string(S, n, C, laws, top_md, bit_tension, G):
 def lay_chain(S, n, C, geometry, G, seed, P):
     """Fill P (n + 1, POSE): each body from the node above to its own, stretched by the tension, twist-free.
 
-    The chain's length is kept in the bend and on the wall: the lower node slides along the hole until it fits.
-    seed : lateral imperfection [m], so that a straight string may buckle; less where there is no room for it.
+    The chain keeps its length in bends and on the wall: the lower node slides along the hole until the length fits.
+    seed : lateral imperfection [m], so that a straight string may buckle; smaller where the clearance is small.
     """
     i = piece_at(C, 0, G[0, MD])
     x, y, z, ax, ay, az = axis_at(C, geometry, i, G[0, MD])
@@ -138,7 +138,7 @@ def lay_chain(S, n, C, geometry, G, seed, P):
             nx, ny, nz, tx, ty, tz = axis_at(C, geometry, i, md)
             ox, oy, oz = G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2]
             along = ox * tx + oy * ty + oz * tz
-            # A spiral of the seed's size, a turn in some twenty bodies, favours no direction.
+            # A spiral of the seed's size with a turn in some twenty bodies prefers no direction.
             room = min(seed, max(0.1 * (C[i, HOLE_RADIUS] - S[RADIUS + j]), 0.001 * seed))
             nx += ox - along * tx + room * np.cos(0.3 * j)
             ny += oy - along * ty + room * np.sin(0.3 * j)

@@ -1,11 +1,11 @@
-"""How many segments are enough: a string cut finer until its loads no longer change (§5.6), with the error left.
+"""Refinement: a string is cut into shorter segments until its loads no longer change (§5.6), with the estimated error.
 
-First the hole's cylinders are halved until they hardly matter, then the segments.  What is left is estimated from the
-changes seen so far, as Richardson does, at the order that is safe: the ends of contact move by whole segments,
-so torque converges irregularly, at first order or a little better, and one small change may be luck.
+First the hole's cylinders are halved until their error is small, then the segments.  The error is estimated from the
+changes so far by Richardson's method, at first order, which is safe: the ends of contact move by whole segments, so
+torque converges irregularly, at first order or a little better, and one small change may be chance.
 
-Where a graded string is asked for, a uniform one is found first: the graded one has to do with a tenth fewer segments,
-or it is not worth being bound to one bit depth.
+Before a graded string a uniform one is found.  Since a graded string is valid for one bit depth only, it has to need
+at least a tenth fewer segments.
 """
 
 import time
@@ -30,36 +30,36 @@ from fctd.results.status import RefineStatus
 from fctd.steady.equilibrium import Equilibrium, Solver
 
 Array = NDArray[np.float64]
-# Called before every level with what is about to be solved.
+# Called before every level with a text that names the level.
 Progress = Callable[[str], None]
 
-# Segments of a first string, and of the one in which the hole is refined.
+# Segments of the first string, and of the strings with which the hole is refined.
 FIRST, IN_HOLE = 16, (128, 512)
-# Cylinders are halved so many times at most.
+# Largest number of halvings of the cylinders.
 HALVINGS = 6
-# Share of the tolerance that the cylinders may take.
+# Share of the tolerance for the error of the cylinders.
 SHARE_OF_HOLE = 0.25
 # Roache's factor of a grid convergence index (1994).
 SAFETY = 1.25
-# Answers before an estimate is believed, and finer levels without one before it is given up.
+# Solved levels that an estimate needs, and unsolved finer levels after which the refinement stops.
 ANSWERS, UNANSWERED = 3, 2
 # Segments of a graded string over those of a uniform one, at most.
 WORTH = 0.9
-# A load near zero is measured against this share of what it is made of.
+# The error of a load near zero is relative to this share of its parts (weight, Σ r μ F_n).
 SHARE_OF_WHOLE = 0.1
 
 
 @dataclass(frozen=True)
 class Refinement:
-    """A case cut finely enough, or as finely as was tried.
+    """The result of a refinement: the last case that was solved, with its estimated error.
 
-    status : how the search ended; message says more.  case : the last string that has an answer, else the one given.
+    status : how the search ended; message : details.  case : with the last string that was solved, else as given.
     tolerance, error : allowed and estimated relative error of hook load and torque, the largest over the
     operations.  layout : ``uniform`` or ``graded``.  segments : of the string in the hole.  shortest : of them [m].
     steps : a row per stage, layout, level and operation; columns stage, layout, level, operation, segments,
-    shortest_m, chord_m (the most a cylinder misses the hole by), hookload_N, surface_torque_N_m, hookload_change,
-    torque_change, hookload_error, torque_error (all relative; NaN where there is none yet), status, time_s.
-    notes : on the last strings that have answers, each code once.
+    shortest_m, chord_m (largest distance of a cylinder from the hole), hookload_N, surface_torque_N_m, hookload_change,
+    torque_change, hookload_error, torque_error (all relative; NaN while there is none), status, time_s.
+    notes : of the last strings that were solved, each code once.
     """
 
     status: RefineStatus
@@ -89,12 +89,12 @@ def refine(
 ) -> Refinement:
     """Cut the string of a case finer until hook load and torque are within ``tolerance`` (0.01 is 1 %).
 
-    operation : kind or kinds, else that of the case's first operation; bit_depth [m], else that operation's end.
-    graded : short segments in bends and near the bit, long ones elsewhere, if that takes a tenth fewer of them at
-    least than one length for all; a graded string belongs to this one bit depth.  most : segments at most.  speed
-    [m/s], rpm : as of ``torque_drag``.  The tolerance is a share of the load, or of a tenth of what the load is made
-    of (the string's weight, Σ r μ F_n) where that is more; torque of a string that does not turn counts against all
-    of Σ r μ F_n.  Raises InputError for input that cannot be used.
+    operation : kind or kinds, by default that of the case's first operation; bit_depth [m], by default that operation's
+    end.  graded : short segments in bends and near the bit, long ones elsewhere, if that takes at least a tenth fewer
+    segments than one length for all; a graded string is valid for this bit depth only.  most : segments at most.  speed
+    [m/s], rpm : see ``torque_drag``.  Errors are relative to the load, or to a tenth of the string's weight (hook load)
+    or of Σ r μ F_n (torque) where that is more; without rotation torque errors are relative to all of Σ r μ F_n.
+    Raises InputError for input that cannot be used.
     """
     with naming_file(case):
         kinds = _kinds(case, operation)
@@ -104,18 +104,18 @@ def refine(
         _solve("string", "uniform", _cut(case, task, "uniform", _divided(case, depth) / FIRST), task)  # compile
         holes = _refine_hole(case, task, SHARE_OF_HOLE * tolerance)
         error_of_hole = _error(holes) if holes else 0.0
-        held = case.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else case
-        strings = _refine_string(held, task, "uniform", tolerance - error_of_hole)
+        in_hole = case.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else case
+        strings = _refine_string(in_hole, task, "uniform", tolerance - error_of_hole)
         found = _result(case, task, tolerance, error_of_hole, holes, strings)
         if not graded:
             return found
         fewer = task._replace(most=int(WORTH * found.segments)) if found.status.acceptable else task
-        strings = _refine_string(held, fewer, "graded", tolerance - error_of_hole)
+        strings = _refine_string(in_hole, fewer, "graded", tolerance - error_of_hole)
         return _better(found, _result(case, task, tolerance, error_of_hole, holes, strings))
 
 
 class _Task(NamedTuple):
-    """What is asked of every level."""
+    """What every level solves: rates by kind of operation, bit depth [m], segments at most."""
 
     rates: Mapping[str, SteadyRates]
     bit_depth: float
@@ -126,8 +126,8 @@ class _Task(NamedTuple):
 class _Level(NamedTuple):
     """The strings of one layout and fineness, each level twice as fine as the one before.
 
-    loads (operations, 2) : hook load [N] and torque [N m], NaN where a string has no answer; scales (operations, 2) :
-    what an error is measured against; seconds (operations,).
+    loads (operations, 2) : hook load [N] and torque [N m], NaN where a string was not solved; scales (operations, 2) :
+    the values errors are relative to; seconds (operations,).
     """
 
     stage: str
@@ -147,7 +147,7 @@ class _Level(NamedTuple):
 
 
 def _refine_hole(case: Case, task: _Task, allowed: float) -> list[_Level]:
-    """Levels of ever shorter cylinders, until what they leave is allowed; none where there are no cylinders."""
+    """Levels of ever shorter cylinders, until their error is allowed; empty for a hole without cylinders."""
     levels: list[_Level] = []
     if case.wellbore.geometry == "arcs" or not case.contact.enabled:
         return levels
@@ -163,7 +163,7 @@ def _refine_hole(case: Case, task: _Task, allowed: float) -> list[_Level]:
 
 
 def _refine_string(case: Case, task: _Task, layout: str, allowed: float) -> list[_Level]:
-    """Levels of ever shorter segments, until what they leave is allowed or there would be too many."""
+    """Levels of ever shorter segments, until their error is allowed or the next level has too many segments."""
     levels: list[_Level] = []
     length = _divided(case, task.bit_depth) / FIRST
     while True:
@@ -180,7 +180,7 @@ def _refine_string(case: Case, task: _Task, layout: str, allowed: float) -> list
 
 
 def _solve(stage: str, layout: str, case: Case, task: _Task) -> _Level:
-    """The strings of all operations."""
+    """Solve the strings of all operations."""
     string = lay_out(case, task.bit_depth)
     weight = float(string.of("weight") @ string.length)
     if task.progress is not None:
@@ -201,9 +201,9 @@ def _solve(stage: str, layout: str, case: Case, task: _Task) -> _Level:
 
 
 def relative_difference(point: Equilibrium, other: Equilibrium, spin: float) -> tuple[float, float]:
-    """Differences in hook load and torque, relative as those of a refinement are, to the loads of ``other``.
+    """Differences in hook load and torque, relative to the loads of ``other`` as in a refinement.
 
-    spin : at which both turn [rad/s].
+    spin : rotation of both strings [rad/s].
     """
     string = lay_out(other.case, other.bit_depth)
     scales = _scales(other, float(string.of("weight") @ string.length), spin)
@@ -216,19 +216,18 @@ def _loads(point: Equilibrium) -> tuple[float, float]:
 
 
 def _scales(point: Equilibrium, weight: float, spin: float) -> tuple[float, float]:
-    """What errors in hook load and torque are measured against, given the buoyed weight of the string [N]."""
-    # Without friction there is no torque to be wrong about but rounding.  In a string that only slides, its chords
-    # make a little, of first order: that is no load to cut it finely for, but small beside what turning would take.
+    """The values to which errors in hook load and torque are relative; weight : of the string in mud [N]."""
+    # Without friction torque is rounding alone.  In a string that only slides, its chords cause a small torque of
+    # first order.  It is small against the torque of rotation and does not call for finer segments.
     friction = max(point.sum_r_mu_fn, 1e-5 * weight) * (SHARE_OF_WHOLE if spin else 1.0)
     return max(abs(point.hookload), SHARE_OF_WHOLE * weight), max(abs(point.surface_torque), friction)
 
 
 def _errors(levels: Sequence[_Level]) -> tuple[Array, Array]:
-    """Relative change since the answer before, and estimated error, of the last level: (operations, 2) each.
+    """Relative change since the previous solved level, and estimated error, of the last level: (operations, 2) each.
 
-    At first order the changes of doubled counts go on as a geometric series: what is missing is as much as the last
-    change.  An earlier change that would have left more than that, had it been followed by such a series, counts
-    instead: the last one was luck.
+    At first order the changes of doubled counts form a geometric series, and the remaining error equals the last
+    change.  Every earlier change predicts a remaining error in the same way; the largest counts.
     """
     last = levels[-1]
     change, missing = np.full((2, *last.loads.shape), np.nan)
@@ -246,7 +245,7 @@ def _errors(levels: Sequence[_Level]) -> tuple[Array, Array]:
 
 
 def _error(levels: Sequence[_Level]) -> float:
-    """The largest estimated error of the last level; infinite while there is none."""
+    """The largest estimated error of the last level; infinite while there is no estimate."""
     worst = float(_errors(levels)[1].max())
     return worst if np.isfinite(worst) else np.inf
 
@@ -254,7 +253,7 @@ def _error(levels: Sequence[_Level]) -> float:
 def _result(
     case: Case, task: _Task, tolerance: float, error_of_hole: float, holes: list[_Level], strings: list[_Level]
 ) -> Refinement:
-    """What the levels come to."""
+    """The refinement that results from the levels."""
     answered = [k for k, level in enumerate(strings) if level.answered]
     steps = pd.DataFrame(_rows(task, holes) + _rows(task, strings))
     notes = worst(note for point in (strings[answered[-1]].points if answered else []) for note in point.notes)
@@ -269,7 +268,7 @@ def _result(
 
     if not answered:
         point = next(point for point in strings[-1].points if not point.status.acceptable)
-        message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has an answer in "
+        message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has a solution in "
         message += f"{point.operation} ({point.status}: {point.message})"
         return finish(RefineStatus.NO_ANSWER, message, case, np.inf, 0, np.nan)
     found = strings[answered[-1]]
@@ -277,18 +276,18 @@ def _result(
     if answered[-1] == len(strings) - 1 and error <= tolerance and len(answered) >= ANSWERS:
         return finish(RefineStatus.WITHIN_TOLERANCE, "", found.case, error, found.segments, found.shortest)
     left = f"an error of {100 * error:.3g} %" if np.isfinite(error) else "an unknown error"
-    message = f"{left} is left at {found.segments} segments, the most that were tried"
+    message = f"{left} remains at {found.segments} segments, the largest number tried"
     if answered[-1] != len(strings) - 1:
         lost = next(point for point in strings[-1].points if not point.status.acceptable)
         why = f"{lost.operation}: {lost.status}"
-        message = f"strings of more than {found.segments} segments have no answer ({why}); {left} is left there"
+        message = f"strings of more than {found.segments} segments have no solution ({why}); {left} remains"
     if tolerance < error_of_hole < np.inf:
-        message += f"; {100 * error_of_hole:.3g} % of it is the cylinders'"
+        message += f"; {100 * error_of_hole:.3g} % of it comes from the cylinders"
     return finish(RefineStatus.NOT_REACHED, message, found.case, error, found.segments, found.shortest)
 
 
 def _better(uniform: Refinement, graded: Refinement) -> Refinement:
-    """The one within the tolerance with the fewest segments, else the one with the least error; steps of both."""
+    """The one within the tolerance with the fewest segments, else that with the smallest error; steps of both."""
 
     def merit(found: Refinement) -> tuple[bool, float]:
         within = found.status.acceptable
@@ -331,7 +330,7 @@ def _cut(case: Case, task: _Task, layout: str, length: float) -> Case:
 
 
 def _divided(case: Case, bit_depth: float) -> float:
-    """Length of the string in the hole that is cut: all but the paper's long segment [m]."""
+    """Length of the part of the string in the hole that is cut, without the paper's long segment [m]."""
     in_hole = bit_depth - case.string.top_md
     last = case.string.components[-1]
     if not layouts.is_long(last):
@@ -349,12 +348,12 @@ def _sharpest(case: Case) -> float:
 
 
 def _chord(case: Case) -> float:
-    """By how much the longest chord of a cylinder may miss the hole [m]."""
+    """Largest distance between a cylinder and the hole's axis [m]."""
     hole = case.wellbore
     if hole.geometry == "arcs":
         return 0.0
     if hole.cylinder_length is None:
-        assert hole.chord_tolerance is not None  # the case makes sure that one of the two is given
+        assert hole.chord_tolerance is not None  # a case has one of the two
         return hole.chord_tolerance
     return _sharpest(case) * hole.cylinder_length**2 / 8
 
@@ -386,7 +385,7 @@ def _kinds(case: Case, operation: str | Sequence[str] | None) -> list[str]:
 
 
 def _depth(case: Case, kind: str, bit_depth: float | None) -> float:
-    """The bit depth asked for, else the end of the case's first operation of that kind, else of its first."""
+    """The given bit depth, else the end of the case's first operation of that kind, else of its first operation."""
     if bit_depth is not None:
         return bare(bit_depth, "bit_depth", "a number of metres")
     if not case.operations:

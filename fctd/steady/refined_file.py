@@ -1,4 +1,4 @@
-"""A refined case as a file: the user's own, comments and units kept, with the new string and hole."""
+"""A refined case as a file: the user's file with its comments and units, and the new string and hole."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -16,21 +16,21 @@ from fctd.case.text import is_utf8
 from fctd.results.whole_file import whole_file
 from fctd.steady.refine import Refinement
 
-# What a cut decides of a component, and what it moves; all else stays as the user wrote it.
+# Keys that a cut replaces, and keys that only a component's lowest piece keeps; all others stay as written.
 CUT = ("length", "segments", "segment_length")
 BEND = ("bend", "toolface")
 
 
 def survey_from(out: Path, case: Case) -> str | None:
-    """The case's survey as a file ``out`` has to name it, None without a survey.
+    """Path of the case's survey relative to the folder of the file ``out``, None without a survey.
 
-    Raises InputError for a name that is no UTF-8, which TOML cannot hold.
+    Raises InputError for a path that is not UTF-8, which TOML requires.
     """
     if case.wellbore.survey is None:
         return None
     path = os.path.relpath(case.wellbore.survey, out.absolute().parent)
     if not is_utf8(path):
-        expected = "a file in the folder of the survey, whose path from elsewhere is not UTF-8, as TOML must be"
+        expected = "a file in the folder of the survey, since the survey's path from elsewhere is not UTF-8"
         raise InputError(expected, key="--out", value=out)
     return path
 
@@ -42,7 +42,7 @@ def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any
         if value is None:
             *parents, last = split_key(key)
             place: Any = look_up(raw, *parents)
-            with suppress(KeyError, IndexError, TypeError):  # there is nothing to delete
+            with suppress(KeyError, IndexError, TypeError):  # the file lacks the key
                 del place[last]
         else:
             apply_override(raw, key, value)
@@ -54,8 +54,8 @@ def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any
         for key, size in sizes.items():
             if size is not None and size != getattr(given, key):
                 raw["wellbore"][key] = _metres(size)
-                said = raw["wellbore"].item(key).trivia
-                said.comment = said.comment_ws = ""  # of the value before
+                note = raw["wellbore"].item(key).trivia
+                note.comment = note.comment_ws = ""  # it described the value before
     survey = survey_from(out, refined.case)
     if survey is not None:
         raw["wellbore"]["survey"] = survey
@@ -92,7 +92,7 @@ def _metres(value: float) -> str:
 
 
 def _heading(refined: Refinement) -> str:
-    """What the file is, for whoever opens it next."""
+    """The comment at the head of the file: how it was made."""
     return (
         f"# Cut by fctd refine for {', '.join(refined.operations)} with the bit at {refined.bit_depth:g} m: "
         f"{refined.segments} {refined.layout} segments,\n"

@@ -2,9 +2,9 @@
 
 A steady string slides along the hole at one speed or turns at one rate while its shape stands still.  The
 unknowns of a body are the position of its centre of mass, a rotation of its frame and its spin about its own
-axis; the frames themselves never spin, so a string may be wound up by many turns.  A complex step of 1e-30
-differentiates without subtracting: the derivative is exact to rounding and there is no second copy of the
-physics (Squire & Trapp 1998).
+axis; the frames themselves do not spin, so a string may be twisted by many turns.  A complex step of 1e-30
+differentiates without a difference: the derivative is exact to rounding and needs no second copy of the
+equations (Squire & Trapp 1998).
 """
 
 from typing import NamedTuple
@@ -35,7 +35,7 @@ from fctd.mechanics.state import (
     WEIGHT,
 )
 
-# Columns of a pose, one row a body, row 0 the top drive: centre of mass [m], frame without spin
+# Columns of a pose, one row per body, row 0 the top drive: centre of mass [m], frame without spin
 # (quaternion), spin about the own axis [rad].
 PLACE, QUATERNION, SPIN, POSE = slice(0, 3), slice(3, 7), 7, 8
 # Columns of the imbalance: force [N], global; moment [N m] in the frame of the body, the last about its axis.
@@ -51,11 +51,11 @@ ONE_BY_ONE = STEP * np.eye(8)
 
 
 class Steady(NamedTuple):
-    """What a steady string does and what it is given at the bit.
+    """Motion of a steady string, and the loads at its bit.
 
     geometry, friction : as in Laws.  friction_scale : multiplies every friction factor.
     speed : along the hole, downwards [m/s]; spin [rad/s].
-    bit_x, bit_y, bit_z : force on the bit [N], global; bit_torque : torque that holds the bit back [N m].
+    bit_x, bit_y, bit_z : force on the bit [N], global; bit_torque : torque that resists the bit's rotation [N m].
     """
 
     geometry: int
@@ -115,7 +115,7 @@ def pair_loads(ex, ey, ez, aw, ax, ay, az, bw, bx, by, bz, kw, kx, ky, kz, spin,
     """Loads of a joint on its two bodies.
 
     e : from the centre of the upper body to that of the lower [m]; a, b : their frames; k : bend of the upper
-    body's end (quaternion in its frame); spin : what the lower body is turned further [rad].
+    body's end (quaternion in its frame); spin : further rotation of the lower body about its axis [rad].
     Returns force on the lower body [N], global, and the moment about the centre of the upper and of the lower
     body, each in its own frame [N m]: nine scalars.
     """
@@ -189,7 +189,7 @@ def move_upper(L, k, column, sign, j, D, A):
 
 @kernel
 def differentiate_joint(S, j, P, kinks, L):
-    """Fill L (18 × 8, flat): the nine loads of joint j differentiated by eight unknowns, and nine rows of the loads.
+    """Fill L (18 × 8, flat): the nine loads of joint j differentiated by eight unknowns, then nine rows of loads.
 
     Unknowns : shift of the lower body, tilt of the upper, tilt and spin of the lower.  The loop over them packs.
     """
@@ -223,13 +223,13 @@ def add_joint(S, j, P, kinks, R, D, A, U, L):
     D (n + 1, 6, 6) : bodies on themselves; A : body j against body j − 1; U : body j − 1 against body j.
     """
     differentiate_joint(S, j, P, kinks, L)
-    for k in range(3):  # a shift of the lower body is one of the upper the other way
+    for k in range(3):  # a shift of the lower body acts as the opposite shift of the upper
         move_lower(L, k, k, j, D, U)
         move_upper(L, k, k, -1.0, j, D, A)
     for k in range(2):
         move_upper(L, 3 + k, 3 + k, 1.0, j, D, A)
         move_lower(L, 5 + k, 3 + k, j, D, U)
-    move_lower(L, 7, 5, j, D, U)  # and so is its spin
+    move_lower(L, 7, 5, j, D, U)  # and so does its spin
     move_upper(L, 7, 5, -1.0, j, D, A)
     for i in range(3):
         R[j, i] += L[72 + 8 * i]
@@ -254,7 +254,7 @@ def add_wall(S, j, P, C, owner, laws, R, D):
         rx, ry, rz, hole, _, _, _ = cylinder_wall(C, owner[j], tx, ty, tz)
     if np.sqrt(rx * rx + ry * ry + rz * rz) < hole - S[RADIUS + j]:
         return
-    for k in range(5):  # spin about the own axis changes nothing
+    for k in range(5):  # spin about the body's axis does not change them
         cw, cx, cy, cz = stepped(w, qx, qy, qz, complex(0.0, ONE_BY_ONE[3, k]), complex(0.0, ONE_BY_ONE[4, k]))
         loads = wall_loads(
             C, owner[j], laws,
@@ -271,8 +271,8 @@ def add_wall(S, j, P, C, owner, laws, R, D):
 def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """Fill R (n + 1, 6) with forces [N] and moments [N m] out of balance and D, A, U with the tangent −∂R.
 
-    Forces and shifts are global, moments and rotations in the frame of the body.  Row 0 belongs to the top
-    drive, whose reactions it holds.  C : table of the hole; kinks (n + 2, 4) : bend above each joint.
+    Forces and shifts are global, moments and rotations in the frame of the body.  Row 0 contains the reactions of
+    the top drive.  C : table of the hole; kinks (n + 2, 4) : bend above each joint.
     """
     for B in (D[: n + 1], A[: n + 1], U[: n + 1]):
         B[:] = 0.0
@@ -311,7 +311,7 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
 
 @entry
 def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
-    """Fill D, A, U with the tangent of springs, weight and wall alone: symmetric, positive when stable."""
+    """Fill D, A, U with the tangent of springs, weight and wall alone: symmetric, positive definite when stable."""
     bare = Steady(laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque)
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
 

@@ -1,4 +1,4 @@
-"""Torque-and-drag charts: the steady string of several operations at many bit depths, a row each."""
+"""Torque-and-drag charts: the steady string of several operations at many bit depths, one row for each."""
 
 from collections.abc import Callable, Sequence
 
@@ -15,7 +15,7 @@ from fctd.results.notes import codes_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Equilibrium, Solver
 
-# Called after every row with the number of rows done and of all.
+# Called after every row with the number of rows done and their total.
 Progress = Callable[[int, int], None]
 
 
@@ -31,12 +31,12 @@ def torque_drag(
     """A row per operation, friction and depth.
 
     operation : kind or kinds; bit_depths [m] : rising; friction : kinetic factor or factors for every interval
-    in turn, None for the case's own.  speed [m/s], rpm : as of ``equilibrium``, for the kinds that have them.
+    in turn, None for the case's own.  speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.
     Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, the loads of
     ``columns.IN_CHART`` (hookload_N and so on), status (of ``SteadyStatus``), iterations, notes (codes of
-    ``notes.MEANINGS``, or none), reason (of a status that is not converged, or none).  A row without an answer (status)
-    has NaN for its loads; at a depth where string and hole do not fit it is ``not_possible``.  Raises InputError for
-    what cannot be used, and where string and hole fit at none of the depths.
+    ``notes.MEANINGS``, or none), reason (of a status other than converged, or none).  A row whose status has no loads
+    has NaN in their place; at a depth where string and hole do not fit the status is ``not_possible``.  Raises
+    InputError for unusable input, and where string and hole fit at none of the depths.
     """
     with naming_file(case):
         depths = _check_depths(bit_depths)
@@ -70,13 +70,13 @@ def with_friction(case: Case, factor: float) -> Case:
 
 
 def own_friction(case: Case) -> float:
-    """The friction factor of a case whose intervals agree on one, else NaN."""
+    """The friction factor of the case if all its intervals have the same, else NaN."""
     factors = {interval.friction for interval in case.wellbore.intervals}
     return factors.pop() if len(factors) == 1 else float("nan")
 
 
 def _misfits(solver: Solver, depths: Sequence[float]) -> dict[float, str]:
-    """Depths at which string and hole do not fit, and why; raises InputError where it is all of them."""
+    """Depths at which string and hole do not fit, with the reason; raises InputError where they fit at none."""
     found: dict[float, InputError] = {}
     for depth in depths:
         try:
@@ -89,9 +89,9 @@ def _misfits(solver: Solver, depths: Sequence[float]) -> dict[float, str]:
 
 
 def _row(case: Case, kind: str, depth: float, point: Equilibrium | None, misfit: str | None) -> dict[str, object]:
-    """A row of a string that was solved, or of a depth where there is none."""
+    """A chart row: of a solved string, or of a depth where string and hole do not fit (point is None)."""
     answer = point if point is not None and point.answered else None
-    # What an unfinished iteration left there is no load.
+    # The values of an unfinished iteration are not loads.
     loads = {load.name: float("nan") if answer is None else load.value(answer) for load in IN_CHART}
     return {
         "operation": kind,

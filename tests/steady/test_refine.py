@@ -1,4 +1,4 @@
-"""Refinement: what is estimated, what is found, and what is said where nothing is."""
+"""Refinement: the estimated error, the string found, and the messages where none is found."""
 
 import math
 import sys
@@ -28,7 +28,7 @@ def build_case(**more: Any) -> Case:
 
 
 def levels(values: list[float]) -> list[_Level]:
-    """A sequence of answers of one load, NaN for none."""
+    """Levels with one load, NaN where a string was not solved."""
     return [
         _Level("string", "uniform", build_case(), 2**k, 1.0, np.array([[value, 0.0]]), np.ones((1, 2)), [], [])
         for k, value in enumerate(values)
@@ -42,7 +42,7 @@ def test_the_estimate_of_a_regular_sequence_is_what_is_missing() -> None:
         assert error[0, 0] == pytest.approx(SAFETY * 2.0**-last)
 
 
-def test_a_small_change_by_luck_does_not_pass_for_convergence() -> None:
+def test_one_small_change_is_not_taken_for_convergence() -> None:
     change, error = _errors(levels([1.0, 1.4, 1.3, 1.3001]))
     assert change[0, 0] == pytest.approx(1e-4)
     assert error[0, 0] == pytest.approx(SAFETY * 0.1)  # of the first change, halved twice
@@ -57,7 +57,7 @@ def test_a_level_without_an_answer_is_bridged() -> None:
 
 
 @pytest.mark.parametrize("graded", [False, True])
-def test_what_is_found_is_within_the_tolerance_of_a_finer_run(graded: bool) -> None:
+def test_the_string_found_is_within_the_tolerance_of_a_finer_one(graded: bool) -> None:
     case = build_case()
     kinds = ["rotate_off_bottom", "trip_out"]
     found = fctd.refine(case, 0.01, kinds, 1300.0, graded)
@@ -89,7 +89,7 @@ def test_grading_takes_fewer_segments() -> None:
 
 
 def test_a_hole_that_bends_alike_everywhere_is_cut_alike() -> None:
-    """There grading would only bind the string to its depth."""
+    """Grading would save no segments there."""
     case = make_case([[0, 0, 0], [1300, 80, 0]], [pipe(None, None, segment_length=10.0)])
     even, cut = (fctd.refine(case, 0.01, "rotate_off_bottom", 1300.0, graded) for graded in (False, True))
     assert cut.layout == "uniform"
@@ -180,7 +180,7 @@ def test_operation_and_depth_are_the_cases_own() -> None:
     assert fctd.refine(case, 0.05, "rotate_off_bottom").bit_depth == 1200.0
 
 
-def test_a_tolerance_that_is_not_reached_is_told() -> None:
+def test_a_tolerance_that_is_not_reached_has_a_message() -> None:
     found = fctd.refine(build_case(), 1e-7, "rotate_off_bottom", 1300.0, most=100)
     assert found.status == "not_reached"
     assert found.error > 1e-7
@@ -189,7 +189,7 @@ def test_a_tolerance_that_is_not_reached_is_told() -> None:
     assert fctd.equilibrium(found.case, "rotate_off_bottom", 1300.0).status == "converged"
 
 
-def test_a_string_without_a_balance_is_told() -> None:
+def test_a_string_without_a_balance_has_a_message() -> None:
     """Hanging sideways without walls: no steady string at any count."""
     case = make_case([[0, 60, 0], [300, 60, 0]], [pipe(None, None, segment_length=10.0)], contact={"enabled": False})
     found = fctd.refine(case, 0.01, "trip_in", 300.0, most=64)
@@ -199,7 +199,7 @@ def test_a_string_without_a_balance_is_told() -> None:
     assert found.steps["hookload_N"].isna().all()
 
 
-def test_a_turning_string_without_friction_has_no_torque_to_be_wrong_about() -> None:
+def test_a_turning_string_without_friction_has_no_torque_error() -> None:
     hole = {"intervals": [{"to_md": 1300, "diameter": 0.2159, "friction": 0.0}]}
     assert fctd.refine(build_case(wellbore=hole), 0.01, "rotate_off_bottom", 1300.0).status == "within_tolerance"
 
@@ -237,14 +237,14 @@ def test_a_long_segment_alone_cannot_be_cut() -> None:
 
 
 def test_one_agreement_is_not_enough() -> None:
-    """Hanging straight down the load is the weight at once, and still three strings are asked."""
+    """A string that hangs straight down is exact at once; three strings are solved all the same."""
     case = make_case([[0, 0, 0], [500, 0, 0]], [pipe(None, None, segment_length=10.0)], wellbore={"geometry": "arcs"})
     found = fctd.refine(case, 0.1, "trip_in", 500.0)
     assert found.steps["segments"].tolist() == [16, 32, 64]
 
 
-def test_a_load_near_zero_is_measured_against_what_it_is_made_of() -> None:
-    """Friction carries nearly all of a string in a slant hole: its hook load hangs by a thread."""
+def test_the_error_of_a_load_near_zero_is_relative_to_its_parts() -> None:
+    """Friction carries nearly all of a string in a slant hole: its hook load is near zero."""
     hole = {"geometry": "arcs", "intervals": [{"to_md": 900, "diameter": 0.2159, "friction": math.tan(0.5235)}]}
     case = make_case([[0, 60, 0], [900, 60, 0]], [pipe(None, None, segment_length=10.0)], wellbore=hole)
     coarse, fine = (
@@ -256,8 +256,8 @@ def test_a_load_near_zero_is_measured_against_what_it_is_made_of() -> None:
     assert relative_difference(coarse, fine, spin=0.0)[0] == pytest.approx(expected)
 
 
-def test_torque_of_a_string_that_slides_counts_against_what_turning_would_take() -> None:
-    """Chords in a hole that turns wring a little torque out of pure sliding: no reason to cut finely."""
+def test_torque_of_a_sliding_string_is_relative_to_the_torque_of_rotation() -> None:
+    """In a hole that turns, chords cause a little torque in pure sliding, which needs no finer segments."""
     case = make_case(
         [[0, 30, 0], [900, 60, 90]], [pipe(None, None, segment_length=20.0)], wellbore={"geometry": "arcs"}
     )
@@ -273,7 +273,7 @@ def test_torque_of_a_string_that_slides_counts_against_what_turning_would_take()
 
 
 def test_finer_strings_without_an_answer_end_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As of a string that buckles only where its segments are short enough to show it."""
+    """As for a string that buckles only with short segments."""
     solve = Solver.solve
 
     def short_of_breath(self: Solver, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
@@ -284,7 +284,7 @@ def test_finer_strings_without_an_answer_end_the_search(monkeypatch: pytest.Monk
     case = build_case(wellbore={"geometry": "arcs"})
     found = fctd.refine(case, 1e-6, "rotate_off_bottom", 1300.0)
     assert found.status == "not_reached"
-    assert found.message.startswith("strings of more than 64 segments have no answer (rotate_off_bottom: max_iter")
+    assert found.message.startswith("strings of more than 64 segments have no solution (rotate_off_bottom: max_iter")
     assert found.segments == 64
     assert found.steps["segments"].tolist() == [16, 32, 64, 128, 256]
     assert found.steps["hookload_N"].isna().tolist() == [False] * 3 + [True] * 2
