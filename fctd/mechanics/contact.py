@@ -7,7 +7,7 @@ thousand, and it never reaches distant pieces of the well whose infinite slab ma
 
 Every contact point keeps a copy of its piece in the state buffer.  While the point stays well inside the
 piece, stages 2 and 3 are then packed arithmetic and one comparison; only a point near the ends of its
-piece, or in an overlap, goes back to the table.
+piece, or in an overlap, is looked up in the table again.
 """
 
 from typing import NamedTuple
@@ -261,7 +261,7 @@ def store_slack(S, j, start, end):
 
 @kernel
 def follow_cylinders(S, n):
-    """Update PT of every point from the cylinder it remembers, and how far inside it the point is."""
+    """Update PT of every point from its stored cylinder, and how far inside it the point is."""
     for j in range(1, n + 1):
         x, y, z = contact_point(S, j)
         dx, dy, dz = x - S[OX + j], y - S[OY + j], z - S[OZ + j]
@@ -285,13 +285,13 @@ def refresh_cylinders(S, owner, n, C):
         S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
         S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
         S[MARGIN_TOP + j] = C[i, ALONE_FROM]
-        # A blended wall holds for this step only: an empty interval sends the point back here.
+        # A blended wall is valid for this step only; an empty interval makes the next step look it up again.
         S[MARGIN_END + j] = C[i, ALONE_TO] if distance_along(C, i, x, y, z) < C[i, ALONE_TO] else -np.inf
 
 
 @kernel
 def follow_arcs(S, n):
-    """Update PT of every point from the arc it remembers, and how far inside it the point is."""
+    """Update PT of every point from its stored arc, and how far inside it the point is."""
     for j in range(1, n + 1):
         x, y, z = contact_point(S, j)
         dx, dy, dz = x - S[OX + j], y - S[OY + j], z - S[OZ + j]

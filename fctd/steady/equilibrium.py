@@ -1,7 +1,7 @@
 """The steady string by root finding: its position, its loads and the readings of the rig, in milliseconds.
 
 The string slides or turns at constant rates while its shape stands still; the forces are the stepper's own
-(tangent.py), Newton's method starts from the guess of a soft string (first_guess.py, continuation.py).
+(tangent.py).  Newton's method starts from the guess of a soft string (first_guess.py, continuation.py).
 """
 
 from dataclasses import dataclass, field

@@ -93,8 +93,7 @@ def refine(
     end.  graded : short segments in bends and near the bit, long ones elsewhere, if that takes at least a tenth fewer
     segments than one length for all; a graded string is valid for this bit depth only.  most : segments at most.  speed
     [m/s], rpm : see ``torque_drag``.  Errors are relative to the load, or to a tenth of the string's weight (hook load)
-    or of Σ r μ F_n (torque) where that is more; without rotation torque errors are relative to all of Σ r μ F_n.
-    Raises InputError for input that cannot be used.
+    or of Σ r μ F_n (torque) where that is more; without rotation to all of Σ r μ F_n.  Raises InputError for bad input.
     """
     with naming_file(case):
         kinds = _kinds(case, operation)
@@ -217,8 +216,8 @@ def _loads(point: Equilibrium) -> tuple[float, float]:
 
 def _scales(point: Equilibrium, weight: float, spin: float) -> tuple[float, float]:
     """The values to which errors in hook load and torque are relative; weight : of the string in mud [N]."""
-    # Without friction torque is rounding alone.  In a string that only slides, its chords cause a small torque of
-    # first order.  It is small against the torque of rotation and does not call for finer segments.
+    # Without friction torque is rounding alone.  In a string that only slides, chords cause a small torque of first
+    # order, negligible against the torque of rotation.
     friction = max(point.sum_r_mu_fn, 1e-5 * weight) * (SHARE_OF_WHOLE if spin else 1.0)
     return max(abs(point.hookload), SHARE_OF_WHOLE * weight), max(abs(point.surface_torque), friction)
 
@@ -268,7 +267,7 @@ def _result(
 
     if not answered:
         point = next(point for point in strings[-1].points if not point.status.acceptable)
-        message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has a solution in "
+        message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has a solution for "
         message += f"{point.operation} ({point.status}: {point.message})"
         return finish(RefineStatus.NO_ANSWER, message, case, np.inf, 0, np.nan)
     found = strings[answered[-1]]

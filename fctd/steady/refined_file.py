@@ -16,7 +16,7 @@ from fctd.case.text import is_utf8
 from fctd.results.whole_file import whole_file
 from fctd.steady.refine import Refinement
 
-# Keys that a cut replaces, and keys that only a component's lowest piece keeps; all others stay as written.
+# Keys that a cut replaces, and keys that only a component's uppermost piece keeps; all others stay as written.
 CUT = ("length", "segments", "segment_length")
 BEND = ("bend", "toolface")
 

@@ -169,7 +169,7 @@ def wall_loads(C, i, laws, x, y, z, w, qx, qy, qz, arm, radius, tributary):
 
 @inlined
 def move_lower(L, k, column, j, D, U):
-    """Add derivative k of a joint's loads as one by an unknown of the lower body."""
+    """Add derivative k of a joint's loads as the derivative by an unknown of the lower body."""
     for i in range(3):
         D[j, i, column] -= L[8 * i + k]
         D[j, 3 + i, column] -= L[48 + 8 * i + k]
@@ -179,7 +179,7 @@ def move_lower(L, k, column, j, D, U):
 
 @inlined
 def move_upper(L, k, column, sign, j, D, A):
-    """Add derivative k of a joint's loads, times ``sign``, as one by an unknown of the upper body."""
+    """Add derivative k of a joint's loads, times ``sign``, as the derivative by an unknown of the upper body."""
     for i in range(3):
         D[j - 1, i, column] += sign * L[8 * i + k]
         D[j - 1, 3 + i, column] -= sign * L[24 + 8 * i + k]

@@ -1,4 +1,4 @@
-"""The wall that the stepper remembers beside every body, against the geometry of the hole."""
+"""The wall stored beside every body by the stepper, against the geometry of the hole."""
 
 import numpy as np
 import pytest

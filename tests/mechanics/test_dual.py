@@ -1,4 +1,4 @@
-"""Root and reciprocal through which a complex step passes: their values, and the derivatives it carries."""
+"""Root and reciprocal with a complex step: their values and derivatives."""
 
 import math
 
@@ -25,7 +25,7 @@ def compiled_reciprocal(x):
 
 @njit
 def witch(x):
-    """1/√(1 + x²), by the two of them."""
+    """1/√(1 + x²), by root and reciprocal."""
     return reciprocal(root(1 + x * x))
 
 
@@ -33,7 +33,7 @@ sizes = st.floats(1e-60, 1e60)
 
 
 @given(x=sizes)
-def test_of_a_number_they_are_the_plain_operations(x: float) -> None:
+def test_for_a_float_they_are_the_plain_operations(x: float) -> None:
     assert compiled_root(x) == root(x) == math.sqrt(x)
     assert compiled_reciprocal(x) == reciprocal(x) == 1 / x
 
@@ -66,7 +66,7 @@ def test_compiled_and_plain_agree(x: float) -> None:
         assert compiled(z) == pytest.approx(complex(plain(z)), rel=1e-14)
 
 
-def test_the_root_of_nothing_has_no_slope_and_is_no_nan() -> None:
-    """Of what does not change, such as a length of 0: a slope without bound would spoil what it is multiplied with."""
+def test_the_root_of_zero_has_slope_zero_and_is_not_nan() -> None:
+    """A length of 0 that does not change: an infinite slope times its zero derivative would give NaN."""
     assert compiled_root(0j) == 0
     assert np.isfinite(compiled_root(0j).imag)

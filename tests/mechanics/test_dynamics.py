@@ -1,4 +1,4 @@
-"""The stepper: exact statics, conservation at its order, packed code, clamps that only stop."""
+"""The stepper: exact statics, conservation at its order, packed code, friction that stops but does not reverse."""
 
 import math
 import platform
@@ -41,7 +41,7 @@ compiled = pytest.mark.skipif(bool(config.DISABLE_JIT), reason="reads what numba
 
 
 def run_free(S: np.ndarray, n: int, step: float, time: float) -> None:
-    """Advance bodies that hang from nothing and touch nothing."""
+    """Advance free bodies without joints to a top drive and without a wall."""
     top = np.zeros(topdrive.TOP_SIZE)
     owner = np.zeros(n + 2, np.int64)
     dynamics.advance(S, top, owner, n, NO_HOLE, FREE, STILL, NO_PIPE, step, round(time / step))
@@ -128,8 +128,8 @@ def test_loads_weight_and_mud_on_one_body() -> None:
     assert at(S, 1, PLACE).tolist() == [1.0, 2.0, 3.0]
 
 
-def test_mud_takes_what_its_dampers_take_of_the_motion_that_is_left() -> None:
-    """c v² dt and c ω² dt of the velocity after, which is what moves the body."""
+def test_mud_losses_are_those_of_its_dampers_at_the_velocity_after() -> None:
+    """c v² dt and c ω² dt with the velocity after the impulse, with which the body moves."""
     S, dt = state.new_state(1), 0.02
     set_body(S, 1, 400.0, 3000.0, 1.5)
     put(S, 1, (state.MUD_LATERAL, state.MUD_AXIAL, state.MUD_SPIN), [60.0, 25.0, 0.8])
@@ -140,7 +140,7 @@ def test_mud_takes_what_its_dampers_take_of_the_motion_that_is_left() -> None:
     a, b, c = at(S, 1, SPIN)
     assert S[state.LOST_MUD + 1] == pytest.approx(dt * (60 * (x * x + y * y) + 25 * z * z + 0.8 * c * c), rel=1e-12)
     assert S[state.SUM_MUD_TORQUE + 1] == pytest.approx(dt * 0.8 * c, rel=1e-12)
-    assert (a, b) == (0.02, -0.03)  # mud does not resist tumbling but by the lateral motion of the bodies
+    assert (a, b) == (0.02, -0.03)  # mud resists tumbling only through the lateral motion of the bodies
 
 
 def test_a_moving_body_keeps_its_axis_and_global_spin_up_to_date() -> None:
@@ -241,7 +241,7 @@ def test_the_query_of_one_arc_is_packed() -> None:
 
 
 def operations(kernel, *arguments) -> tuple[int, int]:
-    """Packed and scalar operations of a kernel, compiled anew: code that comes from the cache cannot be read."""
+    """Packed and scalar operations of a kernel, compiled again: code from the cache has no assembly to read."""
     kernel = njit(error_model="numpy", fastmath={"contract"})(kernel.py_func)
     kernel(*arguments)
     assembly = "\n".join(kernel.inspect_asm().values())
@@ -259,7 +259,7 @@ def may_touch(S, first):
     (0.0499, 0.1, False), (0.0501, 0.1, True), (0.0, 0.0499, True), (0.0, 0.0501, False),
     (np.inf, 0.1, True), (np.nan, 0.1, True),
 ])  # fmt: skip
-def test_one_touching_body_is_enough_for_the_contact_arithmetic(lane, off, hole, touching):
+def test_one_touching_body_starts_the_contact_arithmetic(lane, off, hole, touching):
     S = state.new_state(16)
     assert not may_touch(S, 9)  # inert columns
     S[state.HOLE + 9 : state.HOLE + 17], S[state.RADIUS + 9 : state.RADIUS + 17] = 0.1, 0.05
@@ -330,8 +330,8 @@ def test_steps_allocate_nothing() -> None:
 
 
 @pytest.mark.parametrize("segment", [7.0, 5.0])
-def test_waves_enter_a_long_straight_chain_from_offsets_of_nothing(segment: float) -> None:
-    """Laid on the axis it has offsets of exactly 0, and the front of a wave comes with 1e-300 m, 1e-290 m, ..."""
+def test_waves_enter_a_long_straight_chain_without_offsets(segment: float) -> None:
+    """On the axis offsets are exactly 0, and the front of a wave brings offsets of 1e-300 m, 1e-290 m, ..."""
     stations = [[0, 0, 45], [1750, 0, 45], [2200, 90, 45], [2450, 90, 45]]
     collars = pipe(200, None, outer=0.158, segment_length=2.5)
     upper = pipe(None, None, outer=0.102, segment_length=segment)

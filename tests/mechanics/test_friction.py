@@ -1,4 +1,4 @@
-"""One body at the wall: the impulses of the normal force and of both laws of friction, and what they cost."""
+"""One body at the wall: the impulses of the normal force and of both laws of friction, and their energy losses."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ vector = st.tuples(unit, unit, unit)
 
 @dataclass
 class Pushed:
-    """What one push did to a body.  Vectors are global; the wall lies at ``normal``, ``arm`` leads to T [m]."""
+    """The effect of one push on a body.  Vectors are global; the wall lies at ``normal``, ``arm`` leads to T [m]."""
 
     S: Array
     turned: Rotation
@@ -74,14 +74,14 @@ def test_the_wall_pushes_along_its_normal_by_spring_and_damper(turn, off, veloci
     assert normal_impulse >= 0
     np.testing.assert_allclose(body.impulse, -normal_impulse * body.normal, atol=1e-10)
     np.testing.assert_allclose(body.moment, np.cross(body.arm, body.impulse), atol=1e-9)
-    # What the damper takes: its impulse by the speed that moves the body.
+    # Loss in the damper: its impulse times the speed that moves the body.
     lost = (normal_impulse - DT * STIFFNESS * 2e-3) * body.toward(body.after)
     assert body.given(state.LOST_CONTACT) == pytest.approx(lost, rel=1e-8, abs=1e-10)
     assert body.given(state.LOST_FRICTION) == 0
 
 
 def split(body: Pushed, loose: Pushed) -> tuple[Array, Array]:
-    """Impulse and moment of friction alone: a push less the same push without friction."""
+    """Impulse and moment of friction alone: a push minus the same push without friction."""
     return body.impulse - loose.impulse, body.moment - loose.moment
 
 

@@ -1,4 +1,4 @@
-"""Compiled functions leave no option open, whatever calls them first."""
+"""Every compiled function sets all its options, so that its code does not depend on its first caller."""
 
 import pkgutil
 from importlib import import_module
@@ -21,8 +21,8 @@ def dispatchers() -> dict[str, Any]:
     }
 
 
-def test_no_compiled_function_leaves_an_option_open() -> None:
-    """What is open numba takes from whichever caller compiles a function first: numbers then hang on the order."""
+def test_every_compiled_function_sets_all_options() -> None:
+    """numba takes an option not set from the first caller of a function: numbers would depend on the order."""
     found = dispatchers()
     assert len(found) > 100
     for name, function in found.items():

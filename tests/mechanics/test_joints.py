@@ -145,7 +145,7 @@ def test_damping_acts_on_relative_motion_only(bend, gap, drift, turn, other) -> 
 
 
 @pytest.mark.parametrize("short_of_a_turn", [0.0, 1e-9, -1e-9, 1e-12, 1e-7])
-def test_a_bit_that_turned_once_feels_nothing_of_the_inert_column_below(short_of_a_turn: float) -> None:
+def test_a_bit_that_turned_once_has_no_load_from_the_inert_column_below(short_of_a_turn: float) -> None:
     S = state.new_state(1)
     half = math.pi - short_of_a_turn
     S[state.QW + 1], S[state.QZ + 1] = math.cos(half), math.sin(half)
@@ -178,7 +178,7 @@ def test_each_damper_is_its_stiffness_by_the_damping_time(motion: str, rows: tup
 
 
 @given(vector, vector, vector, vector, vector, vector)
-def test_what_the_dampers_take_from_both_bodies_is_what_is_lost(bend, gap, drift, other, spin, turn) -> None:
+def test_the_energy_lost_is_the_work_of_the_dampers_on_both_bodies(bend, gap, drift, other, spin, turn) -> None:
     """Power of their loads on the two bodies, each by its own motion; they balance as the springs do."""
     upper, lower, d = a_pair(bend, gap)
     S = pair(upper, lower, d)

@@ -1,4 +1,4 @@
-"""The engine against closed forms of beams, shafts and waves: each would miss if a stiffness were 2 % off."""
+"""The engine against closed forms of beams, shafts and waves: each would fail if a stiffness were 2 % off."""
 
 import numpy as np
 import pytest
@@ -32,7 +32,7 @@ def test_cantilever_converges_to_the_timoshenko_beam() -> None:
     assert np.all(np.log2(np.abs(np.array(errors[:-1]) / errors[1:])) > 1.8), errors
 
 
-def test_twist_of_a_string_held_back_by_mud() -> None:
+def test_twist_of_a_string_turning_in_mud() -> None:
     """Rotating in mud alone the torque falls linearly to the bit, and the bit lags by c ω L²/2GJ."""
     case = make_case(operations=[rotation(1000, 60, ramp=40)], mud={"rotational_damping": 0.8})
     run, phases = prepare(case)

@@ -1,4 +1,4 @@
-"""The bare loop: so many steps with a wall and damping, without schedule or records."""
+"""The bare loop: a number of steps with a wall and damping, without schedule or records."""
 
 from dataclasses import replace
 
@@ -15,7 +15,7 @@ ROTATE = rotation(1000, 30, ramp=10)
 
 
 def string_of(**sections) -> MovingString:
-    """The bare string of a case: nothing of the case or its schedule is kept."""
+    """The bare string of a case, without its case and schedule."""
     case = make_case(BUILD, [pipe(None, None, outer=0.102, segment_length=25.0)], [ROTATE], top_md=300.0, **sections)
     run, _ = prepare(case)
     return MovingString(
@@ -26,7 +26,7 @@ def string_of(**sections) -> MovingString:
 
 @pytest.mark.parametrize("law", ["coulomb", "paper"])
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
-def test_how_many_steps_a_compiled_call_takes_changes_no_bit(geometry: str, law: str) -> None:
+def test_results_do_not_depend_on_the_steps_per_compiled_call(geometry: str, law: str) -> None:
     def after(at_once: int) -> MovingString:
         string = string_of(wellbore={"geometry": geometry}, contact={"friction_law": law})
         string = replace(string, at_once=at_once)

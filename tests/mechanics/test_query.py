@@ -1,4 +1,4 @@
-"""The query of free points takes short cuts; it answers as the table does, point by point."""
+"""The query of free points has fast paths; its walls equal those of the table, point by point."""
 
 import numpy as np
 import pytest

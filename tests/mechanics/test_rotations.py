@@ -1,4 +1,4 @@
-"""Quaternion helpers against scipy, and the two series against the functions they stand for."""
+"""Quaternion helpers against scipy, and the two series against the functions they approximate."""
 
 import math
 

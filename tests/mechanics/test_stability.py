@@ -17,7 +17,7 @@ def test_a_step_at_the_limit_is_at_the_limit(frequency: float, damping: float) -
 
 
 def test_a_string_too_stiff_to_step_is_refused() -> None:
-    """Twenty segments in a fifth of a millimetre: a run of more steps than anybody waits for."""
+    """Twenty segments in a fifth of a millimetre: a run of more steps than the limit."""
     case = make_case(components=[pipe(2e-4, 20), pipe(None, 40)], operations=[rotation(900.0, 10.0)])
     with pytest.raises(InputError, match="that need at most"):
         prepare(case)

@@ -141,7 +141,7 @@ def test_readings_and_ledger_of_a_top_drive_that_feeds(fed: float) -> None:
     # Readings change no property of the pipe: only moving does.
     for row in (state.MASS, state.WEIGHT, state.K_AXIAL, state.ARM_TOP):
         assert S[row + 1] == before[row + 1]
-    # A damper's pull on the pipe that passes the clamp stores nothing.
+    # A damper's pull on the pipe that passes the clamp stores no energy.
     T, damped = before.copy(), np.zeros(topdrive.TOP_SIZE)
     damped[topdrive.TOP_LENGTH] = length
     put(T, 1, FORCE, -(tension + 500) * AXIAL)

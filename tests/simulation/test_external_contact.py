@@ -1,4 +1,4 @@
-"""A contact method of the caller's in a run: what it does not report, and how a fault of it ends the run."""
+"""A caller's contact method in a run: points without contact, and faults of the method that end the run."""
 
 from collections.abc import Callable
 
@@ -32,7 +32,7 @@ def turning(geometry: str = "cylinders", **sections) -> Case:
 
 
 class Faulty:
-    """The hole's own contacts, spoiled after some queries."""
+    """The hole's own contacts, with a fault after some queries."""
 
     name = "faulty"
 
@@ -45,7 +45,7 @@ class Faulty:
         return self.spoil(hits) if self.asked > 1000 else hits
 
 
-def test_a_method_that_answers_nonsense_stops_the_run_and_keeps_its_rows() -> None:
+def test_a_method_with_a_fault_stops_the_run_and_keeps_its_rows() -> None:
     case = turning()
 
     nowhere = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)))
@@ -55,7 +55,7 @@ def test_a_method_that_answers_nonsense_stops_the_run_and_keeps_its_rows() -> No
     assert len(result.history) > 0
 
 
-def test_an_answer_of_the_wrong_shape_is_an_error() -> None:
+def test_contacts_of_the_wrong_shape_are_an_error() -> None:
     case = turning()
     with pytest.raises(ValueError, match=r"faulty.*25 points"):
         simulate(case, contact=Faulty(case, lambda hits: hits._replace(md=hits.md[:-1])))
@@ -68,7 +68,7 @@ def test_no_wall_and_another_contact_method_exclude_each_other() -> None:
 
 
 class Nothing:
-    """No contact anywhere: what is not read may be nan."""
+    """No contact anywhere: values that are not read may be NaN."""
 
     name = "nothing"
 
@@ -88,7 +88,7 @@ def test_without_contacts_the_run_is_that_without_a_wall() -> None:
 
 
 def test_walls_change_size_stiffness_and_friction_over_the_length_of_a_shoe() -> None:
-    """A method knows where a point is; how wide, stiff and rough the hole is there the case says."""
+    """The method gives the place of a contact; radius, stiffness and friction of the hole there come from the case."""
     intervals = [
         {"to_md": 100, "diameter": 0.32, "friction": 0.1, "stiffness": 2e7},
         {"to_md": 300, "diameter": 0.22, "friction": 0.3},

@@ -1,4 +1,4 @@
-"""What is kept of a run, from sums and losses written by hand."""
+"""The records of a run, from sums and losses set by hand."""
 
 from typing import Any
 
@@ -82,7 +82,7 @@ def test_points_in_the_wall_are_counted() -> None:
 
 
 def test_the_ledger_by_hand() -> None:
-    """Gains are the top drive's work and the fed pipe's energy; what they exceed the held and the lost is residual."""
+    """The residual is the top drive's work and the fed pipe's energy, minus the stored and the lost energy."""
     recorder = recorder_of([pipe(None, 10)])
     S, top, n = recorder.run.S, recorder.run.top, recorder.run.segments
     lost = {"friction": state.LOST_FRICTION, "contact": state.LOST_CONTACT, "mud": state.LOST_MUD,
@@ -124,7 +124,7 @@ def test_a_profile_is_kept_where_the_bit_passes_its_depth() -> None:
 @pytest.mark.parametrize("long", [False, True])
 def test_a_profile_has_the_means_of_its_interval(long: bool) -> None:
     recorder = recorder_of([pipe(300, 6), pipe(None, 1) if long else pipe(None, 14)])
-    # The trip makes the uppermost segment the one that is fed.
+    # In the trip the uppermost segment is the one that is fed.
     assert recorder.run.string.long_segment
     S, top, n = recorder.run.S, recorder.run.top, recorder.run.segments
     top[[topdrive.TOP_TIME, topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 1.0, 77.0, 7.0

@@ -1,4 +1,4 @@
-"""What joints of cylinders do to a string that slides past them, expected without a time step and simulated."""
+"""Ringing of a string that slides past the seams between cylinders: the estimate and a simulation."""
 
 from typing import Any
 
@@ -15,7 +15,7 @@ from validation.studies.long_segment import chain_frequencies
 
 
 def well_b(start: float = 1750.0, end: float = 2450.0, speed: float = 0.5, **changes: Any) -> Case:
-    # A ramp of twenty periods sets nothing ringing by itself.
+    # A ramp of twenty periods causes no ringing by itself.
     return load("paper_well_b", operations=trip(start, end, speed, 40.0), **changes)
 
 
@@ -28,7 +28,7 @@ COLLARS, PIPE = "string__components__0__segments", "string__components__1__segme
 
 @pytest.mark.parametrize("overlap", [0.0, 0.2])
 def test_the_tilt_is_a_sawtooth(overlap: float) -> None:
-    """Harmonics of a chord of 2 m in a bend of curvature κ: κℓ/πn, and what an overlap's blending leaves of them."""
+    """Harmonics of a chord of 2 m in a bend of curvature κ: κℓ/πn, reduced by the blending in an overlap."""
     hole = build_wellbore(well_b(wellbore__overlap=overlap))
     edges = np.linspace(1900.0, 2000.0, 4001)[:, None]  # fifty cylinders
     tilt = cylinder_tilt(hole).means(edges)[:, 0]
@@ -46,12 +46,12 @@ def test_ringing_is_expected_where_a_harmonic_meets_the_string() -> None:
     assert swing > 8e3
     assert frequency == pytest.approx(2 * 0.5 / 2.0, rel=0.03)  # second harmonic of 0.5 m/s over 2 m
     assert 2160 < depth < 2300
-    # A tenth faster the same harmonic meets the string a tenth of its frequency earlier, where little is in the bend.
+    # At a tenth more speed the resonance comes at a tenth more frequency, where less of the string is in the bend.
     assert ringing(well_b(speed=0.55)).largest()[0] < 0.3 * swing
     assert ringing(well_b(**{COLLARS: 19})).largest()[0] < 0.2 * swing  # no whole number of cylinders
     assert ringing(well_b(mud__axial_damping=5.0)).largest()[0] < 0.3 * swing
     assert ringing(well_b(wellbore__geometry="arcs")).largest() == (0.0, 0.0, 0.0)
-    # Pulled out, the string meets the same joints.
+    # Pulled out, the string passes the same seams.
     out = ringing(well_b(2450.0, 1750.0)).largest()
     assert 0.5 * swing < out[0] < 2 * swing
 
@@ -77,7 +77,7 @@ def test_ringing_is_expected_of_cylinders_in_motion_alone() -> None:
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def test_a_run_that_rings_says_so(geometry: str) -> None:
-    """The end of a window of well b swings by what is expected, and the result says why; arcs do neither.
+    """The end of a window of well b swings as estimated, and the result has a note; with arcs neither happens.
 
     Hardly any friction: where friction sets in with the motion, the string rings for that.
     """

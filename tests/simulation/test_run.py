@@ -1,4 +1,4 @@
-"""The string a run starts from and the one it ends with: as long, as heavy and as made up as the steady solver's."""
+"""The strings at a run's start and end have the length, weight and components of the steady solver's."""
 
 import sys
 from itertools import pairwise
@@ -141,7 +141,7 @@ def test_a_run_carries_the_weight_of_its_own_depth(components: list[dict[str, An
 
 
 def test_a_steep_ramp_read_at_odd_times_feeds_its_depth() -> None:
-    """Steps of unequal length miss a ramp by h²/24 times the change of its slope, which is no defect."""
+    """Steps of unequal length have an error of h²/24 times the change of a ramp's slope, which is allowed."""
     moves = [trip(400, 410, speed=5.0, ramp=0.3), trip(410, 402, speed=3.0, ramp=0.2)]
     string = [pipe(200, 4), pipe(None, None, segment_length=50.0)]
     sections = {"record": {"interval": 0.13}, "contact": {"enabled": False}}
@@ -208,7 +208,7 @@ def test_the_laws_of_a_run_are_those_of_its_case(law: str, number: int, enabled:
 
 
 def test_the_step_holds_for_the_shortest_top_segment() -> None:
-    """Which way a trip goes makes no difference; where it turns back does."""
+    """The step does not depend on the direction of a trip, but on its shallowest depth."""
     components = [pipe(300, 12), pipe(None, 1)]
 
     def step(moves: list[dict[str, Any]], **solver: Any) -> float:
@@ -224,7 +224,7 @@ def test_the_step_holds_for_the_shortest_top_segment() -> None:
         step([trip(400, 312)], step=1.001 * largest)
 
 
-def test_a_run_knows_the_pieces_its_points_lie_in() -> None:
+def test_a_run_starts_with_the_pieces_its_points_lie_in() -> None:
     case = make_case(BUILD, [pipe(None, None, segment_length=20.0)], [rotation(1400, 1)])
     run, _ = prepare(case)
     points = contact_points(run.S, run.segments)
@@ -256,6 +256,6 @@ def test_a_string_settles_against_its_own_weight_and_length() -> None:
         ),
     ],
 )
-def test_what_only_the_steady_solver_knows_is_refused(sections: dict[str, Any], message: str) -> None:
+def test_input_that_only_the_steady_solver_supports_is_refused(sections: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
         prepare(make_case(**sections))

@@ -1,4 +1,4 @@
-"""Whole simulations on small strings: balances, laws, schedule, records, and what goes wrong."""
+"""Whole simulations on small strings: balances, laws, schedule, records, and failures."""
 
 import re
 
@@ -54,7 +54,7 @@ def test_mud_torque_is_the_damper_times_the_spin() -> None:
 
 
 def test_rotating_hook_load_is_the_vertical_weight() -> None:
-    """Contact forces of a rotating string have no share along the hole, whatever they are."""
+    """Contact forces of a rotating string have no component along the hole, whatever their size."""
     case = build_case(ROTATE)
     section = fctd.model.drillstring.section_of(case.string.components[0], 0.0)
     radius = 450 / (np.pi / 2)
@@ -91,7 +91,7 @@ def test_back_reaming_turns_drag_into_torque() -> None:
 
 @pytest.mark.parametrize("operation", [ROTATE, trip(1000, 1006, ramp=10), trip(1000, 994, ramp=10)])
 def test_energy_ledger_closes(operation: dict) -> None:
-    """Within 0.1 % of the energy turned over, at the default step."""
+    """Within 0.1 % of the energy exchanged, at the default step."""
     result = simulate(build_case(operation, wellbore={"geometry": "arcs"}))
     assert result.run["energy_error"] < 1e-3
     terms = result.energy.iloc[-1]
@@ -130,7 +130,7 @@ def test_mud_resists_all_of_a_long_segment(operation: dict) -> None:
 
 @pytest.mark.parametrize(("operation", "damping"), [(ROTATE, 1e-5), (trip(1000, 995, ramp=5), 1e-3)])
 def test_energy_error_falls_with_the_step(operation: dict, damping: float) -> None:
-    """At first order, from nothing that the step leaves alone: a damper at the clamp pulls on pipe that passes it."""
+    """At first order to zero, also with a damper at the clamp that pulls on the pipe fed in."""
     errors = []
     for step in (0.8e-3, 0.4e-3, 0.2e-3):
         solver = {"step": step, "joint_damping": damping}
@@ -204,7 +204,7 @@ def test_true_tension_is_effective_less_buoyancy() -> None:
 @pytest.mark.parametrize("inclination", [120.0, 170.0])
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def test_a_hole_that_turns_back_upwards(inclination: float, geometry: str) -> None:
-    """Past 90 degrees the hook carries the vertical reach, less what the leg beyond the lowest point pushes."""
+    """Past 90 degrees the hook load is that of the vertical reach minus the push of the leg beyond the lowest point."""
     stations = [[0, 0, 0], [500, 0, 0], [1500, inclination, 0], [2300, inclination, 0]]
     case = make_case(stations, [pipe(2200, 88)], [rotation(2200, 20)], wellbore={"geometry": geometry})
     weight = fctd.model.drillstring.section_of(case.string.components[0], 0.0).weight
@@ -218,8 +218,8 @@ def test_without_walls_nothing_touches() -> None:
     assert result.history.total_contact_force_N.max() == 0
 
 
-def test_an_unstable_run_stops_says_when_and_keeps_what_it_has() -> None:
-    """A string pushed on into a hole that grips it bursts out through the wall: through the case alone."""
+def test_an_unstable_run_stops_names_the_time_and_keeps_its_records() -> None:
+    """A string pushed into a hole with high friction leaves through the wall, without any change by the test."""
     gripping = {"intervals": [{"to_md": 1200, "diameter": 0.2159, "friction": 3.0}]}
     result = simulate(build_case(trip(1000, 1070, speed=1.0), wellbore=gripping))
     assert result.status == "unstable"
@@ -228,7 +228,7 @@ def test_an_unstable_run_stops_says_when_and_keeps_what_it_has() -> None:
     assert np.isfinite(result.history.select_dtypes("number").to_numpy()).all()
 
 
-def test_an_interrupted_run_keeps_what_it_has() -> None:
+def test_an_interrupted_run_keeps_its_records() -> None:
     def stop(now: float, total: float, factor: float) -> None:
         if now > 3:
             raise KeyboardInterrupt

@@ -70,7 +70,7 @@ class Watched(HoleWall):
 
 
 def test_ctrl_c_leaves_a_long_record_whose_part_is_kept() -> None:
-    """An hour between records: compiled code is left in the midst of it, and what has passed becomes its last row."""
+    """An hour between records: Ctrl-C stops between two compiled calls, and the elapsed part becomes the last row."""
     simulation = Simulation(build_case(rotation(1000, 3600, ramp=10), record={"interval": 3600}))
     run = simulation.run
     run.at_once = 20_000
@@ -79,7 +79,7 @@ def test_ctrl_c_leaves_a_long_record_whose_part_is_kept() -> None:
         list(simulation)
     assert max(wall.calls) <= 20_000 / run.segments
     simulation.record_part()
-    simulation.record_part()  # nothing has passed since
+    simulation.record_part()  # no time has passed since
     result = simulation.result()
     assert result.status == "interrupted"
     times = result.history["time_s"]
@@ -115,7 +115,7 @@ def test_a_window_is_reached_without_a_record_and_has_its_own_ledger() -> None:
     assert result.run["energy_error"] < 1e-2
 
 
-def test_a_fed_string_knows_its_depth_at_the_start_of_a_window() -> None:
+def test_a_fed_string_has_its_depth_at_the_start_of_a_window() -> None:
     case = build_case(trip(1000, 1003, speed=0.5))
     end = Simulation(case).end
     records = list(Simulation(case, window=(4.0, end - 4.0)))
@@ -130,10 +130,10 @@ def test_a_window_outside_the_schedule_names_the_file_and_the_key() -> None:
 
 
 class Another:
-    """A stepper that is the own one, but for what it is told to do to the run, and for the energy it tells."""
+    """The run's own stepper, but with made-up energies, and on request with a NaN in the state."""
 
     def __init__(self, run: Run, spoil: bool = False) -> None:
-        self.run, self.spoil, self.told = run, spoil, 0
+        self.run, self.spoil, self.calls = run, spoil, 0
 
     def advance(self, motion: Motion, duration: float) -> None:
         steps = max(int(np.ceil(duration / self.run.step - 1e-9)), 1)
@@ -149,8 +149,8 @@ class Another:
         self.run.refresh()
 
     def energy(self) -> Energy:
-        self.told += 1
-        return self.run.energy()._replace(strain=1000.0 * self.told)
+        self.calls += 1
+        return self.run.energy()._replace(strain=1000.0 * self.calls)
 
 
 def test_another_stepper_takes_the_place_of_the_own_one() -> None:
@@ -179,7 +179,7 @@ def test_what_becomes_unstable_ends_the_iteration_and_keeps_its_records() -> Non
 
 
 class Nowhere:
-    """A contact method without a sound answer."""
+    """A contact method that returns NaN normals."""
 
     name = "nowhere"
 

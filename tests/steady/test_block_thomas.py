@@ -47,7 +47,7 @@ def test_solution_and_inertia_are_those_of_the_dense_matrix(n: int, seed: int, s
     assert negative_pivots(D, A, U, n) == (eigenvalues < 0).sum()
 
 
-def test_what_elimination_cannot_solve_is_said_and_solved_with_pivoting() -> None:
+def test_a_system_with_a_near_singular_block_is_reported_and_solved_with_pivoting() -> None:
     """A block of zeros on the diagonal has no pivot of its own; the whole matrix is a permutation."""
     n = 2
     D, A, U = np.zeros((n + 1, SIZE, SIZE)), np.zeros((n + 1, SIZE, SIZE)), np.zeros((n + 1, SIZE, SIZE))

@@ -1,4 +1,4 @@
-"""Newton's method led by pseudo-time: how fast it ends, how it stops, and how far it steps."""
+"""Newton's method with pseudo-time: its convergence, its ways to stop, and its step sizes."""
 
 import numpy as np
 import pytest
@@ -76,7 +76,7 @@ def test_the_last_steps_converge_quadratically() -> None:
     assert (errors[near + 1] < errors[near] ** 2 + 1e-13).all(), errors
 
 
-def test_a_balance_is_said_and_left_alone() -> None:
+def test_a_pose_in_balance_is_not_changed() -> None:
     chain = Chain()
     status, iterations, _ = chain.converge(BOLD)
     assert status == CONVERGED
@@ -93,7 +93,7 @@ def test_too_few_iterations() -> None:
     assert Chain().converge(BOLD._replace(iterations=2))[:2] == (MAX_ITERATIONS, 2)
 
 
-def test_a_pose_that_is_no_number() -> None:
+def test_a_pose_with_nan() -> None:
     chain = Chain()
     chain.work.P[3, 0] = np.nan
     assert chain.converge(BOLD)[:2] == (NOT_FINITE, 0)
@@ -122,7 +122,7 @@ def test_pseudo_mass_is_the_bodies_own_over_the_time_squared() -> None:
 
 def test_the_worst_body_is_the_imbalance() -> None:
     R = np.zeros((4, 6))
-    R[0] = 1e9  # the top drive's reactions are in balance with whatever holds it
+    R[0] = 1e9  # the top drive's reactions do not count
     R[1, :3], R[2, 3:] = [3.0, 4.0, 0.0], [0.0, 0.6, 0.8]
     pace = BOLD._replace(force=10.0, moment=0.5)
     assert imbalance(R, 3, pace) == pytest.approx(2.0)
@@ -135,7 +135,7 @@ def test_a_step_is_shortened_to_the_largest_shift_and_turn() -> None:
     """An upright body that is moved 0.3 m across, and one that is tilted by 0.5 rad about where its contact is."""
     S, P, X = state.new_state(2), np.zeros((3, 8)), np.zeros((3, 6))
     P[:, 3] = 1.0
-    X[1, :3] = [0.3, 0.0, 5.0]  # along its axis it may go as far as it likes
+    X[1, :3] = [0.3, 0.0, 5.0]  # its step along the axis has no limit
     X[2, 3] = 0.5
     assert allowed_share(S, 2, P, X, BOLD._replace(shift=0.1, turn=10.0)) == pytest.approx(0.1 / 0.3)
     assert allowed_share(S, 2, P, X, BOLD._replace(shift=10.0, turn=0.2)) == pytest.approx(0.2 / 0.5)

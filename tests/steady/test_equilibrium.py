@@ -49,7 +49,7 @@ def wells(draw: st.DrawFn) -> list[list[float]]:
 def test_any_well_is_in_balance(
     stations: list[list[float]], kind: str, law: str, geometry: str, friction: float
 ) -> None:
-    """Torque: what the top gives is what wall, mud and bit take.  The profile begins and ends as it must."""
+    """Torque at the top equals that of wall, mud and bit.  The ends of the profile have the loads of top and bit."""
     depth = stations[-1][0]
     case = make_case(
         stations,
@@ -162,7 +162,7 @@ def test_a_bent_housing_points_to_its_toolface(toolface: float) -> None:
     np.testing.assert_allclose(off, expected, atol=2e-4)
 
 
-def test_locked_up_is_an_answer() -> None:
+def test_a_locked_up_string_has_loads() -> None:
     """3 km of horizontal hole at μ 0.4 under 200 m of weight cannot be slacked off into."""
     stations = [[0, 0, 0], [200, 0, 0], [500, 90, 0], [3500, 90, 0]]
     hole = {"geometry": "arcs", "intervals": [{"to_md": 3500, "diameter": 0.2159, "friction": 0.4}]}
@@ -175,7 +175,7 @@ def test_locked_up_is_an_answer() -> None:
 
 
 def test_a_straight_string_beyond_its_buckling_load_is_unstable() -> None:
-    """100 kN on the bit of a string that weighs 2.0 kN a segment, in vertical hole."""
+    """100 kN on the bit of a string that weighs 2.0 kN per segment, in a vertical hole."""
     components = [pipe(None, None, segment_length=10.0)]
     case = make_case([[0, 0, 0], [300, 0, 0]], components, bit={"weight_on_bit": 1e5})
     point = equilibrium(case, "drill_sliding", 300.0)
@@ -187,7 +187,7 @@ def test_a_straight_string_beyond_its_buckling_load_is_unstable() -> None:
     assert equilibrium(case, "drill_sliding", 300.0).status == "converged"
 
 
-def test_a_string_that_finds_no_balance_says_so() -> None:
+def test_a_string_without_a_balance_has_a_status() -> None:
     """A clamped string without walls in a slanting hole would have to hang down in a loop."""
     case = make_case([[0, 60, 0], [300, 60, 0]], [pipe(None, None, segment_length=10.0)], contact={"enabled": False})
     point = equilibrium(case, "trip_in", 300.0)
@@ -201,7 +201,7 @@ def test_a_string_that_finds_no_balance_says_so() -> None:
 
 @pytest.mark.parametrize("stations", [[[0, 0, 0], [300, 0, 0]], [[0, 0, 0], [300, 60, 40]]])
 def test_no_clearance_at_all(stations: list[list[float]]) -> None:
-    """|PT| = 0 is where the string belongs."""
+    """The string lies on the axis, where |PT| = 0."""
     case = make_case(stations, [pipe(None, None, segment_length=10.0, contact_diameter=0.2159)])
     for kind in ("trip_out", "rotate_off_bottom"):
         point = equilibrium(case, kind, 300.0)
@@ -210,7 +210,7 @@ def test_no_clearance_at_all(stations: list[list[float]]) -> None:
 
 
 def test_steps_by_the_other_solver_lead_to_the_same_balance() -> None:
-    """The fall-back for unsound eliminations, used for every step of a whole solution."""
+    """The solver for near singular blocks, used for every step of a whole solution."""
     solver = Solver(build_case(40))
     rates = steady_rates(solver.case, "trip_out")
     point = solver.solve("trip_out", rates, 1300.0)
@@ -269,7 +269,7 @@ def test_rates_are_the_callers_then_the_cases_then_the_defaults() -> None:
         ({"operation": "trip_in", "speed": 1e5}, "speed = 100000.0: expected a speed above 0 and at most 10 m/s"),
     ],
 )
-def test_bad_input_is_answered(call: dict[str, Any], expected: str) -> None:
+def test_bad_input_is_refused(call: dict[str, Any], expected: str) -> None:
     arguments = {"operation": "trip_out", "bit_depth": 1000.0} | call
     with pytest.raises(InputError) as error:
         equilibrium(build_case(), **arguments)

@@ -50,7 +50,7 @@ def test_tension_of_a_string_that_slides(kind: str, sign: int) -> None:
 
 
 def test_torque_of_a_string_that_turns() -> None:
-    """It climbs to the angle of friction, so that r w s sin I · μ/√(1 + μ²) holds it back, and winds it up.
+    """It climbs to the angle of friction, so that the wall's torque r w s sin I · μ/√(1 + μ²) resists and twists it.
 
     The upper half of the top segment presses on the top drive.
     """
@@ -64,7 +64,7 @@ def test_torque_of_a_string_that_turns() -> None:
 
 
 def test_the_string_lies_on_the_low_side() -> None:
-    """A clearance from the axis, and as much deeper as its weight presses it into the wall."""
+    """A clearance from the axis, plus the penetration into the wall by its weight."""
     work = guessed(inclined(), "trip_out")
     low = np.array([0.0, -COSINE, SINE])
     depth = WEIGHT * LENGTH / SEGMENTS * SINE / 1e9

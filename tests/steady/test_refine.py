@@ -224,7 +224,7 @@ def test_a_turning_string_without_friction_has_no_torque_error() -> None:
         ({"most": "many"}, 'most = "many": expected a number of segments'),
     ],
 )
-def test_bad_input_is_answered(call: dict[str, Any], expected: str) -> None:
+def test_bad_input_is_refused(call: dict[str, Any], expected: str) -> None:
     with pytest.raises(InputError) as error:
         fctd.refine(build_case(), **({"operation": "trip_out", "bit_depth": 1300.0} | call))
     assert expected.lower() in str(error.value).lower()

@@ -1,4 +1,4 @@
-"""A refined case written into the user's own file: what is cut is new, all else stays as it was written."""
+"""A refined case written into the user's own file: the cut parts are new, all else stays as it was written."""
 
 import tomllib
 from pathlib import Path
@@ -94,7 +94,7 @@ def test_the_survey_is_named_from_where_the_file_is(source: Path, tmp_path: Path
     assert survey_from(tmp_path / "fine.toml", fctd.load_case(source, stations)) is None
 
 
-def test_a_survey_whose_name_toml_cannot_hold_is_refused(source: Path, tmp_path: Path) -> None:
+def test_a_survey_path_that_is_not_utf8_is_refused(source: Path, tmp_path: Path) -> None:
     """From its own folder the path is short and in UTF-8; from elsewhere it leads through a folder that is not."""
     folder = tmp_path / "\udcff"
     folder.mkdir()

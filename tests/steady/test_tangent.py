@@ -1,4 +1,4 @@
-"""The forces of the steady string: their derivative, and that they are the stepper's own."""
+"""The forces of the steady string: their derivative, and their agreement with the stepper's."""
 
 from typing import Any
 
@@ -108,7 +108,7 @@ def test_tangent_is_the_derivative_of_the_forces(geometry: str, law: str, kind: 
 @pytest.mark.parametrize("law", ["coulomb", "paper"])
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, geometry: str) -> None:
-    """One source of truth: a balance of the steady solver, moving steadily, is one of the stepper."""
+    """A string in balance by the steady solver stays in balance when the stepper moves it at the same rate."""
     case = make_case(
         BUILD,
         [pipe(100, 5, outer=0.165), pipe(None, None, segment_length=20.0, contact_diameter=0.16)],
@@ -126,7 +126,7 @@ def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, ge
     S[state.TURNS + 1 : state.TURNS + n + 1] = np.diff(w.P[: n + 1, SPIN])
     packed = (n + LANES - 1) // LANES * LANES
     dynamics.update_axes(S, packed)
-    # So slow that the stepper's own turning with the hole costs nothing, and never near the clamp.
+    # So slow that following the hole's curvature takes no noticeable force, and never near the clamp.
     slow = 1e-3
     walls = solver.hole.at(point.profile["md_m"].to_numpy()[1:])[1]
     for k, offset in enumerate((state.VX, state.VY, state.VZ)):

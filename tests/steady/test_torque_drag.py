@@ -75,7 +75,7 @@ def test_a_row_per_operation_friction_and_depth() -> None:
         ({"friction": [0.1, "0.2"]}, 'friction = "0.1": expected a friction factor'),
     ],
 )
-def test_bad_input_is_answered(call: dict[str, Any], expected: str) -> None:
+def test_bad_input_is_refused(call: dict[str, Any], expected: str) -> None:
     arguments: dict[str, Any] = {"operation": "trip_in", "bit_depths": [500.0]} | call
     with pytest.raises(InputError) as error:
         torque_drag(case_of(), **arguments)
