@@ -1,6 +1,6 @@
-"""Result tables in the units a reader wants: values converted, the unit at the end of a column's name exchanged.
+"""Result tables in other units: the values are converted, and the column's name ends in the new unit.
 
-Inside and in files the columns are SI; the screen and pictures show the same quantities in handier units.
+In memory and in files the columns are SI; screen and pictures show the same quantities in larger or smaller units.
 """
 
 from typing import Final, Literal, NamedTuple
@@ -21,7 +21,7 @@ class Measure(NamedTuple):
     field: str
 
 
-# In this order: a column that ends in `_N_m` is no length.
+# The order matters: a column that ends in `_N_m` is not a length.
 MEASURES: Final = (
     Measure("N*m", "kN*m", "kft*lbf"),
     Measure("Pa", "MPa", "ksi"),
@@ -40,7 +40,7 @@ class Shown(NamedTuple):
 
 
 def measure_of(column: str) -> Measure | None:
-    """What a column of an SI table measures; None for names, counts, angles and plain numbers."""
+    """Units of a column of an SI table; None for names, counts, angles and plain numbers."""
     if column in COLUMNS and COLUMNS[column].across:
         return ACROSS
     return next((measure for measure in MEASURES if column.endswith(_ending(measure.table))), None)

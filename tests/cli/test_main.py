@@ -208,7 +208,7 @@ def test_a_case_in_its_own_result_folder_stays(case_file: Path, monkeypatch: pyt
 @pytest.mark.parametrize(
     ("out", "expected"),
     [
-        (".", "a folder of its own for the results, such as result"),
+        (".", "a folder for the results alone, such as result"),
         ("x" * 250, "a folder that can be written (File name too long)"),
         ("small.toml", "a folder that can be written (this is a file)"),
         ("small.toml/out", "a folder that can be written"),

@@ -67,7 +67,7 @@ def test_the_case_is_written_as_the_user_has_it(
     cut = f"{found.segments} {found.layout} segments" if graded else f"{found.segments} segments"
     assert f"{cut}, from {found.shortest:.3g} m up" in screen
     assert found.layout == ("graded" if graded else "uniform")
-    assert "Grading would not" not in screen
+    assert "A graded layout would save" not in screen
     assert f"{found.steps['hookload_N'].iloc[-1] / 1e3:.2f}" in screen
 
     text = out.read_text()
@@ -123,7 +123,7 @@ def test_grading_that_saves_nothing_is_told(
     assert run(monkeypatch, "refine", case_file, *options) == 0
     screen = capsys.readouterr().out
     assert "uniform segments, from" in screen
-    assert "Grading would not save a tenth of them." in screen
+    assert "A graded layout would save less than a tenth of the segments." in screen
     assert " graded " in screen
 
 

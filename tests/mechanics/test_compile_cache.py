@@ -20,7 +20,7 @@ from numba.core.dispatcher import Dispatcher
 from rich.console import Console
 
 import fctd
-from fctd.cli.compile import compile_command, listening, telling
+from fctd.cli.compile import announcing, compile_command, listening
 from fctd.mechanics import compile_cache, jit
 from fctd.mechanics.compile_cache import CompileCacheWarning, Store, open_store
 
@@ -277,7 +277,7 @@ def test_listening_names_what_is_compiled(folder: Path) -> None:
 def test_a_first_run_says_once_why_it_waits(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = StringIO()
     monkeypatch.setattr("fctd.cli.compile.messages", Console(file=seen, force_terminal=True))
-    with telling():
+    with announcing():
         assert hits(twice, 3.0) == 1
         assert seen.getvalue() == ""
         hits(thrice, 4.5)
@@ -286,7 +286,7 @@ def test_a_first_run_says_once_why_it_waits(folder: Path, monkeypatch: pytest.Mo
 
 
 def test_a_command_says_plainly_what_is_wrong_with_the_cache(capsys: pytest.CaptureFixture[str]) -> None:
-    with telling(), warnings.catch_warnings():
+    with announcing(), warnings.catch_warnings():
         warnings.simplefilter("default")
         warnings.warn("x[b] is damaged", CompileCacheWarning, stacklevel=1)
     assert capsys.readouterr().err == "warning: x[b] is damaged\n"

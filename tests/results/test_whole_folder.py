@@ -206,7 +206,7 @@ def test_the_current_folder_is_not_replaced(place: str, tmp_path: Path, monkeypa
     with pytest.raises(InputError) as caught:
         check_folder(Path(place).expanduser(), "--out")
     remedy = Path(place).expanduser() / "result"
-    assert f"expected a folder of its own for the results, such as {remedy} (this one is or holds" in str(caught.value)
+    assert f"expected a folder for the results alone, such as {remedy} (this one is or contains" in str(caught.value)
     assert check_folder(remedy).name == "result"
 
 
@@ -214,7 +214,7 @@ def test_the_current_folder_is_not_replaced(place: str, tmp_path: Path, monkeypa
 def test_a_mount_point_is_refused(mounted: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "out" / "inside").mkdir(parents=True)
     monkeypatch.setattr(os.path, "ismount", lambda place: place == tmp_path / mounted)
-    with pytest.raises(InputError, match=r"this one is or holds a mount point"):
+    with pytest.raises(InputError, match=r"this one is or contains a mount point"):
         check_folder(tmp_path / "out")
 
 
