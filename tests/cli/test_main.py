@@ -1,4 +1,4 @@
-"""The command line as a user meets it: files written, messages, exit codes."""
+"""The command line: files written, messages, exit codes."""
 
 import json
 import os
@@ -149,7 +149,7 @@ def test_an_unknown_option_is_exit_code_2(
     assert "--frction" in capsys.readouterr().err
 
 
-def test_a_disk_that_is_full_costs_the_file_and_not_the_answer(
+def test_with_a_full_disk_the_answer_is_still_printed(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def full(*_: object) -> None:

@@ -1,4 +1,4 @@
-"""A result folder is the old one or the new one, whatever happens to the process that replaces it."""
+"""A result folder is the complete old one or the complete new one, also where the replacing process is killed."""
 
 import os
 import subprocess
@@ -70,7 +70,7 @@ def test_killed_at_every_step_it_is_the_old_or_the_new_one(tmp_path: Path) -> No
 
 
 def test_what_the_user_made_meanwhile_is_kept(tmp_path: Path) -> None:
-    """Killed between the renames, and the user writes notes into a folder made anew."""
+    """Killed between the renames; then the user makes the folder again and writes notes into it."""
     folder, old, new = tmp_path / "out", tmp_path / f".out-old-{ENDED}", tmp_path / f".out-run-{ENDED}"
     earlier(old)
     result(2.0).save(new)
