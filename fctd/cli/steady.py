@@ -213,7 +213,7 @@ def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
     for key, path in wanted.items():
         check_target(path, key, PICTURES)
     if len({path.resolve() for path in wanted.values()}) < len(wanted):
-        raise InputError("a different file for each picture", key=key, value=path)
+        raise InputError("a file of its own for each picture", key=key, value=path)
     if not wanted:
         return None
     try:

@@ -259,7 +259,7 @@ def test_metres_of_the_wrong_component_are_a_defect(monkeypatch: pytest.MonkeyPa
     wrong = {400.0: 401.0, 600.0: 599.0}
     monkeypatch.setattr(drillstring, "_divide", lambda part, take: whole(part, wrong[take]))
     case = make_case(components=[pipe(400, None, outer=0.159, segment_length=10.0), pipe(None, 1)])
-    with pytest.raises(AssertionError, match=r"a component are not as long.*\[400\.0, 600\.0\] m"):
+    with pytest.raises(AssertionError, match=r"a component do not add up.*\[400\.0, 600\.0\] m"):
         lay_out(case, 1000.0)
 
 
