@@ -3,6 +3,7 @@
 from typing import Any
 
 from fctd.case.load import Case
+from fctd.model.wellbore import Wellbore, build_wellbore
 
 
 def make_case(
@@ -29,6 +30,11 @@ def make_case(
             **sections,
         }
     )
+
+
+def hole_of(stations: list[list[float]], **wellbore: Any) -> Wellbore:
+    """The hole of such a case."""
+    return build_wellbore(make_case(stations, wellbore=wellbore))
 
 
 def pipe(length: float | None, segments: int | None, outer: float = 0.127, **more: Any) -> dict[str, Any]:

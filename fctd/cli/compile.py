@@ -8,10 +8,11 @@ from typing import Any, TextIO
 
 import typer
 from numba.core import event
+from rich.console import Console
 
 from fctd.case.load import Case
 from fctd.cli.options import FAILED, Quiet, messages, screen
-from fctd.mechanics.compile_cache import STORE, CompileCacheWarning, KeptCode
+from fctd.mechanics.compile_cache import STORE, CompileCacheWarning, KeptCode, Store
 from fctd.simulation.simulate import simulate
 from fctd.steady.equilibrium import equilibrium
 
@@ -33,6 +34,11 @@ SMALL: dict[str, Any] = {
 
 def compile_command(quiet: Quiet = False) -> None:
     """Compile the engine now; otherwise the first command that needs it compiles it."""
+    compile_into(STORE, compile_all, quiet)
+
+
+def compile_into(store: Store, compiling: Callable[[], object], quiet: bool = False) -> None:
+    """Call ``compiling``; print the functions it compiled and the folder of ``store``, or exit with code 1 without one."""
     began, names = time.perf_counter(), set[str]()
 
     def progress(name: str) -> None:
@@ -41,13 +47,13 @@ def compile_command(quiet: Quiet = False) -> None:
             messages.print(f"  {name}", highlight=False, markup=False)
 
     with listening(progress):
-        compile_all()
-    if not STORE.lasting:
+        compiling()
+    if not store.lasting:
         advice = "set NUMBA_CACHE_DIR to a folder that can be written"
         messages.print(f"compiled code could not be kept: {advice}", style="bold")
         raise typer.Exit(FAILED)
     taken = f"{len(names)} functions in {time.perf_counter() - began:.0f} s" if names else "nothing to do"
-    screen.print(f"Compiled: {taken}, kept in {STORE.folder}", soft_wrap=True, highlight=False, markup=False)
+    screen.print(f"Compiled: {taken}, kept in {store.folder}", soft_wrap=True, highlight=False, markup=False)
 
 
 def compile_all() -> None:
@@ -78,7 +84,7 @@ class _Listener(event.Listener):
 
 
 @contextmanager
-def announcing() -> Iterator[None]:
+def announcing(messages: Console = messages) -> Iterator[None]:
     """Inside, print on standard error that functions are compiled, and every warning about the compile cache."""
     compiled: list[str] = []
 

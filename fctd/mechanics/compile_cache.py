@@ -118,9 +118,10 @@ def open_store() -> Store:
 
 
 class KeptCode(_Cache):
-    """The compiled forms of one function, as numba's dispatcher asks for them."""
+    """The compiled forms of one function in a store, as numba's dispatcher asks for them."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
+    def __init__(self, function: Callable[..., Any], store: Store) -> None:
+        self._store = store
         self._label = f"{function.__module__}.{function.__qualname__}"
         source = Path(function.__code__.co_filename).read_bytes()
         # What decides whether code may be used again, beside argument types and processor.
@@ -130,14 +131,14 @@ class KeptCode(_Cache):
     @property
     def cache_path(self) -> str:
         """The folder, empty where there is none."""
-        return str(STORE.folder or "")
+        return str(self._store.folder or "")
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The compiled form for argument types; None where it has to be compiled."""
         target_context.refresh()
         if not self._enabled:
             return None
-        data = STORE.read(self._name(sig, target_context.codegen()))
+        data = self._store.read(self._name(sig, target_context.codegen()))
         return None if data is None else CompileResult._rebuild(target_context, *pickle.loads(data))
 
     def save_overload(self, sig: Any, data: Any) -> None:
@@ -145,7 +146,7 @@ class KeptCode(_Cache):
         if self._enabled:
             if data.lifted or data.library.has_dynamic_globals:
                 raise ValueError(f"{self._label} holds what only this process has and cannot be kept")
-            STORE.write(self._name(sig, data.codegen), dumps(data._reduce()))
+            self._store.write(self._name(sig, data.codegen), dumps(data._reduce()))
 
     def _name(self, sig: Any, codegen: Any) -> str:
         types, _ = normalize_signature(sig)
@@ -162,7 +163,7 @@ class KeptCode(_Cache):
 
     def flush(self) -> None:
         """Forget what is kept of this function."""
-        for path in STORE.folder.glob(f"{self._label}-*") if STORE.folder else ():
+        for path in self._store.folder.glob(f"{self._label}-*") if self._store.folder else ():
             path.unlink()
 
 

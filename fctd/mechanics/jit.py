@@ -10,7 +10,7 @@ from typing import Any
 
 from numba import njit
 
-from fctd.mechanics.compile_cache import KeptCode
+from fctd.mechanics.compile_cache import STORE, KeptCode, Store
 
 # Products and sums may be contracted into one instruction, which rounds once.
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}, "forceinline": False}
@@ -28,9 +28,9 @@ def inlined(function: Callable[..., Any]) -> Any:
     return njit(**INLINED)(function)
 
 
-def entry(function: Callable[..., Any]) -> Any:
-    """Compile a function that Python calls, and keep it on disk."""
+def entry(function: Callable[..., Any], store: Store = STORE) -> Any:
+    """Compile a function that Python calls, and keep it in a store on disk."""
     compiled: Any = njit(**OPTIONS)(function)
     if hasattr(compiled, "_cache"):  # a plain function has none (NUMBA_DISABLE_JIT)
-        compiled._cache = KeptCode(function)
+        compiled._cache = KeptCode(function, store)
     return compiled

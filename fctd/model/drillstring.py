@@ -219,9 +219,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         sections=tuple(section_of(c, case.mud.density) for c in components[: len(taken)]),
         long_segment=long_segment,
     )
-    # Mass and weight are right only where the segments of each component add up to its length.
-    if np.abs(np.bincount(string.component, string.length) - taken).max() > SAME_LENGTH:
-        raise AssertionError(f"the segments of a component do not add up to its length in the hole, {taken} m")
+    check_lengths(string, taken)
     return string
 
 
@@ -246,6 +244,15 @@ def _check_segments(segments: float) -> None:
         raise InputError(
             f"at most {state.MAX_SEGMENTS} segments in all", key="string.components", value=f"{segments:.7g} segments"
         )
+
+
+def check_lengths(string: String, taken: list[float]) -> None:
+    """Raise AssertionError unless the segments of each component add up to its length in the hole, ``taken`` [m].
+
+    Otherwise mass and weight of the string would be wrong.
+    """
+    if np.abs(np.bincount(string.component, string.length) - taken).max() > SAME_LENGTH:
+        raise AssertionError(f"the segments of a component do not add up to its length in the hole, {taken} m")
 
 
 def _divide(part: ComponentSpec, take: float) -> list[float]:

@@ -142,12 +142,12 @@ class Wellbore:
 
     def _query(self, points: Array, near: NDArray[np.int64] | None) -> tuple[Array, NDArray[np.int64]]:
         points = np.ascontiguousarray(np.atleast_2d(points), dtype=float)
-        owner = self._nearest(points) if near is None else near.copy()
+        owner = self.nearest(points) if near is None else near.copy()
         out = np.empty((len(points), WALL_COLUMNS))
         query_walls(self.pieces, self.geometry, points, owner, out)
         return out, owner
 
-    def _nearest(self, points: Array) -> NDArray[np.int64]:
+    def nearest(self, points: Array) -> NDArray[np.int64]:
         """Piece nearest to each point, from samples of the axis at most half a metre apart."""
         md = _divided(self.md, np.maximum(np.ceil(np.diff(self.md) / 0.5), 1))
         _, i = cKDTree(self.at(md)[0]).query(points)

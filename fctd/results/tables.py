@@ -102,9 +102,10 @@ def own_files(folder: Path) -> set[str]:
     return {path.name for path in found.union(*map(left_overs, places))}
 
 
-def open_result(folder: Path) -> SimulationResult:
+def open_result(folder: Path, pause: float = PAUSE) -> SimulationResult:
     """The result that ``SimulationResult.save`` wrote into a folder; first completes a replacement that was killed.
 
+    pause : between two attempts to read a folder that another process may be replacing [s].
     Raises InputError for a folder without a whole result, and for one whose tables come from different runs.
     """
     for attempt in range(ATTEMPTS):
@@ -114,7 +115,7 @@ def open_result(folder: Path) -> SimulationResult:
         except InputError:
             if attempt == ATTEMPTS - 1:
                 raise
-            time.sleep(PAUSE)
+            time.sleep(pause)
     raise AssertionError("the last attempt returns or raises")
 
 

@@ -66,8 +66,8 @@ def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
             columns[name] = table[name]
         else:
             renamed = name.removesuffix(_ending(measure.table)) + _ending(measure.field)
-            values = table[name] * conversion(measure.table, measure.field)
-            # 15 digits: a depth of 609.6 m is 2000 ft, not 1999.999999999998 ft.
+            # Division by 0.3048, which is exact, and rounding to 15 digits give 100 ft for 30.48 m.
+            values = table[name] / conversion(measure.field, measure.table)
             columns[renamed] = values.map("{:.15g}".format).astype(float)
     return pd.DataFrame(columns)
 

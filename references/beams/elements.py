@@ -134,7 +134,7 @@ class Beam:
         whole = Basis(mesh, element, intorder=WALL_POINTS)
         ends = np.array([[0.0, 1.0]]), np.array([0.5, 0.5])
         self.wall = Basis(mesh, element, quadrature=ends) if at_ends else whole
-        self._strained = _Points(self.strains, [Z, X, TURN], [TURN])
+        self.strained = _Points(self.strains, [Z, X, TURN], [TURN])
         self._touching = _Points(self.wall, [], [Z, X, TURN])
         carrying = _Points(whole, [], [Z, X, TURN])
         ones = np.ones(whole.dx.shape)
@@ -175,7 +175,7 @@ class Beam:
 
     def _strains(self, q: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Γ₁, Γ₂, κ, cos θ and sin θ at the strain points."""
-        dz, dx, bend, turn = self._strained.of(q)
+        dz, dx, bend, turn = self.strained.of(q)
         cosine, sine = np.cos(turn), np.sin(turn)
         return dz * cosine + dx * sine - 1, -dz * sine + dx * cosine, bend, cosine, sine
 
@@ -193,7 +193,7 @@ class Beam:
             hessian[row, 3] += value
             hessian[3, row] += value
         hessian[3, 3] -= n * (1 + stretch) + v * shear
-        return self._strained.forces(gradient), self._strained.tangents(hessian)
+        return self.strained.forces(gradient), self.strained.tangents(hessian)
 
     def strain_energy(self, q: Array) -> float:
         """Energy of stretching, shear and bending [J]."""
@@ -241,7 +241,7 @@ class Beam:
         load = self.wall_load(q, velocity)
         force = force - self.gravity + self._touching.forces(load.resistance)
         tangents += self._touching.tangents(load.by_position + rate * load.by_velocity)
-        return force, self._strained.matrix(tangents), load
+        return force, self.strained.matrix(tangents), load
 
 
 def _add_mud(
@@ -292,15 +292,19 @@ def _add_friction(
 
 
 def newton(
-    residual: Callable[[Array], tuple[Array, csc_matrix]], q: Array, free: NDArray[np.int64], tolerance: float
+    residual: Callable[[Array], tuple[Array, csc_matrix]],
+    q: Array,
+    free: NDArray[np.int64],
+    tolerance: float,
+    most: int = MOST_ITERATIONS,
 ) -> tuple[Array, int]:
     """Solve ``residual(q) = (r, tangent)`` for the free dofs; returns the solution and the number of iterations.
 
-    tolerance [N] : largest r of a solution.  Raises ConvergenceError.
+    tolerance [N] : largest r of a solution.  Raises ConvergenceError after ``most`` iterations.
     """
     q = q.copy()
     size = np.inf
-    for iteration in range(MOST_ITERATIONS):
+    for iteration in range(most):
         r, tangent = residual(q)
         size = float(np.abs(r[free]).max())
         if not np.isfinite(size):
@@ -308,7 +312,7 @@ def newton(
         if size < tolerance:
             return q, iteration
         q[free] -= splu(tangent[free][:, free].tocsc()).solve(r[free])
-    raise ConvergenceError(f"the largest unbalanced force is {size:.2g} N after {MOST_ITERATIONS} iterations")
+    raise ConvergenceError(f"the largest unbalanced force is {size:.2g} N after {most} iterations")
 
 
 def statics(

@@ -1,8 +1,6 @@
 """Case files: what is accepted, in which units, and how each wrong value is answered."""
 
-import contextlib
 import copy
-import json
 import math
 import pickle
 from pathlib import Path
@@ -11,21 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from fctd.case import units
-from fctd.case.errors import MISSING, InputError
+from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case, parse_override
 from fctd.case.operations import RotateOffBottom, TripOut
-from tests.strategies import CASE, COMBINED, RULES, cases, corrupted_cases, write_case
-
-
-@pytest.fixture
-def case_file(tmp_path: Path) -> Path:
-    """The valid case above as a file."""
-    path = tmp_path / "well.toml"
-    path.write_text(CASE, encoding="utf-8")
-    return path
+from tests.strategies import cases, corrupted_cases, write_case
 
 
 def refusal(path: Path, overrides: dict[str, Any] | None = None) -> InputError:
@@ -47,21 +35,6 @@ def test_values_are_si(case_file: Path) -> None:
     assert case.operations[1].ramp_time == 10.0
 
 
-def test_defaults(case_file: Path) -> None:
-    case = load_case(case_file)
-    hole, pipe = case.wellbore, case.string.components[1]
-    assert (hole.survey_method, hole.geometry, hole.overlap) == ("minimum_curvature", "cylinders", 0.2)
-    assert (hole.chord_tolerance, hole.cylinder_length) == (0.002, None)
-    assert (hole.stiffness, hole.stiffness_per_length) == (1e7, None)
-    assert (pipe.length, pipe.contact_diameter, pipe.density) == (None, 0.102, 7850.0)
-    assert (pipe.youngs_modulus, pipe.poisson_ratio, pipe.bending_stiffness) == (206.8e9, 0.3, None)
-    assert (case.mud.density, case.mud.lateral_damping) == (0.0, 0.0)
-    assert (case.rig.block_weight, case.rig.sheave_efficiency, case.rig.torque_offset) == (0.0, 1.0, 0.0)
-    assert (case.contact.friction_law, case.contact.damping) == ("coulomb", 1e4)
-    assert (case.solver.step, case.solver.joint_damping) == ("auto", 1e-5)
-    assert (case.record.interval, case.record.profile_at) == (1.0, ())
-
-
 def test_each_operation_starts_where_the_last_ended(case_file: Path) -> None:
     operations = load_case(case_file).operations
     assert [(o.start_md, o.end_md) for o in operations] == [
@@ -73,15 +46,6 @@ def test_each_operation_starts_where_the_last_ended(case_file: Path) -> None:
     assert isinstance(operations[1], RotateOffBottom)
     assert isinstance(operations[3], TripOut)
     assert [(o.speed, o.rpm) for o in operations] == [(0.5, 0.0), (0.0, 60.0), (0.1, 90.0), (0.2, 0.0)]
-
-
-def test_alternatives_replace_their_default(case_file: Path) -> None:
-    hole = load_case(
-        case_file,
-        {"wellbore.cylinder_length": "2 m", "wellbore.stiffness_per_length": "1e6 N/m/m"},
-    ).wellbore
-    assert (hole.chord_tolerance, hole.cylinder_length) == (None, 2.0)
-    assert (hole.stiffness, hole.stiffness_per_length) == (None, 1e6)
 
 
 def test_a_byte_order_mark_is_nothing(case_file: Path) -> None:
@@ -256,48 +220,6 @@ def test_a_wrong_survey_is_named_instead_of_the_case(case_file: Path) -> None:
 # --- every rule that a file can break --------------------------------------------------------------
 
 
-def check(path: Path, overrides: dict[str, Any], key: str, value: object, expected: str) -> None:
-    """The overrides are refused by a message with file, key, value and what was expected."""
-    error = refusal(path, overrides)
-    assert (error.file, error.key, error.value) == (path, key, value)
-    shown = f"{key} is missing: " if value is MISSING else f"{key} = {json.dumps(value)}: "
-    first = str(error).splitlines()[0]
-    assert first.startswith(f"{path}: {shown}expected ")
-    assert expected in first
-
-
-@pytest.mark.parametrize(("key", "value", "expected"), RULES)
-def test_rule(case_file: Path, key: str, value: object, expected: str) -> None:
-    """One key set to a wrong value, or deleted where the value is None."""
-    check(case_file, {key: value}, key, MISSING if value is None else value, expected)
-
-
-@pytest.mark.parametrize(("overrides", "key", "value", "expected"), COMBINED)
-def test_combined_rule(case_file: Path, overrides: dict[str, Any], key: str, value: object, expected: str) -> None:
-    """Keys that do not go together, and wrong items inside lists."""
-    check(case_file, overrides, key, value, expected)
-
-
-def test_the_message_of_the_documentation(case_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(case_file.parent)
-    error = refusal(Path("well.toml"), {"string.components[0].length": "-2 m"})
-    assert str(error) == 'well.toml: string.components[0].length = "-2 m": expected a length above 0'
-
-
-def test_several_problems_stand_on_lines_of_their_own(case_file: Path) -> None:
-    error = refusal(case_file, {"mud.density": "-1 ppg", "rig.sheave_efficiency": 2})
-    assert [line.split(": ")[1] for line in str(error).splitlines()] == [
-        'mud.density = "-1 ppg"',
-        "rig.sheave_efficiency = 2",
-    ]
-
-
-def test_what_follows_from_a_problem_is_not_reported(case_file: Path) -> None:
-    """The next start is filled in from a bad end, and contact_diameter from a bad outer_diameter."""
-    overrides = {"operations[0].to_md": "far", "string.components[0].outer_diameter": "wide"}
-    assert len(str(refusal(case_file, overrides)).splitlines()) == 2
-
-
 def test_operations_that_omit_a_start_may_not_follow_a_missing_end(case_file: Path) -> None:
     assert "operations[0].to_md is missing" in str(refusal(case_file, {"operations[0].to_md": None}))
 
@@ -328,11 +250,6 @@ def test_a_folder_is_no_case(tmp_path: Path) -> None:
     assert "a case file that can be read" in str(refusal(tmp_path))
 
 
-def test_an_error_survives_pickling(case_file: Path) -> None:
-    error = refusal(case_file, {"mud.density": "-1 ppg", "rig.sheave_efficiency": 2, "name": None})
-    assert str(pickle.loads(pickle.dumps(error))) == str(error)
-
-
 # --- any case --------------------------------------------------------------------------------------
 
 
@@ -358,54 +275,3 @@ def test_a_corrupted_case_is_accepted_or_refused(raw: dict[str, Any], tmp_path_f
     for line in answer.splitlines():
         assert line.startswith(f"{path}: ")
         assert "expected " in line
-
-
-# --- quantities ------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("text", "dimension", "value"),
-    [
-        ("12 m", units.LENGTH, 12.0),
-        ("40 ft", units.LENGTH, 12.192),
-        ("8.5in", units.LENGTH, 0.2159),
-        ("-2 mm", units.LENGTH, -0.002),
-        ("102 mm", units.LENGTH, 0.102),
-        (3, units.LENGTH, 3.0),
-        ("1e6 N/m/m", units.STIFFNESS_PER_LENGTH, 1e6),
-        ("1200 kg/m^3", units.DENSITY, 1200.0),
-        ("1200 kg/m³", units.DENSITY, 1200.0),
-        ("10 ppg", units.DENSITY, 1198.26427316897),  # 0.45359237 kg / (231 · 0.0254³ m³)
-        ("1.4 sg", units.DENSITY, 1400.0),
-        ("5 N*m", units.TORQUE, 5.0),
-        ("5 N·m", units.TORQUE, 5.0),
-        ("206.8 GPa", units.STRESS, 206.8e9),
-        ("3 lbf", units.FORCE, 13.3446648457815),  # 0.45359237 · 9.80665 N
-        ("3 klbf", units.FORCE, 13344.6648457815),
-        ("1 lb/ft", units.LINEAR_MASS, 1.48816394356955),  # 0.45359237 / 0.3048 kg/m
-        ("60 ft/min", units.SPEED, 0.3048),
-        ("2 min", units.TIME, 120.0),
-        ("3 N*m*s/m", units.ROTATIONAL_DAMPING, 3.0),
-    ],
-)
-def test_quantity(text: object, dimension: units.Dimension, value: float) -> None:
-    assert units.Quantity(dimension=dimension).parse(text) == pytest.approx(value, rel=1e-14)
-
-
-@pytest.mark.parametrize(
-    "value",
-    [
-        *("12", "m", "", "12 s", "12 parsnips", "nan m", "inf m", "1e400 m", "1e99999999999999999999 m"),
-        *("1,2 m", "8 1/2 in", "2 m + 3 m", "10**10**10 m", "2 m * 3", "3 degC", "1 m m", "__import__('os')"),
-        *(True, None, math.nan, math.inf, 10**400, [1], {}),
-    ],
-)
-def test_no_quantity(value: object) -> None:
-    with pytest.raises(InputError, match="expected a length such as '12 m' or '40 ft'"):
-        units.Quantity(dimension=units.LENGTH).parse(value)
-
-
-@given(text=st.text(max_size=12) | st.from_regex(r"\A[0-9]{1,3} [a-zµ°]{1,5}([*/^]{1,2}[a-z0-9]{1,3})?\Z"))
-def test_any_text_is_a_length_or_refused(text: str) -> None:
-    with contextlib.suppress(InputError):
-        assert math.isfinite(units.Quantity(dimension=units.LENGTH).parse(text))

@@ -7,8 +7,6 @@ from pathlib import Path
 import pytest
 
 import fctd
-from fctd.case.errors import InputError
-from fctd.cli.options import read_share
 from tests.cli.test_main import run
 
 CASE = """
@@ -194,14 +192,3 @@ def test_bad_input_is_one_message_and_exit_code_2(
     assert "Traceback" not in message
     for part in expected:
         assert part in message
-
-
-@pytest.mark.parametrize(("text", "share"), [("1%", 0.01), ("1 %", 0.01), ("0.01", 0.01), (" 2.5% ", 0.025)])
-def test_a_share_is_read_with_and_without_percent(text: str, share: float) -> None:
-    assert read_share(text, "--tolerance") == pytest.approx(share)
-
-
-@pytest.mark.parametrize("text", ["", "%", "one", "nan", "inf", "1", "100%", "0%", "1%%"])
-def test_what_is_no_share_is_refused(text: str) -> None:
-    with pytest.raises(InputError, match="--tolerance"):
-        read_share(text, "--tolerance")

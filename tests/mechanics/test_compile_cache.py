@@ -1,63 +1,43 @@
-"""Compiled code on disk: damage, full disks, folders of others, and that no function leaves an option open."""
+"""Compiled code on disk: damage, full disks, folders of others."""
 
 import os
 import pickle
-import pkgutil
 import resource
 import shutil
-import subprocess
-import sys
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from importlib import import_module
-from io import StringIO
 from pathlib import Path
-from typing import Any
 
 import pytest
-from numba.core.dispatcher import Dispatcher
-from rich.console import Console
 
-import fctd
-from fctd.cli.compile import announcing, compile_command, listening
 from fctd.mechanics import compile_cache, jit
 from fctd.mechanics.compile_cache import CompileCacheWarning, Store, open_store
-
-
-def twice(x):
-    return 2 * x
-
-
-def thrice(x):
-    return 3 * x
+from tests.compiled import hits, store_of_one, thrice, twice
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def store(tmp_path: Path) -> Store:
     """A folder of compiled code that holds one function's."""
-    tmp_path.chmod(0o700)
-    monkeypatch.setattr(compile_cache, "STORE", Store(tmp_path))
-    assert jit.entry(twice)(1.5) == 3.0
-    return tmp_path
+    return store_of_one(tmp_path)
 
 
-def hits(function: Callable[..., Any], expected: float) -> int:
-    """How often the code of ``function`` is found on disk by a new process's first call."""
-    fresh = jit.entry(function)
-    assert fresh(1.5) == expected
-    return sum(fresh.stats.cache_hits.values())
+@pytest.fixture
+def file(store: Store) -> Path:
+    """The only file of that folder."""
+    assert store.folder is not None
+    (path,) = store.folder.iterdir()
+    return path
 
 
-def test_code_is_read_back(folder: Path) -> None:
-    (file,) = folder.iterdir()
+def test_code_is_read_back(store: Store, file: Path) -> None:
     assert file.stat().st_mode & 0o777 == 0o600
-    assert hits(twice, 3.0) == 1
+    assert hits(store, twice, 3.0) == 1
 
 
 def other_code(file: Path) -> bytes:
     """The sound file of another function."""
-    assert jit.entry(thrice)(1.5) == 4.5
+    assert jit.entry(thrice, Store(file.parent))(1.5) == 4.5
     (other,) = set(file.parent.iterdir()) - {file}
     return other.read_bytes()
 
@@ -76,38 +56,35 @@ DAMAGES: dict[str, Callable[[Path], bytes]] = {
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
-def test_damaged_code_is_compiled_anew_once(damage: str, folder: Path) -> None:
-    (file,) = folder.iterdir()
+def test_damaged_code_is_compiled_anew_once(damage: str, store: Store, file: Path) -> None:
     file.write_bytes(DAMAGES[damage](file))
     with pytest.warns(CompileCacheWarning, match=r"twice-\w+ is damaged: it is compiled anew and replaced"):
-        assert hits(twice, 3.0) == 0
-    assert hits(twice, 3.0) == 1
+        assert hits(store, twice, 3.0) == 0
+    assert hits(store, twice, 3.0) == 1
 
 
-def test_a_folder_in_place_of_a_file_is_replaced(folder: Path) -> None:
-    (file,) = folder.iterdir()
+def test_a_folder_in_place_of_a_file_is_replaced(store: Store, file: Path) -> None:
     file.unlink()
     (file / "inside").mkdir(parents=True)
     with pytest.warns(CompileCacheWarning, match="cannot be read \\(Is a directory\\)"):
-        assert hits(twice, 3.0) == 0
-    assert hits(twice, 3.0) == 1
+        assert hits(store, twice, 3.0) == 0
+    assert hits(store, twice, 3.0) == 1
 
 
-def test_code_that_another_user_may_have_written_is_not_run(folder: Path) -> None:
-    (file,) = folder.iterdir()
+def test_code_that_another_user_may_have_written_is_not_run(store: Store, file: Path) -> None:
     file.chmod(0o620)
     with pytest.warns(CompileCacheWarning, match="may be written by other users: it is compiled anew"):
-        assert hits(twice, 3.0) == 0
-    assert hits(twice, 3.0) == 1
+        assert hits(store, twice, 3.0) == 0
+    assert hits(store, twice, 3.0) == 1
 
 
-def test_an_error_in_sound_code_is_not_taken_for_damage(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_error_in_sound_code_is_not_taken_for_damage(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: object) -> None:
         raise EOFError("of our own")
 
     monkeypatch.setattr(compile_cache.CompileResult, "_rebuild", broken)
     with pytest.raises(EOFError, match="of our own"):
-        hits(twice, 3.0)
+        hits(store, twice, 3.0)
 
 
 @contextmanager
@@ -121,20 +98,20 @@ def files_limited_to(size: int) -> Iterator[None]:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
-def test_a_full_disk_is_told_once_and_everything_still_runs(folder: Path) -> None:
+def test_a_full_disk_is_told_once_and_everything_still_runs(store: Store, file: Path) -> None:
     told = pytest.warns(CompileCacheWarning, match="cannot be kept in .*: it is kept for this run only")
     with told, files_limited_to(1000):
-        assert hits(thrice, 4.5) == 0
-    assert not compile_cache.STORE.lasting
-    assert len(list(folder.iterdir())) == 1  # what was there, and no scratch file
-    assert hits(thrice, 4.5) == 0
+        assert hits(store, thrice, 4.5) == 0
+    assert not store.lasting
+    assert list(file.parent.iterdir()) == [file]  # what was there, and no scratch file
+    assert hits(store, thrice, 4.5) == 0
 
 
-def test_a_folder_removed_meanwhile_is_told(folder: Path) -> None:
-    shutil.rmtree(folder)
+def test_a_folder_removed_meanwhile_is_told(store: Store, file: Path) -> None:
+    shutil.rmtree(file.parent)
     with pytest.warns(CompileCacheWarning, match="cannot be kept in .* \\(No such file or directory\\)"):
-        assert hits(twice, 3.0) == 0
-    assert hits(twice, 3.0) == 0
+        assert hits(store, twice, 3.0) == 0
+    assert hits(store, twice, 3.0) == 0
 
 
 def test_a_new_folder_is_this_users_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -195,98 +172,7 @@ def test_without_any_folder_code_is_kept_in_memory(tmp_path: Path, monkeypatch: 
     (tmp_path / "file").write_text("no folder")
     monkeypatch.setattr(compile_cache.tempfile, "TemporaryDirectory", Nowhere)
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "file" / "cache"))
-    monkeypatch.setattr(compile_cache, "STORE", open_store())
+    store = open_store()
     with pytest.warns(CompileCacheWarning, match="there is no cache folder"):
-        assert hits(twice, 3.0) == 0
-    assert hits(twice, 3.0) == 0
-
-
-def dispatchers() -> dict[str, Any]:
-    """Every compiled function of the engine."""
-    modules = [import_module(module.name) for module in pkgutil.walk_packages(fctd.__path__, "fctd.")]
-    return {
-        f"{value.py_func.__module__}.{name}": value
-        for module in modules
-        for name, value in vars(module).items()
-        if isinstance(value, Dispatcher)
-    }
-
-
-def test_no_compiled_function_leaves_an_option_open() -> None:
-    """What is open numba takes from whichever caller compiles a function first: numbers then hang on the order."""
-    found = dispatchers()
-    assert len(found) > 100
-    for name, function in found.items():
-        options = {key: function.targetoptions.get(key) for key in jit.OPTIONS}
-        assert options in (jit.OPTIONS, jit.INLINED), name
-
-
-EVERY_SIGNATURE = """
-import fctd
-from fctd.cli import compile as cli_compile
-from tests import cases
-from tests.mechanics.test_compile_cache import dispatchers
-
-kept = {name: f for name, f in dispatchers().items() if hasattr(f._cache, "_label") and "external_contact" not in name}
-cli_compile.compile_all()
-# Compiled together with what calls them, and from Python called only where that fails.
-inside = {"eliminate", "add_pseudo_mass", "take_step"}
-missed = {name for name, f in kept.items() if not f.overloads and f.py_func.__name__ not in inside}
-assert not missed, missed
-stations = [[0, 0, 0], [700, 0, 0], [1000, 60, 45]]
-case = cases.make_case(
-    stations, [cases.pipe(200, 10), cases.pipe(None, 1)], [cases.trip(800, 801)],
-    wellbore={"geometry": "arcs"}, contact={"friction_law": "paper"},
-)
-fctd.simulate(case)
-fctd.torque_drag(case, operation=["trip_out", "rotate_off_bottom"], bit_depths=[750, 800])
-fctd.refine(case, tolerance=0.1)
-several = {name: f.signatures for name, f in kept.items() if len(f.signatures) > 1}
-assert not several, several
-"""
-
-
-def test_compile_reaches_every_function_with_every_signature() -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", EVERY_SIGNATURE], cwd=Path(__file__).parents[2], capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-
-
-def test_the_command_says_what_it_compiled_and_where(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr("fctd.cli.compile.STORE", compile_cache.STORE)
-    monkeypatch.setattr("fctd.cli.compile.compile_all", lambda: hits(thrice, 4.5))
-    compile_command()
-    seen = capsys.readouterr()
-    assert "thrice" in seen.err
-    assert "Compiled: 1 functions in 0 s, kept in" in seen.out
-    compile_command()
-    assert "Compiled: nothing to do, kept in" in capsys.readouterr().out
-
-
-def test_listening_names_what_is_compiled(folder: Path) -> None:
-    names: list[str] = []
-    with listening(names.append):
-        hits(twice, 3.0)
-        hits(thrice, 4.5)
-    assert names == ["thrice"]
-
-
-def test_a_first_run_says_once_why_it_waits(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    seen = StringIO()
-    monkeypatch.setattr("fctd.cli.compile.messages", Console(file=seen, force_terminal=True))
-    with announcing():
-        assert hits(twice, 3.0) == 1
-        assert seen.getvalue() == ""
-        hits(thrice, 4.5)
-        hits(lambda x: x, 1.5)
-    assert seen.getvalue().count("compiling, once for this version") == 1
-
-
-def test_a_command_says_plainly_what_is_wrong_with_the_cache(capsys: pytest.CaptureFixture[str]) -> None:
-    with announcing(), warnings.catch_warnings():
-        warnings.simplefilter("default")
-        warnings.warn("x[b] is damaged", CompileCacheWarning, stacklevel=1)
-    assert capsys.readouterr().err == "warning: x[b] is damaged\n"
+        assert hits(store, twice, 3.0) == 0
+    assert hits(store, twice, 3.0) == 0

@@ -35,8 +35,7 @@ ENGINES: dict[str, tuple[str, dict[str, Any]]] = {
 SOLVER, BY_SIMILARITY = "steady solver", "steady solver, full size by similarity"
 STEPPER = "FCTD's stepper, at its own size"
 FAIR = ("Bullet", "MuJoCo", "PyElastica")
-# Duration [s] of the model at a thousandth: a wave runs down its 1.5 m of steel and back in a millisecond.
-SMALL_WINDOW = 0.1
+SMALL_WINDOW = 0.1  # [s] of the model at a thousandth, down whose 1.5 m of steel a wave runs and back in a millisecond
 # Holes and operations of the curved chain.
 WINDOWS = (
     ("planar", "rotate_off_bottom"), ("planar", "trip_out"), ("planar", "trip_in"), ("turning", "rotate_off_bottom"),

@@ -109,11 +109,11 @@ def as_done() -> pd.DataFrame:
                 f"soft_hookload_{law}_kN": soft.hookload / 1e3,
                 f"soft_torque_{law}_kN_m": (soft.surface_torque - given) / 1e3,
             }
-        row["drag_ratio"] = _ratio(row["drag_paper_kN"], row["drag_coulomb_kN"])
-        row["torque_ratio"] = _ratio(row["torque_paper_kN_m"], row["torque_coulomb_kN_m"])
+        row["drag_ratio"] = ratio_of(row["drag_paper_kN"], row["drag_coulomb_kN"])
+        row["torque_ratio"] = ratio_of(row["torque_paper_kN_m"], row["torque_coulomb_kN_m"])
         for model in ("", "soft_"):
             for load_, unit in (("hookload", "kN"), ("torque", "kN_m")):
-                ratio = _ratio(row[f"{model}{load_}_paper_{unit}"], row[f"{model}{load_}_coulomb_{unit}"])
+                ratio = ratio_of(row[f"{model}{load_}_paper_{unit}"], row[f"{model}{load_}_coulomb_{unit}"])
                 row[f"{model}{load_}_off_percent"] = 100 * (ratio - 1)
         rows.append(row)
     return pd.DataFrame(rows)
@@ -126,7 +126,7 @@ def _solve(solver: Solver, kind: str, speed: float, rpm: float) -> Equilibrium:
     return point
 
 
-def _ratio(value: float, other: float) -> float:
+def ratio_of(value: float, other: float) -> float:
     """Of two loads [kN, kN·m]; NaN where both are within rounding."""
     return value / other if other > 1e-6 else float("nan")
 

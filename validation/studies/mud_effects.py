@@ -153,14 +153,14 @@ def decay(quick: bool) -> tuple[pd.DataFrame, pd.DataFrame]:
         history = completed(simulate(case)).history[["time_s", "surface_torque_N_m"]].assign(viscosity_Pa_s=viscosity)
         frames.append(history)
         rows.append(
-            {"viscosity_Pa_s": viscosity, "rate_per_s": _rate(history), "mode_per_s": _mode_rate(case, turning)}
+            {"viscosity_Pa_s": viscosity, "rate_per_s": decay_rate(history), "mode_per_s": mode_rate(case, turning)}
         )
     table = pd.DataFrame(rows)
     table["added_per_s"] = table["rate_per_s"] - table["rate_per_s"].iloc[0]
     return table, pd.concat(frames, ignore_index=True)
 
 
-def _rate(history: pd.DataFrame) -> float:
+def decay_rate(history: pd.DataFrame) -> float:
     """Decay rate [1/s] of the swing of the torque, from its size in windows of five periods."""
     late = history[history["time_s"] > 10.0]
     window = ((late["time_s"] - 10.0) // WINDOW).astype(int)
@@ -170,7 +170,7 @@ def _rate(history: pd.DataFrame) -> float:
     return -float(np.polyfit(WINDOW * np.arange(len(swing)), np.log(swing.to_numpy()), 1)[0])
 
 
-def _mode_rate(case: Case, turning: float) -> float:
+def mode_rate(case: Case, turning: float) -> float:
     """The same for the first torsional mode of the continuous string, cΣφ²/(2ΣJφ²), given its total damping [N m s]."""
     collar, pipe = (section_of(component, 0.0) for component in case.string.components[:2])
     assert case.string.components[0].length is not None

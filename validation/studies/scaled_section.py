@@ -68,11 +68,11 @@ def finite_elements(case: Case, beam: Beam, step: float, still: bool = False) ->
     times = np.append(np.arange(0.0, duration - 1e-6, interval), duration)
     lowered = lower(beam, top, times, step, None if still else generalised_alpha(HIGH_FREQUENCY))
     force = lowered.pressure * beam.wall.dx
-    history = _history(lowered.time, force.reshape(len(times) - 1, -1), lowered.md.reshape(len(times) - 1, -1), case)
+    history = history_of(lowered.time, force.reshape(len(times) - 1, -1), lowered.md.reshape(len(times) - 1, -1), case)
     along, numbers = beam.points()
     z, x = lowered.states[-1][numbers[:, :2]].T
     string = _string(case, along[-1] - along, z, x)
-    return Comparable(history, string, _contacts(lowered.md[-1].ravel(), force[-1].ravel())), lowered
+    return Comparable(history, string, contact_forces(lowered.md[-1].ravel(), force[-1].ravel())), lowered
 
 
 def rigid_segments(case: Case) -> tuple[Comparable, dict[str, Any]]:
@@ -89,14 +89,14 @@ def rigid_segments(case: Case) -> tuple[Comparable, dict[str, Any]]:
     rows = [(profile["bit_depth_m"] == depth).to_numpy() for depth in depths]
     at = result.history.set_index("bit_depth_m")["time_s"]
     force, md = np.array([signed[r] for r in rows]), np.array([profile["md_m"][r] for r in rows])
-    history = _history(at.loc[depths].to_numpy(), force, md, case)
+    history = history_of(at.loc[depths].to_numpy(), force, md, case)
     # The first row is the clamp.
     last = profile[rows[-1]].iloc[1:]
-    string = _shape(case, last)
-    return Comparable(history, string, _contacts(last["md_m"].to_numpy(), force[-1][1:])), result.run
+    string = shape_of(case, last)
+    return Comparable(history, string, contact_forces(last["md_m"].to_numpy(), force[-1][1:])), result.run
 
 
-def _shape(case: Case, joints: pd.DataFrame) -> pd.DataFrame:
+def shape_of(case: Case, joints: pd.DataFrame) -> pd.DataFrame:
     """A row of points of the string, from the rows of a profile below the clamp."""
     hole = build_wellbore(case)
     centre, tangent = hole.at(joints["md_m"].to_numpy())
@@ -123,7 +123,7 @@ def _hole(case: Case) -> PlanarHole:
     return PlanarHole(case.wellbore.trajectory)
 
 
-def _history(time: Array, force: Array, md: Array, case: Case) -> pd.DataFrame:
+def history_of(time: Array, force: Array, md: Array, case: Case) -> pd.DataFrame:
     """Total contact force and its share on each side, given signed forces (times, points) [N] at md [m]."""
     bend = _hole(case).md[1]
     shares = (force < 0) & (md < bend), force > 0, (force < 0) & (md >= bend)
@@ -132,7 +132,7 @@ def _history(time: Array, force: Array, md: Array, case: Case) -> pd.DataFrame:
     return pd.DataFrame({"time_s": time, "total_N": total, **{f"{s}_N": f for s, f in columns.items()}})
 
 
-def _contacts(md: Array, force: Array) -> pd.DataFrame:
+def contact_forces(md: Array, force: Array) -> pd.DataFrame:
     """Contacts in order of depth: where on one side points with force follow each other closely."""
     touching = np.flatnonzero(force)
     breaks = [0]
@@ -224,7 +224,7 @@ def run(context: Context) -> Outcome:
             }
         )
     segments = pd.DataFrame(rows)
-    rest = _at_rest((PAPERS, counts[-1]), still, clearance)
+    rest = steady_differences((PAPERS, counts[-1]), still, clearance)
     same = _same_points(context, models, (PAPERS,) if context.quick else (PAPERS, counts[-1]), clearance)
     told = {
         "finite elements": truth,
@@ -335,7 +335,7 @@ def _same_points(
     return pd.DataFrame(rows)
 
 
-def _at_rest(counts: tuple[int, ...], truth: Comparable, clearance: float) -> pd.DataFrame:
+def steady_differences(counts: tuple[int, ...], truth: Comparable, clearance: float) -> pd.DataFrame:
     """The steady solver's string at the end of the run against finite elements through equilibria.
 
     A second route to the displacement: neither model steps through time.
@@ -346,7 +346,7 @@ def _at_rest(counts: tuple[int, ...], truth: Comparable, clearance: float) -> pd
         point = equilibrium(case, "trip_in", case.operations[0].end_md)
         if point.status != "converged":
             raise RuntimeError(f"{count} segments at rest: {point.status}, {point.message}")
-        away = displacements(_shape(case, point.profile.iloc[1:]), truth.string, clearance)
+        away = displacements(shape_of(case, point.profile.iloc[1:]), truth.string, clearance)
         rows.append({"segments": count, **away})
     return pd.DataFrame(rows)
 

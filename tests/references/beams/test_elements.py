@@ -64,7 +64,7 @@ def test_tables_assemble_as_the_forms_of_scikit_fem():
     tangent = BilinearForm(lambda u, v, w: np.einsum("iep,ijep,jep->ep", components(v), w.derivative, components(u)))
     inertia = BilinearForm(lambda u, v, w: 1.0 * (u[0] * v[0] + u[1] * v[1]) + 1e-4 * u[2] * v[2])
     weight = LinearForm(lambda v, w: 3.0 * v[0])
-    strained = model._strained
+    strained = model.strained
     assert strained.of(q) == pytest.approx(components(model.strains.interpolate(q)))
     assert strained.forces(density) == pytest.approx(force.assemble(model.strains, density=density))
     found = strained.matrix(strained.tangents(derivative)).toarray()
@@ -201,3 +201,19 @@ def test_failed_newton_iteration_is_an_error():
     model = beam(2)
     with pytest.raises(ConvergenceError, match="unbalanced force"):
         newton(lambda q: (q * 0 + np.nan, model.mass), model.straight(0.0), np.array([4, 5]), 1.0)
+
+
+def test_too_few_iterations_are_said():
+    """A dead load that bends a cantilever far takes several; one is not enough."""
+    model = beam(2)
+    load, free = np.zeros(model.strains.N), np.setdiff1d(np.arange(model.strains.N), model.dofs(0.0))
+    load[model.dofs(1.0)[1]] = 1.0
+
+    def residual(q):
+        force, tangent, _ = model.resistance(q, 0 * q)
+        return force - load, tangent
+
+    _, taken = newton(residual, model.straight(0.0), free, 1e-6)
+    assert taken > 2
+    with pytest.raises(ConvergenceError, match="N after 2 iterations"):
+        newton(residual, model.straight(0.0), free, 1e-6, most=2)

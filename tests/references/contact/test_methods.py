@@ -1,4 +1,7 @@
-"""One contract for all contact methods: the exact hole within the geometric error of the method."""
+"""One contract for every contact method of the registry: the exact hole within the geometric error of the method.
+
+Cylinders, arcs, meshes and libraries are tested together here; most modules of the room have no test file of their own.
+"""
 
 import numpy as np
 import pytest

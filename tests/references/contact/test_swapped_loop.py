@@ -3,27 +3,13 @@
 import numpy as np
 import pytest
 
-from fctd import Case, InputError, simulate
+from fctd import simulate
 from fctd.mechanics import state
-from fctd.model.wellbore import Contacts, build_wellbore
+from fctd.model.wellbore import build_wellbore
 from fctd.simulation.run import prepare
 from references import contact
 from references.contact.for_loop import advance_with_for_loop
-from tests.cases import make_case, pipe, rotation
-
-STATIONS = [[0, 0, 0], [100, 0, 0], [400, 60, 30], [600, 60, 30]]
-SIZES = [{"to_md": 350, "diameter": 0.24, "friction": 0.3}, {"to_md": 600, "diameter": 0.2159, "friction": 0.2}]
-
-
-def turning(geometry: str = "cylinders", **sections) -> Case:
-    return make_case(
-        STATIONS,
-        [pipe(500, 25)],
-        [rotation(500, 3, ramp=1)],
-        wellbore={"geometry": geometry, "intervals": SIZES},
-        record={"interval": 0.5},
-        **sections,
-    )
+from tests.simulation.test_external_contact import turning
 
 
 @pytest.mark.parametrize(
@@ -68,43 +54,7 @@ def test_loads_of_a_turning_string_with_fcl_are_those_of_fctd() -> None:
     assert mesh["surface_torque_N_m"] == pytest.approx(own["surface_torque_N_m"], rel=0.1)
 
 
-class Faulty:
-    """Cylinders whose result is changed by ``spoil`` after 1000 queries."""
-
-    name = "faulty"
-
-    def __init__(self, case: Case, spoil) -> None:
-        self.good, self.spoil, self.queries = contact.build("cylinders", case), spoil, 0
-
-    def query(self, points, radii) -> Contacts:
-        self.queries += 1
-        hits = self.good.query(points, radii)
-        return self.spoil(hits) if self.queries > 1000 else hits
-
-
-def test_a_method_with_results_that_are_not_finite_ends_the_run_and_keeps_its_rows() -> None:
-    case = turning()
-
-    faulty = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)))
-    result = simulate(case, contact=faulty)
-    assert result.status == "unstable"
-    assert "not finite" in result.message
-    assert len(result.history) > 0
-
-
-def test_a_result_of_the_wrong_shape_is_an_error() -> None:
-    case = turning()
-    with pytest.raises(ValueError, match=r"faulty.*25 points"):
-        simulate(case, contact=Faulty(case, lambda hits: hits._replace(md=hits.md[:-1])))
-
-
-def test_another_contact_method_without_contact_is_an_error() -> None:
-    case = turning(contact={"enabled": False})
-    with pytest.raises(InputError, match=r"contact\.enabled"):
-        simulate(case, contact=contact.build("cylinders", case))
-
-
-def test_the_wall_along_the_hole_changes_from_one_size_to_the_next() -> None:
+def test_the_wall_along_the_hole_leads_from_one_size_to_the_next() -> None:
     wall = build_wellbore(turning()).wall_along()
     np.testing.assert_allclose(wall[:, :2], [[350, 0.12], [350.2, 0.10795]])
     np.testing.assert_allclose(wall[:, 3], [0.3, 0.2])

@@ -135,13 +135,13 @@ def test_the_first_mode_of_even_damping_and_inertia_dies_at_half_their_ratio():
         }
     )
     inertia = 0.5 * pipe.density * np.pi * (0.051**2 - 0.030**2) * (0.051**2 + 0.030**2)
-    assert mud_effects._mode_rate(even, 2.0) == pytest.approx(2.0 / mud_effects.BIT / (2 * inertia))
+    assert mud_effects.mode_rate(even, 2.0) == pytest.approx(2.0 / mud_effects.BIT / (2 * inertia))
 
 
 def test_a_decaying_swing_has_its_rate():
     time = np.arange(0.0, 150.0, 0.1)
     torque = 2400 + 1500 * np.exp(-0.012 * time) * np.sin(2 * np.pi * 0.233 * time)
-    rate = mud_effects._rate(pd.DataFrame({"time_s": time, "surface_torque_N_m": torque}))
+    rate = mud_effects.decay_rate(pd.DataFrame({"time_s": time, "surface_torque_N_m": torque}))
     assert rate == pytest.approx(0.012, rel=0.03)
 
 
@@ -205,8 +205,8 @@ def test_the_bends_that_decide_are_those_of_the_least_and_the_largest_number():
 
 
 def test_a_ratio_to_zero_is_nan():
-    assert friction_laws._ratio(4.5, 1.5) == 3.0
-    assert np.isnan(friction_laws._ratio(0.0, 1e-13))
+    assert friction_laws.ratio_of(4.5, 1.5) == 3.0
+    assert np.isnan(friction_laws.ratio_of(0.0, 1e-13))
 
 
 def test_the_papers_runs_as_speeds():

@@ -55,8 +55,8 @@ def test_the_steady_string_lies_where_its_own_shape_is():
     """Compared with itself it has zero difference; the count is the requested one."""
     case = scaled_section.load("scaled_section")
     point = scaled_section.equilibrium(case, "trip_in", 44.0)
-    truth = model()._replace(string=scaled_section._shape(case, point.profile.iloc[1:]))
-    (row,) = scaled_section._at_rest((30,), truth, 0.025).to_dict("records")
+    truth = model()._replace(string=scaled_section.shape_of(case, point.profile.iloc[1:]))
+    (row,) = scaled_section.steady_differences((30,), truth, 0.025).to_dict("records")
     assert row["segments"] == 30
     assert row["displacement_max_percent"] == pytest.approx(0.0, abs=1e-9)
 
@@ -70,14 +70,14 @@ def test_a_contact_that_one_model_lacks_is_infinitely_far():
 def test_contacts_part_where_the_side_changes_or_a_gap_is():
     md = np.array([10.0, 10.3, 10.6, 10.9, 15.0, 15.3])
     force = np.array([-1.0, -3.0, 0.0, 2.0, 4.0, 4.0])
-    found = scaled_section._contacts(md, force)
+    found = scaled_section.contact_forces(md, force)
     assert found["force_N"].to_list() == [-4.0, 2.0, 8.0]
     assert found["md_m"].to_list() == pytest.approx([10.225, 10.9, 15.15])
-    assert scaled_section._contacts(md, 0 * force).empty
+    assert scaled_section.contact_forces(md, 0 * force).empty
 
 
 def test_sides_add_up_to_the_total():
     case = scaled_section.load("scaled_section")
     md, force = np.array([[30.0, 35.0, 43.0]]), np.array([[-2.0, 3.0, -4.0]])
-    found = scaled_section._history(np.array([1.0]), force, md, case).iloc[0]
+    found = scaled_section.history_of(np.array([1.0]), force, md, case).iloc[0]
     assert found.to_list() == [1.0, 9.0, 2.0, 3.0, 4.0]

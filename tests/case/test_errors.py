@@ -1,0 +1,94 @@
+"""Input errors: their text, their order, and the keys they name."""
+
+import pickle
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fctd.case.errors import MISSING, InputError, join_key, look_up, nearest, set_key, show, split_key
+from tests.case.test_load import refusal
+
+
+def test_the_message_of_the_documentation(case_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(case_file.parent)
+    error = refusal(Path("well.toml"), {"string.components[0].length": "-2 m"})
+    assert str(error) == 'well.toml: string.components[0].length = "-2 m": expected a length above 0'
+
+
+def test_several_problems_stand_on_lines_of_their_own(case_file: Path) -> None:
+    error = refusal(case_file, {"mud.density": "-1 ppg", "rig.sheave_efficiency": 2})
+    assert [line.split(": ")[1] for line in str(error).splitlines()] == [
+        'mud.density = "-1 ppg"',
+        "rig.sheave_efficiency = 2",
+    ]
+
+
+def test_what_follows_from_a_problem_is_not_reported(case_file: Path) -> None:
+    """The next start is filled in from a bad end, and contact_diameter from a bad outer_diameter."""
+    overrides = {"operations[0].to_md": "far", "string.components[0].outer_diameter": "wide"}
+    assert len(str(refusal(case_file, overrides)).splitlines()) == 2
+
+
+def test_an_error_survives_pickling(case_file: Path) -> None:
+    error = refusal(case_file, {"mud.density": "-1 ppg", "rig.sheave_efficiency": 2, "name": None})
+    assert str(pickle.loads(pickle.dumps(error))) == str(error)
+
+
+# --- keys ------------------------------------------------------------------------------------------
+
+names = st.from_regex(r"\A[a-z_]{1,8}\Z")
+
+
+@given(parts=st.lists(st.tuples(names, st.lists(st.integers(0, 99), max_size=2)), min_size=1, max_size=4))
+def test_a_key_is_split_as_it_was_joined(parts: list[tuple[str, list[int]]]) -> None:
+    path = [part for name, indices in parts for part in (name, *indices)]
+    assert split_key(join_key(*path)) == path
+    assert split_key(".".join(map(str, path))) == path
+
+
+def test_keys_by_hand() -> None:
+    assert join_key("operations", 0, "speed") == "operations[0].speed"
+    assert join_key("string", "components[1].length") == "string.components[1].length"
+    assert join_key("operations", "") == "operations"
+    assert (join_key(), split_key("")) == ("", [])
+
+
+def test_setting_and_looking_up() -> None:
+    """Tables on the way are made, items of lists are not; what is set is a copy."""
+    data: dict[str, Any] = {"parts": [{"length": 1}, {"length": 2}]}
+    value = [3]
+    set_key(data, "parts[1].length", value)
+    set_key(data, "mud.density", 1200)
+    value.append(4)
+    assert data == {"parts": [{"length": 1}, {"length": [3]}], "mud": {"density": 1200}}
+    assert look_up(data, "parts", 1, "length") == [3]
+    assert look_up(data, "parts", 2, "length") is look_up(data, "mud", "colour") is MISSING
+    set_key(data, "parts[0]", None)
+    assert data["parts"] == [{"length": [3]}]
+    with pytest.raises(InputError, match="a value for a key that exists"):
+        set_key(data, "parts[1].length", 3)
+
+
+def test_an_error_moves_up_with_what_it_carries() -> None:
+    other = InputError("a depth", key="to_md", value=3)
+    error = InputError("a speed", key="speed", more=[other]).at("operations[1]").in_file("well.toml")
+    assert str(error) == (
+        "well.toml: operations[1].speed is missing: expected a speed\n"
+        "well.toml: operations[1].to_md = 3: expected a depth"
+    )
+    assert str(error.in_file("other.toml")) == str(error)
+
+
+def test_long_values_are_cut_and_paths_are_whole() -> None:
+    assert show("x" * 200) == '"' + "x" * 76 + "..."
+    assert show(Path("x" * 200)) == '"' + "x" * 200 + '"'
+    assert show(0.1 + 0.2) == "0.30000000000000004"
+    assert show(10**5000) == "a int"
+
+
+def test_the_nearest_choice_or_all_of_them() -> None:
+    assert nearest("trip_inn", ["trip_in", "back_ream"], "kind") == "the kind trip_in"
+    assert nearest("dance", ["trip_in", "back_ream"], "kind") == "one of the kinds trip_in, back_ream"

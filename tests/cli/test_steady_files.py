@@ -1,0 +1,128 @@
+"""Files of the steady commands: what cannot be written or would be lost is refused before computing."""
+
+import os
+import sys
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import fctd
+from tests.cli.test_main import run
+from tests.cli.test_steady import CASE, CHART, POINT, settings
+
+
+@pytest.fixture
+def case_file(tmp_path: Path) -> Path:
+    path = tmp_path / "tiny.toml"
+    path.write_text(CASE)
+    return path
+
+
+def test_a_file_that_fails_to_be_written_is_one_message(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The disk fills up after the target was looked at: the loads are on the screen, the file is the one before."""
+
+    def full(frame: pd.DataFrame, path: Path, **_: object) -> None:
+        path.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(pd.DataFrame, "to_csv", full)
+    out = tmp_path / "profile.csv"
+    out.write_text("old")
+    options = POINT | {"--out": str(out)}
+    assert run(monkeypatch, "equilibrium", case_file, *(part for pair in options.items() for part in pair)) == 2
+    captured = capsys.readouterr()
+    assert f'"{out}": expected a file that can be written (No space left on device)' in captured.err
+    assert "hook load" in captured.out
+    assert out.read_text() == "old"
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+def test_files_are_written_also_when_nobody_reads_the_screen(
+    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """``fctd chart … | head -1``: rich ends the program when its pipe is closed."""
+
+    def closed(*_: object, **__: object) -> None:
+        raise SystemExit(1)
+
+    monkeypatch.setattr("fctd.cli.options.screen.print", closed)
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "out.csv")}
+    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 1
+    assert len(pd.read_csv(tmp_path / "out.csv")) > 0
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+def test_the_survey_is_not_written_over(
+    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    survey = tmp_path / "hole.csv"
+    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,0,0\n")
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "." / "hole.csv")}
+    given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
+    assert run(monkeypatch, command, case_file, *given, *settings(f"wellbore.survey={survey}")) == 2
+    assert "another file than the case and its survey" in capsys.readouterr().err
+    assert survey.read_text().startswith("md_m")
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+@pytest.mark.parametrize("option", ["--out", "--plot"])
+def test_nor_by_a_side_file_or_a_picture(
+    option: str, command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """``chart.csv.json`` goes beside ``chart.csv``."""
+    pytest.importorskip("matplotlib")
+    survey = tmp_path / {"--out": "hole.csv.json", "--plot": "hole.png"}[option]
+    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,0,0\n")
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "hole.csv")}
+    options |= {"--plot": str(tmp_path / "hole.png")} if option == "--plot" else {}
+    given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
+    assert run(monkeypatch, command, case_file, *given, *settings(f"wellbore.survey={survey}")) == 2
+    assert f'{option} = "{survey}": expected another file than the case and its survey' in capsys.readouterr().err
+    assert survey.read_text().startswith("md_m")
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("x" * 248 + ".csv", "a file that can be written (File name too long)"),  # with the process beside it
+        ("new/" + "x" * 248 + ".csv", "a file that can be written (File name too long)"),
+        ("x" * 243 + ".csv", "a file that can be written (File name too long)"),  # the side file's
+        ("pipe.csv", "a regular file that can be written, no folder, pipe or device"),
+        ("device.csv", "a regular file that can be written, no folder, pipe or device"),
+        ("taken.csv", "a regular file that can be written, no folder, pipe or device"),  # the side file
+    ],
+)
+def test_a_target_that_cannot_be_written_is_refused_before(
+    name: str, expected: str, command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    os.mkfifo(tmp_path / "pipe.csv")
+    os.mkfifo(tmp_path / "taken.csv.json")
+    (tmp_path / "device.csv").symlink_to("/dev/null")
+    for compute in ("torque_drag", "equilibrium"):
+        monkeypatch.setattr(f"fctd.cli.steady.{compute}", lambda *_, **__: pytest.fail("the case was computed"))
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / name)}
+    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 2
+    message = capsys.readouterr().err
+    assert message.startswith("--out = ")
+    assert f"expected {expected}" in message
+
+
+def test_without_matplotlib_a_picture_is_refused_before_computing(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delitem(sys.modules, "fctd.plots", raising=False)
+    monkeypatch.delattr(fctd, "plots", raising=False)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    out = tmp_path / "chart.csv"
+    options = CHART | {"--out": str(out), "--plot": str(tmp_path / "chart.png")}
+    assert run(monkeypatch, "chart", case_file, *(part for pair in options.items() for part in pair)) == 2
+    message = capsys.readouterr().err
+    assert "matplotlib" in message
+    assert "fctd[plot]" in message
+    assert not out.exists()

@@ -1,0 +1,120 @@
+"""A contact method of the caller's in a run: what it does not report, and how a fault of it ends the run."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from fctd import Case, InputError, simulate
+from fctd.mechanics import state
+from fctd.model.wellbore import Contacts, build_wellbore, find_contacts
+from fctd.simulation.run import prepare
+from tests.cases import make_case, pipe, rotation
+
+Array = NDArray[np.float64]
+
+STATIONS = [[0, 0, 0], [100, 0, 0], [400, 60, 30], [600, 60, 30]]
+
+
+SIZES = [{"to_md": 350, "diameter": 0.24, "friction": 0.3}, {"to_md": 600, "diameter": 0.2159, "friction": 0.2}]
+
+
+def turning(geometry: str = "cylinders", **sections) -> Case:
+    return make_case(
+        STATIONS,
+        [pipe(500, 25)],
+        [rotation(500, 3, ramp=1)],
+        wellbore={"geometry": geometry, "intervals": SIZES},
+        record={"interval": 0.5},
+        **sections,
+    )
+
+
+class Faulty:
+    """The hole's own contacts, spoiled after some queries."""
+
+    name = "faulty"
+
+    def __init__(self, case: Case, spoil: Callable[[Contacts], Contacts]) -> None:
+        self.hole, self.spoil, self.asked = build_wellbore(case), spoil, 0
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        self.asked += 1
+        hits = find_contacts(self.hole, np.nan_to_num(points), radii)
+        return self.spoil(hits) if self.asked > 1000 else hits
+
+
+def test_a_method_that_answers_nonsense_stops_the_run_and_keeps_its_rows() -> None:
+    case = turning()
+
+    nowhere = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)))
+    result = simulate(case, contact=nowhere)
+    assert result.status == "unstable"
+    assert "not finite" in result.message
+    assert len(result.history) > 0
+
+
+def test_an_answer_of_the_wrong_shape_is_an_error() -> None:
+    case = turning()
+    with pytest.raises(ValueError, match=r"faulty.*25 points"):
+        simulate(case, contact=Faulty(case, lambda hits: hits._replace(md=hits.md[:-1])))
+
+
+def test_no_wall_and_another_contact_method_exclude_each_other() -> None:
+    case = turning(contact={"enabled": False})
+    with pytest.raises(InputError, match=r"contact\.enabled"):
+        simulate(case, contact=Faulty(case, lambda hits: hits))
+
+
+class Nothing:
+    """No contact anywhere: what is not read may be nan."""
+
+    name = "nothing"
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        return Contacts(np.full(len(points), -1e-3), np.full_like(points, np.nan), np.full(len(points), np.nan))
+
+
+def test_without_contacts_the_run_is_that_without_a_wall() -> None:
+    case = make_case([[0, 0, 0], [300, 0, 0]], [pipe(200, 10)], [rotation(200, 1, ramp=0.5)])
+    bare = case.model_copy(update={"contact": case.contact.model_copy(update={"enabled": False})})
+    found, expected = simulate(case, contact=Nothing()), simulate(bare)
+    assert found.status == expected.status == "completed"
+    assert found.history["total_contact_force_N"].to_list() == [0.0] * len(found.history)
+    for name in ("hookload_N", "surface_torque_N_m"):
+        # The one with a method settles a step longer.
+        assert found.history[name].to_numpy() == pytest.approx(expected.history[name].to_numpy(), rel=1e-5, abs=5e-3)
+
+
+def test_walls_change_size_stiffness_and_friction_over_the_length_of_a_shoe() -> None:
+    """A method knows where a point is; how wide, stiff and rough the hole is there the case says."""
+    intervals = [
+        {"to_md": 100, "diameter": 0.32, "friction": 0.1, "stiffness": 2e7},
+        {"to_md": 300, "diameter": 0.22, "friction": 0.3},
+    ]
+    case = make_case([[0, 30, 0], [300, 30, 0]], [pipe(None, 30)], wellbore={"intervals": intervals, "overlap": 20.0})
+    case = case.model_copy(update={"operations": make_case(operations=[rotation(300, 1)]).operations})
+    run, _ = prepare(case, Everywhere(30))
+    run.refresh()
+    S = run.S
+    # Depths of the query: 5, 15, 25 ... m; the shoe leads from 100 to 120 m.
+    md = 10.0 * np.arange(30) + 5.0
+    share = np.clip((md - 100) / 20, 0, 1)
+    np.testing.assert_allclose(state.row(S, state.HOLE, 30), 0.16 - 0.05 * share)
+    np.testing.assert_allclose(state.row(S, state.K_WALL, 30), 2e7 - 1e7 * share)
+    np.testing.assert_allclose(state.row(S, state.FRICTION, 30), 0.1 + 0.2 * share)
+    reach = state.row(S, state.HOLE, 30) - state.row(S, state.RADIUS, 30) + 0.001
+    np.testing.assert_allclose(state.row(S, state.PX, 30), reach)
+
+
+class Everywhere:
+    """A millimetre of penetration towards the north at every point, ten metres apart."""
+
+    name = "everywhere"
+
+    def __init__(self, segments: int) -> None:
+        self.md = 10.0 * np.arange(segments) + 5.0
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        return Contacts(np.full(len(points), 1e-3), np.tile([1.0, 0.0, 0.0], (len(points), 1)), self.md)
