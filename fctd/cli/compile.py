@@ -38,7 +38,7 @@ def compile_command(quiet: Quiet = False) -> None:
 
 
 def compile_into(store: Store, compiling: Callable[[], object], quiet: bool = False) -> None:
-    """Call ``compiling``; print the functions it compiled and the folder of ``store``, or exit with code 1 without one."""
+    """Call ``compiling``; print the functions it compiled and the store's folder; exit code 1 without a folder."""
     began, names = time.perf_counter(), set[str]()
 
     def progress(name: str) -> None:
