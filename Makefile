@@ -1,19 +1,19 @@
 # make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them
 # make test        the fast tests, in two processes
-# make bench       what everything costs on this machine, kept in .benchmarks for --benchmark-compare, and the kernels
-#                  beside the last release
-# make lint        style, types, and who may import whom
-# make bullet      build pybullet from source, which has no wheel for Python 3.12 and later: a C++ compiler and about six
-#                  minutes of one core
+# make bench       time the benchmarks on this machine, keep the times in .benchmarks for --benchmark-compare, and compare
+#                  the kernels with the last release
+# make lint        check style, types and allowed imports
+# make bullet      build pybullet from source, which has no wheel for Python 3.12 and later: needs a C++ compiler and
+#                  about six minutes of one core
 # make clean       remove results, report and caches; the environment in .venv stays
 #
 # Needs Python 3.11 to 3.14 (tested on 3.11) and make; `make -C CHECKOUT ...` works from any folder.
 
 BIN := .venv/bin
-# Touched after a full installation, so that setting up happens once for each state of these two files.
+# Touched after a full installation, so that set-up runs once for each state of these two files.
 STAMP := .venv/installed
 FLAGS := $(if $(filter-out 0,$(QUICK)),--quick)
-# The first of these that runs at all; a name may be there and still not start.
+# The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
 .PHONY: reproduce test bench lint bullet clean

@@ -1,4 +1,4 @@
-"""FCTD: fast contact torque and drag of a stiff drill string in a borehole.
+"""FCTD: fast contact torque and drag of a stiff drill string in a wellbore.
 
     case = fctd.load_case("well.toml")
     result = fctd.simulate(case)

@@ -52,7 +52,7 @@ RC: dict[RcKeyType, Any] = {
     # The same numbers give the same file, byte for byte.
     "svg.hashsalt": "fctd",
 }
-# Okabe and Ito's palette, told apart by the colour-blind; neighbours differ in lightness as well.
+# Okabe and Ito's palette, which colour-blind readers can distinguish; neighbours also differ in lightness.
 PALETTE = {
     "blue": "#0072B2",
     "vermilion": "#D55E00",
@@ -71,9 +71,9 @@ LOOKS = {
     "drill_rotating": (PALETTE["green"], "s"),
     "drill_sliding": (PALETTE["sky"], "P"),
 }
-# A friction factor has a dash; more factors than dashes go round again.
+# A friction factor has a dash; with more factors the dashes repeat.
 DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (9, 3))]
-# Answers with a reservation carry an open marker; a cross marks a row that has none.
+# Loads with a status other than converged have an open marker; a row without loads has a cross.
 FLAGS: dict[str, dict[str, Any]] = {
     "locked_up": {"marker": "s", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
     "unstable": {"marker": "o", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
@@ -101,7 +101,7 @@ MARKS = 8  # about as many markers on a line
 
 
 def save(figure: Figure, path: Path) -> list[Path]:
-    """Write a figure as its suffix says; returns the file written.  Raises InputError where it cannot be."""
+    """Write a figure in the format of its suffix; returns the file.  Raises InputError where it cannot be written."""
     with mpl.rc_context(RC), whole_file(path) as scratch:
         figure.savefig(scratch, metadata={"Date": None} if path.suffix.lower() == ".svg" else None)
     return [path]
@@ -110,16 +110,16 @@ def save(figure: Figure, path: Path) -> list[Path]:
 def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> Figure:
     """Hook load (the broomstick) and torque against bit depth: a line per operation and friction factor.
 
-    chart : as of ``fctd.torque_drag``, SI.  Rows without an answer are crossed where their line is broken; notes stand
-    below the title.
+    chart : of ``fctd.torque_drag``, SI.  A cross marks each row without loads in the gap of its line; notes are
+    printed below the title.
     """
     factors = [float(factor) for factor in chart["friction"].unique()]
     with mpl.rc_context(RC):
         figure = Figure(figsize=(8.5, 6.8), layout="constrained")
         panels = figure.subplots(1, 2, sharey=True)
         for ax, column in zip(panels, ("hookload_N", "surface_torque_N_m"), strict=True):
-            for k, (_, fan) in enumerate(chart.groupby("friction", sort=False, dropna=False)):
-                for place, (kind, rows) in enumerate(fan.groupby("operation", sort=False)):
+            for k, (_, same_factor) in enumerate(chart.groupby("friction", sort=False, dropna=False)):
+                for place, (kind, rows) in enumerate(same_factor.groupby("operation", sort=False)):
                     _series(ax, rows, column, str(kind), DASHES[k % len(DASHES)], units, place)
             _label(ax, column, units)
         panels[0].set_ylabel(f"{DEPTH.label}, {shown(DEPTH.name, units).label}")
@@ -145,8 +145,8 @@ def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figur
     """Strings from the top to the bit, side by side on one depth axis, each operation a line.
 
     Inclination; tension, with buckling limits and where they are exceeded; torque; side force at the contact
-    points; bending moment; von Mises stress; and the hole unrolled: how far the string lies to the high side and to
-    the right, within the clearance (shaded).  A point without an answer is named, not drawn.
+    points; bending moment; von Mises stress; and the offset of the string from the axis to the high side and to
+    the right, within the clearance (shaded).  A string without loads is only named in the legend.
     """
     answers = [point for point in points if point.answered]
     with mpl.rc_context(RC):
@@ -170,17 +170,17 @@ def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figur
         figure.legend(handles=handles, loc="outside lower left", ncols=5)
         depth = shown("bit_depth_m", units)
         friction = own_friction(points[0].case)
-        rubs = "" if np.isnan(friction) else f", friction factor {friction:g}"
+        suffix = "" if np.isnan(friction) else f", friction factor {friction:g}"
         _title(
             figure,
-            f"{points[0].case.name}, bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}{rubs}",
+            f"{points[0].case.name}, bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}{suffix}",
             [f"{note.code}: {note.text}" for note in worst(note for point in answers for note in point.notes)],
         )
         return figure
 
 
 def _series(ax: Axes, rows: pd.DataFrame, column: str, kind: str, dash: Any, units: System, place: int) -> None:
-    """One line of a chart; ``place`` keeps apart the crosses of operations that have no answer at all."""
+    """Draw one line of a chart; ``place`` separates the crosses of operations that have no loads at any depth."""
     colour, marker = LOOKS[kind]
     depth = rows["bit_depth_m"].to_numpy(float) * shown("bit_depth_m", units).factor
     value = rows[column].to_numpy(float) * shown(column, units).factor
@@ -199,7 +199,7 @@ def _series(ax: Axes, rows: pd.DataFrame, column: str, kind: str, dash: Any, uni
 
 
 def _marked(value: NDArray[np.float64]) -> list[int]:
-    """Which points of a line carry its marker: some, and every one that has no neighbour to draw a line to."""
+    """Points of a line that carry its marker: some, and every one without a neighbour to draw a line to."""
     found = np.concatenate(([False], np.isfinite(value), [False]))
     alone = found[1:-1] & ~found[:-2] & ~found[2:]
     spread = np.arange(len(value)) % max(len(value) // MARKS, 1) == 0
@@ -247,7 +247,7 @@ def _limits(ax: Axes, profiles: Sequence[pd.DataFrame], units: System) -> None:
 
 
 def _label(ax: Axes, column: str, units: System) -> None:
-    """Name and unit below an axis whose few ticks leave room for the next one's."""
+    """Write name and unit below an axis, with few ticks so that labels of neighbouring axes do not touch."""
     unit = shown(column, units).label
     label = COLUMNS[column].label
     ax.set_xlabel(f"{label},\n{unit}" if column in TRACKS else f"{label}, {unit}")
@@ -258,7 +258,7 @@ def _label(ax: Axes, column: str, units: System) -> None:
 
 
 def _title(figure: Figure, text: str, notes: Sequence[str]) -> None:
-    """A heading, and the notes in small type below it; what a case is called is no formula."""
+    """Write a heading, with the notes in small type below it; a case's name is not parsed as a formula."""
     heading = figure.suptitle(printable(text), parse_math=False, x=0.01, ha="left", fontsize=10.5, fontweight="bold")
     layout = figure.get_layout_engine()
     if notes and isinstance(layout, ConstrainedLayoutEngine):
@@ -271,7 +271,7 @@ def _title(figure: Figure, text: str, notes: Sequence[str]) -> None:
 
 
 def _handle(kind: str, status: str = "converged") -> Line2D:
-    """The legend's line for an operation, with a status that is worth a word."""
+    """The legend's line for an operation, with its status unless it converged."""
     colour, marker = LOOKS[kind]
     if not SteadyStatus(status).has_loads:
         return Line2D([], [], **LOST, label=f"{KINDS[kind].label}: no answer ({status})")

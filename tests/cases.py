@@ -14,7 +14,7 @@ def make_case(
     wellbore: dict[str, Any] | None = None,
     **sections: dict[str, Any],
 ) -> Case:
-    """A case from keyword sections: a vertical 1000 m hole and one pipe unless told otherwise."""
+    """A case from keyword sections: a vertical 1000 m hole and one pipe by default."""
     stations = stations or [[0, 0, 0], [1000, 0, 0]]
     hole = {
         "stations": stations,

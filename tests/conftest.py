@@ -1,4 +1,4 @@
-"""Settings that hold for every test."""
+"""Settings of every test."""
 
 import hypothesis
 

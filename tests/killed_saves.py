@@ -25,7 +25,7 @@ FOREIGN = {"notes.txt": "mine", "sub/deep.txt": "also mine", "energy.csv.bak": "
 
 
 def result(value: float) -> SimulationResult:
-    """A result all of whose tables hold one value."""
+    """A result with one value in all of its tables."""
     frame = pd.DataFrame({"value": [value]})
     return SimulationResult(
         make_case(), "completed", "", frame, frame, frame, {"segments": 1}, identity=f"run {value:g}"

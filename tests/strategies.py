@@ -1,4 +1,4 @@
-"""What the case tests feed in: a valid case, the rules it can break, and Hypothesis strategies."""
+"""Inputs of the case tests: a valid case, the rules it can break, and Hypothesis strategies."""
 
 import json
 from functools import cache
@@ -216,7 +216,7 @@ def toml(value: object) -> str:
 
 
 def write_case(raw: dict[str, Any]) -> str:
-    """A whole case file."""
+    """Write a complete case file."""
     return "".join(f"{json.dumps(key)} = {toml(value)}\n" for key, value in raw.items())
 
 
@@ -288,7 +288,7 @@ TABLES = optional(
 
 @cache
 def interval_options(stiffness: str | None) -> st.SearchStrategy[dict[str, Any]]:
-    """What an interval may have, of the kind of stiffness that the hole has itself."""
+    """Optional keys of an interval, with the same kind of stiffness as the hole."""
     unit = {"stiffness": "N/m", "stiffness_per_length": "N/m/m"}
     own = {stiffness: positive(1e4, 1e9).map(lambda k: f"{k!r} {unit[stiffness]}")} if stiffness else {}
     return optional({"name": st.text("abc åé\"'\\", max_size=5), **own})
@@ -363,7 +363,7 @@ def operation_lists(draw: st.DrawFn) -> list[dict[str, Any]]:
 
 @st.composite
 def cases(draw: st.DrawFn) -> dict[str, Any]:
-    """A whole case as its TOML file would be read."""
+    """A complete case as read from its TOML file."""
     runs = draw(st.integers(0, 2))
     raw = {
         "name": draw(st.text("abc-é", min_size=1, max_size=8)),

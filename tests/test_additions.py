@@ -1,4 +1,4 @@
-"""What is written once is added once, in a copy of the package: a column by a line, a law by a file and a line."""
+"""In a copy of the package, one line adds a result column, and one file and one line add a friction law."""
 
 import os
 import shutil
@@ -45,7 +45,7 @@ def add_line(file: Path, after: str, line: str) -> None:
 
 
 def fctd(copy: Path, cache: Path, *arguments: str) -> str:
-    """What the copy's command prints."""
+    """The output of the copy's command."""
     environment = os.environ | {"PYTHONPATH": str(copy), "NUMBA_CACHE_DIR": str(cache), "COLUMNS": "160"}
     done = subprocess.run(
         [sys.executable, "-m", "fctd", *arguments], cwd=copy, env=environment, capture_output=True, text=True

@@ -1,4 +1,4 @@
-"""Who may import whom: every contract of pyproject.toml is kept, and notices an import that it forbids."""
+"""Allowed imports: every contract of pyproject.toml is kept, and fails for an import that it forbids."""
 
 import re
 import shutil
@@ -91,6 +91,6 @@ def test_every_room_of_the_engine_has_its_place_in_the_layers() -> None:
 
 
 @pytest.mark.parametrize("package", PACKAGES)
-def test_no_file_is_longer_than_a_reader_can_take_in(package: str) -> None:
+def test_no_file_is_too_long(package: str) -> None:
     lengths = {path: len(path.read_text().splitlines()) for path in (ROOT / package).rglob("*.py")}
     assert {path.name: lines for path, lines in lengths.items() if lines > LONGEST} == {}

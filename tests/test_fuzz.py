@@ -1,4 +1,4 @@
-"""Some items of the fuzzer; `python -m tests.fuzz --count N --seed S` feeds in more."""
+"""Some items of the fuzzer; `python -m tests.fuzz --count N --seed S` runs more."""
 
 from collections import Counter
 from dataclasses import replace
@@ -51,7 +51,7 @@ def test_seed_and_index_make_one_item(index: int) -> None:
 
 @pytest.fixture(scope="module")
 def answer(tmp_path_factory: pytest.TempPathFactory) -> tuple[Case, Wellbore, Equilibrium]:
-    """A plausible well picked up, of which nothing is amiss."""
+    """A correct answer: a plausible well, picked up."""
     case = load_case(write(well(Random(5)), tmp_path_factory.mktemp("well")))
     solver = Solver(case)
     point = solver.solve("trip_out", steady_rates(case, "trip_out"), case.depths[1])
@@ -120,7 +120,7 @@ def test_what_is_no_input_error_is_an_offence(monkeypatch: pytest.MonkeyPatch, t
 def test_the_program_counts_and_writes(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """Exit code 1 goes with an offence; an item that is shown is written as it was fed in."""
+    """Exit code 1 goes with an offence; the item shown is written unchanged."""
     assert campaign(SEED, range(2, 4)) == 0
     assert "2 items of seed 14" in capsys.readouterr().out
     assert show(SEED, 3, tmp_path) == 0

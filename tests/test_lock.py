@@ -1,4 +1,4 @@
-"""Set-up: the lock beside what the project asks for, its check over Pythons, and the message for the wrong one."""
+"""Set-up: the lock against pyproject.toml, its check for every Python, and the message for an unsupported Python."""
 
 import importlib.util
 import shutil

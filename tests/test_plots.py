@@ -1,4 +1,4 @@
-"""Pictures: what is drawn is what the tables hold, in the units of the axes, and no text covers another."""
+"""Pictures: they show the values of the tables in the units of the axes, and no text covers another."""
 
 from dataclasses import replace
 from itertools import combinations
@@ -116,7 +116,7 @@ def test_friction_is_named_once(factors: list[float], heading: str, named: set[s
 
 
 def test_lines_differ_without_colour() -> None:
-    """In grey, operations are told by their markers and friction factors by their dashes."""
+    """In grey, operations are distinguished by their markers and friction factors by their dashes."""
     left, _ = plots.chart_figure(chart(list(KINDS), [0.1, 0.2, 0.3])).axes
     looks = {(line.get_marker(), str(line._dash_pattern)) for line in left.lines if len(line.get_xdata())}
     assert len(looks) == len(KINDS) * 3

@@ -1,6 +1,6 @@
-"""Bad input: one exception for every module, the dotted keys it names, and tables that raise it.
+"""Bad input: the exception that every module raises, dotted keys, and the base class of a case's tables.
 
-A bad value is answered in one line, for example
+The message of a bad value is one line, for example
 `paper_well.toml: string.components[0].length = "-2 m": expected a length above 0`.
 """
 
@@ -31,14 +31,14 @@ class Missing(Enum):
 
 
 MISSING: Final = Missing.VALUE
-"""The value of a key that is not there (None is a value: an override that deletes)."""
+"""The value of an absent key. None is a value: an override with None deletes the key."""
 
 
 class InputError(ValueError):
-    """What the user wrote cannot be used.
+    """The user's input cannot be used.
 
-    file: the file it stands in, or None; key: dotted path, list indices in brackets, or "";
-    value: as the user wrote it, or MISSING; expected: what would have been right, a noun phrase;
+    file: the file with the bad value, or None; key: dotted path, list indices in brackets, or "";
+    value: as the user wrote it, or MISSING; expected: the accepted input, a noun phrase;
     more: further problems of the same input, each on its own line of the message.
     """
 
@@ -59,13 +59,13 @@ class InputError(ValueError):
         self.more = tuple(more)
 
     def in_file(self, file: str | PathLike[str]) -> InputError:
-        """The same error, and the file it stands in unless it names one already."""
+        """The same error with this file, unless it names a file already."""
         more = [other.in_file(file) for other in self.more]
         file = file if self.file is None else self.file
         return InputError(self.expected, key=self.key, value=self.value, file=file, more=more)
 
     def at(self, key: str) -> InputError:
-        """The same error one level up: `key` is put before its own key."""
+        """The same error with `key` put before its key."""
         more = [other.at(key) for other in self.more]
         return InputError(self.expected, key=join_key(key, self.key), value=self.value, file=self.file, more=more)
 
@@ -81,7 +81,7 @@ class InputError(ValueError):
 
 
 def show(value: object) -> str:
-    """A value as a case file writes it, cut to a readable length; a path whole, as its end is what tells."""
+    """A value as a case file writes it, cut to a readable length; a path is not cut, since its end matters most."""
     if isinstance(value, PathLike):
         return json.dumps(str(value), ensure_ascii=False)
     try:
@@ -103,7 +103,7 @@ def join_key(*parts: str | int) -> str:
 def split_key(key: str) -> list[str | int]:
     """ "operations[0].speed" or "operations.0.speed" as ["operations", 0, "speed"]; "" as [].
 
-    Raises InputError for what is no dotted key.
+    Raises InputError for a text that is not a dotted key.
     """
     if not re.fullmatch(r"(?:(?:^|\.)[\w-]+|\[[0-9]+\])*", key):
         raise InputError("a dotted key such as wellbore.overlap or operations[0].speed", value=key)
@@ -114,7 +114,7 @@ def split_key(key: str) -> list[str | int]:
 def look_up(data: Any, *parts: str | int) -> object:
     """The value down a path of nested dicts and lists; MISSING where there is none or None."""
     for part in parts:
-        if not _leads_on(data, part):
+        if not _has_item(data, part):
             return MISSING
         data = data[part]
     return MISSING if data is None else data
@@ -124,24 +124,24 @@ def set_key(table: dict[str, Any], key: str, value: object) -> None:
     """Set a dotted key of nested dicts and lists; tables on the way are made, list items are not.
 
     None in a table counts as absent (`known_keys`); for an item of a list it removes the item.
-    Raises InputError for a key that leads nowhere.
+    Raises InputError for a key whose table or list item does not exist.
     """
     *parents, last = split_key(key) or [key]
     place: Any = table
     for part in parents:
         if isinstance(place, dict) and place.get(part) is None:
             place[part] = {}
-        place = place[part] if _leads_on(place, part) else None
+        place = place[part] if _has_item(place, part) else None
     if isinstance(place, list) and isinstance(last, int) and last < len(place) and value is None:
         del place[last]
-    elif isinstance(place, dict) or _leads_on(place, last):
+    elif isinstance(place, dict) or _has_item(place, last):
         place[last] = copy.deepcopy(value)
     else:
         raise InputError("a value for a key that exists", key=key, value=value)
 
 
-def _leads_on(data: Any, part: str | int) -> bool:
-    """Whether nested dicts and lists go on at this key or index."""
+def _has_item(data: Any, part: str | int) -> bool:
+    """Whether a dict or list has this key or index."""
     if isinstance(data, list | tuple):
         return isinstance(part, int) and part < len(data)
     return isinstance(data, Mapping) and part in data
@@ -156,18 +156,18 @@ def known_keys(table: Mapping[Any, Any], keys: Collection[str], owner: str = "")
 
 
 def nearest(word: object, choices: Collection[str], noun: str) -> str:
-    """What to expect in place of a word: the nearest choice, or all of them when none is near."""
+    """The accepted words in place of a wrong one: the nearest choice, or all choices when none is near."""
     near = difflib.get_close_matches(str(word), choices, n=1)
     return f"the {noun} {near[0]}" if near else f"one of the {noun}s {', '.join(choices)}"
 
 
 class Expects(ABC):
-    """Metadata of a pydantic field that knows what the field wants."""
+    """Metadata of a pydantic field that describes the accepted input."""
 
     @property
     @abstractmethod
     def expected(self) -> str:
-        """What to write there."""
+        """The accepted input, a noun phrase."""
 
 
 class Table(BaseModel):
@@ -179,8 +179,8 @@ class Table(BaseModel):
     @classmethod
     def _check_keys(cls, raw: Any, info: ValidationInfo) -> Any:
         if not isinstance(raw, Mapping):
-            return raw  # pydantic says what it is not
-        # A case knows its file, but only its own dump, read without context, may say so.
+            return raw  # pydantic reports the wrong type
+        # `file` is accepted from a stored case, which is validated without context, and not from a case file.
         keys = [key for key in cls.model_fields if key != "file" or info.context is None]
         written = known_keys(raw, keys, owner=f" of {raw['kind']}" if "kind" in keys else "")
         for key, field in cls.model_fields.items():
@@ -191,7 +191,7 @@ class Table(BaseModel):
 
 
 def exclusive(table: Table, first: str, second: str, *, required: bool = False) -> None:
-    """Refuse two keys that are alternatives, and none of them where one is required."""
+    """Raise InputError where both of two alternative keys are given, or neither where one is required."""
     given = [key for key in (first, second) if getattr(table, key) is not None]
     if len(given) == 2:
         raise InputError(f"{first} or {second}, not both", key=second)
@@ -212,7 +212,7 @@ _EXPECTED: Final = {
 
 
 def explain(failure: ValidationError, raw: object, branches: Collection[str]) -> InputError:
-    """All problems that pydantic found in `raw`, the first of them carrying the others.
+    """All problems that pydantic found in `raw`: the first one, with the others in its `more`.
 
     branches: names that pydantic puts into a path for the members of a union.
     """
@@ -221,7 +221,7 @@ def explain(failure: ValidationError, raw: object, branches: Collection[str]) ->
     for detail in failure.errors(include_url=False):
         parts = [part for part in detail["loc"] if part not in branches]
         error = _from_detail(detail)
-        # What was filled in from a bad value is bad as well; the line of that value says enough.
+        # A default computed from a bad value is bad too; the line of the bad value is enough.
         follows = error.value is not MISSING and look_up(raw, *parts) is MISSING
         uncalled = detail["type"] == "default_factory_not_called"
         (derived if follows or uncalled else written).append(error.at(join_key(*parts)))
@@ -230,11 +230,11 @@ def explain(failure: ValidationError, raw: object, branches: Collection[str]) ->
 
 
 def _from_detail(detail: ErrorDetails) -> InputError:
-    """One problem, its key counted from where pydantic met it."""
+    """One problem; its key is relative to the table that pydantic validated."""
     written, context = detail["input"], detail.get("ctx", {})
     error = context.get("error")
     if isinstance(error, InputError):
-        # Rules across keys name a key only: what stands there is read from the table itself.
+        # A rule across keys names only the key: the value is read from the table.
         value = look_up(written, *split_key(error.key)) if error.value is MISSING else error.value
         return InputError(error.expected, key=error.key, value=value)
     expected = _EXPECTED.get(detail["type"], detail["msg"].removeprefix("Input should be "))

@@ -1,4 +1,4 @@
-"""Files that users write, read with a bound: a pipe would block, and a device may have no end."""
+"""Users' files, read up to a largest size: reading a pipe would block, and a device may never end."""
 
 import errno
 import io
@@ -10,10 +10,10 @@ from fctd.case.errors import InputError
 
 
 def read_text(path: Path, largest: int) -> str:
-    """The text of a UTF-8 file of at most ``largest`` MiB, every line end a newline.
+    """The text of a UTF-8 file of at most ``largest`` MiB, with every line end as a newline.
 
-    Raises InputError for what is no regular file or too large, OSError where it cannot be read, and ValueError where
-    it is not UTF-8.
+    Raises InputError for a file that is not regular or is too large, OSError for one that cannot be read, and
+    ValueError for one that is not UTF-8.
     """
     check_regular(path)
     with path.open("rb") as file:
@@ -24,7 +24,7 @@ def read_text(path: Path, largest: int) -> str:
 
 
 def check_regular(path: Path) -> None:
-    """Raise InputError for a pipe or a device, OSError for a folder and for what is not there."""
+    """Raise InputError for a pipe or a device, OSError for a folder or a missing file."""
     mode = path.stat().st_mode
     if stat.S_ISDIR(mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))

@@ -1,7 +1,4 @@
-"""A case file: TOML to a frozen, validated `Case` in which every float is SI.
-
-The case as a whole; `load_case` reads, overrides and validates.
-"""
+"""The case: `load_case` reads a TOML file, applies overrides and validates; every float of a `Case` is SI."""
 
 from __future__ import annotations
 
@@ -36,7 +33,7 @@ _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
 
 
 class Case(Table):
-    """A whole case. `file` is where it was read from, None when it was not."""
+    """A case: hole, string, rig and operations. `file` is the case file that it was read from, or None."""
 
     name: str = Field(description="a name in quotes")
     wellbore: WellboreSpec = Field(description="a table [wellbore]")
@@ -53,9 +50,9 @@ class Case(Table):
     @field_validator("operations", mode="before")
     @classmethod
     def _fill_in_starts(cls, raw: Any) -> Any:
-        """An operation that does not say where it starts does so where the one before ended."""
+        """Fill in the start depth of an operation that omits it: the end depth of the operation before."""
         if not isinstance(raw, list | tuple):
-            return raw  # pydantic says what it is not
+            return raw  # pydantic reports the wrong type
         filled = []
         end: object = MISSING
         for i, operation in enumerate(raw):
@@ -85,15 +82,15 @@ class Case(Table):
 
     @property
     def depths(self) -> tuple[float, float]:
-        """Top of the string, and the deepest that survey and intervals let the bit be [m]. Needs the survey."""
+        """Top of the string and greatest bit depth within survey and intervals [m]; reads the survey."""
         deepest = min(float(self.wellbore.trajectory[-1, 0]), self.wellbore.intervals[-1].to_md)
         return self.string.top_md, deepest
 
     def check_depths(self, raw: Mapping[str, Any] | None = None) -> None:
-        """Refuse a bit above the top of the string, or deeper than survey or intervals.
+        """Raise InputError for a bit depth above the top of the string, or below the end of survey or intervals.
 
-        Needs the survey, so it is no part of validation: a stored case can be read without its files.
-        raw: the case as it was written, to quote it.
+        It reads the survey, so it is not part of validation: a stored case can be read without its files.
+        raw: the case as the user wrote it, to quote values from.
         """
         top, bottom = self.depths
         for i, operation in enumerate(self.operations):
@@ -107,7 +104,7 @@ class Case(Table):
 
 @contextmanager
 def naming_file(case: Case) -> Iterator[None]:
-    """Adds the file that a case was read from to an InputError raised within."""
+    """Add the case's file to an InputError that is raised inside."""
     try:
         yield
     except InputError as error:
@@ -123,10 +120,10 @@ def check_bit_depth(md: float, top: float, bottom: float, key: str, value: objec
 
 
 def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Case:
-    """The case of a TOML file, validated after the overrides; raises InputError for whatever is wrong.
+    """The case of a TOML file, validated after the overrides; raises InputError for bad input.
 
-    overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as a case file
-    has them; None deletes a key. The key "friction" sets the friction of every interval.
+    overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
+    file; None deletes a key. The key "friction" sets the friction of every interval.
     """
     path = Path(path)
     raw: dict[str, Any] = {}
@@ -144,16 +141,16 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
 
 
 def parse_override(text: str) -> tuple[str, Any]:
-    """Key and value of "key=value": a TOML value, or else a plain string, or None for nothing at all.
+    """Key and value of "key=value": a TOML value, else a plain string, or None where the value is empty.
 
-    Raises InputError for what is not of this form.
+    Raises InputError for a text of another form.
     """
     key, sign, written = (part.strip() for part in text.partition("="))
     if not (key and sign):
         raise InputError("key=value", value=text)
     if not written:
         return key, None
-    if key != "wellbore.survey" and not is_utf8(written):  # only a file may have any bytes in its name
+    if key != "wellbore.survey" and not is_utf8(written):  # only file names need not be UTF-8
         raise InputError("a value in UTF-8", key=key, value=written)
     try:
         table = tomllib.loads(f"value = {written}")
@@ -169,7 +166,7 @@ def _read(path: Path) -> dict[str, Any]:
         raise InputError(f"a case file that can be read ({error.strerror})") from error
     except InputError:
         raise
-    except (ValueError, RecursionError) as error:  # no text, no TOML, or nested without end
+    except (ValueError, RecursionError) as error:  # not UTF-8, not TOML, or nested too deeply
         raise InputError(f"a case file in TOML ({error})") from error
 
 
@@ -180,6 +177,6 @@ def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
         for i in range(len(intervals) if isinstance(intervals, list) else 0):
             set_key(raw, f"wellbore.intervals[{i}].friction", value)
     elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
-        set_key(raw, key, os.path.abspath(value))  # whoever types a path means it from where they are
+        set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
     else:
         set_key(raw, key, value)

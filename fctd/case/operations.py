@@ -1,6 +1,6 @@
-"""The kinds of operation of a case: what a file says of each, and what the program knows of its kind.
+"""The kinds of operation of a case: the keys of each in a case file, and its properties as class attributes.
 
-A new kind is a class here and its name in ``Operation``; every table of kinds follows from these.
+To add a kind, write its class here and add it to ``Operation``; every table of kinds is made from these classes.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from fctd.case.errors import InputError, Table
 
 
 class _Operation(Table):
-    """What all kinds of operation share.
+    """Base of all kinds of operation.
 
     start_key, end_key : names of the first and the last depth in the file.  label : the kind in the driller's words.
-    direction : of the string along the hole, 1 down, −1 up, 0 not at all.  on_bottom : whether the bit carries weight
-    and torque.  default_speed [m/s], default_rpm : of a steady string where neither call nor case says more.
-    turns : whether the string has to turn; may_turn : whether it can.
+    direction : of the string along the hole, 1 down, −1 up, 0 at rest.  on_bottom : whether the bit carries weight
+    and torque.  default_speed [m/s], default_rpm : rates of a steady string where neither call nor case gives any.
+    turns : whether the string must rotate; may_turn : whether it may rotate.
     """
 
     start_key: ClassVar[str]
@@ -45,7 +45,7 @@ class _Operation(Table):
 
 
 class _Move(_Operation):
-    """The bit goes from one depth [m] to another at a speed [m/s]; the kind sets the direction."""
+    """The bit moves from one depth [m] to another at a speed [m/s]; the kind sets the direction."""
 
     start_key = "from_md"
     end_key = "to_md"
@@ -62,7 +62,7 @@ class _Move(_Operation):
 
 
 class TripIn(_Move):
-    """Into the hole: slack-off."""
+    """The string moves into the hole (slack-off)."""
 
     kind: Literal["trip_in"]
     label = "slacking off"
@@ -72,7 +72,7 @@ class TripIn(_Move):
 
 
 class TripOut(_Move):
-    """Out of the hole: pick-up."""
+    """The string moves out of the hole (pick-up)."""
 
     kind: Literal["trip_out"]
     label = "picking up"
@@ -82,7 +82,7 @@ class TripOut(_Move):
 
 
 class RotateOffBottom(_Operation):
-    """Rotation in place for a duration [s]."""
+    """The string rotates at one depth, off bottom, for a duration [s]."""
 
     start_key = end_key = "at_md"
     kind: Literal["rotate_off_bottom"]
@@ -98,7 +98,7 @@ class RotateOffBottom(_Operation):
 
 
 class BackReam(_Move):
-    """Out of the hole while rotating."""
+    """The string moves out of the hole and rotates."""
 
     kind: Literal["back_ream"]
     label = "back-reaming"
@@ -110,7 +110,7 @@ class BackReam(_Move):
 
 
 class DrillRotating(_Move):
-    """Ahead with the bit on bottom, the whole string rotating; `speed` is the rate of penetration."""
+    """The bit drills on bottom and the string rotates; `speed` is the rate of penetration."""
 
     kind: Literal["drill_rotating"]
     label = "drilling, rotating"
@@ -123,7 +123,7 @@ class DrillRotating(_Move):
 
 
 class DrillSliding(_Move):
-    """Ahead with the bit on bottom, turned by a motor while the string slides."""
+    """A motor turns the bit on bottom and the string slides without rotation; `speed` is the rate of penetration."""
 
     kind: Literal["drill_sliding"]
     label = "drilling, sliding"

@@ -1,6 +1,6 @@
 """The tables of a case file: hole, string, mud, rig, bit, contact, solver, record.
 
-Every float is SI once validated; what a key means and accepts is written here and nowhere else.
+Every float is SI once validated. Meaning and limits of each key are defined in this module.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from fctd.mechanics.laws import NAMES
 
 
 def _as_path(raw: object) -> object:
-    """A file may have any bytes in its name, but pydantic takes only texts in UTF-8 for paths."""
+    """A file name as a path; pydantic would refuse a string that is not UTF-8, which a file name may be."""
     return Path(raw) if isinstance(raw, str) and not is_utf8(raw) else raw
 
 
@@ -36,10 +36,10 @@ else:
 
 
 class IntervalSpec(Table):
-    """A stretch of hole of one size, from the end of the one above to `to_md` [m].
+    """A section of hole of one diameter, from the end of the interval above to `to_md` [m].
 
-    The first begins at the surface. `friction` is the kinetic friction factor. `stiffness` or `stiffness_per_length`
-    of an interval takes the place of the wellbore's key of the same name.
+    The first interval begins at the surface. `friction` is the kinetic friction factor. `stiffness` or
+    `stiffness_per_length` of an interval replaces the wellbore's key of the same name.
     """
 
     to_md: units.PositiveLength
@@ -52,21 +52,22 @@ class IntervalSpec(Table):
 
 @dataclass
 class _Trajectory:
-    """Stations as resolved once, and the keys they come from; two of them are equal, so that holes compare by keys."""
+    """The stations, cached, and the keys they come from; all instances are equal, so that holes compare by keys."""
 
     source: object = field(default=None, compare=False)
     stations: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)), compare=False)
 
 
 class WellboreSpec(Table):
-    """Where the hole runs, how wide it is, and how its wall answers.
+    """Path, diameter and wall stiffness of the hole.
 
     One of `survey` and `stations` is set; so is one of `cylinder_length` [m] and `chord_tolerance` [m],
-    and one of `stiffness` [N/m, a contact point] and `stiffness_per_length` [N/m/m].
+    and one of `stiffness` [N/m per contact point] and `stiffness_per_length` [N/m/m].
 
     With `geometry` "arcs" the hole follows the circular arcs between the stations. With "cylinders" it is cut into
-    straight pieces of `cylinder_length`, or so short that their chords miss the arc by at most `chord_tolerance`;
-    neighbours share `overlap` [m]. Where the size of the hole changes, arcs use `overlap` as the length of the shoe.
+    straight pieces of `cylinder_length`, or so short that their chords deviate from the arc by at most
+    `chord_tolerance`; neighbouring cylinders overlap by `overlap` [m]. Where the diameter of the hole changes, arcs
+    use `overlap` as the length of the shoe.
     """
 
     survey: FileName | None = Field(default=None, description="the name of a CSV file, relative to the case file")
@@ -133,8 +134,8 @@ class WellboreSpec(Table):
     def trajectory(self) -> NDArray[np.float64]:
         """Stations (n, 3) of survey file or case: measured depth [m], inclination and unwrapped azimuth [rad].
 
-        The file is read when they are first asked for, so a stored case can be read without it, and once: copies
-        made from then on share them.  Raises InputError for a file that cannot be used.
+        The survey file is read once, at the first access, so that a stored case can be read without it; copies made
+        afterwards share the stations.  Raises InputError for a file that cannot be used.
         """
         source = (self.survey, self.columns, self.stations)
         if self._trajectory.source != source:
@@ -154,12 +155,12 @@ class WellboreSpec(Table):
 
 
 class ComponentSpec(Table):
-    """A run of equal pipe. One of `segments` and `segment_length` [m] sets how finely it is cut.
+    """Pipe or a tool of one kind. One of `segments` and `segment_length` [m] sets the length of its segments.
 
     `outer_diameter` and `inner_diameter` are those of the pipe body; `contact_diameter` is that of tool joints or
-    stabilisers, which touch first. `linear_mass` (with tool joints) and the stiffnesses EA (`axial_stiffness`), EI
-    (`bending_stiffness`), GJ (`torsional_stiffness`) and κGA (`shear_stiffness`) are computed from the pipe body
-    where they are not given. The default `yield_strength` is that of S-135.
+    stabilisers, which touch the wall first. `linear_mass` (with tool joints) and the stiffnesses EA
+    (`axial_stiffness`), EI (`bending_stiffness`), GJ (`torsional_stiffness`) and κGA (`shear_stiffness`) are computed
+    from the pipe body where they are not given. The default `yield_strength` is that of S-135.
 
     A bent housing has its `bend` [rad] at the upper end, where the component is tilted against the one above
     it towards `toolface` [rad], which counts from the high side clockwise looking downhole.
@@ -211,7 +212,7 @@ class StringSpec(Table):
 
 
 class MudSpec(Table):
-    """Density [kg/m^3] and what the mud resists per metre of string: [N*s/m^2], rotation [N*s]."""
+    """Density [kg/m^3], and damping per metre of string: axial and lateral [N*s/m^2], rotational [N*s]."""
 
     density: units.Density = 0.0
     axial_damping: units.DampingPerLength = 0.0
@@ -220,7 +221,7 @@ class MudSpec(Table):
 
 
 class RigSpec(Table):
-    """What the rig's sensors see beside the string: block weight [N], torque offset [N*m].
+    """Loads that the rig's sensors read in addition to those of the string: block weight [N], torque offset [N*m].
 
     Friction in the sheaves divides the weight indicator by `sheave_efficiency` while the block is lowered, and
     multiplies it by `sheave_efficiency` while the block is hoisted.
@@ -232,14 +233,14 @@ class RigSpec(Table):
 
 
 class BitSpec(Table):
-    """What the bottom of the hole does to the bit while drilling: weight on bit [N], bit torque [N*m]."""
+    """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]."""
 
     weight_on_bit: units.Force = 0.0
     torque: units.PositiveOrZeroTorque = 0.0
 
 
 class ContactSpec(Table):
-    """The law of friction, and the damping of a contact point [N*s/m]; not `enabled`: no wall at all."""
+    """Friction law, and damping of a contact point [N*s/m]; with `enabled` false there is no wall."""
 
     enabled: StrictBool = True
     friction_law: FrictionLaw = "coulomb"
@@ -250,7 +251,7 @@ class SolverSpec(Table):
     """The time step [s], and joint damping as a multiple of joint stiffness [s].
 
     "largest" is the largest step that is certain to be stable, "auto" four fifths of it.
-    The default damps like steel, a loss of 0.2 % at 30 Hz: enough to keep sliding segments from chattering.
+    The default joint damping is that of steel, a loss of 0.2 % at 30 Hz; it keeps sliding segments from chattering.
     """
 
     step: float | Literal["auto", "largest"] = Field(
@@ -270,7 +271,7 @@ class SolverSpec(Table):
 
 
 class RecordSpec(Table):
-    """How often the history has a row [s], and the bit depths [m] at which a profile is kept."""
+    """Time between rows of the history [s], and bit depths [m] at which a profile is recorded."""
 
     interval: units.PositiveTime = 1.0
     profile_at: tuple[units.Length, ...] = ()

@@ -1,7 +1,7 @@
-"""Survey stations from a CSV file, and the checks that every list of stations passes.
+"""Survey stations from a CSV file, and the checks of every list of stations.
 
 Stations are an array of shape (n, 3): measured depth [m], inclination and azimuth [rad], the azimuth unwrapped, so
-that it may run past 2π.  Files and cases are written in degrees; here is the one place that converts them.
+that it may exceed 2π.  Files and cases are written in degrees; only this module converts them.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from fctd.case.units import conversion
 
 StationKey = Literal["md", "inc", "azi"]
 Where = Callable[[int, int], tuple[str, object]]
-"""(row, column) of a station array to the key and the value that the user wrote there."""
+"""Gives the user's key and value at (row, column) of a station array."""
 
 _UNITS: Final[dict[StationKey, tuple[str, str]]] = {
     "md": ("m", "ft"),
@@ -34,7 +34,7 @@ _UNITS: Final[dict[StationKey, tuple[str, str]]] = {
 _UNIT_ENDS_HEADER: Final = re.compile(r"(?:\(\s*|_)(?P<unit>[a-z]+)\s*\)?$")
 _LARGEST_FILE: Final = 32  # MiB: 100,000 stations with 40 other columns
 _SAME: Final = 1e-9  # m and deg: rows closer than this are one station written twice
-# Four times the deepest well drilled, and a station every half metre of it: beyond these the file holds something else.
+# Four times the deepest well drilled, and a station every half metre of it: a file beyond these limits is no survey.
 DEEPEST: Final = 50_000.0  # [m] measured depth
 MOST_STATIONS: Final = 100_000
 
@@ -44,7 +44,7 @@ def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] |
 
     Headers name their units: md_m or md_ft, inc_deg or inc_rad, azi_deg or azi_rad, in any case.
     `columns` maps md, inc, azi to other headers, which end in their unit: "Depth ( ft )", "depth_ft".
-    Raises InputError, which names file, row and column, for whatever is wrong.
+    Raises InputError, which names file, row and column, for bad data.
     """
     try:
         return _stations(_rows(Path(path)), columns or {})
@@ -55,7 +55,7 @@ def read_stations(path: str | PathLike[str], columns: Mapping[StationKey, str] |
 def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.float64]:
     """Stations (n, 3) [m, rad, rad] of stations in [m, deg, deg], or an InputError.
 
-    The exact repeats that real surveys hold are left out.
+    Exact repeats, which real surveys contain, are dropped.
     """
 
     def refuse(row: int, column: int, expected: str) -> InputError:
@@ -70,7 +70,7 @@ def check_stations(stations: NDArray[np.float64], where: Where) -> NDArray[np.fl
         raise refuse(row, 0, f"a measured depth of at most {DEEPEST / 1e3:g} km")
     for row in np.flatnonzero((stations[:, 1] < 0.0) | (stations[:, 1] > 180.0)).tolist():
         raise refuse(row, 1, "an inclination from 0 to 180 deg")
-    # Unwrapped azimuths pass, -999.25 and the other nulls of well logs do not.
+    # The bound admits unwrapped azimuths and excludes -999.25 and the other null values of well logs.
     for row in np.flatnonzero(np.abs(stations[:, 2]) > 720.0).tolist():
         raise refuse(row, 2, "an azimuth from -720 to 720 deg")
 

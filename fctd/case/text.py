@@ -1,4 +1,4 @@
-"""Texts from outside (names, keys, values, paths, and messages made of them): one function for each target."""
+"""The user's texts (names, keys, values, paths, messages that quote them), made safe for terminal and file names."""
 
 import io
 import re
@@ -16,7 +16,7 @@ def printable(text: str) -> str:
 
 
 def printable_lines(text: str) -> str:
-    """As `printable`, but the end of a line keeps its effect: for what is made of lines, such as a message."""
+    """As `printable`, but line ends are kept: for texts of several lines, such as a message."""
     return "\n".join(map(printable, text.split("\n")))
 
 
@@ -26,8 +26,8 @@ def file_name(text: str, ending: str) -> str:
     Dots turn into dashes, so that no name is hidden, leads upwards, or is that of a device.
     """
     encoding = sys.getfilesystemencoding()
-    held = text.encode(encoding, errors="replace").decode(encoding)
-    safe = re.sub(r"[^\w-]+", "-", held).strip("-").encode(encoding)[:_LONGEST_NAME]
+    encodable = text.encode(encoding, errors="replace").decode(encoding)
+    safe = re.sub(r"[^\w-]+", "-", encodable).strip("-").encode(encoding)[:_LONGEST_NAME]
     return (safe.decode(encoding, errors="ignore") or "case") + ending
 
 
@@ -37,7 +37,7 @@ def is_utf8(text: str) -> bool:
 
 
 def degrade_output() -> None:
-    """Let standard output and error show what their encoding lacks as escapes, where they would raise an error."""
+    """Make standard output and error write characters that their encoding lacks as escapes, instead of failing."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper) and stream.errors in ("strict", "surrogateescape"):
             stream.reconfigure(errors="backslashreplace")

@@ -1,7 +1,7 @@
-"""Quantities at the boundary: a string with its unit, or a bare SI number, to an SI float.
+"""Quantities of the input: a string with its unit, or a bare SI number, becomes an SI float.
 
 `Length`, `PositiveTime`, … are `float` to the type checker and, as fields of a pydantic model,
-parse and check what the user wrote. Everything behind the boundary is SI and never sees a unit.
+parse and check the user's value. All other code computes in SI.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ ROTATIONAL_DAMPING: Final = Dimension("a rotational damping per length", "N*s", 
 
 @cache
 def _registry() -> UnitRegistry[Any]:
-    """The one unit registry; built on first use, since pint takes half a second to come up."""
+    """The unit registry; built on first use, since importing pint takes half a second."""
     from pint import UnitRegistry
 
     registry: UnitRegistry[Any] = UnitRegistry()
@@ -80,14 +80,14 @@ def conversion(unit: str, target: str) -> float:
     registry = _registry()
     try:
         factor = registry.Quantity(1.0, unit).to(target).magnitude
-    except Exception as error:  # pint lets assertion and token errors of its parser through
+    except Exception as error:  # pint's parser also raises assertion and token errors
         raise ValueError(f"{unit!r} cannot be converted to {target!r}") from error
     return float(f"{factor:.15g}")  # pint multiplies floats: its foot is 0.30479999999999996 m
 
 
 @dataclass(frozen=True, kw_only=True)
 class Number(Expects):
-    """Pydantic annotation for a bare number within bounds; says what it expects when it refuses."""
+    """Pydantic annotation for a bare number within bounds; its error message gives the bounds."""
 
     noun: str = "a number"
     unit: str = ""
@@ -107,11 +107,11 @@ class Number(Expects):
 
     @property
     def expected(self) -> str:
-        """What to write here."""
+        """The accepted input, a noun phrase."""
         return self.bounded
 
     def read(self, value: object) -> float:
-        """The value as a float; refuses all that is not a number (booleans are not)."""
+        """The value as a float; InputError unless it is a number (a boolean is not)."""
         if isinstance(value, bool) or not isinstance(value, Real):
             raise InputError(self.expected, value=value)
         try:
@@ -187,20 +187,20 @@ def bare(value: object, key: str, noun: str) -> float:
 
 
 Bare = Annotated[float, Number(noun="a bare number")]
-Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SEGMENTS, which says more
-FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0)  # 20 means per cent
+Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SEGMENTS, whose check has a better message
+FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0)  # 20 is per cent
 Friction = Annotated[float, FRICTION]
 PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
 Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
 # Hoists run at 1 to 3 m/s and top drives at up to 300 rev/min; a model at a thousandth of the size turns some thirty
-# times as fast.  Beyond these the input is in the wrong unit.
+# times as fast.  A larger number is in the wrong unit.
 FASTEST: Final = 10.0  # [m/s]
 MOST_RPM: Final = 10_000.0
 Rpm = Annotated[float, Number(noun="a bare number of rev/min", at_least=0.0, at_most=MOST_RPM)]
 PositiveRpm = Annotated[float, Number(noun="a bare number of rev/min", above=0.0, at_most=MOST_RPM)]
 Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
 PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
-WIDEST: Final = 5.0  # [m]: no well is wider; 8.5 means inches
+WIDEST: Final = 5.0  # [m]: no well is wider; 8.5 is in inches
 Bore = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0, at_most=WIDEST)]
 Diameter = Annotated[float, Quantity(dimension=LENGTH, above=0.0, at_most=WIDEST)]
 Time = Annotated[float, Quantity(dimension=TIME, at_least=0.0)]

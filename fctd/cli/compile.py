@@ -1,4 +1,4 @@
-"""``fctd compile``, and what every command says of compiling."""
+"""``fctd compile``, and the messages of all commands about compiling."""
 
 import time
 import warnings
@@ -33,12 +33,12 @@ SMALL: dict[str, Any] = {
 
 
 def compile_command(quiet: Quiet = False) -> None:
-    """Compile the engine now, which otherwise the first run of a command does."""
+    """Compile the engine now; otherwise the first command that needs it compiles it."""
     compile_into(STORE, compile_all, quiet)
 
 
 def compile_into(store: Store, compiling: Callable[[], object], quiet: bool = False) -> None:
-    """Call ``compiling`` and say which functions it compiled, and where ``store`` keeps them; exit code 1 where not."""
+    """Call ``compiling``; print the functions it compiled and the store's folder; exit code 1 without a folder."""
     began, names = time.perf_counter(), set[str]()
 
     def progress(name: str) -> None:
@@ -49,7 +49,8 @@ def compile_into(store: Store, compiling: Callable[[], object], quiet: bool = Fa
     with listening(progress):
         compiling()
     if not store.lasting:
-        messages.print("compiled code could not be kept", style="bold")
+        advice = "set NUMBA_CACHE_DIR to a folder that can be written"
+        messages.print(f"compiled code could not be kept: {advice}", style="bold")
         raise typer.Exit(FAILED)
     taken = f"{len(names)} functions in {time.perf_counter() - began:.0f} s" if names else "nothing to do"
     screen.print(f"Compiled: {taken}, kept in {store.folder}", soft_wrap=True, highlight=False, markup=False)
@@ -63,34 +64,34 @@ def compile_all() -> None:
 
 
 @contextmanager
-def listening(tell: Callable[[str], object]) -> Iterator[None]:
-    """Inside, call ``tell`` with the name of every function of the cache that begins to be compiled."""
-    with event.install_listener("numba:compile", _Listener(tell)):
+def listening(report: Callable[[str], object]) -> Iterator[None]:
+    """Inside, call ``report`` with the name of every cached function whose compilation begins."""
+    with event.install_listener("numba:compile", _Listener(report)):
         yield
 
 
 class _Listener(event.Listener):
-    def __init__(self, tell: Callable[[str], object]) -> None:
-        self._tell = tell
+    def __init__(self, report: Callable[[str], object]) -> None:
+        self._report = report
 
     def on_start(self, event: event.Event) -> None:
         function = event.data["dispatcher"]
         if isinstance(function._cache, KeptCode):
-            self._tell(function.py_func.__name__)
+            self._report(function.py_func.__name__)
 
     def on_end(self, event: event.Event) -> None:
         pass
 
 
 @contextmanager
-def telling(messages: Console = messages) -> Iterator[None]:
-    """Inside, say on standard error why the first run waits, and plainly what is wrong with the compile cache."""
-    said: list[str] = []
+def announcing(messages: Console = messages) -> Iterator[None]:
+    """Inside, print on standard error that functions are compiled, and every warning about the compile cache."""
+    compiled: list[str] = []
 
     def first(name: str) -> None:
-        if not said and messages.is_terminal:
+        if not compiled and messages.is_terminal:
             messages.print("compiling, once for this version: about half a minute", highlight=False)
-        said.append(name)
+        compiled.append(name)
 
     others = warnings.showwarning
 

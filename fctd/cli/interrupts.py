@@ -12,8 +12,8 @@ from types import FrameType
 def as_interrupts() -> Iterator[None]:
     """Inside, SIGTERM and SIGHUP raise KeyboardInterrupt as Ctrl-C does, unless the caller ignores or handles them.
 
-    Only the first does: a terminal that closes sends several, and they must not cost the results that the first one
-    made the program write.  Does nothing outside the main thread.
+    Later signals are ignored: a terminal that closes sends several, and they must not stop the writing of the results
+    after the first one.  Does nothing outside the main thread.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -37,9 +37,9 @@ def as_interrupts() -> Iterator[None]:
 
 @contextmanager
 def ends_program() -> Iterator[None]:
-    """Inside, Ctrl-C, SIGTERM or SIGHUP end a program with exit code 130, as they do later, without a traceback.
+    """Inside, Ctrl-C, SIGTERM or SIGHUP end a program with exit code 130, without a traceback.
 
-    For the second or two that importing takes.  An interactive session gets its KeyboardInterrupt and goes on.
+    It surrounds the imports, which take a second or two.  An interactive session gets KeyboardInterrupt and continues.
     """
     try:
         with as_interrupts():

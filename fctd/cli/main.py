@@ -12,7 +12,7 @@ from rich.table import Table
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.text import degrade_output, file_name, printable
-from fctd.cli.compile import compile_command, telling
+from fctd.cli.compile import announcing, compile_command
 from fctd.cli.interrupts import as_interrupts
 from fctd.cli.options import (
     BAD_INPUT,
@@ -76,11 +76,11 @@ def simulate_file(
     *,
     strict: bool = False,
 ) -> None:
-    """What ``simulate`` does; ``contact`` builds another contact method for the case (see fctd.simulate)."""
+    """Run ``fctd simulate``; ``contact`` builds another contact method for the case (see fctd.simulate)."""
     case = read_case(case_file, overrides, friction)
     method = None if contact is None else contact(case)
     folder = out or Path(file_name(case.name, "-result"))
-    check_result_folder(folder, csv, "--out")  # before hours of computing, not after
+    check_result_folder(folder, csv, "--out")  # before hours of computing
     refuse_source_files(case, (folder / name for name in own_files(folder).union(result_files(csv))), "--out")
     columns = (
         TextColumn("{task.description}", markup=False),
@@ -95,16 +95,16 @@ def simulate_file(
             task = bar.add_task("compiling, settling", total=1.0, factor="–")
 
             def settling(now: float, imbalance: float) -> None:
-                words = f"settling, {imbalance:.0e} of the weight out of balance"
-                bar.update(task, description=words, total=LONGEST_SETTLING, completed=now)
+                text = f"settling, forces out of balance by {imbalance:.0e} of the weight"
+                bar.update(task, description=text, total=LONGEST_SETTLING, completed=now)
 
             def show(now: float, total: float, factor: float) -> None:
                 bar.update(task, description=printable(case.name), total=total, completed=now, factor=f"{factor:.0f}")
 
             result = simulate(case, progress=show, contact=method, settling=settling)
-            # Files first: the screen, also that of the bar, may have been closed.
+            # The files are written before anything is printed: the terminal may have been closed.
             written = result.save(folder, csv=csv)
-    finally:  # the screen also where a file fails
+    finally:  # printed also where a file cannot be written
         if result is not None:
             _summarise(result)
     print_written(written)
@@ -114,7 +114,7 @@ def simulate_file(
 
 
 def _summarise(result: SimulationResult) -> None:
-    """Print the state at the end and the numbers of the run."""
+    """Print the loads at the end, and the size, speed and energy error of the run."""
     if result.message and not result.status.acceptable:
         print_status(result.status, result.message)
     print_notes(note for note in result.notes if str(note) != result.message or result.status.acceptable)
@@ -152,12 +152,12 @@ def main() -> None:
 
 
 def run(commands: typer.Typer) -> None:
-    """Run a command line: one line for bad input or a file that cannot be written, no traceback."""
+    """Run a command line; bad input, or a file that cannot be written, gives one line and no traceback."""
     degrade_output()
     try:
-        with as_interrupts(), telling():
+        with as_interrupts(), announcing():
             commands()
-    except (InputError, OSError) as error:  # OSError: a disk that is full, a terminal that has gone meanwhile
+    except (InputError, OSError) as error:  # OSError: a full disk, a closed terminal
         with suppress(OSError):
             messages.print(str(error), style="bold", soft_wrap=True)
         sys.exit(BAD_INPUT)

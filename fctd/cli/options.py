@@ -1,4 +1,4 @@
-"""What the commands share: options, exit codes, the screen, and values and files checked before any computing."""
+"""Options, exit codes and consoles of the commands, and checks of values and files before any computing."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -21,9 +21,9 @@ DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
 class Terminal(Console):
-    """A console on which every string stands as it is: no markup, no emoji codes, escapes for what does not print.
+    """A console that prints strings literally: no markup, no emoji codes, escapes for characters that do not print.
 
-    Only the end of a line keeps its effect, so a text from outside that must stay on one line passes `printable`.
+    Line ends are kept, so a user's text that must stay on one line passes `printable` first.
     """
 
     def __init__(self, *, stderr: bool = False) -> None:
@@ -35,7 +35,7 @@ class Terminal(Console):
         return super().render_str(shown.decode(self.encoding), **options)
 
 
-# Results go to standard output; progress and errors to standard error, so that neither spoils the other.
+# Results go to standard output, progress and errors to standard error, so that each can be redirected.
 screen, messages = Terminal(), Terminal(stderr=True)
 
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]
@@ -45,18 +45,18 @@ Overrides = Annotated[
 ]
 Friction = Annotated[float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")]
 Out = Annotated[
-    Path | None, typer.Option("--out", metavar="FOLDER", help="Where results go; default: CASE-NAME-result.")
+    Path | None, typer.Option("--out", metavar="FOLDER", help="Folder for the results; default: CASE-NAME-result.")
 ]
 Csv = Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")]
 Strict = Annotated[
-    bool, typer.Option("--strict", help="Exit code 1 where there is a note; results are written all the same.")
+    bool, typer.Option("--strict", help="Exit code 1 where the result has a note; results are still written.")
 ]
 Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
 
 
 def read_case(path: Path, overrides: Sequence[str], friction: float | None = None) -> Case:
-    """The case of a file after ``--set`` and ``--friction``."""
-    repair(path.parent, own_files)  # a killed ``simulate`` may have been about to move the file with its folder
+    """The case of a file with the changes of ``--set`` and ``--friction``."""
+    repair(path.parent, own_files)  # a killed ``simulate`` may have left the case file in a renamed folder
     changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
     if friction is not None:
         changes["friction"] = friction
@@ -105,7 +105,7 @@ def read_share(text: str, key: str) -> float:
 
 
 def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
-    """Refuse a file of another suffix, and one that could not be written: before the computing, not after."""
+    """Raise InputError for a file of another suffix, and for one that cannot be written."""
     if path is None:
         return
     if path.suffix.lower() not in suffixes:
@@ -115,13 +115,13 @@ def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
 
 
 def refuse_sources(case: Case, path: Path | None, key: str) -> None:
-    """Refuse a file that, or whose side file, would be written over the case file or its survey."""
+    """Raise InputError where a table, or its metadata file, would replace the case file or its survey."""
     if path is not None:
         refuse_source_files(case, table_files(path), key)
 
 
 def refuse_source_files(case: Case, paths: Iterable[Path], key: str) -> None:
-    """Refuse files one of which is the case file or its survey."""
+    """Raise InputError where one of the files is the case file or its survey."""
     for path in paths:
         for source in (case.file, case.wellbore.survey):
             if source is not None and path.exists() and path.samefile(source):
@@ -134,6 +134,6 @@ def print_status(status: str, message: str) -> None:
 
 
 def print_written(paths: Sequence[Path]) -> None:
-    """Print the files that were written, if any, on a line that can be copied."""
+    """Print the files that were written, if any, on one line."""
     if paths:
         screen.print(f"Written: {', '.join(printable(str(path)) for path in paths)}", soft_wrap=True)

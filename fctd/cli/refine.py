@@ -1,4 +1,4 @@
-"""``fctd refine CASE``: how many segments a tolerance needs, and the case cut so."""
+"""``fctd refine CASE``: the number of segments that a tolerance needs, and the refined case."""
 
 from pathlib import Path
 from typing import Annotated
@@ -42,34 +42,36 @@ def refine_command(
     ] = "1%",
     operations: Annotated[
         list[str],
-        typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}; may be repeated; else the case's first."),
+        typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}; may be repeated; default: the case's first."),
     ] = [],  # noqa: B006 (typer copies it)
     bit_depth: Annotated[
-        str | None, typer.Option("--bit-depth", metavar="D", help="Depth of the bit; else that operation's end.")
+        str | None, typer.Option("--bit-depth", metavar="D", help="Bit depth; default: the end of that operation.")
     ] = None,
     graded: Annotated[
-        bool, typer.Option("--graded", help="Short segments in bends and near the bit, if that saves a tenth.")
+        bool, typer.Option("--graded", help="Short segments only in bends and near the bit, if that saves a tenth.")
     ] = False,
-    most: Annotated[int, typer.Option("--most", metavar="N", help="Segments at most.")] = 5000,
+    most: Annotated[int, typer.Option("--most", metavar="N", help="Largest number of segments.")] = 5000,
     speed: Speed = None,
     rpm: Rpm = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
     out: Annotated[
         Path | None,
-        typer.Option("--out", metavar="FILE", help="The case with this string and hole, .toml.", show_default=False),
+        typer.Option(
+            "--out", metavar="FILE", help="The case with the refined string and hole, .toml.", show_default=False
+        ),
     ] = None,
     units: Units = "si",
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
-    """Cut the string of a case finer until hook load and torque no longer change, and say what error is left."""
+    """Refine the segments of a case until hook load and torque no longer change, and estimate the remaining error."""
     check_target(out, "--out", (".toml",))
     share = read_share(tolerance, "--tolerance")
     case = read_case(case_file, overrides, friction)
     refuse_sources(case, out, "--out")
     if out is not None:
-        survey_from(out, case)  # before the computing, not after
+        survey_from(out, case)  # raises InputError before the computing
     depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth")
     with messages.status("compiling") as status:
         if quiet:
@@ -78,7 +80,7 @@ def refine_command(
             case, share, operations or None, depth, graded, most, **read_drive(speed, rpm), progress=status.update
         )
     target = out if refined.status.has_loads else None
-    try:  # the file first, since whoever reads the screen may close it; the screen also where the file fails
+    try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
         if target is not None:
             changes = dict(parse_override(text) for text in overrides)
             if friction is not None:
@@ -89,19 +91,19 @@ def refine_command(
     if target is not None:
         print_written([target])
     elif out is not None:
-        messages.print("Nothing is written: no string has an answer.")
+        messages.print("Nothing is written: no equilibrium was found.")
     finish(refined.status.acceptable, (note.code for note in refined.notes), strict)
 
 
 def _print(refined: Refinement, graded: bool, units: System) -> None:
-    """Print every level, and what follows; which layout a string has only where both were tried."""
+    """Print every level and the conclusion; name the layout of a string only where both were tried."""
     metre, load, torque = (shown(name, units) for name in ("bit_depth_m", "hookload_N", "surface_torque_N_m"))
     title = f"{printable(refined.case.name)}: bit at {refined.bit_depth * metre.factor:.1f} {metre.label}"
     screen.print(title, style="bold")
     table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
     table.add_column("", no_wrap=True)
     table.add_column("operation", no_wrap=True)
-    for heading in (f"hook load\n{load.label}", f"torque\n{torque.label}", "change\n%", "left\n%", "time\nms"):
+    for heading in (f"hook load\n{load.label}", f"torque\n{torque.label}", "change\n%", "error\n%", "time\nms"):
         table.add_column(heading, justify="right", overflow="fold")
     across = shown("clearance_m", units)
     for (stage, layout, _), rows in refined.steps.groupby(["stage", "layout", "level"], sort=False):
@@ -124,12 +126,12 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
     if refined.status.acceptable:
         cut = f"{refined.layout} segments" if graded else "segments"
         screen.print(
-            f"{refined.segments} {cut}, from {refined.shortest * metre.factor:.3g} {metre.label} up: an error of "
-            f"{_percent(refined.error)} % is left, {_percent(refined.tolerance)} % is allowed.",
+            f"{refined.segments} {cut}, from {refined.shortest * metre.factor:.3g} {metre.label} up: the error is "
+            f"{_percent(refined.error)} %, the tolerance {_percent(refined.tolerance)} %.",
             soft_wrap=True,
         )  # fmt: skip
         if graded and refined.layout == "uniform":
-            screen.print("Grading would not save a tenth of them.", soft_wrap=True)
+            screen.print("A graded layout would save less than a tenth of the segments.", soft_wrap=True)
     else:
         print_status(refined.status, refined.message)
     print_notes(refined.notes)

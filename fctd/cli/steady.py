@@ -52,7 +52,7 @@ SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
 
 
 def _defaults(rate: str) -> str:
-    """What a rate is by default, kind by kind."""
+    """The default of a rate for each kind."""
     return ", ".join(f"{name} {getattr(kind, rate):g}" for name, kind in KINDS.items() if getattr(kind, rate))
 
 
@@ -62,12 +62,12 @@ Speed = Annotated[
     typer.Option(
         "--speed",
         metavar="V",
-        help=f"Along the hole, '0.3 m/s'; else the case's, else {_defaults('default_speed')} m/s.",
+        help=f"Speed along the hole, '0.3 m/s'; default: the case's, else {_defaults('default_speed')} m/s.",
     ),
 ]
 Rpm = Annotated[
     float | None,
-    typer.Option("--rpm", metavar="N", help=f"Rev/min; else the case's, else {_defaults('default_rpm')}."),
+    typer.Option("--rpm", metavar="N", help=f"Rev/min; default: the case's, else {_defaults('default_rpm')}."),
 ]
 Units = Annotated[System, typer.Option("--units", help="Units of tables, pictures and screen.")]
 
@@ -80,7 +80,7 @@ def _file(option: str, what: str) -> typer.models.OptionInfo:
 def equilibrium_command(
     case_file: CaseFile,
     operations: Annotated[list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}.")],
-    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help="Depth of the bit, '2450 m'.")],
+    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help="Bit depth, '2450 m'.")],
     speed: Speed = None,
     rpm: Rpm = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
@@ -90,7 +90,7 @@ def equilibrium_command(
     units: Units = "si",
     strict: Strict = False,
 ) -> None:
-    """Find the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
+    """Solve the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
     check_target(out, "--out", TABLES)
     plots = _plots({"--plot": plot})
     if len(operations) > 1:
@@ -105,7 +105,7 @@ def equilibrium_command(
     drive = read_drive(speed, rpm)
     point = equilibrium(case, operation, depth, **drive)
     written = []
-    try:  # files first, since whoever reads the screen may close it; the screen also where a file fails
+    try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
         if point.answered and out is not None:
             metadata = _metadata(case, units, [operation], drive)
             metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
@@ -116,7 +116,7 @@ def equilibrium_command(
     finally:
         _print_point(point, units)
     if not point.answered and (out is not None or plot is not None):
-        messages.print("Nothing is written: without a balance there is no profile.")
+        messages.print("Nothing is written: no equilibrium was found, so there is no profile.")
     print_written(written)
     finish(point.status.acceptable, (note.code for note in point.notes), strict)
 
@@ -131,7 +131,7 @@ def chart_command(
         typer.Option("--depths", metavar="FROM:TO:STEP", help="Bit depths, 1750:2450:10 or '5000 ft:8000 ft:30 ft'."),
     ],
     frictions: Annotated[
-        list[float], typer.Option("--friction", metavar="X", help="Friction factor everywhere; may be repeated.")
+        list[float], typer.Option("--friction", metavar="X", help="Friction factor of every interval; may be repeated.")
     ] = [],  # noqa: B006 (typer copies it)
     speed: Speed = None,
     rpm: Rpm = None,
@@ -146,7 +146,7 @@ def chart_command(
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
-    """Draw up a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
+    """Compute a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
     check_target(out, "--out", TABLES)
     plots = _plots({"--plot": plot, "--plot-profile": plot_profile})
     case = read_case(case_file, overrides)
@@ -188,7 +188,7 @@ def chart_command(
 
 
 def read_depths(text: str) -> list[float]:
-    """Bit depths [m] of FROM:TO:STEP, TO among them where it lies on the grid."""
+    """Bit depths [m] of FROM:TO:STEP, with TO where it lies on the grid."""
     parts = text.split(":")
     if len(parts) != 3:
         raise InputError("FROM:TO:STEP, such as 1750:2450:10 or '5000 ft:8000 ft:30 ft'", key="--depths", value=text)
@@ -198,17 +198,17 @@ def read_depths(text: str) -> list[float]:
     steps = (last - first) / step
     if steps >= MOST_DEPTHS:
         raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)
-    # Rounding noise must neither lose the last depth nor end up in a table as 1750.3000000000002.
+    # Rounding errors must neither drop the last depth nor give 1750.3000000000002 in a table.
     return [round(first + k * step, 6) for k in range(int(np.floor(steps + 1e-6)) + 1)]
 
 
 def read_drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
-    """Rates as they were asked for: speed [m/s], rpm, None where the case decides."""
+    """The given rates: speed [m/s] and rpm, None where the case sets them."""
     return {"speed": None if speed is None else read_quantity(speed, SPEED, "--speed"), "rpm": rpm}
 
 
 def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
-    """The module of the pictures if any is asked for; it needs the optional matplotlib."""
+    """The module of pictures, which needs the optional matplotlib; None where no picture is asked for."""
     wanted = {key: path for key, path in targets.items() if path is not None}
     for key, path in wanted.items():
         check_target(path, key, PICTURES)
@@ -230,7 +230,7 @@ def _in(units: System, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _metadata(case: Case, units: System, kinds: Sequence[str], drive: Mapping[str, Any]) -> dict[str, Any]:
-    """What a table rests on; rates are those solved with, downwards and clockwise."""
+    """Metadata of a table: case, units, versions, and the rates used, positive downwards and clockwise."""
     rates = rates_of_all(case, kinds, **drive)
     return {
         "case": case.model_dump(mode="json"),
@@ -241,12 +241,12 @@ def _metadata(case: Case, units: System, kinds: Sequence[str], drive: Mapping[st
 
 
 def _loads(point: Equilibrium) -> dict[str, float]:
-    """Loads of a point by column name."""
+    """Loads of a steady string by column name."""
     return {load.name: load.value(point) for load in LOADS}
 
 
 def _print_point(point: Equilibrium, units: System) -> None:
-    """Print the loads of a string, and where it is near its limits."""
+    """Print the loads of a string, its extreme tension, side force and stress, and the buckled depths."""
     metre = shown("bit_depth_m", units)
     depth = f"{point.bit_depth * metre.factor:.1f} {metre.label}"
     screen.print(f"{printable(point.case.name)}: {point.operation}, bit at {depth}", style="bold")
@@ -274,7 +274,7 @@ def _print_point(point: Equilibrium, units: System) -> None:
 
 
 def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
-    """First and last depth [m] of every run of contact points that is buckled in a mode."""
+    """First and last depth [m] of every run of contact points beyond the buckling limit of a mode."""
     found = []
     for buckled, run in groupby(zip(profile["buckling"] == mode, profile["md_m"], strict=True), key=lambda row: row[0]):
         if buckled:
@@ -284,7 +284,7 @@ def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
 
 
 def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
-    """Print a table that fits the screen, and every row that is more than a converged number."""
+    """Print a table that fits the screen, and a line for each run of rows with another status or a note."""
     units_of = {column.name: shown(column.name, units) for column in SHOWN}
     screen.print(printable(name), style="bold")
     table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
@@ -296,7 +296,7 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     series = list(chart.groupby(["operation", "friction"], sort=False, dropna=False))
     each = max(SCREEN_ROWS // len(series), 1)
     for (operation, friction), rows in series:
-        # Evenly spread, and the deepest always among them.
+        # Evenly spread rows, always with the deepest one.
         picked = np.unique(np.linspace(len(rows) - 1, 0, min(each, len(rows))).round().astype(int))
         for k, row in enumerate(rows.iloc[picked].to_dict("records")):
             values = [
@@ -334,7 +334,7 @@ def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
 
 
 def _runs(values: "pd.Series[Any]", depths: "pd.Series[float]", label: str) -> list[tuple[Any, str]]:
-    """Every run of equal values, and at which depths it stands."""
+    """Every run of equal values, with its depths as text."""
     found = []
     for value, run in groupby(zip(values, depths, strict=True), key=lambda row: row[0]):
         at = [depth for _, depth in run]
@@ -344,5 +344,5 @@ def _runs(values: "pd.Series[Any]", depths: "pd.Series[float]", label: str) -> l
 
 
 def _factor(friction: object) -> str:
-    """A friction factor in words; intervals may differ."""
+    """A friction factor as text; "case's" where intervals differ."""
     return f"{friction:g}" if isinstance(friction, float) and np.isfinite(friction) else "case's"

@@ -1,1 +1,1 @@
-"""What a case describes: survey, wellbore, drill string and operations, ready for the mechanics."""
+"""The model of a case for the mechanics: survey, wellbore, drill string and operations."""

@@ -19,14 +19,14 @@ Array = NDArray[np.float64]
 # this long [m].
 LONG_SEGMENT_TILT = np.radians(1.0)
 SHORTEST_LONG_SEGMENT = 10.0
-# A layout is the string it stands for when no length is off by more [m].
+# Largest error of a length in a layout [m].
 SAME_LENGTH = 1e-6
-# The stiffness of a joint goes with the third power of 1/length: this one leaves numbers that can be computed with [m].
+# Shortest segment that can be computed with [m]; the stiffness of a joint grows with the third power of 1/length.
 SHORTEST_SEGMENT = 1e-6
 
 
 class Section(NamedTuple):
-    """One metre of a component: what its segments are made of.
+    """Properties of a component per metre of its length.
 
     mass [kg/m], weight (buoyed) [N/m], axial_inertia and tilt_inertia [kg m], EA [N], GJ, EI [N m^2],
     shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa].
@@ -91,7 +91,7 @@ class String:
 
     bit_depth : unstretched length below the rotary table [m]; length [m]; component : index into ``sections`` and
     the case's components; long_segment : whether the top segment is the paper's long one, whose length may change
-    while the string moves.  Raises AssertionError where these do not agree, which is a defect of the program.
+    while the string moves.  Raises AssertionError where these disagree, which is a defect of the program.
     """
 
     top_md: float
@@ -107,7 +107,7 @@ class String:
             raise AssertionError(f"the segments end {off:g} m below the bit depth, {self.bit_depth:g} m")
         if self.length.min() <= 0:
             raise AssertionError(f"a segment of {self.length.min():g} m")
-        # From the top down each component follows the one above it in the list, and none is left out.
+        # From the top down the components follow each other in reverse order of the list, without a gap.
         steps = np.diff(self.component, prepend=len(self.sections), append=-1)
         if len(self.component) != len(self.length) or not ((steps == 0) | (steps == -1)).all():
             raise AssertionError("the segments do not follow the order of the components")
@@ -140,7 +140,7 @@ class String:
         return short
 
     def contact_radius(self) -> Array:
-        """Radii (n,) at contact points [m]: at unlike neighbours the larger, but a short component's is its own."""
+        """Radii (n,) at contact points [m]: the larger one of unlike neighbours; a short component has its own."""
         own = self.of("contact_radius")
         below = np.append(np.where(self._short(), 0.0, own)[1:], 0.0)
         return np.asarray(np.where(self.mid_contact(), own, np.maximum(own, below)))
@@ -151,7 +151,7 @@ class String:
         EA and shear [N] give [N/m]; EI and GJ [N m^2] give [N m/rad].
 
         The first joint is the clamp at the top drive, half a segment away; a long segment puts its whole
-        length there and leaves the next joint the half below it alone.
+        length there, and the next joint has only the half segment below it.
         """
         compliance = 0.5 * self.length / self.of(name)
         above = np.concatenate([[0.0], compliance[:-1]])
@@ -165,7 +165,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     """Segments of the string that is in the hole with the bit at ``bit_depth`` [m].
 
     Components are laid from the bit up until the depth is reached; the topmost piece takes the remainder.
-    deepest : bit depth [m] that pipe will be fed to from here, which only a long segment can do.
+    deepest : greatest bit depth [m] of the run; pipe is fed to reach it, which needs a long segment at the top.
     Raises InputError when the string is too short, a long segment does not fit, or more than the topmost
     component would have to be fed.
     """
@@ -231,8 +231,8 @@ def _check_feed(case: Case, top: int, deepest: float) -> None:
     reach = case.string.top_md + sum(length for length in lengths if length is not None)
     if deepest > reach + 1e-6:
         raise InputError(
-            f"to reach a bit depth of {deepest:g} m, since one trip feeds pipe of one component "
-            "(a longer component, or a run for each)",
+            f"a length to reach a bit depth of {deepest:g} m, since a trip feeds pipe of one component only "
+            "(make the component longer, or simulate a trip for each component)",
             key=f"string.components[{top}].length",
             value=f"enough for a bit depth of {reach:g} m",
         )
@@ -247,19 +247,19 @@ def _check_segments(segments: float) -> None:
 
 
 def check_lengths(string: String, taken: list[float]) -> None:
-    """Raise AssertionError unless the segments of each component add up to what of it is taken [m].
+    """Raise AssertionError unless the segments of each component add up to its length in the hole, ``taken`` [m].
 
-    Mass and weight are those of the case's components when each of them has its own metres.
+    Otherwise mass and weight of the string would be wrong.
     """
     if np.abs(np.bincount(string.component, string.length) - taken).max() > SAME_LENGTH:
-        raise AssertionError(f"the segments of a component are not as long as what of it is in the hole, {taken} m")
+        raise AssertionError(f"the segments of a component do not add up to its length in the hole, {taken} m")
 
 
 def _divide(part: ComponentSpec, take: float) -> list[float]:
     """Segments of ``take`` metres of a component from the bit up; remainder (0.5–1.5 nominal) on top."""
     whole = take if part.length is None else part.length
     nominal = whole / part.segments if part.segments is not None else part.segment_length
-    assert nominal is not None  # the case makes sure that one of the two is given
+    assert nominal is not None  # ComponentSpec requires one of the two
     _check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
     if abs(take - whole) < 1e-9:
         count = max(round(whole / nominal), 1)
@@ -269,9 +269,10 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
 
 
 def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> None:
-    """Raise InputError when the string is wider than the hole it passes, or its long segment is not upright.
+    """Raise InputError for a string that is wider than its hole.
 
-    So it does for a segment too short to compute with.  deepest : greatest bit depth of the run [m].
+    Also for a long segment outside vertical hole, and for a segment that is too short to compute with.
+    deepest : greatest bit depth of the run [m].
     """
     shortest = int(np.argmin(string.length))
     if string.length[shortest] < SHORTEST_SEGMENT:
@@ -321,7 +322,7 @@ def fill(S: Array, string: String, case: Case) -> PerMetre:
     row(S, state.RADIUS, n)[:] = string.contact_radius()
     per_metre = case.wellbore.stiffness_per_length is not None
     below = np.append(length[1:], 0.0)
-    # Half of either neighbour; a long segment touches the wall by its end alone, a middle contact by all of it.
+    # Half of each neighbouring segment, none of a long one; a contact at mid-segment has the length of its segment.
     above = np.where(np.arange(n) == 0, 0.0, length) if string.long_segment else length
     tributary = np.where(middle, length, 0.5 * (above + below))
     row(S, state.TRIBUTARY, n)[:] = tributary if per_metre else 1.0

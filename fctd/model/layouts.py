@@ -1,7 +1,7 @@
-"""How finely a string is cut: all of it alike, or short in bends and near the bit and long elsewhere.
+"""Segment lengths of a string: uniform, or graded (short in bends and near the bit, longer elsewhere).
 
-Both layouts are plain components of a case, so everything that takes a case takes them.  A graded one is a run of
-components of the same pipe; it is positioned from the bit upwards, for one bit depth.
+A layout is a list of components, so that a case can have it.  A graded layout divides a component into several of
+the same pipe; it is counted from the bit upwards and made for one bit depth.
 """
 
 from collections.abc import Callable
@@ -21,9 +21,9 @@ Components = tuple[ComponentSpec, ...]
 # A case, a bit depth [m] and the length of the shortest segments [m] to components.
 Layout = Callable[[Case, float, float], Components]
 
-# Segments elsewhere are up to so many times as long as the shortest; lengths differ by factors of two.
+# Largest ratio of a segment to the shortest one; lengths differ by factors of two.
 LONGEST = 8.0
-# A hole that bends less all along counts as straight [1/m].
+# A hole whose curvature is nowhere larger counts as straight [1/m].
 STRAIGHT = np.radians(0.5) / 30
 SAMPLES = 4000
 
@@ -34,12 +34,12 @@ def with_components(case: Case, components: Components) -> Case:
 
 
 def uniform(case: Case, bit_depth: float, length: float) -> Components:
-    """Every component in equal segments of about ``length`` [m]; shorter ones are one, a long segment stays."""
+    """Every component in equal segments of about ``length`` [m]; a shorter one is one segment, a long segment stays."""
     return tuple(_cut(part, length) for part in case.string.components)
 
 
 def graded(case: Case, bit_depth: float, length: float) -> Components:
-    """Segments of about ``length`` [m] at the bit and in the sharpest bend, longer where ``coarseness`` is more."""
+    """Segments of about ``length`` [m] at the bit and in the sharpest bend, longer where ``coarseness`` is larger."""
     above_bit, factor = coarseness(case, bit_depth)
     pieces: list[ComponentSpec] = []
     start, total = 0.0, bit_depth - case.string.top_md
@@ -92,7 +92,7 @@ def _wave(case: Case, md: Array, above_bit: Array) -> Array:
 
 
 def segments_in_hole(case: Case, bit_depth: float) -> int:
-    """How many segments a string has with the bit at a depth [m], about; cheap, however many there are."""
+    """Approximate number of segments with the bit at a depth [m]; counted without laying out the string."""
     remaining, count = bit_depth - case.string.top_md, 0.0
     for part in case.string.components:
         take = remaining if part.length is None else min(part.length, remaining)
@@ -120,7 +120,7 @@ def _cut(part: ComponentSpec, length: float) -> ComponentSpec:
 
 def _grade(part: ComponentSpec, runs: list[tuple[float, int]]) -> Components:
     """A component as runs of equal segments, from the lower end upwards; a bend stays at its upper end."""
-    # A single segment between longer ones would pass for a stabiliser, which touches at its middle.
+    # A single segment between longer ones would count as a stabiliser, which touches at its middle.
     runs = [(length, max(count, 2) if len(runs) > 1 else count) for length, count in runs]
     pieces = [
         part.model_copy(update={"length": length, "segments": count, "segment_length": None, "bend": 0.0})
@@ -130,7 +130,7 @@ def _grade(part: ComponentSpec, runs: list[tuple[float, int]]) -> Components:
     top: dict[str, Any] = {"bend": part.bend}
     if part.length is not None:
         top["length"] = part.length - sum(run for run, _ in runs[:-1])
-    if part.length is None or top["length"] > length + 0.01:  # more of it than is in the hole
+    if part.length is None or top["length"] > length + 0.01:  # longer than its part in the hole
         top |= {"length": top.get("length"), "segments": None, "segment_length": round(length / count, 6)}
     return (*pieces[:-1], pieces[-1].model_copy(update=top))
 
@@ -149,13 +149,13 @@ def _walk(start: float, end: float, length: float, above_bit: Array, factor: Arr
     if len(lengths) > 1 and lengths[-1] < 0.5 * lengths[-2]:
         left_over = lengths.pop()
         lengths[-1] += left_over
-    # What is left over at the upper end is shared out among its run.
+    # The remainder at the upper end is spread over the last run.
     runs = [list(same) for _, same in groupby(lengths[:-1])]
     if runs and lengths[-1] < 1.5 * runs[-1][0]:
         runs[-1].append(lengths[-1])
     else:
         runs.append(lengths[-1:])
-    # In millimetres, for those who read the case file.
+    # Rounded to millimetres, to keep the case file readable.
     return [(round(float(sum(run)), 3), len(run)) for run in runs]
 
 

@@ -1,4 +1,4 @@
-"""What the rig does: the schedule of a case as phases of constant or ramped feed and rotation."""
+"""The schedule of the rig: the operations of a case as phases of constant or ramped feed and rotation."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -11,12 +11,12 @@ from fctd.case.operations import KINDS, Operation, RotateOffBottom
 from fctd.case.units import FASTEST, MOST_RPM, bare
 from fctd.mechanics.topdrive import Motion
 
-# A shorter operation is over before the first step, and has no load to record [s].
+# Shortest operation [s]; a shorter one would end before the first step, with no load to record.
 SHORTEST = 1e-3
 
 
 class Phase(NamedTuple):
-    """A piece of the schedule: the top drive's motion, and the index of the operation it belongs to."""
+    """A phase of the schedule: the top drive's motion, and the index of its operation."""
 
     motion: Motion
     operation: int
@@ -28,11 +28,11 @@ def rad_per_s(rpm: float) -> float:
 
 
 def schedule(operations: Sequence[Operation]) -> list[Phase]:
-    """Stretches of the operations one after the other, starting from rest.
+    """Phases of the operations in order, starting from rest.
 
-    Each operation ramps speed and rotation within its ramp time.  One that another follows comes to rest at
-    its end depth; the last one ends in motion, so that its end can be read as a steady state.  Raises InputError
-    for an operation shorter than ``SHORTEST``.
+    Each operation ramps speed and rotation within its ramp time.  It comes to rest at its end depth, except the
+    last one, which ends in motion so that its end is a steady state.  Raises InputError for an operation shorter
+    than ``SHORTEST``.
     """
     phases: list[Phase] = []
     clock, turning = 0.0, 0.0
@@ -78,10 +78,10 @@ def depth_range(case: Case) -> tuple[float, float, float]:
 
 
 def sensors(case: Case, kind: str, hookload: float, torque: float) -> tuple[float, float]:
-    """Weight indicator [N] and drive torque [N m]: what the rig reads for the string's own reactions.
+    """Weight indicator [N] and drive torque [N m]: readings of the rig for a hook load [N] and a surface torque [N m].
 
-    Sheave friction lowers the dead line's tension when the block is hoisted and raises it when lowered, as it is
-    by drilling.
+    Sheave friction lowers the dead line's tension while the block is hoisted, and raises it while the block is
+    lowered, as in drilling.
     """
     rig = case.rig
     indicator = (hookload + rig.block_weight) * rig.sheave_efficiency ** -KINDS[kind].direction
@@ -101,7 +101,7 @@ TURNING = frozenset(name for name, kind in KINDS.items() if kind.may_turn)
 
 
 def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float | None = None) -> SteadyRates:
-    """Rates of an operation: as given, else as the case's first operation of that kind, else the kind's defaults.
+    """Rates of an operation: as given, else those of the case's first operation of that kind, else the kind's defaults.
 
     speed [m/s] and rpm are not negative; the kind sets the direction.  Raises InputError for an unknown kind,
     for rates that are not of its kind and for rates beyond ``units.FASTEST`` and ``units.MOST_RPM``.
@@ -127,15 +127,14 @@ def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float |
 def rates_of_all(
     case: Case, kinds: Sequence[str], speed: float | None = None, rpm: float | None = None
 ) -> dict[str, SteadyRates]:
-    """Rates of several operations; of several, a speed or rotation is that of the kinds that have one.
+    """Rates of several operations: a given speed applies to the kinds that move, a given rpm to those that may rotate.
 
-    Raises InputError as ``steady_rates`` does, and where none of the kinds has what is given.
+    Raises InputError as ``steady_rates`` does, also for a rate that applies to none of the kinds.
     """
-
     moving, turning = ([k for k in kinds if k in having] for having in (MOVING, TURNING))
 
     def rates(kind: str) -> SteadyRates:
-        # Where no kind has what is given, the first one refuses it.
+        # A rate that applies to no kind is passed on, so that ``steady_rates`` raises InputError.
         return steady_rates(
             case,
             kind,

@@ -1,4 +1,4 @@
-"""The hole as the contact algorithm sees it: a table of cylinders with overlap (§5.2, Fig. 8), or of arcs."""
+"""The hole as a table of pieces for the contact algorithm: cylinders with overlap (§5.2, Fig. 8), or arcs."""
 
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
@@ -17,13 +17,13 @@ from fctd.model import survey
 
 Array = NDArray[np.float64]
 
-# The first and last piece reach this far beyond surface and total depth [m].
+# The first and last piece extend this far beyond surface and total depth [m].
 RUN_OUT = 10.0
-# The pieces of a hole cover its axis when their lengths add up to this [m].
+# Largest difference between the length of a hole's axis and the sum of its pieces [m].
 SAME_LENGTH = 1e-6
-# Straight hole needs no short cylinders, but neighbours in the table should stay neighbours in space [m].
+# Longest cylinder in straight hole [m]; neighbours in the table should stay neighbours in space.
 LONGEST_CYLINDER = 30.0
-# More would not fit into memory, or take longer to lay out than to run.
+# More cylinders would not fit into memory, or take longer to lay out than the run takes.
 MOST_CYLINDERS = 1_000_000
 # No point of a string is further from the origin [m]; squares of far larger numbers overflow.
 FARTHEST = 1e7
@@ -37,7 +37,7 @@ TO_MD, RADIUS, STIFFNESS, FRICTION = range(4)
 
 
 class Contacts(NamedTuple):
-    """Answer of a contact query, one row a point.
+    """Result of a contact query, one row per point.
 
     penetration (n,) [m], negative is clearance; normal (n, 3) from the hole axis to the wall; md (n,) [m].
     """
@@ -62,11 +62,11 @@ class Wellbore:
     points: Array
     directions: Array
     intervals: Array = field(repr=False)  # (k, 4), columns above
-    shoe: float  # length over which the hole leads from one interval to the next [m]
+    shoe: float  # length of the transition from one interval to the next [m]
     courses: survey.Courses | None = None
 
     def __post_init__(self) -> None:
-        # Pieces that leave a gap or end early would be a wrong hole without a word: a defect of the program.
+        # Pieces with a gap between them, or that end early, are a defect of the program; no later check would find it.
         chords = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
         if not (chords <= np.diff(self.md) + SAME_LENGTH).all():
             raise AssertionError("the axis of the hole is longer than its measured depth")
@@ -79,7 +79,7 @@ class Wellbore:
 
     @property
     def stiffest_wall(self) -> float:
-        """Largest wall stiffness [N/m a point, or N/m/m]."""
+        """Largest wall stiffness [N/m per point, or N/m/m]."""
         return float(self.pieces[:, contact.STIFFNESS].max())
 
     @property
@@ -115,7 +115,7 @@ class Wellbore:
     def wall_along(self) -> Array:
         """The wall over measured depth, linear between rows: (k, 4), columns of the intervals.
 
-        An interval leads into the next over one overlap below its end, as cylinders and arcs do.
+        Below the end of an interval the values change to the next one's over one overlap, as in cylinders and arcs.
         """
         if len(self.intervals) == 1:
             return self.intervals.copy()
@@ -132,7 +132,7 @@ class Wellbore:
     def walls(self, points: Array, near: NDArray[np.int64] | None = None) -> Walls:
         """Walls beside points (n, 3) [m].
 
-        near : (n,) pieces to start looking from, for points that have been asked for before.
+        near : (n,) pieces at which the search starts, for points near those of an earlier query.
         """
         return walls_in(self._query(points, near)[0])
 
@@ -197,7 +197,7 @@ def build_wellbore(case: Case) -> Wellbore:
     ends = intervals[:, TO_MD][intervals[:, TO_MD] < stations[-1, 0]]
     courses = _courses(stations) if hole.survey_method == "minimum_curvature" else None
     if hole.geometry == "arcs":
-        assert courses is not None  # the case makes sure of the method
+        assert courses is not None  # WellboreSpec requires the method
         # Where the hole changes, a shoe as long as the overlap of cylinders leads from one size to the next.
         shoes = np.minimum(ends + hole.overlap, stations[-1, 0])
         md = np.union1d(stations[:, 0], np.concatenate([ends, shoes]))
@@ -254,7 +254,7 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
 
 
 def _divided(breaks: Array, counts: Array) -> Array:
-    """Ends of the parts when every stretch between breaks (k + 1,) is cut into ``counts`` (k,) equal ones."""
+    """Ends of the parts when the lengths between breaks (k + 1,) are cut into ``counts`` (k,) equal parts."""
     parts = counts.astype(np.int64)
     within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
     ends = within * np.repeat(np.diff(breaks) / parts, parts) + np.repeat(breaks[:-1], parts)
@@ -267,13 +267,13 @@ def _intervals(hole: WellboreSpec) -> Array:
 
 
 def _stiffness(hole: WellboreSpec, interval: IntervalSpec) -> float:
-    """Wall stiffness of an interval [N/m a point, or N/m/m], its own or the wellbore's."""
+    """Wall stiffness of an interval [N/m per point, or N/m/m]: the interval's, else the wellbore's."""
     values = (interval.stiffness, interval.stiffness_per_length, hole.stiffness, hole.stiffness_per_length)
     return next(v for v in values if v is not None)
 
 
 def _fill_wall(pieces: Array, geometry: int, md: Array, intervals: Array, shoe: float) -> None:
-    """Fill the wall's columns of laid-out pieces from the interval that holds the middle of each piece."""
+    """Fill the wall's columns of laid-out pieces from the interval at the middle of each piece."""
     middle = 0.5 * (md[1:] + md[:-1])
     if geometry == ARCS:  # with a straight piece before the first and after the last
         middle = np.concatenate([md[:1], middle, md[-1:]])
@@ -295,7 +295,7 @@ def _cylinders(longest_overlap: float, md: Array, points: Array) -> Array:
     pieces[:, contact.START : contact.START + 3] = points[:-1]
     pieces[:, contact.DIRECTION : contact.DIRECTION + 3] = direction
     pieces[:, contact.START_MD] = md[:-1]
-    # Stations may stand closer than the overlap: it may not reach past half of the next cylinder.
+    # Stations may be closer than the overlap, which must not exceed half of the next cylinder.
     overlap = np.minimum(longest_overlap, 0.5 * np.append(length[1:], 0.0))
     pieces[:, contact.OVERLAP] = overlap
     pieces[:, contact.LENGTH] = length + overlap

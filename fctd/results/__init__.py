@@ -1,1 +1,1 @@
-"""Result tables: profiles, units for readers, and files that are written whole or not at all."""
+"""Results: columns, statuses, notes, profiles, units of display, and files that are replaced atomically."""

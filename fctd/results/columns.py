@@ -1,13 +1,13 @@
-"""The columns of results that are shown: each with its label, digits and value, once.
+"""The displayed columns of results: name, label, digits and value of each.
 
-A column's name ends in its SI unit; from it follow the units on the screen, in pictures and in field units
-(unit_systems.py).  A load that is added to ``LOADS`` is in charts, on the screen, and beside every profile.
+A column's name ends in its SI unit, from which unit_systems.py derives the units of screen, pictures and field
+tables.  A load that is added to ``LOADS`` appears in charts, on the screen and in the metadata of every profile.
 """
 
 from collections.abc import Callable
 from typing import Any, Final, NamedTuple
 
-# Endings of names by unit; in this order, since a column that ends in `_N_m` is no length.
+# Endings of names by unit; the order matters: a column that ends in `_N_m` is not a length.
 ENDINGS: Final = ("_N_m", "_Pa", "_N", "_m", "_deg")
 
 
@@ -15,9 +15,9 @@ class Column(NamedTuple):
     """A column of a result.
 
     name : as in tables, with its unit.  label : in pictures and on the screen.  digits : after the point in tables on
-    the screen.  heading : short, where a chart on the screen shows the column; else empty.  across : whether it is
-    a length across the hole, for which metres and feet are too coarse.  of : a load of a steady string, SI; else the
-    attribute that is called like the column without its unit.  in_chart : whether a load is in charts.
+    the screen.  heading : short label where a chart on the screen shows the column; else empty.  across : whether it
+    is a length across the hole, shown in mm or in.  of : computes a load of a steady string, SI; without it the load
+    is the attribute named ``stem``.  in_chart : whether a load is in charts.
     """
 
     name: str
@@ -38,7 +38,7 @@ class Column(NamedTuple):
         return float(getattr(point, self.stem) if self.of is None else self.of(point))
 
 
-# What a string is asked for, in the order of tables.
+# Loads of a steady string, in the order of tables.
 LOADS: Final = (
     Column("hookload_N", "hook load", heading="hook load"),
     Column("surface_torque_N_m", "surface torque", digits=3, heading="torque"),

@@ -1,4 +1,4 @@
-"""The energy ledger: what a string holds and has lost against what was brought in; the rest is the error."""
+"""The energy ledger: stored energy and losses against the energy put in; the difference is the error."""
 
 import numpy as np
 import pandas as pd
@@ -19,23 +19,23 @@ LOSSES = {
 def entry(
     S: NDArray[np.float64], top: NDArray[np.float64], segments: int, start: Energy, now: Energy
 ) -> dict[str, float]:
-    """A row of the ledger [J]: what the string holds beyond its start, gains, losses, and what is left over.
+    """A row of the ledger [J]: stored energy since the start, energy put in, losses, and the residual.
 
     S, top : state buffers, whose losses and work have been summed since the start.
     """
-    held = {f"{name}_J": b - a for name, a, b in zip(Energy._fields, start, now, strict=True)}
+    stored = {f"{name}_J": b - a for name, a, b in zip(Energy._fields, start, now, strict=True)}
     gains = {"top_drive_work_J": float(top[topdrive.TOP_WORK]), "fed_pipe_J": float(top[topdrive.FED_ENERGY])}
     losses = {name: float(state.row(S, offset, segments).sum()) for name, offset in LOSSES.items()}
-    residual = sum(held.values()) + sum(losses.values()) - sum(gains.values())
-    return {**held, **gains, **losses, "residual_J": residual}
+    residual = sum(stored.values()) + sum(losses.values()) - sum(gains.values())
+    return {**stored, **gains, **losses, "residual_J": residual}
 
 
 def work(energy: pd.DataFrame, *, motion: bool = False) -> float:
     """Energy turned over in a run [J]: the larger of all losses and of the top drive's work beyond lifting.
 
     energy : a row for every ``entry``.  Lifting and lowering move hundreds of times more energy back and forth, which
-    would hide any error.  motion : also the energy of motion and strain, for windows so short that hardly anything is
-    lost.  NaN where a term is no number, or there is no row.
+    would hide any error.  motion : whether kinetic and strain energy count too, for windows so short that losses are
+    small.  NaN where a term is not finite, or there is no row.
     """
     if not np.isfinite(energy.to_numpy(float)).all() or energy.empty:
         return float("nan")

@@ -1,7 +1,7 @@
-"""Notes on a result: what a reader should know before using its numbers, and what to do about it.
+"""Notes: warnings about the numbers of a result, each with a remedy.
 
-A note does not change a status: the numbers are those of the model, in a state that the model does not describe well
-or that no string would survive.
+A note does not change the status.  The numbers are those of the model, in a state that the model does not describe
+well or that would damage the string.
 """
 
 from collections.abc import Iterable
@@ -17,18 +17,18 @@ from fctd.results.profile import Loads, at_contacts, von_mises
 
 Array = NDArray[np.float64]
 
-# The wall of the model is a spring.  Steel and rock give way by a millimetre or two; a contact point that is deeper in
-# the wall than a quarter of the clearance moves the string's shape and its buckling limits (∝ 1/√clearance) by a tenth.
-# 10 mm are 100 kN on one point of the default wall, ten times what wears casing; below 2 mm the share of a stabiliser's
-# small clearance means nothing.
+# The wall of the model is a spring.  Steel and rock yield by a millimetre or two; a contact point that is deeper in
+# the wall than a quarter of the clearance changes the string's shape and its buckling limits (∝ 1/√clearance) by a
+# tenth.  10 mm are 100 kN on one point of the default wall, ten times the force that wears casing; below 2 mm the share
+# of a stabiliser's small clearance is no criterion.
 SHARE_OF_CLEARANCE, LEAST_PENETRATION, MOST_PENETRATION = 0.25, 0.002, 0.010
-# Shares of the work by which the energy ledger of a run is off: of the first the reader hears, beyond the second the
-# run is not called completed.
+# Energy error of a run as a share of the work: above the first there is a note, above the second the status is
+# ``inaccurate``.
 DOUBTFUL, INACCURATE = 0.01, 0.10
 
 
 class Meaning(NamedTuple):
-    """What a code says of any string, and what to do about it."""
+    """Headline and remedy of a note's code."""
 
     headline: str
     remedy: str
@@ -42,18 +42,20 @@ MEANINGS: Final = {
         "the steel is stressed beyond its yield strength", "check friction factor, bends and yield_strength"
     ),
     "tensile_capacity": Meaning(
-        "the hook load is more than the uppermost pipe bears", "check friction factor, bends and yield_strength"
+        "the hook load exceeds the capacity of the uppermost pipe", "check friction factor, bends and yield_strength"
     ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
-    "ringing": Meaning("the string rings on the joints of the hole's cylinders", "arcs have no joints"),
+    "ringing": Meaning(
+        "the string rings on the seams between the hole's cylinders", 'set wellbore.geometry = "arcs", without seams'
+    ),
 }
 
 
 @dataclass(frozen=True)
 class Note:
-    """One thing to know: a code of ``MEANINGS``, a sentence with the numbers, and what to do.
+    """A warning: a code of ``MEANINGS``, a sentence with the numbers, and the remedy.
 
-    place : measured depth [m] where it is worst, None where it has none.  excess : what was found over its bound.
+    place : measured depth [m] of the worst value, or None.  excess : the value found, divided by its bound.
     """
 
     code: str
@@ -85,17 +87,17 @@ def codes_of(notes: Iterable[Note]) -> str:
 
 
 def as_metadata(notes: Iterable[Note]) -> list[dict[str, Any]]:
-    """Notes as files keep them."""
+    """Notes as the metadata of files."""
     return [asdict(note) for note in notes]
 
 
 def from_metadata(kept: Iterable[dict[str, Any]]) -> tuple[Note, ...]:
-    """Notes as files have kept them."""
+    """Notes from the metadata of files."""
     return tuple(Note(**note) for note in kept)
 
 
 def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:
-    """What the codes in cells of a table mean, by code."""
+    """Headline and remedy of each code in cells of a table, by code."""
     used = {code for cell in set(cells) for code in cell.split(", ")}
     return {code: meaning._asdict() for code, meaning in MEANINGS.items() if code in used}
 
@@ -103,7 +105,7 @@ def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:
 def string_notes(
     string: String, loads: Loads, hookload: float, walls: Walls, radius: Array, *, in_hole: bool = True
 ) -> tuple[Note, ...]:
-    """Notes on a string: how deep it is in the wall, its stress, and what hangs on its top.
+    """Notes on a string: penetration of the wall, stress, and hook load against the capacity of the uppermost pipe.
 
     hookload [N]; walls : beside the n contact points; radius (n,) : of the contact points [m]; in_hole : whether
     there is a wall.
@@ -129,7 +131,7 @@ def _penetration(walls: Walls, radius: Array) -> Note | None:
 
 
 def _stress(string: String, loads: Loads, walls: Walls) -> Note | None:
-    # The largest loads taken together are a bound that no row of a healthy chart exceeds.
+    # The largest loads combined are an upper bound of the stress, which is enough for most strings.
     tension = max(float(np.abs(loads.tension).max()), abs(loads.bit_tension))
     torque = max(float(np.abs(loads.torque).max()), abs(loads.bit_torque))
     bending = float(loads.bending.max())
@@ -168,14 +170,14 @@ def ledger_off(error: float) -> Note | None:
 
 
 def rings(swing: float, frequency: float, depth: float, bound: float) -> Note | None:
-    """A note where the joints of cylinders swing the hook load by more than a bound.
+    """A note where the seams between cylinders make the hook load swing by more than a bound.
 
     swing, bound [N]; frequency [Hz]; depth of the bit [m].
     """
     if not swing > bound:
         return None
     text = (
-        f"the string slides over the joints of the hole's cylinders in time with its own {frequency:.2f} Hz: near "
-        f"{depth:.0f} m about ±{swing / 1e3:.2g} kN of hook load are not the well's"
+        f"the string slides over the seams between the hole's cylinders at its natural frequency, {frequency:.2f} Hz: "
+        f"near {depth:.0f} m they make the hook load swing by about ±{swing / 1e3:.2g} kN"
     )
     return _note("ringing", text, swing / bound)

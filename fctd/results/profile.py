@@ -1,4 +1,4 @@
-"""The string from the top to the bit: loads, where it touches, stress, and how near it is to buckling."""
+"""The profile of a string from the top to the bit: loads, contacts, stress and buckling limits."""
 
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ Load = float | Array
 
 
 class Loads(NamedTuple):
-    """What the string carries.
+    """Internal loads of a string, and its contact forces.
 
     tension (effective) [N], torque, bending [N m] : of the n joints; normal (n,) [N] : of the contact points;
     bit_tension [N], bit_torque [N m] : at the lower end.
@@ -36,7 +36,7 @@ def buckling_limits(EI: Array, weight: Array, inclination: Array, clearance: Arr
     EI [N m²]; buoyed weight [N/m]; inclination [rad]; clearance [m]: arrays (n,).  Inclined: 2√(EI w sin θ/r)
     (Dawson & Paslay 1984) and 2√2 times √(EI w sin θ/r) (Chen, Lin & Cheatham 1990).  In vertical hole these
     are zero and the pipe's own weight sets the limit: 1.94 and 5.55 times (EI w²)^⅓ (Lubinski 1950; Wu &
-    Juvkam-Wold 1995); the larger of both holds.  Without clearance a string cannot buckle: infinite.
+    Juvkam-Wold 1995); the larger limit applies.  Without clearance a string cannot buckle: infinite.
     """
     load = EI * np.maximum(weight * np.sin(inclination), 0.0)
     lying = np.full_like(load, np.inf)
@@ -63,8 +63,8 @@ def at_contacts(string: String, loads: Loads) -> tuple[Array, Array, Array]:
 def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Load) -> Array:
     """Von Mises stress at the outer fibre [Pa].
 
-    tension (effective) [N], torque, bending [N m]; outer and inner radius [m].  What equal pressure all around adds
-    to every normal stress has no share in it.
+    tension (effective) [N], torque, bending [N m]; outer and inner radius [m].  Equal pressure on all sides adds
+    the same to every normal stress, and does not change it.
     """
     steel, second = np.pi * (outer**2 - inner**2), np.pi / 4 * (outer**4 - inner**4)
     axial = np.abs(tension) / steel + bending * outer / second
@@ -91,8 +91,8 @@ def profile_table(
 
     outer, inner = of("outer"), of("inner")
     tension, torque, bending = at_contacts(string, loads)
-    # Buoyed weight carries effective tension; the steel's own follows from the pressure of equal mud inside
-    # and outside.
+    # Buoyed weight gives effective tension; the true tension of the steel follows from the pressure of equal mud
+    # inside and outside.
     pressure, steel = mud_density * GRAVITY * np.append(top[2], points[:, 2]), np.pi * (outer**2 - inner**2)
     clearance = walls.radius - string.contact_radius()
     sinusoidal, helical = buckling_limits(of("EI"), of("weight"), inclination, np.append(clearance[0], clearance))

@@ -1,6 +1,6 @@
-"""How a computation ended: every status with what it means, whether it has loads, and whether it is good enough.
+"""Statuses of computations: each with its message, whether it has loads, and whether it is acceptable.
 
-The members are plain text to tables and files: ``status == "converged"`` holds, and Parquet keeps the word.
+The members are strings: ``status == "converged"`` is true, and tables and files store the name.
 """
 
 from enum import StrEnum
@@ -8,10 +8,10 @@ from typing import Self
 
 
 class Status(StrEnum):
-    """A word with its meaning.
+    """A status and its properties.
 
-    message : what happened, a clause; empty where all is well.  has_loads : whether the loads beside it may be read.
-    acceptable : whether a command that ends so has done what it was asked for (exit code 0).
+    message : what happened, a clause; empty for a normal end.  has_loads : whether the result has valid loads.
+    acceptable : whether a command with this status succeeds (exit code 0).
     """
 
     message: str
@@ -27,30 +27,30 @@ class Status(StrEnum):
 
 
 class SteadyStatus(Status):
-    """Of a steady string. A string that is locked up is an answer; one that would leave its balance is not drilled."""
+    """Status of a steady string. Lock-up is an acceptable answer; an unstable equilibrium is not."""
 
     CONVERGED = "converged", "", True, True
     LOCKED_UP = "locked_up", "the top would have to be pushed with more than the block weight", True, True
-    UNSTABLE = "unstable", "the string would not keep this balance", True, False
-    MAX_ITERATIONS = "max_iterations", "no balance was found: the string may have no steady shape", False, False
+    UNSTABLE = "unstable", "the equilibrium is unstable: the string would leave it", True, False
+    MAX_ITERATIONS = "max_iterations", "no equilibrium was found: the string may have no steady shape", False, False
     DIVERGED = "diverged", "the string lies deeper in the wall than the hole is wide", False, False
     NOT_FINITE = "not_finite", "a force is not finite", False, False
     NOT_POSSIBLE = "not_possible", "string and hole do not fit at this bit depth", False, False
 
 
 class RunStatus(Status):
-    """Of a run in time. What an interrupted run has recorded is sound."""
+    """Status of a run in time. The records of an interrupted run are valid."""
 
     COMPLETED = "completed", "", True, True
     INACCURATE = "inaccurate", "the energy ledger is off by more than a tenth of the work", True, False
-    UNSTABLE = "unstable", "the state is no longer that of a string in its hole", False, False
+    UNSTABLE = "unstable", "the computed motion is not that of a string in its hole", False, False
     UNSETTLED = "unsettled", "the string did not come to rest before the start", False, False
     INTERRUPTED = "interrupted", "the run was interrupted", True, False
 
 
 class RefineStatus(Status):
-    """Of a search for the number of segments."""
+    """Status of a search for the number of segments."""
 
     WITHIN_TOLERANCE = "within_tolerance", "", True, True
-    NOT_REACHED = "not_reached", "the error stayed above the tolerance up to the most segments", True, False
-    NO_ANSWER = "no_answer", "no string has found its balance", False, False
+    NOT_REACHED = "not_reached", "the error exceeds the tolerance at the largest number of segments", True, False
+    NO_ANSWER = "no_answer", "no equilibrium was found with any number of segments", False, False

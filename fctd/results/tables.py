@@ -1,4 +1,4 @@
-"""What a simulation returns, and the files of all results: tables that carry the case, versions and commit."""
+"""The result of a simulation, and the files of all results: tables with case, versions and commit as metadata."""
 
 import json
 import os
@@ -28,18 +28,18 @@ from fctd.results.whole_file import check_file, left_overs, whole_file
 from fctd.results.whole_folder import PAUSE, check_folder, repair, whole_folder
 
 TABLES = ("history", "profile", "energy")
-LOOKS = 20  # at a folder that another process may just be replacing
+ATTEMPTS = 20  # to read a folder that another process may be replacing
 
 
 @dataclass(frozen=True)
 class SimulationResult:
     """Outcome of ``fctd.simulate``.
 
-    status : how the run ended; message says more when there is more to say.  history : a row per record
+    status : how the run ended; message : details, or empty.  history : a row per record
     interval; loads are means over the interval, depths and energies values at its end.  profile : a row per contact
     point from the top to the bit, for every recorded bit depth.  energy : the ledger, a row per record interval.  run :
-    segments, step, counts and timing.  notes : what to know before using the numbers, each code once, where it was
-    worst.  identity : of the run, the same in all of its files.
+    segments, step, counts and timing.  notes : warnings about the numbers, each code once, where it was worst.
+    identity : of the run, the same in all of its files.
     """
 
     case: Case
@@ -78,7 +78,7 @@ class SimulationResult:
 
 
 def check_result_folder(folder: Path, csv: bool, key: str = "") -> None:
-    """Finish what a killed run left of a folder; InputError where ``SimulationResult.save`` could not replace it."""
+    """Repair a folder that a killed run left; raise InputError where ``SimulationResult.save`` could not replace it."""
     repair(folder, own_files)
     check_folder(folder, key)
     for name in result_files(csv):
@@ -93,7 +93,7 @@ def result_files(csv: bool) -> list[str]:
 def own_files(folder: Path) -> set[str]:
     """Names of the files of an earlier run in a folder, which the next result replaces.
 
-    A CSV file is one of them where the tables say that their run wrote it; else it is the user's.
+    A CSV file is one of them where the metadata of the tables says that their run wrote it; else it is the user's.
     """
     tables = [folder / name for name in result_files(csv=False)]
     csv = any(_metadata(path).get(b"csv") == b"true" for path in tables if path.is_file())
@@ -103,27 +103,27 @@ def own_files(folder: Path) -> set[str]:
 
 
 def open_result(folder: Path, pause: float = PAUSE) -> SimulationResult:
-    """The result that ``SimulationResult.save`` wrote into a folder; finishes a replacement that was killed.
+    """The result that ``SimulationResult.save`` wrote into a folder; first completes a replacement that was killed.
 
-    pause : between two looks at a folder that another process may just be replacing [s].
+    pause : between two attempts to read a folder that another process may be replacing [s].
     Raises InputError for a folder without a whole result, and for one whose tables come from different runs.
     """
-    for look in range(LOOKS):
+    for attempt in range(ATTEMPTS):
         repair(folder, own_files)
         try:
             return _read(folder)
         except InputError:
-            if look == LOOKS - 1:
+            if attempt == ATTEMPTS - 1:
                 raise
             time.sleep(pause)
-    raise AssertionError("the last look returns or raises")
+    raise AssertionError("the last attempt returns or raises")
 
 
 def _read(folder: Path) -> SimulationResult:
     tables, origins = {}, {}
     with ExitStack() as stack:
         try:
-            # One folder for all tables, also where another process gives its name to the next one meanwhile.
+            # The folder is opened once: another process may give its name to a new folder between two tables.
             place = os.open(folder, os.O_RDONLY)
         except OSError as error:
             raise InputError(f"a folder that fctd simulate wrote ({error.strerror})", value=folder) from error
@@ -163,7 +163,7 @@ def _read(folder: Path) -> SimulationResult:
 
 
 def _metadata(path: Path) -> dict[bytes, bytes]:
-    """Metadata of a Parquet file; empty where it is none."""
+    """Metadata of a Parquet file; empty for another file."""
     try:
         return dict(pq.read_schema(path).metadata or {})
     except (OSError, ValueError):
@@ -194,12 +194,12 @@ def table_files(path: Path) -> list[Path]:
 
 
 def _to_csv(frame: pd.DataFrame, path: Path) -> None:
-    """One row of headers."""
+    """Write a table with one row of headers."""
     frame.to_csv(path, index=False)
 
 
 def _to_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
-    """The metadata beside pandas' own: texts as they are, all else as JSON."""
+    """Write a table; the metadata are added to those of pandas, texts as they are and other values as JSON."""
     table = pa.Table.from_pandas(frame, preserve_index=False)
     kept = dict(table.schema.metadata or {})
     for key, value in metadata.items():
@@ -209,7 +209,7 @@ def _to_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) ->
 
 
 def versions() -> dict[str, str]:
-    """Versions of the engine and of what its numbers depend on, and the commit of the checkout if any."""
+    """Versions of the engine and of the packages that its numbers depend on, and the commit of the checkout if any."""
     found = {"fctd": version("fctd"), "python": platform.python_version()}
     found |= {"numpy": np.__version__, "numba": numba.__version__}
     try:

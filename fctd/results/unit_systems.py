@@ -1,6 +1,6 @@
-"""Result tables in the units a reader wants: values converted, the unit at the end of a column's name exchanged.
+"""Result tables in other units: the values are converted, and the column's name ends in the new unit.
 
-Inside and in files the columns are SI; the screen and pictures show the same quantities in handier units.
+In memory and in files the columns are SI; screen and pictures show the same quantities in larger or smaller units.
 """
 
 from typing import Final, Literal, NamedTuple
@@ -21,7 +21,7 @@ class Measure(NamedTuple):
     field: str
 
 
-# In this order: a column that ends in `_N_m` is no length.
+# The order matters: a column that ends in `_N_m` is not a length.
 MEASURES: Final = (
     Measure("N*m", "kN*m", "kft*lbf"),
     Measure("Pa", "MPa", "ksi"),
@@ -40,7 +40,7 @@ class Shown(NamedTuple):
 
 
 def measure_of(column: str) -> Measure | None:
-    """What a column of an SI table measures; None for names, counts, angles and plain numbers."""
+    """Units of a column of an SI table; None for names, counts, angles and plain numbers."""
     if column in COLUMNS and COLUMNS[column].across:
         return ACROSS
     return next((measure for measure in MEASURES if column.endswith(_ending(measure.table))), None)
@@ -66,7 +66,7 @@ def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
             columns[name] = table[name]
         else:
             renamed = name.removesuffix(_ending(measure.table)) + _ending(measure.field)
-            # A foot is 0.3048 m exactly, a metre no round number of feet: 30.48 m is 100 ft, and 15 digits say so.
+            # Division by 0.3048, which is exact, and rounding to 15 digits give 100 ft for 30.48 m.
             values = table[name] / conversion(measure.field, measure.table)
             columns[renamed] = values.map("{:.15g}".format).astype(float)
     return pd.DataFrame(columns)

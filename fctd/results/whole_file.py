@@ -1,4 +1,4 @@
-"""Result files: written whole or not at all, and refused before the computing where they could not be written."""
+"""Result files: replaced atomically; a file that cannot be written is refused before the computation."""
 
 import os
 import re
@@ -12,10 +12,10 @@ from fctd.case.errors import InputError
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """A file to write that takes the place of ``path`` once all of it is written; folders on the way are made.
+    """A temporary file that replaces ``path`` once it is written completely; missing folders are made.
 
-    A full disk or an interruption leaves what was there before.  A symlink stays one: the file it leads to is
-    replaced.  Raises InputError, which names ``path``, where the system refuses.
+    A full disk or an interruption leaves the earlier file.  A symlink stays: the file it leads to is replaced.  Raises
+    InputError, which names ``path``, where the file cannot be written.
     """
     target = Path(os.path.realpath(path))
     scratch = _scratch(target)
@@ -48,7 +48,7 @@ def check_file(path: Path, key: str = "") -> None:
 def check_new(path: Path) -> None:
     """Raise OSError where neither ``path`` nor the folders on the way to it can be made."""
     with suppress(FileNotFoundError):
-        path.lstat()  # refuses a path that is too long
+        path.lstat()  # raises OSError for a path that is too long
     folder = next(parent for parent in path.parents if parent.exists())
     if not folder.is_dir():
         raise NotADirectoryError(None, f"{folder} is no folder")
@@ -56,11 +56,11 @@ def check_new(path: Path) -> None:
         raise PermissionError(None, "Permission denied")
     for name in path.relative_to(folder).parts:
         with suppress(FileNotFoundError):
-            (folder / name).lstat()  # refuses a name that is too long
+            (folder / name).lstat()  # raises OSError for a name that is too long
 
 
 def left_overs(path: Path) -> list[Path]:
-    """What processes that were killed left beside ``path`` while they wrote it."""
+    """Temporary files that killed processes left beside ``path``."""
     return [left for left, _ in left_by_dead(path.parent, rf"\.{re.escape(path.stem)}-PID{re.escape(path.suffix)}")]
 
 

@@ -18,16 +18,16 @@ from fctd.case.errors import InputError
 from fctd.results.whole_file import check_new, left_by_dead
 
 Own = Callable[[Path], Collection[str]]
-"""Names of the files in a folder that a new folder replaces; all others are the user's and stay."""
+"""Names of the files that a new folder replaces; all other files are the user's and stay."""
 
 
-# How often a folder is looked for that another process swaps, and how long in between [s].
-LOOKS, PAUSE = 100, 0.01
+# Attempts to find a folder that another process is replacing, and the pause between them [s].
+ATTEMPTS, PAUSE = 100, 0.01
 
 
 @contextmanager
 def whole_folder(folder: Path, own: Own) -> Iterator[Path]:
-    """A folder to fill that takes the place of ``folder``, or becomes it, once it is left without an error.
+    """A temporary folder that replaces ``folder``, or becomes it, when the block ends without an error.
 
     A failure or an interruption leaves the folder as it was.  Raises InputError, which names ``folder``, where the
     system refuses; where it refuses the swap alone, the message says where the new files are.
@@ -52,16 +52,16 @@ def whole_folder(folder: Path, own: Own) -> Iterator[Path]:
 def check_folder(folder: Path, key: str = "") -> Path:
     """The folder without symlinks; InputError, which names ``key`` and ``folder``, where it could not be replaced."""
     target = Path(os.path.realpath(folder))
-    advice = f"a folder of its own for the results, such as {folder / 'result'}"
+    advice = f"a folder for the results alone, such as {folder / 'result'}"
     in_use = (Path(os.path.realpath(place)) for place in (os.curdir, os.path.expanduser("~")))
     if any(place.is_relative_to(target) for place in in_use):
-        raise InputError(f"{advice} (this one is or holds the current folder or your home)", key=key, value=folder)
+        raise InputError(f"{advice} (this one is or contains the current folder or your home)", key=key, value=folder)
     try:
         if target.exists() and not target.is_dir():
             raise InputError("a folder that can be written (this is a file)", key=key, value=folder)
         inside = [target / name for name in os.listdir(target)] if target.exists() else []
         if any(os.path.ismount(place) for place in (target, *inside)):
-            raise InputError(f"{advice} (this one is or holds a mount point)", key=key, value=folder)
+            raise InputError(f"{advice} (this one is or contains a mount point)", key=key, value=folder)
         check_new(_beside(target, os.getpid())[0])
     except OSError as error:
         reason = error.strerror or str(error)
@@ -72,11 +72,11 @@ def check_folder(folder: Path, key: str = "") -> Path:
 
 
 def repair(folder: Path, own: Own) -> None:
-    """Finish what processes that were killed left beside a folder, as far as the system lets us."""
+    """Complete or undo the replacements of a folder that killed processes left unfinished, as far as possible."""
     folder = Path(os.path.realpath(folder))
     left = left_by_dead(folder.parent, rf"\.{re.escape(folder.name)}-(?:run|old)-PID")
     for process in {process for _, process in left}:
-        with suppress(OSError):  # another process does the same, or the folder cannot be written: it stays as it is
+        with suppress(OSError):  # another process repairs it too, or the folder cannot be written and stays as it is
             _finish(folder, process, own)
 
 
@@ -86,7 +86,7 @@ def _beside(folder: Path, process: int) -> tuple[Path, Path]:
 
 
 def _swap(new: Path, folder: Path, old: Path, own: Own) -> None:
-    """Give a new folder the place of the one there, if any; another process may do the same at the same time."""
+    """Put a new folder in the place of the present one, if any; another process may do the same at the same time."""
     try:
         while not _rename_over(new, folder):
             _hand_over(old, folder, own)
@@ -102,7 +102,7 @@ def _swap(new: Path, folder: Path, old: Path, own: Own) -> None:
 
 
 def _finish(folder: Path, process: int, own: Own) -> None:
-    """Bring the folders of a process that no longer swaps them to their end, whatever step it reached."""
+    """Complete or undo the replacement that an ended process began, whatever step it reached."""
     new, old = _beside(folder, process)
     if old.is_dir():
         if new.is_dir():  # between the two renames: the new folder is complete
@@ -127,7 +127,7 @@ def _rename_over(new: Path, folder: Path) -> bool:
 
 
 def _hand_over(old: Path, folder: Path, own: Own) -> None:
-    """Move what the user keeps in the old folder into the one in its place, and remove the rest of it."""
+    """Move the user's files from the old folder into the new one, and remove the old folder."""
     if not old.is_dir():
         return
     replaced = own(old)
@@ -142,7 +142,7 @@ def _hand_over(old: Path, folder: Path, own: Own) -> None:
 
 def _move(path: Path, folder: Path) -> None:
     """Move a file or folder of the user's into another folder."""
-    for look in count(1):
+    for attempt in count(1):
         place = folder / path.name
         while os.path.lexists(place):  # the user has made another of that name meanwhile
             place = place.with_name(f"{place.name}.old")
@@ -150,6 +150,6 @@ def _move(path: Path, folder: Path) -> None:
             path.rename(place)
             return
         except FileNotFoundError:  # another process is between its two renames
-            if look == LOOKS:
+            if attempt == ATTEMPTS:
                 raise
             time.sleep(PAUSE)

@@ -1,4 +1,4 @@
-"""Case and survey files are regular and bounded: a pipe would block, and a device may have no end."""
+"""Case and survey files are regular and of limited size: a pipe would block, and a device may never end."""
 
 import os
 from collections.abc import Callable
@@ -42,7 +42,7 @@ def test_a_survey_that_is_a_pipe_is_named(tmp_path: Path, monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize(("read", "limit"), [(load_case, 4), (read_stations, 32)])
 def test_the_limit_is_named(read: Callable[[Path], object], limit: int, tmp_path: Path) -> None:
-    """Of a sparse file of a terabyte no more is read than the limit."""
+    """Of a sparse file of a terabyte only the limit is read."""
     path = tmp_path / "large"
     with path.open("wb") as file:
         file.truncate(2**40)

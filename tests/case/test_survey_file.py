@@ -1,4 +1,4 @@
-"""Survey files: headers with units, real files, and how each wrong file is answered."""
+"""Survey files: headers with units, real files, and the message for each wrong file."""
 
 import math
 import os

@@ -1,4 +1,4 @@
-"""Texts from outside: on the terminal, and as the name of a file."""
+"""The user's texts: on the terminal, and in file names."""
 
 import io
 import os

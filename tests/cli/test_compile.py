@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from fctd.cli.compile import compile_into, listening, telling
+from fctd.cli.compile import announcing, compile_into, listening
 from fctd.mechanics.compile_cache import CompileCacheWarning, Store
 from tests.compiled import hits, store_of_one, thrice, twice
 
@@ -74,7 +74,7 @@ def test_listening_names_what_is_compiled(store: Store) -> None:
 
 def test_a_first_run_says_once_why_it_waits(store: Store) -> None:
     seen = StringIO()
-    with telling(Console(file=seen, force_terminal=True)):
+    with announcing(Console(file=seen, force_terminal=True)):
         assert hits(store, twice, 3.0) == 1
         assert seen.getvalue() == ""
         hits(store, thrice, 4.5)
@@ -83,7 +83,7 @@ def test_a_first_run_says_once_why_it_waits(store: Store) -> None:
 
 
 def test_a_command_says_plainly_what_is_wrong_with_the_cache(capsys: pytest.CaptureFixture[str]) -> None:
-    with telling(), warnings.catch_warnings():
+    with announcing(), warnings.catch_warnings():
         warnings.simplefilter("default")
         warnings.warn("x[b] is damaged", CompileCacheWarning, stacklevel=1)
     assert capsys.readouterr().err == "warning: x[b] is damaged\n"

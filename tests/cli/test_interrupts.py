@@ -1,4 +1,4 @@
-"""SIGTERM and SIGHUP end a program as Ctrl-C does: results reached are kept, exit code 130, nothing left behind."""
+"""SIGTERM and SIGHUP end a program as Ctrl-C does: results so far are written, exit code 130, no temporary files."""
 
 import os
 import pty
@@ -82,7 +82,7 @@ def test_a_command_without_results_ends_without_files(
 
 
 @pytest.mark.parametrize("number", KILL)
-def test_the_second_signal_does_not_cost_the_results(
+def test_a_second_signal_does_not_stop_the_writing_of_results(
     number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A terminal that closes sends SIGHUP from the system and from the shell."""
@@ -99,7 +99,7 @@ def test_the_second_signal_does_not_cost_the_results(
     assert open_result(tmp_path / "out").status == "interrupted"
 
 
-def test_a_terminal_that_has_gone_does_not_cost_the_results(case_file: Path, tmp_path: Path) -> None:
+def test_results_are_written_after_the_terminal_has_closed(case_file: Path, tmp_path: Path) -> None:
     """With its bar and its tables on that terminal."""
     code = (
         "import os, signal, time\nfrom fctd.cli import main as cli\nreal = cli.simulate\n"

@@ -1,4 +1,4 @@
-"""The command line as a user meets it: files written, messages, exit codes."""
+"""The command line: files written, messages, exit codes."""
 
 import json
 import os
@@ -149,7 +149,7 @@ def test_an_unknown_option_is_exit_code_2(
     assert "--frction" in capsys.readouterr().err
 
 
-def test_a_disk_that_is_full_costs_the_file_and_not_the_answer(
+def test_with_a_full_disk_the_answer_is_still_printed(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def full(*_: object) -> None:
@@ -208,7 +208,7 @@ def test_a_case_in_its_own_result_folder_stays(case_file: Path, monkeypatch: pyt
 @pytest.mark.parametrize(
     ("out", "expected"),
     [
-        (".", "a folder of its own for the results, such as result"),
+        (".", "a folder for the results alone, such as result"),
         ("x" * 250, "a folder that can be written (File name too long)"),
         ("small.toml", "a folder that can be written (this is a file)"),
         ("small.toml/out", "a folder that can be written"),

@@ -1,4 +1,4 @@
-"""``fctd refine`` as a user meets it: the table, the refined case file, exit codes."""
+"""``fctd refine``: the table, the refined case file, exit codes."""
 
 import re
 import tomllib
@@ -65,7 +65,7 @@ def test_the_case_is_written_as_the_user_has_it(
     cut = f"{found.segments} {found.layout} segments" if graded else f"{found.segments} segments"
     assert f"{cut}, from {found.shortest:.3g} m up" in screen
     assert found.layout == ("graded" if graded else "uniform")
-    assert "Grading would not" not in screen
+    assert "A graded layout would save" not in screen
     assert f"{found.steps['hookload_N'].iloc[-1] / 1e3:.2f}" in screen
 
     text = out.read_text()
@@ -88,7 +88,7 @@ def test_the_case_is_written_as_the_user_has_it(
     assert point.hookload == pytest.approx(same.hookload, rel=1e-6)
 
 
-def test_the_file_is_written_also_when_nobody_reads_the_screen(
+def test_the_file_is_written_also_when_the_terminal_is_closed(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def closed(*_: object, **__: object) -> None:
@@ -112,16 +112,16 @@ def test_a_bent_housing_is_bent_at_its_upper_end_in_the_file(
     assert sum(part.length or 0.0 for part in collars) == pytest.approx(300 * 0.3048)
 
 
-def test_grading_that_saves_nothing_is_told(
+def test_a_message_says_that_grading_saves_nothing(
     case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A hole that bends alike all the way."""
+    """A hole of constant curvature."""
     (case_file.parent / "hole.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,90,0\n")
     options = ("--set", "string.components[0].bend=", "--tolerance", "3%", "--graded", "--quiet")
     assert run(monkeypatch, "refine", case_file, *options) == 0
     screen = capsys.readouterr().out
     assert "uniform segments, from" in screen
-    assert "Grading would not save a tenth of them." in screen
+    assert "A graded layout would save less than a tenth of the segments." in screen
     assert " graded " in screen
 
 
@@ -137,7 +137,7 @@ def test_several_operations_and_field_units(
     assert screen.count("trip_in") == screen.count("rotate_off_bottom") > 3
 
 
-def test_a_string_that_would_have_to_be_pushed_is_told(
+def test_a_message_says_that_the_string_is_locked_up(
     case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     more = ("--operation", "trip_in", "--friction", "1", "--tolerance", "20%")

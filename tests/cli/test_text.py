@@ -1,4 +1,4 @@
-"""Texts from outside on the command line: printed as they stand, in any encoding, under any file name."""
+"""The user's texts on the command line: printed literally, in any encoding, with any file name."""
 
 import io
 import json
@@ -44,7 +44,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def wild(here: Path) -> str:
-    """A case whose name is made to mislead."""
+    """A case whose name has markup, escapes and control characters."""
     Path("wild.toml").write_text(CASE.replace('name = "small"', f'name = "{WILD}"'))
     return "wild.toml"
 
@@ -58,7 +58,7 @@ def fctd(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
 
 
 def check_plain(*printed: str) -> None:
-    """No character that steers a terminal but the line's end."""
+    """Assert that the line end is the only control character."""
     for text in printed:
         assert all(line.isprintable() for line in text.split("\n"))
 

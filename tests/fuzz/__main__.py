@@ -1,4 +1,4 @@
-"""Feed fctd many case and survey files of a seed, and report whatever is neither an answer nor an InputError.
+"""Run fctd on many case and survey files of a seed, and report all that give neither an answer nor an InputError.
 
     python -m tests.fuzz --count 21000 --seed 1
     python -m tests.fuzz --seed 1 --only 17 --out folder
@@ -18,7 +18,7 @@ from random import Random
 
 from tests.fuzz.campaign import Outcome, judge, make, write
 
-# What a case may take before it counts as an offence (a MemoryError), or before the program ends with a traceback.
+# Memory of a case before it counts as an offence (a MemoryError), and time before the program ends with a traceback.
 MOST_MEMORY = 6 * 2**30
 LONGEST = 300
 
@@ -41,7 +41,7 @@ def main() -> int:
 
 
 def outcome_of(seed: int, index: int) -> Outcome:
-    """What becomes of the item of a seed and an index."""
+    """The outcome of the item of a seed and an index."""
     faulthandler.dump_traceback_later(LONGEST, exit=True, file=sys.__stderr__)
     outcome = judge(make(seed, index), Random(f"{seed}:{index}:solve"))
     faulthandler.cancel_dump_traceback_later()
@@ -49,7 +49,7 @@ def outcome_of(seed: int, index: int) -> Outcome:
 
 
 def show(seed: int, index: int, folder: Path) -> int:
-    """Write an item and print what becomes of it."""
+    """Write an item and print its outcome."""
     item = make(seed, index)
     folder.mkdir(parents=True, exist_ok=True)
     print(f"wrote {write(item, folder)}")
@@ -63,7 +63,7 @@ def show(seed: int, index: int, folder: Path) -> int:
 
 
 def campaign(seed: int, indices: range) -> int:
-    """Count what becomes of many items; offences are printed as they come."""
+    """Count the outcomes of many items; offences are printed as they occur."""
     tally: Counter[str] = Counter()
     loads, solves, offences = [], [], 0
     began = time.perf_counter()

@@ -1,4 +1,4 @@
-"""Items by seed and index, what becomes of one, and the count of many."""
+"""Items by seed and index, the outcome of one, and the counts of many."""
 
 import tempfile
 import time
@@ -30,9 +30,9 @@ SLOWEST_LOAD = 5.0  # [s]
 
 @dataclass
 class Outcome:
-    """What became of one item, or of many.
+    """The outcome of one item, or of many.
 
-    tally : how often each thing happened; offences : what may not happen; load_s, solve_s : what they took of the
+    tally : counts of each outcome; offences : outcomes that must not occur; load_s, solve_s : the time they took of the
     processor, which others may be using as well [s].
     """
 
@@ -43,7 +43,7 @@ class Outcome:
 
     @contextmanager
     def watching(self, what: str) -> Iterator[None]:
-        """Count what is refused; whatever else is raised is an offence."""
+        """Count InputErrors; any other exception is an offence."""
         try:
             yield
         except InputError as error:
@@ -133,7 +133,7 @@ def _solve(case: Case, item: Item, rng: Random, outcome: Outcome) -> None:
 
 
 def _alike(case: Case, depth: float, points: dict[str, Equilibrium], outcome: Outcome) -> None:
-    """A chart has the same answers, whatever was solved before with the same arrays."""
+    """A chart has the same answers, independent of what was solved before with the same arrays."""
     kind, point = list(points.items())[-1]
     with outcome.watching("chart"):
         row = torque_drag(case, kind, [depth]).iloc[0]

@@ -1,4 +1,4 @@
-"""What the fuzzer feeds in: a case file as bytes, the files beside it, and overrides as they are typed."""
+"""The fuzzer's inputs: a case file as bytes, the files beside it, and overrides as typed."""
 
 from dataclasses import dataclass, field
 

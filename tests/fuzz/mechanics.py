@@ -1,4 +1,4 @@
-"""What every answer has to satisfy, worked out from the case and the geometry of its hole, not from the solver."""
+"""Checks of every answer, computed from the case and the geometry of its hole, not from the solver."""
 
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
@@ -22,7 +22,7 @@ SAME_LENGTH = 1e-6  # [m]
 
 
 def finite(point: Equilibrium) -> Iterator[str]:
-    """What is amiss with any answer, plausible or not: a status that is not documented, numbers that are none."""
+    """Errors of any answer, plausible or not: a status that is not documented, numbers that are not finite."""
     if point.status not in list(SteadyStatus):
         yield f"status {point.status!r}"
         return
@@ -35,7 +35,7 @@ def finite(point: Equilibrium) -> Iterator[str]:
 
 
 def finite_profile(profile: pd.DataFrame) -> Iterator[str]:
-    """Columns of a profile that hold what is no number."""
+    """Columns of a profile with values that are not finite."""
     for name, column in profile.select_dtypes("number").items():
         bad = column.isna() if name in LIMITS else ~np.isfinite(column)
         if bad.any():
@@ -60,7 +60,7 @@ def steadiness(case: Case, point: Equilibrium) -> Iterator[str]:
 
 
 def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
-    """What is amiss with a plausible answer.
+    """Errors of a plausible answer.
 
     Virtual work of sliding the string along its hole: the top carries the weight times the height it would be
     lifted, less the weight on bit, and on the way up more, on the way down less, by what wall and mud hold back.
@@ -121,7 +121,7 @@ def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
 
 
 def axis(hole: Wellbore) -> Iterator[str]:
-    """What is amiss with the axis of any hole: where it leads, and how the contact query finds points on it."""
+    """Errors of the axis of any hole: its path, and contact queries of points on it."""
     md = np.linspace(0.0, hole.total_depth, 40)
     points, tangents = hole.at(md)
     if not np.isfinite(points).all() or np.abs(np.linalg.norm(tangents, axis=1) - 1).max() > 1e-9:
@@ -154,7 +154,7 @@ def ordered(points: Mapping[str, Equilibrium]) -> Iterator[str]:
 
 
 def run(case: Case, result: SimulationResult) -> Iterator[str]:
-    """What is amiss with a short run of a plausible case."""
+    """Errors of a short run of a plausible case."""
     if result.status not in list(RunStatus):
         yield f"status {result.status!r}"
     if result.status != "completed":
@@ -177,7 +177,7 @@ def run(case: Case, result: SimulationResult) -> Iterator[str]:
 
 
 def hanging_weight(string: String, hole: Wellbore) -> float:
-    """What a string weighs along its hole [N]: buoyed weight times the vertical extent of every segment."""
+    """Weight of a string along its hole [N]: buoyed weight times the vertical extent of every segment."""
     ends = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)])
     return float(string.of("weight") @ np.diff(hole.at(ends)[0][:, 2]))
 
@@ -189,7 +189,7 @@ def _friction(hole: Wellbore, profile: pd.DataFrame) -> np.ndarray:
 
 
 def _in_the_hole(profile: pd.DataFrame, string: String, point: Equilibrium) -> Iterator[str]:
-    """Rows that are not where they belong along the hole, or touch without reaching the wall."""
+    """Rows that are not at their place along the hole, or have a contact force without reaching the wall."""
     md = profile["md_m"].to_numpy()
     if len(md) != string.segments + 1:
         yield f"{len(md)} rows of a string of {string.segments} segments"

@@ -1,4 +1,4 @@
-"""Case files that were valid before something was done to them: to their data, their lines, their bytes."""
+"""Valid case files with changes of their data, their lines or their bytes."""
 
 import copy
 import json
@@ -77,7 +77,7 @@ FACTORS = [-1, 0, 1e-12, 1e-3, 0.1, 0.3, 0.5, 0.9, 1.1, 2, 5, 10, 100, 1e4, 1e12
 
 
 def mutant(rng: Random) -> Item:
-    """A case file with one to three things done to it; one in seven has overrides beside them."""
+    """A case file with one to three changes; one in seven has overrides too."""
     text = rng.choice(BASES)
     survey = re.search(r'^survey = "(.*?)"', text, re.MULTILINE)
     files = {survey[1]: SURVEYS.get(survey[1], STAND_IN)} if survey else {}

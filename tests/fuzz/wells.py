@@ -1,4 +1,4 @@
-"""Wells that can be drilled, with the strings that go into them: what the answers of the solver are judged on."""
+"""Wells that can be drilled, with their strings; the checks of mechanics apply to their answers."""
 
 from random import Random
 from typing import Any, NamedTuple

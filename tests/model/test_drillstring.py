@@ -1,4 +1,4 @@
-"""Laying out a string, its stiffness and what does not fit."""
+"""The layout of a string, its stiffness, and strings that do not fit."""
 
 import re
 from contextlib import nullcontext
@@ -104,7 +104,7 @@ def test_a_short_component_touches_at_its_middle() -> None:
 
 @pytest.mark.parametrize(("above", "below", "short"), [(8.0, 10.0, False), (10.0, 8.0, False), (10.0, 10.0, True)])
 def test_a_short_component_is_shorter_than_both_neighbours(above: float, below: float, short: bool) -> None:
-    """One segment of 9 m; whatever longer ones are further off."""
+    """One segment of 9 m; longer segments that are not its neighbours do not matter."""
     far, near = pipe(300, 10), pipe(4 * above, 4)
     stabiliser, nearer = pipe(9, 1, outer=0.2), pipe(4 * below, 4)
     case = make_case(components=[pipe(300, 10), nearer, stabiliser, near, far, pipe(None, 20)])
@@ -198,7 +198,7 @@ def test_a_wide_bottom_stands_below_a_narrow_hole() -> None:
 
 @pytest.mark.parametrize(("narrow_to", "bit"), [(0.5, 900.0), (1000.0, 0.9)])
 def test_the_first_metre_counts(narrow_to: float, bit: float) -> None:
-    """Neither a narrow spot at the surface nor a string that just enters the hole is passed over."""
+    """The check includes a narrow interval at the surface, and a string that has just entered the hole."""
     intervals = [
         {"to_md": narrow_to, "diameter": 0.1, "friction": 0.2},
         {"to_md": 2000, "diameter": 0.3, "friction": 0},
@@ -258,7 +258,7 @@ def test_metres_of_the_wrong_component_are_a_defect() -> None:
     case = make_case(components=[pipe(400, None, outer=0.159, segment_length=10.0), pipe(None, 1)])
     string = lay_out(case, 1000.0)
     drillstring.check_lengths(string, [400.0, 600.0])
-    with pytest.raises(AssertionError, match=r"a component are not as long.*\[401\.0, 599\.0\] m"):
+    with pytest.raises(AssertionError, match=r"a component do not add up.*\[401\.0, 599\.0\] m"):
         drillstring.check_lengths(string, [401.0, 599.0])
 
 
@@ -310,7 +310,7 @@ def test_an_operation_that_is_over_before_it_begins_is_refused(operation: dict) 
 
 
 def test_cost_counts_the_steps_of_every_segment() -> None:
-    """A step that twenty segments may take so often is refused to five thousand."""
+    """A number of steps that is accepted for twenty segments is refused for five thousand."""
     schedule, solver = [rotation(1000, 3600)], {"step": 2e-6}
     prepare(make_case(operations=schedule, solver=solver))
     with pytest.raises(InputError, match=r"solver\.step.*at most 2e\+08 steps of 5000 segments"):
@@ -358,7 +358,7 @@ def test_section_by_hand() -> None:
     ],
 )
 def test_a_short_top_segment_joins_the_one_below_it(components: list, operation: dict) -> None:
-    """A fed segment is at least 10 m long, whatever it takes of its component; the string keeps its length."""
+    """A fed segment is made at least 10 m long from its component; the string keeps its length."""
     case = make_case(components=components, operations=[operation])
     shallowest = min(operation["from_md"], operation["to_md"])
     plain, run = lay_out(case, shallowest), prepare(case)[0]

@@ -1,4 +1,4 @@
-"""Uniform and graded layouts: the same string, cut where it matters."""
+"""Uniform and graded layouts: the same string, with short segments in bends and near the bit."""
 
 import math
 from typing import Any
@@ -34,7 +34,7 @@ def build_case(components: list[dict[str, Any]] | None = None) -> Case:
 
 @st.composite
 def strings(draw: st.DrawFn) -> list[dict[str, Any]]:
-    """One to four components, the last to surface, now and then as one long segment or with an excess."""
+    """One to four components; the last reaches the surface, sometimes as one long segment, or longer than needed."""
     parts = [
         pipe(draw(st.floats(2.0, 300.0)), draw(st.integers(1, 9)), outer=0.15) for _ in range(draw(st.integers(0, 3)))
     ]
@@ -67,7 +67,7 @@ def test_a_layout_is_the_same_string(components: list[dict[str, Any]], bit: floa
 @given(components=strings(), length=st.floats(2.0, 120.0))
 @settings(max_examples=40)
 def test_no_piece_of_pipe_passes_for_a_stabiliser(components: list[dict[str, Any]], length: float) -> None:
-    """Contact in the middle of a segment belongs to whole components alone."""
+    """Only a component of one segment touches at its middle, never a piece of a divided one."""
     case = build_case(components)
     string = lay_out(with_components(case, graded(case, 2000.0, length)), 2000.0)
     whole = {part.get("length") for part in components}
@@ -85,7 +85,7 @@ def test_segments_are_short_in_bends_and_near_the_bit() -> None:
     assert short[-1]
     assert string.length[middle < 400].min() > 0.9 * LONGEST * 5.0
     assert string.length[(middle > 1200) & (middle < 1700)].min() > 0.9 * LONGEST * 5.0
-    # Neighbours are of like length, but for what is left over at the top.
+    # Neighbours have similar lengths, except the remainder at the top.
     ratio = string.length[2:] / string.length[1:-1]
     assert (ratio < 4.1).all()
     assert (ratio > 1 / 4.1).all()
@@ -133,7 +133,7 @@ def test_a_long_segment_stays_one() -> None:
 
 
 def test_a_short_sharp_course_makes_no_stabiliser() -> None:
-    """The one short segment that would do there is two, or it would touch at its middle."""
+    """Two short segments in place of one, which would touch at its middle."""
     stations = [[0, 0, 0], [600, 0, 0], [610, 6, 0], [1400, 6, 0]]
     case = make_case(stations, [pipe(None, None, segment_length=10.0)])
     for length in range(20, 120):
@@ -206,7 +206,7 @@ def test_waves_are_those_of_each_pipe_in_its_hole() -> None:
 
     expected = [wave(0.159, 0.2159), wave(0.159, 0.2159), wave(0.127, 0.2159), wave(0.127, 0.32)]
     np.testing.assert_allclose(found, expected, rtol=1e-9)
-    # A pipe that fills its hole has a wave of a millimetre's play.
+    # A pipe without clearance has the wave of a clearance of 1 mm.
     tight = make_case(BUILD, [pipe(None, None, segment_length=10.0, contact_diameter=0.2159)])
     ratio = _wave(tight, np.array([500.0]), np.array([0.0]))[0] / wave(0.127, 0.2159)
     assert ratio == pytest.approx((1e-3 / (0.5 * (0.2159 - 0.127))) ** 0.25)
@@ -214,7 +214,7 @@ def test_waves_are_those_of_each_pipe_in_its_hole() -> None:
 
 @pytest.mark.parametrize(("bit", "count"), [(1000.0, 10 + 1 + 36), (50.0, 5), (102.0, 10 + 1), (103.0, 10 + 1 + 1)])
 def test_how_many_segments_by_hand(bit: float, count: int) -> None:
-    """100 m in tens, a stabiliser, and pipe of 25 m; whatever is in the hole of a component is a segment at least."""
+    """100 m in tens, a stabiliser, and pipe of 25 m; a component in the hole has at least one segment."""
     components = [pipe(100, 10), pipe(2, 1, outer=0.2), pipe(None, None, segment_length=25.0)]
     assert segments_in_hole(make_case(components=components), bit) == count
     assert segments_in_hole(make_case(components=components, top_md=20.0), bit + 20.0) == count
@@ -230,7 +230,7 @@ def test_a_component_is_cut_by_hand() -> None:
 
 
 def test_a_component_is_graded_by_hand() -> None:
-    """The piece at the top has what the component has: the rest of its length, or none."""
+    """The piece at the top has the rest of the component's length, or none where the component has none."""
     bent = {"bend": 0.02, "toolface": 0.3}
     case = make_case(components=[pipe(100, 10, **bent), pipe(None, None, segment_length=25.0)])
     whole, endless = case.string.components

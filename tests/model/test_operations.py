@@ -16,7 +16,7 @@ TURN = 2 * np.pi  # 60 rev/min [rad/s]
 @pytest.mark.parametrize(
     ("operations", "expected"),
     [
-        # The last operation ends in motion; one that another follows comes to rest.
+        # The last operation ends in motion; every other one comes to rest.
         ([trip(100, 102, 0.05, 4)], [(0, 4, 0, 0.05, 0, 0, 0), (4, 38, 0.05, 0.05, 0, 0, 0)]),
         (
             [trip(102, 100, 0.05, 4), rotation(100, 10, 60, 3)],
@@ -43,7 +43,7 @@ TURN = 2 * np.pi  # 60 rev/min [rad/s]
     ],
     ids=["one", "two", "short", "three"],
 )
-def test_stretches_by_hand(operations: list[dict[str, Any]], expected: list[tuple[float, ...]]) -> None:
+def test_phases_by_hand(operations: list[dict[str, Any]], expected: list[tuple[float, ...]]) -> None:
     """Start, duration, feed from and to, spin from and to, operation."""
     found = [(*motion, k) for motion, k in schedule(make_case(operations=operations).operations)]
     np.testing.assert_allclose(found, expected, atol=1e-9)
@@ -83,7 +83,7 @@ def test_documented_kinds() -> None:
 
 
 def test_rates_of_a_kind_are_its_own() -> None:
-    """A kind that moves has a speed, one that turns a rotation, and the defaults are rates it accepts."""
+    """A kind that moves has a speed, a kind that rotates has an rpm, and each kind accepts its defaults."""
     for name, kind in KINDS.items():
         assert (kind.default_speed > 0) == (kind.direction != 0)
         assert (kind.default_rpm > 0) <= kind.may_turn
@@ -91,7 +91,7 @@ def test_rates_of_a_kind_are_its_own() -> None:
         assert found == (kind.direction * kind.default_speed, pytest.approx(kind.default_rpm * np.pi / 30))
 
 
-def test_rates_of_several_kinds_are_of_those_that_have_them() -> None:
+def test_given_rates_apply_to_the_kinds_that_have_them() -> None:
     rates = rates_of_all(make_case(), ["trip_in", "rotate_off_bottom", "back_ream"], speed=0.7, rpm=30)
     found = {kind: (rate.speed, rate.spin) for kind, rate in rates.items()}
     half = pytest.approx(0.5 * TURN)

@@ -10,12 +10,12 @@ from fctd.results import ledger
 
 
 def table(**columns: list[float]) -> pd.DataFrame:
-    """Two rows: nothing but what is given, and a loss of 1 J of each kind at the end."""
+    """Two rows with the given terms, zero elsewhere, and a loss of 1 J of each kind in the last row."""
     empty = {name: [0.0, 0.0] for name in ("kinetic_J", "gravity_J", "strain_J", "top_drive_work_J", "residual_J")}
     return pd.DataFrame({**empty, **{name: [0.0, 1.0] for name in ledger.LOSSES}, **columns})
 
 
-def test_an_entry_is_what_is_held_and_lost_against_what_came_in() -> None:
+def test_an_entry_compares_stored_and_lost_energy_with_energy_put_in() -> None:
     S, top = state.new_state(3), np.zeros(topdrive.TOP_SIZE)
     for k, offset in enumerate(ledger.LOSSES.values()):
         state.row(S, offset, 3)[:] = 10.0**k

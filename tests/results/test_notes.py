@@ -19,7 +19,7 @@ from tests.cli.test_main import run
 
 
 def bend(quarters: int) -> list[list[float]]:
-    """Stations of a hole that bends by 8°/30 m: from vertical to level, then so many quarters of a circle."""
+    """Stations of a hole that bends by 8°/30 m: from vertical to level, then a number of quarters of a circle."""
     turns = [[937.5 + 337.5 * k, 90.0, 90.0 * k] for k in range(quarters + 1)]
     return [[0, 0, 0], [600, 0, 0], *turns, [turns[-1][0] + 300, 90, turns[-1][2]]]
 
@@ -46,8 +46,8 @@ def deepest(point: Equilibrium) -> tuple[float, float]:
     return float(penetration.max()), float(clearance[penetration.argmax()])
 
 
-def test_pulling_casing_round_a_bend_without_end_is_no_plain_answer() -> None:
-    """μ 0.5 in 540° of bend: a balance of 11 MN, deep in the wall, beyond yield and beyond what the top bears."""
+def test_casing_pulled_through_a_very_long_bend_has_notes() -> None:
+    """μ 0.5 in 540° of bend: a balance of 11 MN, deep in the wall, beyond yield and the capacity of the top pipe."""
     point = equilibrium(casing(5, yield_strength="110 ksi"), "trip_out", 2875.0)
     assert point.status == "converged"
     assert point.hookload > 1e7
@@ -64,7 +64,7 @@ def test_pulling_casing_round_a_bend_without_end_is_no_plain_answer() -> None:
 
 
 def test_a_string_deeper_in_the_wall_than_the_hole_is_wide_has_diverged() -> None:
-    """A quarter more of the bend: 200 mm, where 311 mm of hole hold 245 mm of pipe."""
+    """Another quarter of bend: 200 mm of penetration in a 311 mm hole with 245 mm pipe."""
     point = equilibrium(casing(6, 0.53), "trip_out", 3200.0)
     assert (point.status, point.notes) == ("diverged", ())
     assert "deeper in the wall than the hole's radius" in point.message
@@ -72,7 +72,7 @@ def test_a_string_deeper_in_the_wall_than_the_hole_is_wide_has_diverged() -> Non
 
 @pytest.mark.parametrize("kind", ["trip_out", "rotate_off_bottom"])
 def test_stress_is_that_of_the_profile(kind: str) -> None:
-    """A yield strength just above its largest is silent, one just below is not, and says where."""
+    """A yield strength just above the largest stress gives no note; one just below gives a note with the depth."""
     profile = equilibrium(casing(), kind, 1750.0).profile
     worst = profile.loc[profile["von_mises_Pa"].idxmax()]
     above, below = (
@@ -130,7 +130,7 @@ def test_penetration_is_set_against_the_clearance(hole: float, limit: float) -> 
     assert (held.notes, list(found(given))) == ((), ["penetration"])
 
 
-def test_without_a_wall_there_is_nothing_to_be_deep_in() -> None:
+def test_without_a_wall_there_is_no_penetration_note() -> None:
     case = make_case([[0, 0, 0], [900, 60, 0]], [pipe(None, None, segment_length=20.0)], contact={"enabled": False})
     assert equilibrium(case, "trip_out", 800.0).notes == ()
 
@@ -154,7 +154,7 @@ def test_a_run_keeps_the_worst_of_each_note(tmp_path: Path) -> None:
     codes = {note.code: note for note in result.notes}
     assert {"penetration", "yield"} <= codes.keys()
     assert len(codes) == len(result.notes)
-    # The deepest point was so at a joint of cylinders, ten metres before the end.
+    # The largest penetration was at a seam between cylinders, ten metres before the end.
     assert "with the bit at 687 m" in codes["penetration"].text
     assert "with the bit at 700 m" in codes["yield"].text
     for note in result.notes:
@@ -164,7 +164,7 @@ def test_a_run_keeps_the_worst_of_each_note(tmp_path: Path) -> None:
     assert [notes.Note(**note) for note in kept] == list(result.notes)
 
 
-def test_a_ledger_that_is_off_is_said_and_beyond_a_tenth_is_no_result() -> None:
+def test_a_ledger_that_is_off_is_noted_and_beyond_a_tenth_inaccurate() -> None:
     """A rotation that begins within three steps: the step does not resolve it."""
     result = simulate(make_case(operations=[rotation(1000, 0.01)]))
     assert result.run["energy_error"] > 0.1
@@ -260,7 +260,7 @@ def test_the_screen_has_a_line_for_every_note_and_stretch_of_depths(
     assert "strict: notes are errors (ledger" in capsys.readouterr().err
 
 
-def test_a_note_is_what_it_says() -> None:
+def test_a_note_as_text() -> None:
     note = notes.Note("yield", "text", "remedy", 3.0)
     assert str(note) == "text: remedy"
     assert replace(note, place=None).place is None

@@ -1,4 +1,4 @@
-"""What a profile says of stress and buckling, against hand calculation."""
+"""Stress and buckling limits of a profile, against hand calculation."""
 
 import math
 
@@ -84,7 +84,7 @@ def test_stress_and_buckling_of_a_bent_string_in_tension_and_in_compression() ->
 
 
 def test_a_stabiliser_s_row_has_the_load_in_its_middle() -> None:
-    """Vertical, in air: the weight below the middle of a short component, and half of its own mud's torque."""
+    """Vertical, in air: the weight below the middle of a short component, and half of the mud's torque on it."""
     components = [pipe(30, 3), pipe(2, 1, contact_diameter=0.2), pipe(None, None, segment_length=10.0)]
     case = make_case([[0, 0, 0], [200, 0, 0]], components, mud={"rotational_damping": 2.0})
     profile = equilibrium(case, "rotate_off_bottom", 192.0, rpm=30).profile

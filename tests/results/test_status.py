@@ -1,4 +1,4 @@
-"""The statuses as tables, files and exit codes see them."""
+"""The statuses in tables, files and exit codes."""
 
 import json
 from itertools import chain

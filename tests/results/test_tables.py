@@ -1,4 +1,4 @@
-"""Files of results: what is written where, and what a reader finds in it."""
+"""Files of results: their names, formats and contents."""
 
 import json
 import platform

@@ -1,4 +1,4 @@
-"""A file is the old one or the new one, never half of either."""
+"""After any failure a file is the complete old one or the complete new one."""
 
 import os
 from pathlib import Path
@@ -50,7 +50,7 @@ def test_a_symlink_stays_one(tmp_path: Path) -> None:
 
 
 def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
-    """Only where that process has ended, and the name is exactly ours."""
+    """Only where that process has ended, and the name is one that ``whole_file`` gives."""
     ended = 4_194_304  # beyond the ids that Linux gives
     ours = tmp_path / f".chart-{ended}.csv"
     others = [f".chart-{os.getppid()}.csv", f".chart-{ended}.parquet", f".Chart-{ended}.csv", f"chart-{ended}.csv",

@@ -1,4 +1,4 @@
-"""A result folder is the old one or the new one, whatever happens to the process that replaces it."""
+"""A result folder is the complete old one or the complete new one, also where the replacing process is killed."""
 
 import os
 import subprocess
@@ -69,7 +69,7 @@ def test_killed_at_every_step_it_is_the_old_or_the_new_one(tmp_path: Path) -> No
 
 
 def test_what_the_user_made_meanwhile_is_kept(tmp_path: Path) -> None:
-    """Killed between the renames, and the user writes notes into a folder made anew."""
+    """Killed between the renames; then the user makes the folder again and writes notes into it."""
     folder, old, new = tmp_path / "out", tmp_path / f".out-old-{ENDED}", tmp_path / f".out-run-{ENDED}"
     earlier(old)
     result(2.0).save(new)
@@ -205,7 +205,7 @@ def test_the_current_folder_is_not_replaced(place: str, tmp_path: Path, monkeypa
     with pytest.raises(InputError) as caught:
         check_folder(Path(place).expanduser(), "--out")
     remedy = Path(place).expanduser() / "result"
-    assert f"expected a folder of its own for the results, such as {remedy} (this one is or holds" in str(caught.value)
+    assert f"expected a folder for the results alone, such as {remedy} (this one is or contains" in str(caught.value)
     assert check_folder(remedy).name == "result"
 
 
@@ -213,7 +213,7 @@ def test_the_current_folder_is_not_replaced(place: str, tmp_path: Path, monkeypa
 def test_a_mount_point_is_refused(mounted: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "out" / "inside").mkdir(parents=True)
     monkeypatch.setattr(os.path, "ismount", lambda place: place == tmp_path / mounted)
-    with pytest.raises(InputError, match=r"this one is or holds a mount point"):
+    with pytest.raises(InputError, match=r"this one is or contains a mount point"):
         check_folder(tmp_path / "out")
 
 
