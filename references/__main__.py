@@ -7,8 +7,9 @@ from rich.table import Table
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case, parse_override
-from fctd.cli.main import run, simulate_file
+from fctd.cli.main import run
 from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, screen
+from fctd.cli.simulate import simulate_file
 from references import contact, engines
 from references.contact import ContactMethod, build
 from references.registry import absent

@@ -56,7 +56,7 @@ def test_without_a_cache_folder_code_is_kept_for_one_run(name: str, tmp_path: Pa
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip() == "True"
     named = "XDG_CACHE_HOME" if name == "HOME" else name
-    assert f"let {named} name a folder of your own" in done.stderr
+    assert f"set {named} to a folder of your own" in done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 

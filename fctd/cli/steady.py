@@ -1,54 +1,26 @@
-"""The steady commands: ``fctd equilibrium CASE`` for one string, ``fctd chart CASE`` for many bit depths."""
+"""What the steady commands share: options, rates, pictures, and the metadata of a table."""
 
 from collections.abc import Mapping, Sequence
-from itertools import groupby
 from pathlib import Path
 from types import ModuleType
 from typing import Annotated, Any
 
-import numpy as np
 import pandas as pd
 import typer
-from rich.box import SIMPLE_HEAD
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.table import Table
 
 from fctd.case.errors import InputError
-from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.case.text import printable
-from fctd.case.units import LENGTH, SPEED
+from fctd.case.units import SPEED
 from fctd.cli.options import (
-    CaseFile,
-    Friction,
-    Overrides,
-    Quiet,
-    Strict,
     check_target,
-    finish,
-    messages,
-    print_notes,
-    print_status,
-    print_written,
-    read_case,
     read_quantity,
-    refuse_sources,
-    screen,
 )
 from fctd.model.operations import rates_of_all
-from fctd.results.columns import COLUMNS, DEPTH, IN_CHART, LOADS
-from fctd.results.notes import MEANINGS, as_metadata, meanings_of
-from fctd.results.status import SteadyStatus
-from fctd.results.tables import versions, write_table
-from fctd.results.unit_systems import System, in_field_units, shown
-from fctd.steady.equilibrium import Equilibrium, Solver, equilibrium
-from fctd.steady.torque_drag import torque_drag, with_friction
+from fctd.results.tables import versions
+from fctd.results.unit_systems import System, in_field_units
 
 TABLES, PICTURES = (".csv", ".parquet"), (".png", ".svg")
-MOST_DEPTHS = 10_000  # more is a slip in the step
-SCREEN_ROWS = 36
-# Columns of a chart on the screen.
-SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
 
 
 def _defaults(rate: str) -> str:
@@ -72,134 +44,9 @@ Rpm = Annotated[
 Units = Annotated[System, typer.Option("--units", help="Units of tables, pictures and screen.")]
 
 
-def _file(option: str, what: str) -> typer.models.OptionInfo:
+def file_option(option: str, what: str) -> typer.models.OptionInfo:
     info: typer.models.OptionInfo = typer.Option(option, metavar="FILE", help=what, show_default=False)
     return info
-
-
-def equilibrium_command(
-    case_file: CaseFile,
-    operations: Annotated[list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}.")],
-    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help="Bit depth, '2450 m'.")],
-    speed: Speed = None,
-    rpm: Rpm = None,
-    overrides: Overrides = [],  # noqa: B006 (typer copies it)
-    friction: Friction = None,
-    out: Annotated[Path | None, _file("--out", "Profile of the string, .csv or .parquet.")] = None,
-    plot: Annotated[Path | None, _file("--plot", "Picture of the profile, .png or .svg.")] = None,
-    units: Units = "si",
-    strict: Strict = False,
-) -> None:
-    """Solve the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
-    check_target(out, "--out", TABLES)
-    plots = _plots({"--plot": plot})
-    if len(operations) > 1:
-        raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
-    (operation,) = operations
-    case = read_case(case_file, overrides, friction)
-    refuse_sources(case, out, "--out")
-    refuse_sources(case, plot, "--plot")
-    depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
-    with naming_file(case):
-        check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
-    drive = read_drive(speed, rpm)
-    point = equilibrium(case, operation, depth, **drive)
-    written = []
-    try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
-        if point.answered and out is not None:
-            metadata = _metadata(case, units, [operation], drive)
-            metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
-            metadata |= {"notes": as_metadata(point.notes)}
-            written += write_table(_in(units, point.profile), out, metadata)
-        if point.answered and plots is not None:
-            written += plots.save(plots.profile_figure([point], units), plot)
-    finally:
-        _print_point(point, units)
-    if not point.answered and (out is not None or plot is not None):
-        messages.print("Nothing is written: no equilibrium was found, so there is no profile.")
-    print_written(written)
-    finish(point.status.acceptable, (note.code for note in point.notes), strict)
-
-
-def chart_command(
-    case_file: CaseFile,
-    operations: Annotated[
-        list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}, or all; may be repeated.")
-    ],
-    depths: Annotated[
-        str,
-        typer.Option("--depths", metavar="FROM:TO:STEP", help="Bit depths, 1750:2450:10 or '5000 ft:8000 ft:30 ft'."),
-    ],
-    frictions: Annotated[
-        list[float], typer.Option("--friction", metavar="X", help="Friction factor of every interval; may be repeated.")
-    ] = [],  # noqa: B006 (typer copies it)
-    speed: Speed = None,
-    rpm: Rpm = None,
-    overrides: Overrides = [],  # noqa: B006 (typer copies it)
-    out: Annotated[Path | None, _file("--out", "The chart, a row for every string, .csv or .parquet.")] = None,
-    plot: Annotated[Path | None, _file("--plot", "Hook load and torque against depth, .png or .svg.")] = None,
-    plot_profile: Annotated[
-        Path | None,
-        _file("--plot-profile", "Profiles at the last possible depth, first friction factor, .png or .svg."),
-    ] = None,
-    units: Units = "si",
-    quiet: Quiet = False,
-    strict: Strict = False,
-) -> None:
-    """Compute a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
-    check_target(out, "--out", TABLES)
-    plots = _plots({"--plot": plot, "--plot-profile": plot_profile})
-    case = read_case(case_file, overrides)
-    for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
-        refuse_sources(case, path, key)
-    bit_depths = read_depths(depths)
-    kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
-    factors = list(dict.fromkeys(frictions))
-    drive = read_drive(speed, rpm)
-
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
-        task = bar.add_task("compiling", total=None)
-
-        def show(done: int, total: int) -> None:
-            bar.update(task, description=printable(case.name), completed=done, total=total)
-
-        chart = torque_drag(case, kinds, bit_depths, factors or None, **drive, progress=show)
-
-    written = []
-    try:  # as above
-        if out is not None:
-            metadata = _metadata(case, units, kinds, drive) | {"notes": meanings_of(chart["notes"])}
-            written += write_table(_in(units, chart), out, metadata)
-        if plots is not None and plot is not None:
-            written += plots.save(plots.chart_figure(chart, units, case.name), plot)
-        if plots is not None and plot_profile is not None:
-            one = with_friction(case, factors[0]) if factors else case
-            solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
-            # At the last depth at which string and hole fit.
-            last = chart.loc[chart["status"] != SteadyStatus.NOT_POSSIBLE, "bit_depth_m"].max()
-            points = [solver.solve(kind, rates[kind], float(last)) for kind in kinds]
-            written += plots.save(plots.profile_figure(points, units), plot_profile)
-    finally:
-        _print_chart(chart, case.name, units)
-    print_written(written)
-    acceptable = all(SteadyStatus(status).acceptable for status in chart["status"])
-    finish(acceptable, meanings_of(chart["notes"]), strict)
-
-
-def read_depths(text: str) -> list[float]:
-    """Bit depths [m] of FROM:TO:STEP, with TO where it lies on the grid."""
-    parts = text.split(":")
-    if len(parts) != 3:
-        raise InputError("FROM:TO:STEP, such as 1750:2450:10 or '5000 ft:8000 ft:30 ft'", key="--depths", value=text)
-    first, last, step = (read_quantity(part, LENGTH, "--depths") for part in parts)
-    if not (first <= last and step > 0):
-        raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key="--depths", value=text)
-    steps = (last - first) / step
-    if steps >= MOST_DEPTHS:
-        raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)
-    # Rounding errors must neither drop the last depth nor give 1750.3000000000002 in a table.
-    return [round(first + k * step, 6) for k in range(int(np.floor(steps + 1e-6)) + 1)]
 
 
 def read_drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
@@ -207,7 +54,7 @@ def read_drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
     return {"speed": None if speed is None else read_quantity(speed, SPEED, "--speed"), "rpm": rpm}
 
 
-def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
+def plots_for(targets: Mapping[str, Path | None]) -> ModuleType | None:
     """The module of pictures, which needs the optional matplotlib; None where no picture is asked for."""
     wanted = {key: path for key, path in targets.items() if path is not None}
     for key, path in wanted.items():
@@ -225,11 +72,11 @@ def _plots(targets: Mapping[str, Path | None]) -> ModuleType | None:
     return plots
 
 
-def _in(units: System, table: pd.DataFrame) -> pd.DataFrame:
+def in_units(units: System, table: pd.DataFrame) -> pd.DataFrame:
     return in_field_units(table) if units == "field" else table
 
 
-def _metadata(case: Case, units: System, kinds: Sequence[str], drive: Mapping[str, Any]) -> dict[str, Any]:
+def metadata_of(case: Case, units: System, kinds: Sequence[str], drive: Mapping[str, Any]) -> dict[str, Any]:
     """Metadata of a table: case, units, versions, and the rates used, positive downwards and clockwise."""
     rates = rates_of_all(case, kinds, **drive)
     return {
@@ -238,111 +85,3 @@ def _metadata(case: Case, units: System, kinds: Sequence[str], drive: Mapping[st
         "rates": {kind: {"speed_m_s": r.speed, "spin_rad_s": r.spin} for kind, r in rates.items()},
         "versions": versions(),
     }
-
-
-def _loads(point: Equilibrium) -> dict[str, float]:
-    """Loads of a steady string by column name."""
-    return {load.name: load.value(point) for load in LOADS}
-
-
-def _print_point(point: Equilibrium, units: System) -> None:
-    """Print the loads of a string, its extreme tension, side force and stress, and the buckled depths."""
-    metre = shown("bit_depth_m", units)
-    depth = f"{point.bit_depth * metre.factor:.1f} {metre.label}"
-    screen.print(f"{printable(point.case.name)}: {point.operation}, bit at {depth}", style="bold")
-    table = Table(box=SIMPLE_HEAD, show_header=False)
-    for name, value in _loads(point).items():
-        unit = shown(name, units)
-        text = f"{value * unit.factor:z.3f}" if point.answered else "–"
-        table.add_row(COLUMNS[name].label, text, unit.label)
-    if point.answered:
-        profile = point.profile
-        for name, worst in (("effective_tension_N", "min"), ("contact_force_N", "max"), ("von_mises_Pa", "max")):
-            unit, row = shown(name, units), profile.loc[profile[name].agg(f"idx{worst}")]
-            where = f"at {row['md_m'] * metre.factor:.0f} {metre.label}"
-            table.add_row(f"{worst}. {COLUMNS[name].label}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
-        for mode in ("sinusoidal", "helical"):
-            for first, last in stretches(profile, mode):
-                where = f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"
-                table.add_row(f"beyond {mode} limit", where, metre.label)
-    table.columns[1].justify = "right"
-    screen.print(table)
-    screen.print(f"{point.status}, {point.iterations} iterations")
-    if point.message:
-        print_status(point.status, point.message)
-    print_notes(point.notes)
-
-
-def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
-    """First and last depth [m] of every run of contact points beyond the buckling limit of a mode."""
-    found = []
-    for buckled, run in groupby(zip(profile["buckling"] == mode, profile["md_m"], strict=True), key=lambda row: row[0]):
-        if buckled:
-            depths = [float(md) for _, md in run]
-            found.append((depths[0], depths[-1]))
-    return found
-
-
-def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
-    """Print a table that fits the screen, and a line for each run of rows with another status or a note."""
-    units_of = {column.name: shown(column.name, units) for column in SHOWN}
-    screen.print(printable(name), style="bold")
-    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
-    for heading in ("operation", "μ"):
-        table.add_column(heading, no_wrap=True)
-    for column in SHOWN:
-        table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
-    table.add_column("status", overflow="fold")
-    series = list(chart.groupby(["operation", "friction"], sort=False, dropna=False))
-    each = max(SCREEN_ROWS // len(series), 1)
-    for (operation, friction), rows in series:
-        # Evenly spread rows, always with the deepest one.
-        picked = np.unique(np.linspace(len(rows) - 1, 0, min(each, len(rows))).round().astype(int))
-        for k, row in enumerate(rows.iloc[picked].to_dict("records")):
-            values = [
-                "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
-                for name, digits in ((column.name, column.digits) for column in SHOWN)
-            ]
-            names = ("", "") if k else (str(operation), _factor(friction))
-            table.add_row(*names, *values, row["status"])
-    screen.print(table)
-    counts = ", ".join(f"{count} {status}" for status, count in chart["status"].value_counts().items())
-    screen.print(f"{len(chart)} rows: {counts}", soft_wrap=True)
-    depth = units_of["bit_depth_m"]
-    for (operation, friction), rows in series:
-        for line in _exceptions(rows, depth.factor, depth.label):
-            messages.print(f"{operation}, friction {_factor(friction)}: {line}", soft_wrap=True)
-
-
-def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
-    """The runs of rows of one series that are not converged, and those with the same note, a line each."""
-    depths = rows["bit_depth_m"] * factor
-    reasons = dict(zip(rows["status"], rows["reason"], strict=True))  # the last, at the greatest depth, of each status
-    lines = [
-        f"{status} at {where}: {reasons[status]}"
-        for status, where in _runs(rows["status"], depths, label)
-        if status != SteadyStatus.CONVERGED
-    ]
-    for code, meaning in MEANINGS.items():
-        noted = rows["notes"].str.split(", ").map(lambda codes, code=code: code in codes)
-        lines += [
-            f"note {code} at {where}: {meaning.headline}: {meaning.remedy}"
-            for has, where in _runs(noted, depths, label)
-            if has
-        ]
-    return lines
-
-
-def _runs(values: "pd.Series[Any]", depths: "pd.Series[float]", label: str) -> list[tuple[Any, str]]:
-    """Every run of equal values, with its depths as text."""
-    found = []
-    for value, run in groupby(zip(values, depths, strict=True), key=lambda row: row[0]):
-        at = [depth for _, depth in run]
-        span = f"{at[0]:g}" if len(at) == 1 else f"{at[0]:g} to {at[-1]:g}"
-        found.append((value, f"{span} {label} ({len(at)} of {len(depths)})"))
-    return found
-
-
-def _factor(friction: object) -> str:
-    """A friction factor as text; "case's" where intervals differ."""
-    return f"{friction:g}" if isinstance(friction, float) and np.isfinite(friction) else "case's"

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from fctd import open_result
-from fctd.cli import main, refine, steady
+from fctd.cli import chart, refine, simulate
 from fctd.cli.interrupts import as_interrupts
 from tests.cli.test_main import CASE, run
 
@@ -50,7 +50,7 @@ def sending(real: Callable[..., object], number: int, after: int) -> Callable[..
 def test_a_run_keeps_what_it_has(
     number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(main, "simulate", sending(main.simulate, number, 2))
+    monkeypatch.setattr(simulate, "simulate", sending(simulate.simulate, number, 2))
     out = tmp_path / "out"
     assert run(monkeypatch, "simulate", case_file, "--out", out, "--set", "record.interval=1 s", "--quiet") == 130
     result = open_result(out)
@@ -74,7 +74,7 @@ def test_a_command_without_results_ends_without_files(
         "refine": ("refine", case_file, "--out", tmp_path / "fine.toml"),
     }
     monkeypatch.setattr(sys.modules["fctd.simulation.simulate"], "settle", settle)
-    monkeypatch.setattr(steady, "torque_drag", sending(steady.torque_drag, number, 2))
+    monkeypatch.setattr(chart, "torque_drag", sending(chart.torque_drag, number, 2))
     monkeypatch.setattr(refine, "refine", sending(refine.refine, number, 1))
     assert run(monkeypatch, *options[command]) == 130
     assert "Traceback" not in capsys.readouterr().err
@@ -86,15 +86,15 @@ def test_a_second_signal_does_not_stop_the_writing_of_results(
     number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A terminal that closes sends SIGHUP from the system and from the shell."""
-    save = main.SimulationResult.save
+    save = simulate.SimulationResult.save
 
     def again(*arguments: object, **more: object) -> object:
         for each in KILL:
             os.kill(os.getpid(), each)
         return save(*arguments, **more)
 
-    monkeypatch.setattr(main, "simulate", sending(main.simulate, number, 1))
-    monkeypatch.setattr(main.SimulationResult, "save", again)
+    monkeypatch.setattr(simulate, "simulate", sending(simulate.simulate, number, 1))
+    monkeypatch.setattr(simulate.SimulationResult, "save", again)
     assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
     assert open_result(tmp_path / "out").status == "interrupted"
 
@@ -102,14 +102,14 @@ def test_a_second_signal_does_not_stop_the_writing_of_results(
 def test_results_are_written_after_the_terminal_has_closed(case_file: Path, tmp_path: Path) -> None:
     """With its bar and its tables on that terminal."""
     code = (
-        "import os, signal, time\nfrom fctd.cli import main as cli\nreal = cli.simulate\n"
+        "import os, signal, time\nfrom fctd.cli import main, simulate as cli\nreal = cli.simulate\n"
         "def simulate(*a, progress, **k):\n"
         "    def report(*v):\n"
         "        progress(*v)\n"
         "        os.write(1, b'going') if v[0] < 1.5 else None\n"
         "        time.sleep(60) if v[0] > 1.5 else None\n"
         "    return real(*a, progress=report, **k)\n"
-        "cli.simulate = simulate\ncli.main()\n"
+        "cli.simulate = simulate\nmain.main()\n"
     )
     leader, follower = pty.openpty()
     arguments = ["simulate", str(case_file), "--out", str(tmp_path / "out"), "--set", "record.interval=1 s"]

@@ -1,52 +1,15 @@
-"""The steady commands as a user meets them: tables, units, statuses, messages, exit codes."""
+"""Files of the steady commands: what cannot be written or would be lost is refused before computing."""
 
-import json
-import subprocess
+import os
 import sys
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
-import pyarrow.parquet as pq
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import fctd
-from fctd.case.errors import InputError
-from fctd.case.operations import KINDS
-from fctd.cli.steady import MOST_DEPTHS, read_depths, stretches
+from tests.cli.test_chart import CASE, CHART, POINT, settings
 from tests.cli.test_main import run
-
-CASE = """
-name = "tiny"
-[wellbore]
-stations = [[0, 0, 0], [100, 0, 0], [550, 90, 0], [900, 90, 0]]
-[[wellbore.intervals]]
-to_md = "900 m"
-diameter = "8.5 in"
-friction = 0.2
-[string]
-[[string.components]]
-name = "pipe"
-outer_diameter = "5 in"
-inner_diameter = "4.276 in"
-segment_length = "40 m"
-"""
-CHART_COLUMNS = [
-    "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
-    "drive_torque_N_m", "total_contact_force_N", "status", "iterations", "notes",
-    "reason",
-]  # fmt: skip
-# A pound-force and a foot in SI, exact by definition (NIST SP 811, appendix B.8).
-LBF, FOOT = 4.4482216152605, 0.3048
-# Below 600 m the wall is too soft to hold any string.
-SOFT_BELOW = (
-    "wellbore.intervals=[{to_md = 600, diameter = 0.2159, friction = 0.2},"
-    "{to_md = 900, diameter = 0.2159, friction = 0.2, stiffness = 100}]"
-)
-# A string under compression that no wall holds.
-UNHELD = ("wellbore.stations=[[0, 0, 0], [900, 0, 0]]", "contact.enabled=false", "bit.weight_on_bit=20 kN")
 
 
 @pytest.fixture
@@ -56,330 +19,110 @@ def case_file(tmp_path: Path) -> Path:
     return path
 
 
-def settings(*changes: str) -> list[str]:
-    """The options that make these changes."""
-    return [part for change in changes for part in ("--set", change)]
-
-
-COUNT_READS = """
-import sys
-
-survey, *arguments = sys.argv[1:]
-reads = 0
-
-def count(event, what):
-    global reads
-    reads += event == "open" and what[0] == survey
-
-sys.addaudithook(count)
-import fctd
-from fctd.cli.main import main
-
-case = fctd.load_case(arguments[1])
-fctd.torque_drag(case, ["trip_in", "trip_out", "rotate_off_bottom"], [600, 700], [0.1, 0.3])
-fctd.equilibrium(case, "trip_in", 700)
-print("reads", reads, file=sys.stderr)
-reads = 0
-try:
-    sys.argv = ["fctd", *arguments]
-    main()
-finally:
-    print("reads", reads, file=sys.stderr)
-"""
-
-
-def test_a_chart_reads_its_survey_once(tmp_path: Path) -> None:
-    """Whatever the number of operations and friction factors, and with pictures and tables."""
-    survey, case_file = tmp_path / "survey.csv", tmp_path / "tiny.toml"
-    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n100,0,0\n550,90,0\n900,90,0\n")
-    stations = "stations = [[0, 0, 0], [100, 0, 0], [550, 90, 0], [900, 90, 0]]"
-    case_file.write_text(CASE.replace(stations, 'survey = "survey.csv"'))
-    kinds = [word for kind in ("trip_in", "trip_out", "rotate_off_bottom") for word in ("--operation", kind)]
-    done = subprocess.run(
-        [sys.executable, "-c", COUNT_READS, str(survey), "chart", str(case_file), *kinds, "--depths", "600:700:50",
-         "--friction", "0.1", "--friction", "0.3", "--out", str(tmp_path / "chart.csv"),
-         "--plot-profile", str(tmp_path / "profile.svg"), "--quiet"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    assert [line for line in done.stderr.splitlines() if line.startswith("reads")] == ["reads 1", "reads 1"]
-    assert (tmp_path / "profile.svg").is_file()
-
-
-def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
+def test_a_file_that_fails_to_be_written_is_one_message(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    out = tmp_path / "new" / "chart.csv"
-    given = ("--operation", "trip_in", "--operation", "rotate_off_bottom", "--operation", "trip_in")
-    factors = ("--friction", "0.1", "--friction", "0.3")
-    code = run(monkeypatch, "chart", case_file, *given, *factors, "--depths", "700:850:50", "--rpm", "80", "--out", out)
-    assert code == 0
-    assert "16 rows: 16 converged" in capsys.readouterr().out
-    table = pd.read_csv(out)
-    assert list(table.columns) == CHART_COLUMNS
-    kinds, depths = ["trip_in", "rotate_off_bottom"], [700, 750, 800, 850]
-    expected = fctd.torque_drag(fctd.load_case(case_file), kinds, depths, [0.1, 0.3], rpm=80)
-    pd.testing.assert_frame_equal(table, expected, check_dtype=False)
-    origin = json.loads((tmp_path / "new" / "chart.csv.json").read_text())
-    assert origin["case"]["name"] == "tiny"
-    assert origin["rates"]["trip_in"] == {"speed_m_s": 0.3, "spin_rad_s": pytest.approx(80 * np.pi / 30)}
-    assert {"fctd", "numpy", "numba", "python"} <= origin["versions"].keys()
+    """The disk fills up after the target was looked at: the loads are on the screen, the file is the one before."""
+
+    def full(frame: pd.DataFrame, path: Path, **_: object) -> None:
+        path.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(pd.DataFrame, "to_csv", full)
+    out = tmp_path / "profile.csv"
+    out.write_text("old")
+    options = POINT | {"--out": str(out)}
+    assert run(monkeypatch, "equilibrium", case_file, *(part for pair in options.items() for part in pair)) == 2
+    captured = capsys.readouterr()
+    assert f'"{out}": expected a file that can be written (No space left on device)' in captured.err
+    assert "hook load" in captured.out
+    assert out.read_text() == "old"
 
 
-def test_field_units_in_columns_and_names(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+def test_files_are_written_also_when_nobody_reads_the_screen(
+    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    out = tmp_path / "chart.parquet"
-    code = run(
-        monkeypatch, "chart", case_file, "--operation", "all", "--depths", "2000 ft:2600 ft:300 ft",
-        "--units", "field", "--out", out, "--quiet",
-    )  # fmt: skip
-    assert code == 0
-    screen = capsys.readouterr().out
-    assert "klbf" in screen
-    assert "2600.0" in screen
-    table = pd.read_parquet(out)
-    si = fctd.torque_drag(fctd.load_case(case_file), list(table["operation"].unique()), [609.6, 701.04, 792.48])
-    assert table["bit_depth_ft"].tolist() == [2000, 2300, 2600] * 6
-    for field, column, factor in (
-        ("hookload_klbf", "hookload_N", 1000 * LBF),
-        ("total_contact_force_klbf", "total_contact_force_N", 1000 * LBF),
-        ("surface_torque_kft_lbf", "surface_torque_N_m", 1000 * FOOT * LBF),
-    ):
-        np.testing.assert_allclose(table[field] * factor, si[column], rtol=1e-12, atol=1e-12)
-    assert not [name for name in table.columns if name.endswith(("_N", "_m"))]
-    metadata = pq.read_schema(out).metadata
-    assert metadata[b"units"] == b"field"
-    assert json.loads(metadata[b"case"])["name"] == "tiny"
+    """``fctd chart … | head -1``: rich ends the program when its pipe is closed."""
+
+    def closed(*_: object, **__: object) -> None:
+        raise SystemExit(1)
+
+    monkeypatch.setattr("fctd.cli.options.screen.print", closed)
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "out.csv")}
+    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 1
+    assert len(pd.read_csv(tmp_path / "out.csv")) > 0
 
 
-def test_equilibrium_prints_the_loads_and_writes_the_profile(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+def test_the_survey_is_not_written_over(
+    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    survey = tmp_path / "hole.csv"
+    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,0,0\n")
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "." / "hole.csv")}
+    given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
+    assert run(monkeypatch, command, case_file, *given, *settings(f"wellbore.survey={survey}")) == 2
+    assert "another file than the case and its survey" in capsys.readouterr().err
+    assert survey.read_text().startswith("md_m")
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+@pytest.mark.parametrize("option", ["--out", "--plot"])
+def test_nor_by_a_side_file_or_a_picture(
+    option: str, command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """``chart.csv.json`` goes beside ``chart.csv``."""
     pytest.importorskip("matplotlib")
-    out, picture = tmp_path / "profile.csv", tmp_path / "profile.svg"
-    arguments = ("--operation", "trip_out", "--bit-depth", "850 m", "--friction", "0.3")
-    assert run(monkeypatch, "equilibrium", case_file, *arguments, "--out", out, "--plot", picture) == 0
-    point = fctd.equilibrium(fctd.load_case(case_file, {"friction": 0.3}), "trip_out", 850)
-    screen = capsys.readouterr().out
-    assert f"{point.hookload / 1e3:.3f}" in screen
-    assert f"{point.profile['von_mises_Pa'].max() / 1e6:.3f}" in screen
-    pd.testing.assert_frame_equal(pd.read_csv(out), point.profile, check_dtype=False)
-    origin = json.loads((tmp_path / "profile.csv.json").read_text())
-    assert origin["status"] == "converged"
-    assert origin["hookload_N"] == point.hookload
-    assert picture.read_text().startswith("<?xml")
-
-    field = tmp_path / "profile.parquet"
-    assert run(monkeypatch, "equilibrium", case_file, *arguments, "--units", "field", "--out", field) == 0
-    table = pd.read_parquet(field)
-    for name, column, factor in (
-        ("von_mises_ksi", "von_mises_Pa", 1000 * LBF / (FOOT / 12) ** 2),
-        ("offset_high_in", "offset_high_m", FOOT / 12),
-        ("md_ft", "md_m", FOOT),
-    ):
-        np.testing.assert_allclose(table[name] * factor, point.profile[column], rtol=1e-12, atol=1e-15)
+    survey = tmp_path / {"--out": "hole.csv.json", "--plot": "hole.png"}[option]
+    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,0,0\n")
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "hole.csv")}
+    options |= {"--plot": str(tmp_path / "hole.png")} if option == "--plot" else {}
+    given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
+    assert run(monkeypatch, command, case_file, *given, *settings(f"wellbore.survey={survey}")) == 2
+    assert f'{option} = "{survey}": expected another file than the case and its survey' in capsys.readouterr().err
+    assert survey.read_text().startswith("md_m")
 
 
-def test_a_row_without_an_answer_shows_in_row_screen_and_exit_code(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("matplotlib")
-    out, picture = tmp_path / "chart.csv", tmp_path / "chart.png"
-    code = run(
-        monkeypatch, "chart", case_file, "--operation", "trip_out", "--depths", "500:800:150",
-        *settings(SOFT_BELOW), "--out", out, "--plot", picture,
-    )  # fmt: skip
-    assert code == 1
-    screen, errors = capsys.readouterr()
-    assert "diverged" in screen
-    assert "trip_out, friction 0.2: diverged at 650 to 800 m (2 of 3)" in errors
-    table = pd.read_csv(out)
-    assert table["status"].tolist() == ["converged", "diverged", "diverged"]
-    assert table["hookload_N"].isna().tolist() == [False, True, True]
-    assert picture.exists()
-
-
-def test_a_chart_goes_on_below_the_hole(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Depths at which string and hole do not fit have rows of their own; the profile is that of the last that does."""
-    pytest.importorskip("matplotlib")
-    out, pictures = tmp_path / "chart.csv", [tmp_path / "chart.png", tmp_path / "profile.png"]
-    code = run(
-        monkeypatch, "chart", case_file, "--operation", "trip_out", "--depths", "800:1000:100", "--out", out,
-        "--plot", pictures[0], "--plot-profile", pictures[1],
-    )  # fmt: skip
-    assert code == 1
-    screen, errors = capsys.readouterr()
-    assert "not_possible" in screen
-    assert 'trip_out, friction 0.2: not_possible at 1000 m (1 of 3): bit_depth = "1000 m": expected a depth' in errors
-    table = pd.read_csv(out)
-    assert table["status"].tolist() == ["converged", "converged", "not_possible"]
-    assert table["hookload_N"].isna().tolist() == [False, False, True]
-    assert table["reason"].str.contains("within survey and intervals, 900 m").tolist() == [False, False, True]
-    assert all(picture.exists() for picture in pictures)
-
-
-def test_equilibrium_without_an_answer_writes_nothing(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("matplotlib")
-    files = [tmp_path / "p.csv", tmp_path / "p.png"]
-    code = run(
-        monkeypatch, "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", "800", *settings(SOFT_BELOW),
-        "--out", files[0], "--plot", files[1],
-    )  # fmt: skip
-    assert code == 1
-    assert "diverged: segment" in capsys.readouterr().err
-    assert not any(file.exists() for file in files)
-
-
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
 @pytest.mark.parametrize(
-    ("changes", "kind", "status", "code"),
+    ("name", "expected"),
     [
-        (["wellbore.intervals[0].friction=0.6"], "trip_in", "locked_up", 0),
-        (UNHELD, "drill_sliding", "unstable", 1),
+        ("x" * 248 + ".csv", "a file that can be written (File name too long)"),  # with the process beside it
+        ("new/" + "x" * 248 + ".csv", "a file that can be written (File name too long)"),
+        ("x" * 243 + ".csv", "a file that can be written (File name too long)"),  # the side file's
+        ("pipe.csv", "a regular file that can be written, no folder, pipe or device"),
+        ("device.csv", "a regular file that can be written, no folder, pipe or device"),
+        ("taken.csv", "a regular file that can be written, no folder, pipe or device"),  # the side file
     ],
 )
-def test_exit_code_of_a_legal_answer(
-    changes: list[str],
-    kind: str,
-    status: str,
-    code: int,
-    case_file: Path,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
+def test_a_target_that_cannot_be_written_is_refused_before(
+    name: str, expected: str, command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
-) -> None:
-    """Locked up is an answer and done; a balance that would not last is not."""
-    out, profile = tmp_path / "chart.csv", tmp_path / "profile.csv"
-    chart = ("chart", case_file, "--operation", kind, "--depths", "800:800:10", "--out", out)
-    assert run(monkeypatch, *chart, *settings(*changes)) == code
-    assert f"{status} at 800 m (1 of 1)" in capsys.readouterr().err
-    assert np.isfinite(pd.read_csv(out)["hookload_N"]).all()
-    point = ("equilibrium", case_file, "--operation", kind, "--bit-depth", "800", "--out", profile)
-    assert run(monkeypatch, *point, *settings(*changes)) == code
-    assert f"{status}:" in capsys.readouterr().err
-    assert profile.exists()
-
-
-CHART = {"--operation": "trip_in", "--depths": "500:800:100", "--out": "chart.csv"}
-POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv"}
-
-
-@pytest.mark.parametrize(
-    ("command", "options", "expected"),
-    [
-        ("chart", {"--operation": "trip_inn"}, ["tiny.toml", "operation", "trip_inn", "the kind trip_in"]),
-        ("chart", {"--operation": "drill"}, ["operation", "drill"]),
-        ("chart", {"--depths": "1000:1200:100"}, ["tiny.toml", 'bit_depth = "1000 m"', "900 m"]),
-        ("chart", {"--depths": "800:500:100"}, ["--depths", "800:500:100", "rise"]),
-        ("chart", {"--depths": "500:800:0"}, ["--depths", "500:800:0", "STEP above 0"]),
-        ("chart", {"--depths": "500:800:-10"}, ["--depths", "-10", "a length"]),
-        ("chart", {"--depths": "500:800"}, ["--depths", "500:800", "FROM:TO:STEP"]),
-        ("chart", {"--depths": "500:800 kg:10"}, ["--depths", "800 kg", "a length"]),
-        ("chart", {"--depths": "500:nan:10"}, ["--depths", "nan", "a length"]),
-        ("chart", {"--depths": "500:800:1e-9"}, ["--depths", "1e-9", "at most 10000 depths"]),
-        ("chart", {"--friction": "-0.1"}, ["tiny.toml", "friction", "-0.1", "at least 0"]),
-        ("chart", {"--operation": "rotate_off_bottom", "--speed": "1"}, ["tiny.toml", "speed", "of 0 for rotate_off"]),
-        ("chart", {"--speed": "3 kg"}, ["--speed", "3 kg", "a speed"]),
-        ("chart", {"--rpm": "-5"}, ["tiny.toml", "rpm", "-5", "at least 0"]),
-        ("chart", {"--out": "chart.xlsx"}, ["--out", "chart.xlsx", ".csv or .parquet"]),
-        ("chart", {"--plot": "chart.pdf"}, ["--plot", "chart.pdf", ".png or .svg"]),
-        ("chart", {"--plot-profile": "chart"}, ["--plot-profile", ".png or .svg"]),
-        ("chart", {"--out": "tiny.toml/chart.csv"}, ["--out", "tiny.toml/chart.csv", "can be written"]),
-        ("chart", {"--plot": "tiny.toml/chart.png"}, ["--plot", "tiny.toml/chart.png", "can be written"]),
-        ("chart", {"--plot": "a.png", "--plot-profile": "./a.png"}, ["--plot-profile", "a.png", "of its own"]),
-        ("chart", {"--out": 300 * "a" + ".csv"}, ["--out", 'aaa.csv": expected', "can be written"]),
-        ("chart", {"--units": "metric"}, ["--units", "metric", "field"]),
-        ("equilibrium", {"--operation": "rotate"}, ["tiny.toml", "operation", "rotate", "kind"]),
-        ("equilibrium", {"--bit-depth": "950 m"}, ["tiny.toml", "--bit-depth", "950 m", "900 m"]),
-        ("equilibrium", {"--bit-depth": "deep"}, ["--bit-depth", "deep", "a length"]),
-        ("equilibrium", {"--friction": "-0.1"}, ["tiny.toml", "wellbore.intervals[0].friction", "-0.1"]),
-        ("equilibrium", {"--plot": "profile.gif"}, ["--plot", "profile.gif", ".png or .svg"]),
-        ("equilibrium", {"--out": "folder.csv"}, ["--out", "folder.csv", "can be written"]),
-    ],
-)
-def test_bad_input_is_one_message_and_exit_code_2(
-    command: str,
-    options: dict[str, str],
-    expected: list[str],
-    case_file: Path,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "folder.csv").mkdir()
-    before = sorted(tmp_path.rglob("*"))
-    given = (CHART if command == "chart" else POINT) | options
-    code = run(monkeypatch, command, case_file.name, *(part for pair in given.items() for part in pair))
-    assert code == 2
+) -> None:  # fmt: skip
+    os.mkfifo(tmp_path / "pipe.csv")
+    os.mkfifo(tmp_path / "taken.csv.json")
+    (tmp_path / "device.csv").symlink_to("/dev/null")
+    for compute in ("chart.torque_drag", "equilibrium.equilibrium"):
+        monkeypatch.setattr(f"fctd.cli.{compute}", lambda *_, **__: pytest.fail("the case was computed"))
+    options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / name)}
+    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 2
     message = capsys.readouterr().err
-    assert "Traceback" not in message
-    for part in expected:
-        assert part in message
-    assert sorted(tmp_path.rglob("*")) == before
+    assert message.startswith("--out = ")
+    assert f"expected {expected}" in message
 
 
-def test_all_operations_do_not_hide_a_wrong_one(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+def test_without_matplotlib_a_picture_is_refused_before_computing(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    kinds = ("--operation", "all", "--operation", "wiggle")
-    assert run(monkeypatch, "chart", case_file, *kinds, "--depths", "500:800:100") == 2
-    assert "wiggle" in capsys.readouterr().err
-
-
-def test_one_string_is_of_one_operation(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    kinds = ("--operation", "trip_in", "--operation", "trip_out")
-    assert run(monkeypatch, "equilibrium", case_file, *kinds, "--bit-depth", "800") == 2
+    monkeypatch.delitem(sys.modules, "fctd.plots", raising=False)
+    monkeypatch.delattr(fctd, "plots", raising=False)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    out = tmp_path / "chart.csv"
+    options = CHART | {"--out": str(out), "--plot": str(tmp_path / "chart.png")}
+    assert run(monkeypatch, "chart", case_file, *(part for pair in options.items() for part in pair)) == 2
     message = capsys.readouterr().err
-    assert "--operation" in message
-    assert "one kind of operation" in message
-
-
-def test_rates_go_to_the_operations_that_have_them(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    pytest.importorskip("matplotlib")
-    out, picture = tmp_path / "chart.csv", tmp_path / "profiles.png"
-    rates = ("--speed", "0.7 m/s", "--rpm", "80", "--plot-profile", picture)
-    chart = ("chart", case_file, "--operation", "all", "--depths", "800:800:10", "--out", out, "--quiet")
-    assert run(monkeypatch, *chart, *rates) == 0
-    found = json.loads((tmp_path / "chart.csv.json").read_text())["rates"]
-    speeds = {kind: abs(rate["speed_m_s"]) for kind, rate in found.items()}
-    spins = {kind: rate["spin_rad_s"] for kind, rate in found.items()}
-    assert speeds == {kind: 0.0 if kind == "rotate_off_bottom" else 0.7 for kind in KINDS}
-    assert spins == pytest.approx({kind: 0.0 if kind == "drill_sliding" else 80 * np.pi / 30 for kind in KINDS})
-    assert picture.exists()
-
-
-def test_buckled_stretches_are_told_apart() -> None:
-    modes = ["none", "helical", "helical", "sinusoidal", "none", "helical", "none"]
-    profile = pd.DataFrame({"md_m": 100.0 * np.arange(7), "buckling": modes})
-    assert stretches(profile, "helical") == [(100.0, 200.0), (500.0, 500.0)]
-    assert stretches(profile, "sinusoidal") == [(300.0, 300.0)]
-    assert stretches(profile.iloc[:1], "helical") == []
-
-
-@given(
-    first=st.integers(1, 50_000), step=st.integers(1, 400), count=st.integers(0, 300), short=st.integers(0, 399),
-    unit=st.sampled_from([("", 1.0), (" m", 1.0), (" ft", FOOT), (" cm", 0.01)]),
-)  # fmt: skip
-def test_depths_rise_from_first_to_last_in_equal_steps(
-    first: int, step: int, count: int, short: int, unit: tuple[str, float]
-) -> None:
-    name, metres = unit
-    last = first + count * step + short % step
-    depths = read_depths(f"{first}{name}:{last}{name}:{step}{name}")
-    expected = metres * (first + step * np.arange(count + 1))
-    np.testing.assert_allclose(depths, expected, rtol=0, atol=1e-6)
-
-
-def test_the_grid_has_a_limit() -> None:
-    assert len(read_depths(f"1:{MOST_DEPTHS}:1")) == MOST_DEPTHS
-    with pytest.raises(InputError):
-        read_depths(f"1:{MOST_DEPTHS + 1}:1")
+    assert "matplotlib" in message
+    assert "fctd[plot]" in message
+    assert not out.exists()

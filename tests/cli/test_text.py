@@ -15,7 +15,7 @@ from rich.table import Table
 
 from fctd.case.load import Case
 from fctd.case.text import printable_lines
-from fctd.cli import main
+from fctd.cli import main, options
 from references.__main__ import app as references_app
 from tests.case.test_text import ANYTHING
 from tests.cli.test_main import CASE
@@ -66,7 +66,7 @@ def check_plain(*printed: str) -> None:
 @given(ANYTHING)
 def test_any_text_reaches_the_terminal_as_it_stands(text: str) -> None:
     with redirect_stdout(io.StringIO()) as out:
-        main.screen.print(text, soft_wrap=True)
+        options.screen.print(text, soft_wrap=True)
     assert out.getvalue() == printable_lines(text) + "\n"
 
 
@@ -76,7 +76,7 @@ def test_a_table_holds_any_text(text: str) -> None:
     table.add_column(text)
     table.add_row(text)
     with redirect_stdout(io.StringIO()) as out:
-        main.screen.print(table)
+        options.screen.print(table)
     check_plain(out.getvalue())
 
 
@@ -84,7 +84,7 @@ def test_a_table_holds_any_text(text: str) -> None:
 def test_a_name_is_printed_as_it_stands(
     command: str, wild: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(main.screen, "_width", 200)
+    monkeypatch.setattr(options.screen, "_width", 200)
     arguments = [*COMMANDS[command], wild]
     assert fctd(monkeypatch, *arguments) == 0
     out, err = capsys.readouterr()
@@ -96,10 +96,10 @@ def test_a_name_is_printed_as_it_stands(
 def test_a_name_beside_a_progress_bar(
     command: str, wild: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(main.messages, "_width", 200)
+    monkeypatch.setattr(options.messages, "_width", 200)
     monkeypatch.setenv("TTY_COMPATIBLE", "1")  # a terminal, for rich
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setattr(main.messages, "is_interactive", True)
+    monkeypatch.setattr(options.messages, "is_interactive", True)
     assert fctd(monkeypatch, *COMMANDS[command], wild) == 0
     err = capsys.readouterr().err
     assert SHOWN in err

@@ -1,0 +1,202 @@
+"""``fctd chart CASE``: steady strings of several operations at many bit depths."""
+
+from itertools import groupby
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import pandas as pd
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from fctd.case.errors import InputError
+from fctd.case.operations import KINDS
+from fctd.case.text import printable
+from fctd.case.units import LENGTH
+from fctd.cli.options import (
+    CaseFile,
+    Overrides,
+    Quiet,
+    Strict,
+    check_target,
+    finish,
+    messages,
+    print_written,
+    read_case,
+    read_quantity,
+    refuse_sources,
+    screen,
+)
+from fctd.cli.steady import (
+    KIND_HELP,
+    TABLES,
+    Rpm,
+    Speed,
+    Units,
+    file_option,
+    in_units,
+    metadata_of,
+    plots_for,
+    read_drive,
+)
+from fctd.model.operations import rates_of_all
+from fctd.results.columns import DEPTH, IN_CHART
+from fctd.results.notes import MEANINGS, meanings_of
+from fctd.results.status import SteadyStatus
+from fctd.results.tables import write_table
+from fctd.results.unit_systems import System, shown
+from fctd.steady.equilibrium import Solver
+from fctd.steady.torque_drag import torque_drag, with_friction
+
+MOST_DEPTHS = 10_000  # more is a slip in the step
+SCREEN_ROWS = 36
+# Columns of a chart on the screen.
+SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
+
+
+def chart_command(
+    case_file: CaseFile,
+    operations: Annotated[
+        list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}, or all; may be repeated.")
+    ],
+    depths: Annotated[
+        str,
+        typer.Option("--depths", metavar="FROM:TO:STEP", help="Bit depths, 1750:2450:10 or '5000 ft:8000 ft:30 ft'."),
+    ],
+    frictions: Annotated[
+        list[float], typer.Option("--friction", metavar="X", help="Friction factor of every interval; may be repeated.")
+    ] = [],  # noqa: B006 (typer copies it)
+    speed: Speed = None,
+    rpm: Rpm = None,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    out: Annotated[Path | None, file_option("--out", "The chart, a row for every string, .csv or .parquet.")] = None,
+    plot: Annotated[Path | None, file_option("--plot", "Hook load and torque against depth, .png or .svg.")] = None,
+    plot_profile: Annotated[
+        Path | None,
+        file_option("--plot-profile", "Profiles at the last possible depth, first friction factor, .png or .svg."),
+    ] = None,
+    units: Units = "si",
+    quiet: Quiet = False,
+    strict: Strict = False,
+) -> None:
+    """Compute a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
+    check_target(out, "--out", TABLES)
+    plots = plots_for({"--plot": plot, "--plot-profile": plot_profile})
+    case = read_case(case_file, overrides)
+    for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
+        refuse_sources(case, path, key)
+    bit_depths = read_depths(depths)
+    kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
+    factors = list(dict.fromkeys(frictions))
+    drive = read_drive(speed, rpm)
+
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
+        task = bar.add_task("compiling", total=None)
+
+        def show(done: int, total: int) -> None:
+            bar.update(task, description=printable(case.name), completed=done, total=total)
+
+        chart = torque_drag(case, kinds, bit_depths, factors or None, **drive, progress=show)
+
+    written = []
+    try:  # as above
+        if out is not None:
+            metadata = metadata_of(case, units, kinds, drive) | {"notes": meanings_of(chart["notes"])}
+            written += write_table(in_units(units, chart), out, metadata)
+        if plots is not None and plot is not None:
+            written += plots.save(plots.chart_figure(chart, units, case.name), plot)
+        if plots is not None and plot_profile is not None:
+            one = with_friction(case, factors[0]) if factors else case
+            solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
+            # At the last depth at which string and hole fit.
+            last = chart.loc[chart["status"] != SteadyStatus.NOT_POSSIBLE, "bit_depth_m"].max()
+            points = [solver.solve(kind, rates[kind], float(last)) for kind in kinds]
+            written += plots.save(plots.profile_figure(points, units), plot_profile)
+    finally:
+        _print_chart(chart, case.name, units)
+    print_written(written)
+    acceptable = all(SteadyStatus(status).acceptable for status in chart["status"])
+    finish(acceptable, meanings_of(chart["notes"]), strict)
+
+
+def read_depths(text: str) -> list[float]:
+    """Bit depths [m] of FROM:TO:STEP, with TO where it lies on the grid."""
+    parts = text.split(":")
+    if len(parts) != 3:
+        raise InputError("FROM:TO:STEP, such as 1750:2450:10 or '5000 ft:8000 ft:30 ft'", key="--depths", value=text)
+    first, last, step = (read_quantity(part, LENGTH, "--depths") for part in parts)
+    if not (first <= last and step > 0):
+        raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key="--depths", value=text)
+    steps = (last - first) / step
+    if steps >= MOST_DEPTHS:
+        raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)
+    # Rounding errors must neither drop the last depth nor give 1750.3000000000002 in a table.
+    return [round(first + k * step, 6) for k in range(int(np.floor(steps + 1e-6)) + 1)]
+
+
+def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
+    """Print a table that fits the screen, and a line for each run of rows with another status or a note."""
+    units_of = {column.name: shown(column.name, units) for column in SHOWN}
+    screen.print(printable(name), style="bold")
+    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
+    for heading in ("operation", "μ"):
+        table.add_column(heading, no_wrap=True)
+    for column in SHOWN:
+        table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
+    table.add_column("status", overflow="fold")
+    series = list(chart.groupby(["operation", "friction"], sort=False, dropna=False))
+    each = max(SCREEN_ROWS // len(series), 1)
+    for (operation, friction), rows in series:
+        # Evenly spread rows, always with the deepest one.
+        picked = np.unique(np.linspace(len(rows) - 1, 0, min(each, len(rows))).round().astype(int))
+        for k, row in enumerate(rows.iloc[picked].to_dict("records")):
+            values = [
+                "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
+                for name, digits in ((column.name, column.digits) for column in SHOWN)
+            ]
+            names = ("", "") if k else (str(operation), _factor(friction))
+            table.add_row(*names, *values, row["status"])
+    screen.print(table)
+    counts = ", ".join(f"{count} {status}" for status, count in chart["status"].value_counts().items())
+    screen.print(f"{len(chart)} rows: {counts}", soft_wrap=True)
+    depth = units_of["bit_depth_m"]
+    for (operation, friction), rows in series:
+        for line in _exceptions(rows, depth.factor, depth.label):
+            messages.print(f"{operation}, friction {_factor(friction)}: {line}", soft_wrap=True)
+
+
+def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
+    """The runs of rows of one series that are not converged, and those with the same note, a line each."""
+    depths = rows["bit_depth_m"] * factor
+    reasons = dict(zip(rows["status"], rows["reason"], strict=True))  # the last, at the greatest depth, of each status
+    lines = [
+        f"{status} at {where}: {reasons[status]}"
+        for status, where in _runs(rows["status"], depths, label)
+        if status != SteadyStatus.CONVERGED
+    ]
+    for code, meaning in MEANINGS.items():
+        noted = rows["notes"].str.split(", ").map(lambda codes, code=code: code in codes)
+        lines += [
+            f"note {code} at {where}: {meaning.headline}: {meaning.remedy}"
+            for has, where in _runs(noted, depths, label)
+            if has
+        ]
+    return lines
+
+
+def _runs(values: "pd.Series[Any]", depths: "pd.Series[float]", label: str) -> list[tuple[Any, str]]:
+    """Every run of equal values, with its depths as text."""
+    found = []
+    for value, run in groupby(zip(values, depths, strict=True), key=lambda row: row[0]):
+        at = [depth for _, depth in run]
+        span = f"{at[0]:g}" if len(at) == 1 else f"{at[0]:g} to {at[-1]:g}"
+        found.append((value, f"{span} {label} ({len(at)} of {len(depths)})"))
+    return found
+
+
+def _factor(friction: object) -> str:
+    """A friction factor as text; "case's" where intervals differ."""
+    return f"{friction:g}" if isinstance(friction, float) and np.isfinite(friction) else "case's"

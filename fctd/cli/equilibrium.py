@@ -1,0 +1,135 @@
+"""``fctd equilibrium CASE``: the steady string of one operation and bit depth."""
+
+from itertools import groupby
+from pathlib import Path
+from typing import Annotated
+
+import pandas as pd
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from fctd.case.errors import InputError
+from fctd.case.load import check_bit_depth, naming_file
+from fctd.case.text import printable
+from fctd.case.units import LENGTH
+from fctd.cli.options import (
+    CaseFile,
+    Friction,
+    Overrides,
+    Strict,
+    check_target,
+    finish,
+    messages,
+    print_notes,
+    print_status,
+    print_written,
+    read_case,
+    read_quantity,
+    refuse_sources,
+    screen,
+)
+from fctd.cli.steady import (
+    KIND_HELP,
+    TABLES,
+    Rpm,
+    Speed,
+    Units,
+    file_option,
+    in_units,
+    metadata_of,
+    plots_for,
+    read_drive,
+)
+from fctd.results.columns import COLUMNS, LOADS
+from fctd.results.notes import as_metadata
+from fctd.results.tables import write_table
+from fctd.results.unit_systems import System, shown
+from fctd.steady.equilibrium import Equilibrium, equilibrium
+
+
+def equilibrium_command(
+    case_file: CaseFile,
+    operations: Annotated[list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}.")],
+    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help="Bit depth, '2450 m'.")],
+    speed: Speed = None,
+    rpm: Rpm = None,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    friction: Friction = None,
+    out: Annotated[Path | None, file_option("--out", "Profile of the string, .csv or .parquet.")] = None,
+    plot: Annotated[Path | None, file_option("--plot", "Picture of the profile, .png or .svg.")] = None,
+    units: Units = "si",
+    strict: Strict = False,
+) -> None:
+    """Solve the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
+    check_target(out, "--out", TABLES)
+    plots = plots_for({"--plot": plot})
+    if len(operations) > 1:
+        raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
+    (operation,) = operations
+    case = read_case(case_file, overrides, friction)
+    refuse_sources(case, out, "--out")
+    refuse_sources(case, plot, "--plot")
+    depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
+    with naming_file(case):
+        check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
+    drive = read_drive(speed, rpm)
+    point = equilibrium(case, operation, depth, **drive)
+    written = []
+    try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
+        if point.answered and out is not None:
+            metadata = metadata_of(case, units, [operation], drive)
+            metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
+            metadata |= {"notes": as_metadata(point.notes)}
+            written += write_table(in_units(units, point.profile), out, metadata)
+        if point.answered and plots is not None:
+            written += plots.save(plots.profile_figure([point], units), plot)
+    finally:
+        _print_point(point, units)
+    if not point.answered and (out is not None or plot is not None):
+        messages.print("Nothing is written: no equilibrium was found, so there is no profile.")
+    print_written(written)
+    finish(point.status.acceptable, (note.code for note in point.notes), strict)
+
+
+def _loads(point: Equilibrium) -> dict[str, float]:
+    """Loads of a steady string by column name."""
+    return {load.name: load.value(point) for load in LOADS}
+
+
+def _print_point(point: Equilibrium, units: System) -> None:
+    """Print the loads of a string, its extreme tension, side force and stress, and the buckled depths."""
+    metre = shown("bit_depth_m", units)
+    depth = f"{point.bit_depth * metre.factor:.1f} {metre.label}"
+    screen.print(f"{printable(point.case.name)}: {point.operation}, bit at {depth}", style="bold")
+    table = Table(box=SIMPLE_HEAD, show_header=False)
+    for name, value in _loads(point).items():
+        unit = shown(name, units)
+        text = f"{value * unit.factor:z.3f}" if point.answered else "–"
+        table.add_row(COLUMNS[name].label, text, unit.label)
+    if point.answered:
+        profile = point.profile
+        for name, worst in (("effective_tension_N", "min"), ("contact_force_N", "max"), ("von_mises_Pa", "max")):
+            unit, row = shown(name, units), profile.loc[profile[name].agg(f"idx{worst}")]
+            where = f"at {row['md_m'] * metre.factor:.0f} {metre.label}"
+            table.add_row(f"{worst}. {COLUMNS[name].label}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
+        for mode in ("sinusoidal", "helical"):
+            for first, last in stretches(profile, mode):
+                where = f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"
+                table.add_row(f"beyond {mode} limit", where, metre.label)
+    table.columns[1].justify = "right"
+    screen.print(table)
+    screen.print(f"{point.status}, {point.iterations} iterations")
+    if point.message:
+        print_status(point.status, point.message)
+    print_notes(point.notes)
+
+
+def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
+    """First and last depth [m] of every run of contact points beyond the buckling limit of a mode."""
+    found = []
+    for buckled, run in groupby(zip(profile["buckling"] == mode, profile["md_m"], strict=True), key=lambda row: row[0]):
+        if buckled:
+            depths = [float(md) for _, md in run]
+            found.append((depths[0], depths[-1]))
+    return found

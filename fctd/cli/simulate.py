@@ -1,0 +1,124 @@
+"""``fctd simulate CASE``: run the operations of a case in time."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import typer
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.table import Table
+
+from fctd.case.load import Case
+from fctd.case.text import file_name, printable
+from fctd.cli.options import (
+    INTERRUPTED,
+    CaseFile,
+    Csv,
+    Friction,
+    Out,
+    Overrides,
+    Quiet,
+    Strict,
+    finish,
+    messages,
+    print_notes,
+    print_status,
+    print_written,
+    read_case,
+    refuse_source_files,
+    screen,
+)
+from fctd.results.columns import COLUMNS
+from fctd.results.status import RunStatus
+from fctd.results.tables import SimulationResult, check_result_folder, own_files, result_files
+from fctd.results.unit_systems import shown
+from fctd.simulation.external_contact import WallQuery
+from fctd.simulation.run import LONGEST_SETTLING
+from fctd.simulation.simulate import simulate
+
+
+def simulate_command(
+    case_file: CaseFile,
+    out: Out = None,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    friction: Friction = None,
+    csv: Csv = False,
+    quiet: Quiet = False,
+    strict: Strict = False,
+) -> None:
+    """Run the operations of a case and write history, profile and energy tables."""
+    simulate_file(case_file, out, overrides, friction, csv, quiet, strict=strict)
+
+
+def simulate_file(
+    case_file: Path,
+    out: Path | None,
+    overrides: list[str],
+    friction: float | None,
+    csv: bool,
+    quiet: bool,
+    contact: Callable[[Case], WallQuery] | None = None,
+    *,
+    strict: bool = False,
+) -> None:
+    """Run ``fctd simulate``; ``contact`` builds another contact method for the case (see fctd.simulate)."""
+    case = read_case(case_file, overrides, friction)
+    method = None if contact is None else contact(case)
+    folder = out or Path(file_name(case.name, "-result"))
+    check_result_folder(folder, csv, "--out")  # before hours of computing
+    refuse_source_files(case, (folder / name for name in own_files(folder).union(result_files(csv))), "--out")
+    columns = (
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        TextColumn("{task.completed:.0f}/{task.total:.0f} s simulated, {task.fields[factor]} × real time"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    result = None
+    try:
+        with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
+            task = bar.add_task("compiling, settling", total=1.0, factor="–")
+
+            def settling(now: float, imbalance: float) -> None:
+                text = f"settling, forces out of balance by {imbalance:.0e} of the weight"
+                bar.update(task, description=text, total=LONGEST_SETTLING, completed=now)
+
+            def show(now: float, total: float, factor: float) -> None:
+                bar.update(task, description=printable(case.name), total=total, completed=now, factor=f"{factor:.0f}")
+
+            result = simulate(case, progress=show, contact=method, settling=settling)
+            # The files are written before anything is printed: the terminal may have been closed.
+            written = result.save(folder, csv=csv)
+    finally:  # printed also where a file cannot be written
+        if result is not None:
+            _summarise(result)
+    print_written(written)
+    if result.status is RunStatus.INTERRUPTED:
+        raise typer.Exit(INTERRUPTED)
+    finish(result.status.acceptable, (note.code for note in result.notes), strict)
+
+
+def _summarise(result: SimulationResult) -> None:
+    """Print the loads at the end, and the size, speed and energy error of the run."""
+    if result.message and not result.status.acceptable:
+        print_status(result.status, result.message)
+    print_notes(note for note in result.notes if str(note) != result.message or result.status.acceptable)
+    if len(result.history):
+        last = result.history.iloc[-1]
+        name = printable(result.case.name)
+        table = Table(title=f"{name}: {last['operation']}, bit at {last['bit_depth_m']:.1f} m")
+        cells = []
+        for name in ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "total_contact_force_N"):
+            column, unit = COLUMNS[name], shown(name, "si")
+            table.add_column(f"{column.label} {unit.label}", justify="right")
+            cells.append(f"{last[name] * unit.factor:.{column.digits}f}")
+        table.add_column("contacts", justify="right")
+        table.add_row(*cells, f"{last['contact_count']}")
+        screen.print(table)
+    run = result.run
+    screen.print(
+        f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms, {run['steps']} steps, "
+        f"{run['simulated_s']:.0f} s simulated in {run['wall_s']:.2f} s "
+        f"({run['real_time_factor']:.0f} × real time), "
+        f"energy error {run['energy_error']:.1e}",
+        soft_wrap=True,
+    )  # fmt: skip

@@ -1,0 +1,80 @@
+"""``fctd equilibrium``: loads, profile and what is refused."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import fctd
+from fctd.cli.equilibrium import stretches
+from tests.cli.test_chart import CASE, FOOT, LBF, SOFT_BELOW, settings
+from tests.cli.test_main import run
+
+
+@pytest.fixture
+def case_file(tmp_path: Path) -> Path:
+    path = tmp_path / "tiny.toml"
+    path.write_text(CASE)
+    return path
+
+
+def test_equilibrium_prints_the_loads_and_writes_the_profile(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    out, picture = tmp_path / "profile.csv", tmp_path / "profile.svg"
+    arguments = ("--operation", "trip_out", "--bit-depth", "850 m", "--friction", "0.3")
+    assert run(monkeypatch, "equilibrium", case_file, *arguments, "--out", out, "--plot", picture) == 0
+    point = fctd.equilibrium(fctd.load_case(case_file, {"friction": 0.3}), "trip_out", 850)
+    screen = capsys.readouterr().out
+    assert f"{point.hookload / 1e3:.3f}" in screen
+    assert f"{point.profile['von_mises_Pa'].max() / 1e6:.3f}" in screen
+    pd.testing.assert_frame_equal(pd.read_csv(out), point.profile, check_dtype=False)
+    origin = json.loads((tmp_path / "profile.csv.json").read_text())
+    assert origin["status"] == "converged"
+    assert origin["hookload_N"] == point.hookload
+    assert picture.read_text().startswith("<?xml")
+
+    field = tmp_path / "profile.parquet"
+    assert run(monkeypatch, "equilibrium", case_file, *arguments, "--units", "field", "--out", field) == 0
+    table = pd.read_parquet(field)
+    for name, column, factor in (
+        ("von_mises_ksi", "von_mises_Pa", 1000 * LBF / (FOOT / 12) ** 2),
+        ("offset_high_in", "offset_high_m", FOOT / 12),
+        ("md_ft", "md_m", FOOT),
+    ):
+        np.testing.assert_allclose(table[name] * factor, point.profile[column], rtol=1e-12, atol=1e-15)
+
+
+def test_equilibrium_without_an_answer_writes_nothing(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    files = [tmp_path / "p.csv", tmp_path / "p.png"]
+    code = run(
+        monkeypatch, "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", "800", *settings(SOFT_BELOW),
+        "--out", files[0], "--plot", files[1],
+    )  # fmt: skip
+    assert code == 1
+    assert "diverged: segment" in capsys.readouterr().err
+    assert not any(file.exists() for file in files)
+
+
+def test_one_string_is_of_one_operation(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kinds = ("--operation", "trip_in", "--operation", "trip_out")
+    assert run(monkeypatch, "equilibrium", case_file, *kinds, "--bit-depth", "800") == 2
+    message = capsys.readouterr().err
+    assert "--operation" in message
+    assert "one kind of operation" in message
+
+
+def test_buckled_stretches_are_told_apart() -> None:
+    modes = ["none", "helical", "helical", "sinusoidal", "none", "helical", "none"]
+    profile = pd.DataFrame({"md_m": 100.0 * np.arange(7), "buckling": modes})
+    assert stretches(profile, "helical") == [(100.0, 200.0), (500.0, 500.0)]
+    assert stretches(profile, "sinusoidal") == [(300.0, 300.0)]
+    assert stretches(profile.iloc[:1], "helical") == []

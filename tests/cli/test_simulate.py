@@ -1,0 +1,121 @@
+"""``fctd simulate``: tables with metadata, and what its results never replace."""
+
+import json
+import os
+from pathlib import Path
+
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+
+from fctd import open_result
+from fctd.cli import simulate
+from tests.cli.test_main import CASE, run
+
+
+@pytest.fixture
+def case_file(tmp_path: Path) -> Path:
+    path = tmp_path / "small.toml"
+    path.write_text(CASE)
+    return path
+
+
+def test_simulate_writes_tables_with_metadata(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    assert run(monkeypatch, "simulate", case_file, "--out", out, "--csv", "--quiet", "--friction", "0.3") == 0
+    printed = capsys.readouterr().out
+    assert "small: rotate_off_bottom" in printed
+    assert "32 segments" in printed
+    for name in ("history", "profile", "energy"):
+        table = pd.read_parquet(out / f"{name}.parquet")
+        assert len(table) > 3
+        pd.testing.assert_frame_equal(table, pd.read_csv(out / f"{name}.csv"), check_dtype=False)
+    metadata = pq.read_schema(out / "history.parquet").metadata
+    case = json.loads(metadata[b"case"])
+    assert case["wellbore"]["intervals"][0]["friction"] == 0.3
+    assert {"fctd", "numpy", "numba", "python"} <= json.loads(metadata[b"versions"]).keys()
+    assert json.loads(metadata[b"run"])["segments"] == 32
+    assert metadata[b"status"] == b"completed"
+
+
+def test_an_unfinished_run_is_exit_code_1_and_keeps_its_rows(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    push = (
+        "operations=[{kind = 'trip_in', from_md = 800, to_md = 880, speed = 2.0, ramp_time = 2}]",
+        "wellbore.intervals[0].friction=3.0",
+        "string.components[0].length=",
+        "wellbore.stiffness=2e5",
+        "record.interval=0.2",
+    )
+    changes = [part for change in push for part in ("--set", change)]
+    assert run(monkeypatch, "simulate", case_file, *changes, "--out", out, "--quiet") == 1
+    assert "unstable: at" in capsys.readouterr().err
+    assert len(pd.read_parquet(out / "history.parquet")) > 0
+
+
+def test_results_never_take_the_place_of_the_survey(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    survey = tmp_path / "history.csv"
+    survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n1000,0,0\n")
+    read = ("--set", "wellbore.stations=", "--set", f"wellbore.survey={survey}")
+    assert run(monkeypatch, "simulate", case_file, *read, "--out", tmp_path, "--csv", "--quiet") == 2
+    assert f'--out = "{survey}": expected another file than the case and its survey' in capsys.readouterr().err
+    assert "1000,0,0" in survey.read_text()
+
+
+@pytest.mark.parametrize("name", ["energy.parquet", "profile.csv", "history.csv"])
+def test_results_never_take_the_place_of_the_case(
+    name: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = case_file.with_name("out")
+    out.mkdir()
+    case = case_file.rename(out / name)
+    assert run(monkeypatch, "simulate", case, "--out", out, "--csv", "--quiet") == 2
+    assert f'--out = "{case}": expected another file than the case and its survey' in capsys.readouterr().err
+    assert case.read_text() == CASE
+
+
+def test_a_case_in_its_own_result_folder_stays(case_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where a run was killed between its two renames, with the case in neither place."""
+    out = case_file.with_name("out")
+    out.mkdir()
+    case = case_file.rename(out / "energy.toml")
+    assert run(monkeypatch, "simulate", case, "--out", out, "--csv", "--quiet") == 0
+    first = open_result(out)
+    out.rename(out.with_name(".out-old-4194304"))
+    first.save(out.with_name(".out-run-4194304"))
+    assert run(monkeypatch, "simulate", case, "--out", out, "--quiet") == 0
+    assert case.read_text() == CASE
+    assert open_result(out).identity != first.identity
+    assert {path.name for path in out.iterdir()} == {
+        "energy.toml", "history.parquet", "profile.parquet", "energy.parquet",
+    }  # fmt: skip
+    assert [path.name for path in out.parent.iterdir()] == ["out"]
+
+
+@pytest.mark.parametrize(
+    ("out", "expected"),
+    [
+        (".", "a folder for the results alone, such as result"),
+        ("x" * 250, "a folder that can be written (File name too long)"),
+        ("small.toml", "a folder that can be written (this is a file)"),
+        ("small.toml/out", "a folder that can be written"),
+        ("taken", "a regular file that can be written, no folder, pipe or device"),
+    ],
+)
+def test_a_folder_that_cannot_be_replaced_is_refused_before(
+    out: str, expected: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(case_file.parent)
+    monkeypatch.setattr(simulate, "simulate", lambda *_, **__: pytest.fail("the case was computed"))
+    (case_file.parent / "taken").mkdir()
+    os.mkfifo(case_file.parent / "taken" / "profile.parquet")
+    assert run(monkeypatch, "simulate", case_file.name, "--out", out, "--quiet") == 2
+    message = capsys.readouterr().err
+    assert message.startswith("--out = ")
+    assert f"expected {expected}" in message
