@@ -1,4 +1,7 @@
-"""The same run with the paper's search from the top in place of the engine's: the same hook load."""
+"""The same run with the paper's search from the top in place of the engine's: the same hook load.
+
+Run it from the checkout with ``python -m examples.another_contact_method``: ``references`` is not installed.
+"""
 
 import fctd
 from references import contact

@@ -102,12 +102,13 @@ def own_files(folder: Path) -> set[str]:
     return {path.name for path in found.union(*map(left_overs, places))}
 
 
-def open_result(folder: Path, pause: float = PAUSE) -> SimulationResult:
+def open_result(folder: str | os.PathLike[str], pause: float = PAUSE) -> SimulationResult:
     """The result that ``SimulationResult.save`` wrote into a folder; first completes a replacement that was killed.
 
     pause : between two attempts to read a folder that another process may be replacing [s].
     Raises InputError for a folder without a whole result, and for one whose tables come from different runs.
     """
+    folder = Path(folder)
     for attempt in range(ATTEMPTS):
         repair(folder, own_files)
         try:

@@ -12,6 +12,7 @@ import platform
 import tomllib
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
+from functools import cache
 from importlib.metadata import PackageNotFoundError, requires, version
 from pathlib import Path
 
@@ -107,7 +108,9 @@ class Sources:
         self._graph = grimp.build_graph(*packages, cache_dir=None)
         # All of them now: what is edited while studies run is repeated by the next run.
         files = {name: file for name in self._graph.modules if (file := self.file(name))}
-        self._digests = {name: (self.name_of(file), _digest_of_module(file)) for name, file in files.items()}
+        self._digests = {
+            name: (self.name_of(file), _digest_of_source(file.read_bytes())) for name, file in files.items()
+        }
 
     def used_by(self, *modules: str) -> dict[str, str]:
         """File -> digest of modules and of all that they import, wherever the import statement stands.
@@ -135,6 +138,7 @@ class Sources:
         return file.relative_to(self.root).as_posix() if file.is_relative_to(self.root) else str(file)
 
 
-def _digest_of_module(file: Path) -> str:
-    """Digest of a module without comments and layout."""
-    return digest_of(ast.dump(ast.parse(file.read_bytes())).encode())
+@cache
+def _digest_of_source(source: bytes) -> str:
+    """Digest of a module's source without comments and layout."""
+    return digest_of(ast.dump(ast.parse(source)).encode())
