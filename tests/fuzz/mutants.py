@@ -108,7 +108,8 @@ def _changed_data(rng: Random, text: str) -> str:
             other, place = rng.choice(places(raw))
             table[key] = copy.deepcopy(other[place])
         elif how == "scale" and isinstance(table[key], int | float):
-            table[key] *= rng.choice(FACTORS)
+            with suppress(OverflowError):  # a whole number beyond the floats stays
+                table[key] *= rng.choice(FACTORS)
         elif how == "scale" and isinstance(table[key], str):
             table[key] = _scaled(rng, table[key])
         elif how == "scale":
