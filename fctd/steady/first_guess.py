@@ -169,3 +169,9 @@ def guess(S, n, C, laws, top_md, bit_tension, seed, G, P):
     """Fill nodes G (n + 1, NODE) and pose P (n + 1, POSE) with a first guess of the steady string."""
     soft_string(S, n, C, laws, top_md, bit_tension, G)
     lay_chain(S, n, C, laws.geometry, G, seed, P)
+
+
+@entry
+def lay_guess(S, n, C, geometry, G, P):
+    """Fill pose P (n + 1, POSE) from nodes G (n + 1, NODE) as they are, without an imperfection."""
+    lay_chain(S, n, C, geometry, G, 0.0, P)

@@ -56,6 +56,8 @@ class Steady(NamedTuple):
     geometry, friction : as in Laws.  friction_scale : multiplies every friction factor.
     speed : along the hole, downwards [m/s]; spin [rad/s].
     bit_x, bit_y, bit_z : force on the bit [N], global; bit_torque : torque that resists the bit's rotation [N m].
+    at_axis : 0, or 1 where the friction force along the hole acts at the string's axis and not at its surface, which
+    leaves out its bending moment (relaxation.py).
     """
 
     geometry: int
@@ -67,6 +69,7 @@ class Steady(NamedTuple):
     bit_y: float
     bit_z: float
     bit_torque: float
+    at_axis: int = 0
 
 
 @inlined
@@ -161,6 +164,9 @@ def wall_loads(C, i, laws, x, y, z, w, qx, qy, qz, arm, radius, tributary):
     fx, fy, fz, mx, my, mz, torque = steady_load(
         laws.friction, laws.speed, laws.spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz
     )
+    if laws.at_axis:
+        about = mx * ax + my * ay + mz * az
+        mx, my, mz = about * ax, about * ay, about * az
     fx, fy, fz = fx - normal * nx, fy - normal * ny, fz - normal * nz
     ox, oy, oz = cross(arm * ax, arm * ay, arm * az, fx, fy, fz)
     ma, mb, mc = in_frame(w, qx, qy, qz, mx + ox, my + oy, mz + oz)
@@ -312,7 +318,7 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
 @entry
 def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """Fill D, A, U with the tangent of springs, weight and wall alone: symmetric, positive definite when stable."""
-    bare = Steady(laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque)
+    bare = Steady(laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque, 0)
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
 
 

@@ -1,0 +1,217 @@
+"""A string at one depth under the loads of one operation: arrays of the solver, and what its methods start from."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.mechanics import state
+from fctd.mechanics.contact import START_MD
+from fctd.mechanics.laws import CODES
+from fctd.model.drillstring import String, fill
+from fctd.model.operations import SteadyRates
+from fctd.model.wellbore import Wellbore, hole_frame
+from fctd.steady import tangent
+from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
+from fctd.steady.continuation import NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, take_step
+from fctd.steady.first_guess import MD, NODE, guess, lay_guess
+from fctd.steady.relaxation import Creep, relax
+from fctd.steady.tangent import (
+    AXIAL_MOMENT,
+    CONTACT_COLUMNS,
+    FORCE,
+    JOINT_COLUMNS,
+    JOINT_TENSION,
+    JOINT_TORQUE,
+    POSE,
+    QUATERNION,
+    Steady,
+    assemble,
+    frictionless_tangent,
+    read_loads,
+)
+
+Array = NDArray[np.float64]
+
+# Largest force out of balance at a body, over the weight of the string.
+TOLERANCE = 1e-7
+# Lateral imperfection of the first guess, so that a straight string may buckle [m].
+SEED = 1e-4
+
+
+class Workspace:
+    """The solver's arrays, allocated once for a whole chart.
+
+    S : engine's buffer, for the constants of bodies and joints; P (n + 1, POSE) pose; G (n + 1, NODE) guess;
+    R (n + 1, 6) imbalance; D, A, U (n + 1, 6, 6) tangent; W elimination; owner (n + 2,) pieces of the hole.
+    """
+
+    def __init__(self, segments: int) -> None:
+        rows = segments + 2
+        self.segments = segments
+        self.S = state.new_state(segments)
+        self.P, self.G, self.R = np.zeros((rows, POSE)), np.zeros((rows, NODE)), np.zeros((rows, SIZE))
+        self.D, self.A, self.U = (np.zeros((rows, SIZE, SIZE)) for _ in range(3))
+        self.W = np.zeros((rows, SIZE, SIZE + 1))
+        self.owner = np.zeros(rows, np.int64)
+
+
+class Share(NamedTuple):
+    """Loads as shares of those of the operation: of every friction factor, and of the weight on bit."""
+
+    friction: float = 1.0
+    weight: float = 1.0
+
+
+FULL = Share()
+
+
+class Pose(NamedTuple):
+    """A copy of the string's pose and of the pieces of hole beside it."""
+
+    P: Array
+    owner: NDArray[np.int64]
+
+
+class Reactions(NamedTuple):
+    """Loads of a string: at the top, hookload [N] and torque [N m]; imbalance [N]; rows of ``read_loads`` (n, ...)."""
+
+    hookload: float
+    torque: float
+    imbalance: float
+    joints: Array
+    contacts: Array
+
+
+class Problem:
+    """What the solver's iterations work on; the pose is in the workspace and changes in place.
+
+    string, hole; weight : of the string and on the bit [N]; allowed : largest imbalance of a body when converged [N];
+    at_axis : see ``tangent.Steady``.
+    """
+
+    def __init__(
+        self, case: Case, hole: Wellbore, work: Workspace, string: String, operation: str, rates: SteadyRates
+    ) -> None:
+        self.case, self.hole, self.work, self.string, self.rates = case, hole, work, string, rates
+        self.operation = operation
+        self.n = string.segments
+        self.pipe = fill(work.S, string, case)
+        kind = KINDS[operation]
+        self.weight_on_bit = case.bit.weight_on_bit if kind.on_bottom else 0.0
+        self.bit_torque = case.bit.torque if kind.on_bottom else 0.0
+        _, (self._downhole,) = hole.at(np.array([string.bit_depth]))
+        self._top_axis = hole.at(np.array([string.top_md]))[1][0]
+        self.weight = float(string.of("weight") @ string.length) + self.weight_on_bit
+        # The stiffness of the shortest segments turns the rounding of positions into force.
+        stiffest = float(state.row(work.S, state.K_AXIAL, self.n).max())
+        self.allowed = max(TOLERANCE * self.weight, 16 * float(np.finfo(float).eps) * string.bit_depth * stiffest)
+        self.kinks = np.zeros((self.n + 2, 4))
+        self.kinks[:, 0] = 1.0
+        self.at_axis = 0
+
+    def laws(self, share: Share = FULL) -> Steady:
+        """Motion, friction and bit loads at a share of the loads."""
+        geometry = self.hole.geometry if self.case.contact.enabled else state.OPEN
+        x, y, z = (float(-self.weight_on_bit * share.weight * d) for d in self._downhole)
+        return Steady(
+            geometry, CODES[self.case.contact.friction_law], share.friction, self.rates.speed, self.rates.spin, x, y, z,
+            self.bit_torque * share.weight, self.at_axis,
+        )  # fmt: skip
+
+    def lay_guess(self, share: Share = FULL) -> None:
+        """Lay the string where a soft string would press on the hole."""
+        w, string = self.work, self.string
+        tension = -self.weight_on_bit * share.weight
+        guess(w.S, self.n, self.hole.pieces, self.laws(share), string.top_md, tension, SEED, w.G, w.P)
+        self._bend()
+        self._find_owners()
+
+    def lay_nodes(self) -> None:
+        """Lay the string on the nodes of the workspace: offset, tension and torque."""
+        w = self.work
+        lay_guess(w.S, self.n, self.hole.pieces, self.laws().geometry, w.G, w.P)
+        self._find_owners()
+
+    def iterate(self, pace: Pace, share: Share = FULL) -> tuple[int, int]:
+        """Newton's method from the pose; returns code and iterations."""
+        w, n, pieces, kinks, laws = self.work, self.n, self.hole.pieces, self.kinks, self.laws(share)
+        done, tau = 0, pace.tau
+        while True:
+            code, k, tau = converge(
+                w.S, n, w.P, kinks, pieces, w.owner, laws, pace._replace(iterations=pace.iterations - done),
+                w.R, w.D, w.A, w.U, w.W, tau,
+            )  # fmt: skip
+            done += k
+            if code != UNSOUND:
+                return code, done
+            # A step with a near singular block.
+            assemble(w.S, n, w.P, kinks, pieces, w.owner, laws, w.R, w.D, w.A, w.U)
+            add_pseudo_mass(w.S, n, tau, w.D)
+            try:
+                w.R[1 : n + 1] = solve_with_pivoting(w.D, w.A, w.U, w.R, n)
+            except (np.linalg.LinAlgError, ValueError):
+                return NOT_FINITE, done
+            take_step(w.P, n, w.R, 1.0)
+            done += 1
+
+    def relax(self, creep: Creep, share: Share = FULL) -> tuple[int, int]:
+        """Let the string come to rest from the pose; returns code and iterations."""
+        w = self.work
+        code, done = relax(
+            w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(share), creep,
+            w.R, w.D, w.A, w.U, w.W,
+        )  # fmt: skip
+        return code, done
+
+    def unstable_modes(self) -> int:
+        """Number of modes in which the pose would leave its balance without friction."""
+        w = self.work
+        frictionless_tangent(
+            w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(), w.R, w.D, w.A, w.U
+        )
+        return int(negative_pivots(w.D, w.A, w.U, self.n))
+
+    def reactions(self, share: Share = FULL) -> Reactions:
+        """Loads of the string in its pose."""
+        w, n, laws, string = self.work, self.n, self.laws(share), self.string
+        args = w.S, n, w.P, self.kinks, self.hole.pieces, w.owner, laws
+        assemble(*args, w.R, w.D, w.A, w.U)
+        joints, contacts = np.zeros((n + 1, JOINT_COLUMNS)), np.zeros((n + 1, CONTACT_COLUMNS))
+        read_loads(*args, joints, contacts)
+        # Half of a long segment is lumped at the top: the top drive carries its weight and mud load.
+        half = 0.5 * string.length[0] if string.long_segment else 0.0
+        rates, pipe = self.rates, self.pipe
+        hung, resisted = half * (pipe.weight - pipe.mud_axial * rates.speed), half * pipe.mud_spin * rates.spin
+        joints[1, [JOINT_TENSION, JOINT_TORQUE]] += hung, resisted
+        hookload, torque = float(w.R[0, FORCE] @ self._top_axis) + hung, resisted - float(w.R[0, AXIAL_MOMENT])
+        imbalance = float(np.linalg.norm(w.R[1 : n + 1, FORCE], axis=1).max())
+        return Reactions(hookload, torque, imbalance, joints[1:], contacts[1:])
+
+    def copy_pose(self) -> Pose:
+        """A copy of the pose."""
+        return Pose(self.work.P[: self.n + 1].copy(), self.work.owner[: self.n + 1].copy())
+
+    def put_pose(self, pose: Pose) -> None:
+        """Put a copied pose back."""
+        self.work.P[: self.n + 1], self.work.owner[: self.n + 1] = pose
+
+    def _find_owners(self) -> None:
+        md = self.work.G[1 : self.n + 1, MD]
+        self.work.owner[1 : self.n + 1] = np.searchsorted(self.hole.pieces[:, START_MD], md, side="right") - 1
+
+    def _bend(self) -> None:
+        """Write the bent housings into ``kinks``; the workspace must contain the first guess."""
+        for k, component in enumerate(self.case.string.components[: len(self.string.sections)]):
+            # The joint above the component's uppermost segment; joint 1 at the top drive has no bend.
+            j = int(np.argmax(self.string.component == k)) + 1
+            if component.bend == 0 or j == 1:
+                continue
+            _, direction = self.hole.at(self.work.G[j - 1 : j, MD])
+            (high,), (right,) = hole_frame(direction)
+            towards = np.cos(component.toolface) * high + np.sin(component.toolface) * right
+            x, y, _ = tangent.in_frame(*self.work.P[j - 1, QUATERNION], *towards)
+            half = 0.5 * component.bend
+            self.kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
