@@ -34,9 +34,9 @@ class Buckling:
     """The part of a string that is buckled.
 
     mode : the worst one, none, sinusoidal or helical; unknown where there is no balance.  from_md, to_md : first and
-    last contact point beyond either limit [m], NaN without one; between them may be points that are not.  longest : longest segment that is too long for the
-    wave, or 0 [m]; segment_length : the length that would do, NaN where nothing is buckled [m].  excess : largest
-    compression over its limit.
+    last contact point beyond either limit [m], NaN without one; between them may be points that are not.  longest :
+    longest segment that is too long for the wave, or 0 [m]; segment_length : the length that would do, NaN where
+    nothing is buckled [m].  excess : largest compression over its limit.
     """
 
     mode: str
@@ -174,7 +174,7 @@ def find_buckling(bends, top_md, md, hole_radius, tension, bit_tension, EI, weig
             # A drop that takes the wall force away does not make inclined hole vertical.
             hangs[i, m] = own > max(lying, factor * np.sqrt(EI[j] * by_weight / clearance))
             rows[i, m] = own if hangs[i, m] else lying
-            if F > lying and not hangs[i, m]:
+            if lying < F and not hangs[i, m]:
                 rows[i, MODE] = m + 1
     for m in range(2):
         mark_hanging(compression, rows, hangs[:, m], m)

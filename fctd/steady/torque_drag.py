@@ -37,8 +37,8 @@ def torque_drag(
     ``columns.IN_CHART`` (hookload_N and so on), buckling (none, sinusoidal, helical, or unknown without loads),
     buckled_from_md_m and buckled_to_md_m (NaN where the string is not buckled), status (of ``SteadyStatus``),
     iterations, notes (codes of ``notes.MEANINGS``, or none), reason (of a status other than converged, or none).  A
-    row whose status has no loads has NaN in their place; at a depth where string and hole do not fit the status is ``not_possible``.  Raises
-    InputError for unusable input, and where string and hole fit at none of the depths.
+    row whose status has no loads has NaN in their place; at a depth where string and hole do not fit the status is
+    ``not_possible``.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
     """
     with naming_file(case):
         depths = _check_depths(bit_depths)
