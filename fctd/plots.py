@@ -77,6 +77,7 @@ DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (
 FLAGS: dict[str, dict[str, Any]] = {
     "locked_up": {"marker": "s", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
     "unstable": {"marker": "o", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
+    "under_resolved": {"marker": "d", "linestyle": "none", "markerfacecolor": "none", "markersize": 9},
 }
 LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": QUIET}
 # The panels of a profile.
@@ -95,6 +96,11 @@ BUCKLED: dict[str, dict[str, Any]] = {
     "sinusoidal": {"marker": "o", "linestyle": "none", "color": "#E69F00", "markersize": 4},
     "helical": {"marker": "X", "linestyle": "none", "color": "#A00000", "markersize": 5},
 }
+# Rows of a chart with a buckled string have a grey disc below their line.
+DISCS: dict[str, dict[str, Any]] = {
+    "sinusoidal": {"marker": "o", "linestyle": "none", "color": "#d8d8d8", "markersize": 12, "zorder": 1.2},
+    "helical": {"marker": "o", "linestyle": "none", "color": "#a0a0a0", "markersize": 12, "zorder": 1.3},
+}
 NOISE = 1e-6  # an axis that spans less shows zeros
 NOTE_LINE = 0.14  # height of a line of small type [in]
 MARKS = 8  # about as many markers on a line
@@ -110,8 +116,8 @@ def save(figure: Figure, path: Path) -> list[Path]:
 def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> Figure:
     """Hook load (the broomstick) and torque against bit depth: a line per operation and friction factor.
 
-    chart : of ``fctd.torque_drag``, SI.  A cross marks each row without loads in the gap of its line; notes are
-    printed below the title.
+    chart : of ``fctd.torque_drag``, SI.  A cross marks each row without loads in the gap of its line, a grey disc each
+    row with a buckled string; notes are printed below the title.
     """
     factors = [float(factor) for factor in chart["friction"].unique()]
     with mpl.rc_context(RC):
@@ -130,7 +136,10 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> 
             Line2D([], [], color=QUIET, linestyle=DASHES[k % len(DASHES)], label=f"friction factor {factor:g}")
             for k, factor in enumerate(factors if len(factors) > 1 else [])
         ]
-        figure.legend(handles=handles + _flag_handles(chart["status"]), loc="outside lower right", ncols=2)
+        handles += _flag_handles(chart["status"])
+        modes = set(chart["buckling"])
+        handles += [Line2D([], [], **disc, label=f"{mode} buckling") for mode, disc in DISCS.items() if mode in modes]
+        figure.legend(handles=handles, loc="outside lower right", ncols=2)
         one = len(factors) == 1 and np.isfinite(factors[0])
         words = [title] if title else []
         _title(
@@ -185,6 +194,10 @@ def _series(ax: Axes, rows: pd.DataFrame, column: str, kind: str, dash: Any, uni
     depth = rows["bit_depth_m"].to_numpy(float) * shown("bit_depth_m", units).factor
     value = rows[column].to_numpy(float) * shown(column, units).factor
     ax.plot(value, depth, color=colour, linestyle=dash, marker=marker, markevery=_marked(value), markersize=4.5)
+    for mode, disc in DISCS.items():
+        at = (rows["buckling"] == mode).to_numpy()
+        if at.any():
+            ax.plot(value[at], depth[at], **disc)
     status = rows["status"].to_numpy(str)
     for name in np.unique(status[np.isfinite(value)]):
         if name != "converged":

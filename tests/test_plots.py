@@ -36,6 +36,7 @@ def chart(kinds: list[str], frictions: list[float], lost: dict[str, str] | None 
             "bit_depth_m": depth,
             "hookload_N": 400.0 * depth + 1e5 * friction * k,
             "surface_torque_N_m": 10.0 * friction * depth * (k + 1) ** 2,
+            "buckling": "none",
             "status": "converged",
             "notes": "none",
         }

@@ -1,5 +1,6 @@
 """``fctd chart CASE``: steady strings of several operations at many bit depths."""
 
+from collections.abc import Hashable
 from itertools import groupby
 from pathlib import Path
 from typing import Annotated, Any
@@ -42,7 +43,7 @@ from fctd.cli.steady import (
     read_drive,
 )
 from fctd.model.operations import rates_of_all
-from fctd.results.columns import DEPTH, IN_CHART
+from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
 from fctd.results.notes import MEANINGS, meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.results.tables import write_table
@@ -146,6 +147,9 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
         table.add_column(heading, no_wrap=True)
     for column in SHOWN:
         table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
+    buckled = bool(chart["buckled_from_md_m"].notna().any())
+    if buckled:
+        table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
     table.add_column("status", overflow="fold")
     series = list(chart.groupby(["operation", "friction"], sort=False, dropna=False))
     each = max(SCREEN_ROWS // len(series), 1)
@@ -157,6 +161,8 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
                 "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
                 for name, digits in ((column.name, column.digits) for column in SHOWN)
             ]
+            if buckled:
+                values.append(_buckled(row, units_of[DEPTH.name].factor))
             names = ("", "") if k else (str(operation), _factor(friction))
             table.add_row(*names, *values, row["status"])
     screen.print(table)
@@ -166,6 +172,12 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     for (operation, friction), rows in series:
         for line in _exceptions(rows, depth.factor, depth.label):
             messages.print(f"{operation}, friction {_factor(friction)}: {line}", soft_wrap=True)
+
+
+def _buckled(row: dict[Hashable, Any], factor: float) -> str:
+    """Mode and depths of the buckled part of a string, "helical 540–1500"."""
+    first, last = (row[column.name] * factor for column in BUCKLED)
+    return "–" if np.isnan(first) else f"{row['buckling']} {first:.0f}–{last:.0f}"
 
 
 def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:

@@ -80,7 +80,7 @@ def equilibrium_command(
         if point.answered and out is not None:
             metadata = metadata_of(case, units, [operation], drive)
             metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
-            metadata |= {"notes": as_metadata(point.notes)}
+            metadata |= {"buckling": str(point.buckling), "notes": as_metadata(point.notes)}
             written += write_table(in_units(units, point.profile), out, metadata)
         if point.answered and plots is not None:
             written += plots.save(plots.profile_figure([point], units), plot)

@@ -27,7 +27,7 @@ from fctd.cli.options import (
     refuse_source_files,
     screen,
 )
-from fctd.results.columns import COLUMNS
+from fctd.results.columns import BUCKLED, COLUMNS
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult, check_result_folder, own_files, result_files
 from fctd.results.unit_systems import shown
@@ -114,6 +114,12 @@ def _summarise(result: SimulationResult) -> None:
         table.add_column("contacts", justify="right")
         table.add_row(*cells, f"{last['contact_count']}")
         screen.print(table)
+        buckled = result.history[result.history["buckling"] != "none"]
+        if len(buckled):
+            first, last = (buckled[column.name].agg(how) for column, how in zip(BUCKLED, ("min", "max"), strict=True))
+            mode = "helical" if (buckled["buckling"] == "helical").any() else "sinusoidal"
+            where = f"between {first:.0f} and {last:.0f} m"
+            screen.print(f"buckled in {len(buckled)} of {len(result.history)} records, at worst {mode}, {where}")
     run = result.run
     screen.print(
         f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms, {run['steps']} steps, "

@@ -1,6 +1,7 @@
 """The string: components laid from the bit up become rigid segments with springs between them (§3.2, 5.1)."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -126,6 +127,7 @@ class String:
         longer = np.concatenate([self.length[:1] + by, self.length[1:]])
         return replace(self, bit_depth=self.bit_depth + by, length=longer)
 
+    @cached_property
     def _short(self) -> NDArray[np.bool_]:
         """Components of one segment that is shorter than its neighbours: a stabiliser, a bit."""
         longer_above = np.concatenate([[False], self.length[1:] < self.length[:-1] - 1e-9])
@@ -135,14 +137,14 @@ class String:
 
     def mid_contact(self) -> NDArray[np.bool_]:
         """Which segments (n,) touch at their middle: short components, but for the bit, which touches at its end."""
-        short = self._short()
+        short = self._short.copy()
         short[-1] = False
         return short
 
     def contact_radius(self) -> Array:
         """Radii (n,) at contact points [m]: the larger one of unlike neighbours; a short component has its own."""
         own = self.of("contact_radius")
-        below = np.append(np.where(self._short(), 0.0, own)[1:], 0.0)
+        below = np.append(np.where(self._short, 0.0, own)[1:], 0.0)
         return np.asarray(np.where(self.mid_contact(), own, np.maximum(own, below)))
 
     def joints(self, name: str) -> Array:

@@ -1,6 +1,7 @@
 """The hole as a table of pieces for the contact algorithm: cylinders with overlap (§5.2, Fig. 8), or arcs."""
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +30,9 @@ MOST_CYLINDERS = 1_000_000
 FARTHEST = 1e7
 # Below this inclination the high side is north [rad].
 VERTICAL = np.radians(0.1)
+# Largest turn [rad] and smallest distance [m] between two rows of ``bends``; the chord of a small turn θ has the
+# curvature of its arc within θ²/24.
+SMALL_TURN, APART = 0.02, 1e-3
 
 
 # Columns of the intervals and of what lies along the hole: lower end (or depth) [m], hole radius [m], wall stiffness
@@ -124,6 +128,22 @@ class Wellbore:
             above[:, TO_MD] + self.shoe, below[:, TO_MD]
         )  # an interval may be shorter than a shoe
         return np.stack([above, below], axis=1).reshape(-1, 4)
+
+    @cached_property
+    def bends(self) -> Array:
+        """Measured depth and tangent of the axis (k, 4), in steps so short that both are linear between rows.
+
+        Cylinders are straight, with all their bend at the ends: their rows lie at their middles.
+        """
+        if self.courses is None:
+            middle = 0.5 * (self.md[1:] + self.md[:-1])
+            if len(middle) == 1:
+                return np.column_stack([self.md, self.directions])
+            return np.column_stack([middle, self.directions[:-1]])
+        turn = np.linalg.norm(np.diff(self.directions, axis=0), axis=1)
+        md = _divided(self.md, np.maximum(np.ceil(turn / SMALL_TURN), 1))
+        md = md[np.append(True, np.diff(md) > APART)]
+        return np.column_stack([md, self.at(md)[1]])
 
     def inclination(self, md: Array) -> Array:
         """Inclination of the axis [rad] at measured depths (n,) [m]."""

@@ -48,6 +48,11 @@ LOADS: Final = (
     Column("sum_r_ft_N_m", "Σ rFₜ", digits=3, in_chart=False),
     Column("sum_r_mu_fn_N_m", "Σ rμFₙ", digits=3, in_chart=False),
 )
+# The buckled part of a string, in charts and histories.
+BUCKLED: Final = (
+    Column("buckled_from_md_m", "buckled from", digits=0),
+    Column("buckled_to_md_m", "buckled to", digits=0),
+)
 DEPTH: Final = Column("bit_depth_m", "bit depth", heading="bit")
 PROFILE: Final = (
     Column("md_m", "measured depth"),
@@ -61,5 +66,5 @@ PROFILE: Final = (
     Column("offset_right_m", "left | offset | right", across=True),
     Column("clearance_m", "clearance", across=True),
 )
-COLUMNS: Final = {column.name: column for column in (DEPTH, *LOADS, *PROFILE)}
+COLUMNS: Final = {column.name: column for column in (DEPTH, *LOADS, *BUCKLED, *PROFILE)}
 IN_CHART: Final = tuple(load for load in LOADS if load.in_chart)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String
+from fctd.results.buckling import Buckling
 from fctd.results.profile import Loads, at_contacts, von_mises
 
 Array = NDArray[np.float64]
@@ -43,6 +44,9 @@ MEANINGS: Final = {
     ),
     "tensile_capacity": Meaning(
         "the hook load exceeds the capacity of the uppermost pipe", "check friction factor, bends and yield_strength"
+    ),
+    "buckling": Meaning(
+        "the string is buckled, and its segments are too long to bend that way", "use shorter segments there"
     ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "ringing": Meaning(
@@ -160,6 +164,17 @@ def _pull(string: String, hookload: float) -> Note | None:
         return None
     text = f"the hook load is {hookload / 1e3:.0f} kN, the uppermost pipe yields at {capacity / 1e3:.0f} kN"
     return _note("tensile_capacity", text, float(hookload / capacity), string.top_md)
+
+
+def under_resolved(buckling: Buckling) -> Note | None:
+    """A note where a string is buckled and its segments cannot bend that way."""
+    if buckling.resolved:
+        return None
+    text = (
+        f"buckling is {buckling}, where segments of {buckling.longest:.3g} m cannot bend that way; "
+        f"segments of at most {buckling.segment_length:g} m would"
+    )
+    return _note("buckling", text, buckling.longest / buckling.segment_length, buckling.from_md)
 
 
 def ledger_off(error: float) -> Note | None:

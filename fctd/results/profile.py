@@ -10,6 +10,7 @@ from fctd.mechanics.query import Walls
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore, hole_frame
+from fctd.results.buckling import HELICAL_LIMIT, MODE, MODES, SINUSOIDAL_LIMIT, buckling_along, pipe_of
 
 Array = NDArray[np.float64]
 Load = float | Array
@@ -28,22 +29,6 @@ class Loads(NamedTuple):
     normal: Array
     bit_tension: float = 0.0
     bit_torque: float = 0.0
-
-
-def buckling_limits(EI: Array, weight: Array, inclination: Array, clearance: Array) -> tuple[Array, Array]:
-    """Compression [N] at which a string lying in a straight hole buckles sinusoidally and helically.
-
-    EI [N m²]; buoyed weight [N/m]; inclination [rad]; clearance [m]: arrays (n,).  Inclined: 2√(EI w sin θ/r)
-    (Dawson & Paslay 1984) and 2√2 times √(EI w sin θ/r) (Chen, Lin & Cheatham 1990).  In vertical hole these
-    are zero and the pipe's own weight sets the limit: 1.94 and 5.55 times (EI w²)^⅓ (Lubinski 1950; Wu &
-    Juvkam-Wold 1995); the larger limit applies.  Without clearance a string cannot buckle: infinite.
-    """
-    load = EI * np.maximum(weight * np.sin(inclination), 0.0)
-    lying = np.full_like(load, np.inf)
-    np.divide(load, clearance, out=lying, where=clearance > 0)
-    lying = np.sqrt(lying)
-    hanging = np.cbrt(EI * weight**2)
-    return np.maximum(2 * lying, 1.94 * hanging), np.maximum(2 * np.sqrt(2) * lying, 5.55 * hanging)
 
 
 def at_contacts(string: String, loads: Loads) -> tuple[Array, Array, Array]:
@@ -95,7 +80,9 @@ def profile_table(
     # inside and outside.
     pressure, steel = mud_density * GRAVITY * np.append(top[2], points[:, 2]), np.pi * (outer**2 - inner**2)
     clearance = walls.radius - string.contact_radius()
-    sinusoidal, helical = buckling_limits(of("EI"), of("weight"), inclination, np.append(clearance[0], clearance))
+    buckled, _ = buckling_along(
+        hole, pipe_of(string), string.top_md, md, walls.radius, loads.tension, loads.bit_tension
+    )
     return pd.DataFrame(
         {
             "md_m": np.append(string.top_md, md),
@@ -111,8 +98,8 @@ def profile_table(
             "offset_right_m": np.append(0.0, aside),
             "clearance_m": np.append(clearance[0], clearance),
             "von_mises_Pa": von_mises(tension, torque, bending, outer, inner),
-            "sinusoidal_limit_N": sinusoidal,
-            "helical_limit_N": helical,
-            "buckling": np.select([tension < -helical, tension < -sinusoidal], ["helical", "sinusoidal"], "none"),
+            "sinusoidal_limit_N": buckled[:, SINUSOIDAL_LIMIT],
+            "helical_limit_N": buckled[:, HELICAL_LIMIT],
+            "buckling": MODES[buckled[:, MODE].astype(int)],
         }
     )

@@ -27,10 +27,15 @@ class Status(StrEnum):
 
 
 class SteadyStatus(Status):
-    """Status of a steady string. Lock-up is an acceptable answer; an unstable equilibrium is not."""
+    """Status of a steady string.
+
+    Lock-up is an acceptable answer, for coarse segments too: they bend less than the string, and miss some of its
+    friction.  An unstable equilibrium is not, nor is a buckled string whose segments cannot bend that way.
+    """
 
     CONVERGED = "converged", "", True, True
     LOCKED_UP = "locked_up", "the top would have to be pushed with more than the block weight", True, True
+    UNDER_RESOLVED = "under_resolved", "the string is buckled, and its segments cannot bend that way", True, False
     UNSTABLE = "unstable", "the equilibrium is unstable: the string would leave it", True, False
     MAX_ITERATIONS = "max_iterations", "no equilibrium was found: the string may have no steady shape", False, False
     DIVERGED = "diverged", "the string lies deeper in the wall than the hole is wide", False, False

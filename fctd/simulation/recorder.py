@@ -14,7 +14,8 @@ from fctd.mechanics.moving_string import Sums
 from fctd.mechanics.query import Walls
 from fctd.model.operations import sensors
 from fctd.results import ledger
-from fctd.results.notes import Note, string_notes
+from fctd.results.buckling import NOT_BUCKLED, Buckling, buckling_along, pipe_of
+from fctd.results.notes import Note, string_notes, under_resolved
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
@@ -44,6 +45,7 @@ class Recorder:
         self.profiles: dict[float, pd.DataFrame] = {}  # by time
         self.wanted = list(run.case.record.profile_at)
         self.notes: dict[str, Note] = {}  # by code, the one with the largest excess
+        self.pipe = pipe_of(run.string)
 
     def rows(self, offset: int) -> Array:
         """One quantity of every segment (n,)."""
@@ -67,6 +69,8 @@ class Recorder:
         kind = case.operations[operation].kind
         indicator, drive = sensors(case, kind, hookload, torque)
         before = self.history[-1]["bit_depth_m"] if self.history else self.start_depth
+        loads, (_, walls) = self._loads(), self._walls()
+        buckling = self._buckling(loads, walls)
         self.history.append(
             {
                 "time_s": self.last_time,
@@ -82,11 +86,12 @@ class Recorder:
                 "mud_torque_N_m": float(mean.mud_torque.sum()),
                 "total_contact_force_N": float(mean.normal.sum()),
                 "contact_count": int((penetration(self.run.S, self.run.segments) > 0).sum()),
+                **buckling.columns(),
             }
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
-        self._keep_notes(hookload)
+        self._keep_notes(hookload, loads, walls, buckling)
         low, high = sorted((before, self.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]
         if passed:
@@ -127,13 +132,21 @@ class Recorder:
         points = contact_points(self.run.S, self.run.segments)
         return points, self.run.hole.walls(points, self.run.owner[1 : self.run.segments + 1])
 
-    def _keep_notes(self, hookload: float) -> None:
+    def _buckling(self, loads: Loads, walls: Walls) -> Buckling:
+        """Where the string is buckled; a string without a wall is not judged."""
+        run = self.run
+        if not run.case.contact.enabled or loads.tension.min() >= 0:
+            return NOT_BUCKLED
+        top_md = run.string.top_md
+        return buckling_along(run.hole, self.pipe, top_md, walls.md, walls.radius, loads.tension, loads.bit_tension)[1]
+
+    def _keep_notes(self, hookload: float, loads: Loads, walls: Walls, buckling: Buckling) -> None:
         """Keep each note that is new, or whose excess is larger than before."""
         run = self.run
-        _, walls = self._walls()
         radius, in_hole = self.rows(state.RADIUS), run.case.contact.enabled
-        for note in string_notes(run.string, self._loads(), hookload, walls, radius, in_hole=in_hole):
-            if note.code not in self.notes or note.excess > self.notes[note.code].excess:
+        found = string_notes(run.string, loads, hookload, walls, radius, in_hole=in_hole)
+        for note in (under_resolved(buckling), *found):
+            if note is not None and (note.code not in self.notes or note.excess > self.notes[note.code].excess):
                 self.notes[note.code] = replace(note, text=f"{note.text}, with the bit at {self.bit_depth:.0f} m")
 
     def _loads(self) -> Loads:

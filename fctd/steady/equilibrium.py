@@ -21,6 +21,7 @@ from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String, check_fit, fill, lay_out
 from fctd.model.operations import SteadyRates, sensors, steady_rates
 from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
+from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along, pipe_of
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
@@ -71,7 +72,8 @@ LARGEST_TURN = 0.1  # [rad] per step
 class Equilibrium:
     """A steady string with the bit at one depth.
 
-    status : loads are valid where ``status.has_loads``, also for ``locked_up`` and ``unstable``; message : details.
+    status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
+    message : details.
     bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
     sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
@@ -103,6 +105,13 @@ class Equilibrium:
         shape, mud = self._shape, self.case.mud.density
         points = shape.contacts[:, PLACE]
         return profile_table(shape.hole, shape.string, mud, shape.top, points, shape.walls, shape.loads)
+
+    @property
+    def buckling(self) -> Buckling:
+        """Where the string is buckled; ``UNKNOWN`` where there are no loads."""
+        if not self.answered:
+            return UNKNOWN
+        return self._shape.buckling if self.case.contact.enabled else NOT_BUCKLED
 
     @cached_property
     def notes(self) -> tuple[Note, ...]:
@@ -140,6 +149,16 @@ class Shape:
         """Loads of the string."""
         tension, torque, bending = (self.joints[:, column] for column in (JOINT_TENSION, JOINT_TORQUE, JOINT_BENDING))
         return Loads(tension, torque, bending, self.contacts[:, NORMAL_FORCE], self.bit_tension, self.bit_torque)
+
+    @cached_property
+    def buckling(self) -> Buckling:
+        """Where the string is buckled, in a hole with a wall."""
+        tension = self.joints[:, JOINT_TENSION]
+        if min(tension.min(), self.bit_tension) >= 0:
+            return NOT_BUCKLED
+        md, radius = self.walls.md, self.walls.radius
+        pipe, top_md = pipe_of(self.string), self.string.top_md
+        return buckling_along(self.hole, pipe, top_md, md, radius, tension, self.bit_tension)[1]
 
 
 class Workspace:
@@ -311,6 +330,8 @@ class Solver:
             )
         if pushed:
             return SteadyStatus.LOCKED_UP, SteadyStatus.LOCKED_UP.message
+        if self.geometry != state.OPEN and not shape.buckling.resolved:
+            return SteadyStatus.UNDER_RESOLVED, shape.buckling.shortfall
         if negative:
             modes = f"{negative} mode{'s' * (negative > 1)}"
             return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {modes}"

@@ -10,6 +10,7 @@ from fctd.case.load import Case, naming_file
 from fctd.case.units import FRICTION, bare
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import build_wellbore
+from fctd.results.buckling import UNKNOWN
 from fctd.results.columns import IN_CHART
 from fctd.results.notes import codes_of
 from fctd.results.status import SteadyStatus
@@ -33,10 +34,11 @@ def torque_drag(
     operation : kind or kinds; bit_depths [m] : rising; friction : kinetic factor or factors for every interval
     in turn, None for the case's own.  speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.
     Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, the loads of
-    ``columns.IN_CHART`` (hookload_N and so on), status (of ``SteadyStatus``), iterations, notes (codes of
-    ``notes.MEANINGS``, or none), reason (of a status other than converged, or none).  A row whose status has no loads
-    has NaN in their place; at a depth where string and hole do not fit the status is ``not_possible``.  Raises
-    InputError for unusable input, and where string and hole fit at none of the depths.
+    ``columns.IN_CHART`` (hookload_N and so on), buckling (none, sinusoidal, helical, or unknown without loads),
+    buckled_from_md_m and buckled_to_md_m (NaN where the string is not buckled), status (of ``SteadyStatus``),
+    iterations, notes (codes of ``notes.MEANINGS``, or none), reason (of a status other than converged, or none).  A
+    row whose status has no loads has NaN in their place; at a depth where string and hole do not fit the status is
+    ``not_possible``.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
     """
     with naming_file(case):
         depths = _check_depths(bit_depths)
@@ -98,6 +100,7 @@ def _row(case: Case, kind: str, depth: float, point: Equilibrium | None, misfit:
         "friction": own_friction(case),
         "bit_depth_m": depth,
         **loads,
+        **(UNKNOWN if point is None else point.buckling).columns(),
         "status": str(SteadyStatus.NOT_POSSIBLE if point is None else point.status),
         "iterations": 0 if point is None else point.iterations,
         "notes": codes_of(() if point is None else point.notes),

@@ -6,23 +6,9 @@ import numpy as np
 import pytest
 
 from fctd import equilibrium, simulate
-from fctd.results.profile import buckling_limits
 from tests.cases import make_case, pipe, rotation, trip
 
 LONG = [pipe(100, 4), pipe(None, 1)]
-
-
-def test_buckling_limits_are_the_published_ones() -> None:
-    """2√(EI w sin θ/r), √2 times that for the helix, and Lubinski's in vertical hole."""
-    EI, weight, inclination, clearance = (np.array([x]) for x in (2e6, 250.0, math.radians(80), 0.04))
-    sinusoidal, helical = buckling_limits(EI, weight, inclination, clearance)
-    assert sinusoidal[0] == pytest.approx(2 * math.sqrt(2e6 * 250 * math.sin(math.radians(80)) / 0.04), rel=1e-12)
-    assert helical[0] / sinusoidal[0] == pytest.approx(math.sqrt(2), rel=1e-12)
-    sinusoidal, helical = buckling_limits(EI, weight, 0 * inclination, clearance)
-    assert sinusoidal[0] == pytest.approx(1.94 * (2e6 * 250**2) ** (1 / 3), rel=1e-12)
-    assert helical[0] == pytest.approx(5.55 * (2e6 * 250**2) ** (1 / 3), rel=1e-12)
-    sinusoidal, _ = buckling_limits(EI, weight, inclination, 0 * clearance)
-    assert sinusoidal[0] == math.inf
 
 
 def test_loads_and_stress_of_a_hanging_string() -> None:
@@ -74,13 +60,20 @@ def test_stress_and_buckling_of_a_bent_string_in_tension_and_in_compression() ->
     sinusoidal = 2 * math.sqrt(EI * weight * math.sin(math.radians(60)) / ((0.2159 - 0.127) / 2))
     assert lying["sinusoidal_limit_N"] == pytest.approx(sinusoidal, rel=1e-6)
     assert lying["helical_limit_N"] == pytest.approx(math.sqrt(2) * sinusoidal, rel=1e-6)
+    # In bend and slant row by row.
+    inclined = profile[profile["inclination_deg"] > 1]
     modes = np.where(
-        tension < -profile["helical_limit_N"],
+        inclined["effective_tension_N"] < -inclined["helical_limit_N"],
         "helical",
-        np.where(tension < -profile["sinusoidal_limit_N"], "sinusoidal", "none"),
+        np.where(inclined["effective_tension_N"] < -inclined["sinusoidal_limit_N"], "sinusoidal", "none"),
     )
-    assert list(profile["buckling"]) == list(modes)
-    assert {"helical", "sinusoidal", "none"} == set(modes)
+    assert list(inclined["buckling"]) == list(modes)
+    assert {"sinusoidal", "none"} == set(modes)
+    # The vertical part above is compressed beyond 5.55 (EI w²)^⅓ at its lower end.
+    pushed = (profile["md_m"] < 200) & (tension < 0)
+    assert set(profile["buckling"][pushed]) == {"helical"}
+    assert tension[pushed].min() < -5.55 * (EI * weight**2) ** (1 / 3)
+    assert (point.status, point.buckling.mode) == ("under_resolved", "helical")
 
 
 def test_a_stabiliser_s_row_has_the_load_in_its_middle() -> None:

@@ -175,8 +175,8 @@ def test_a_locked_up_string_has_loads() -> None:
 
 
 def test_a_straight_string_beyond_its_buckling_load_is_unstable() -> None:
-    """100 kN on the bit of a string that weighs 2.0 kN per segment, in a vertical hole."""
-    components = [pipe(None, None, segment_length=10.0)]
+    """100 kN on the bit of a string that weighs 680 N/m, in a vertical hole, with segments that follow a helix."""
+    components = [pipe(None, None, segment_length=2.5)]
     case = make_case([[0, 0, 0], [300, 0, 0]], components, bit={"weight_on_bit": 1e5})
     point = equilibrium(case, "drill_sliding", 300.0)
     assert point.status == "unstable"
