@@ -252,12 +252,16 @@ class SolverSpec(Table):
 
     "largest" is the largest step that is certain to be stable, "auto" four fifths of it.
     The default joint damping is that of steel, a loss of 0.2 % at 30 Hz; it keeps sliding segments from chattering.
+
+    Where a steady string is buckled, "detect" says whether its segments can bend that way, and "resolve" lays it out
+    in segments that can.
     """
 
     step: float | Literal["auto", "largest"] = Field(
         default="auto", description='"auto", "largest" or a time such as "2 ms"'
     )
     joint_damping: units.Time = 1e-5
+    buckling: Literal["detect", "resolve"] = "detect"
 
     @field_validator("step", mode="before")
     @classmethod

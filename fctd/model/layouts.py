@@ -53,6 +53,31 @@ def graded(case: Case, bit_depth: float, length: float) -> Components:
     return tuple(pieces)
 
 
+def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Components:
+    """Segments of at most ``needed`` (n,) [m] beside the measured depths ``md`` (n,) [m], rising; else the case's own.
+
+    A component is cut where that changes by a factor of two; the paper's long segment stays.
+    """
+    pieces: list[ComponentSpec] = []
+    start, total = 0.0, bit_depth - case.string.top_md
+    above_bit, shortest = bit_depth - md[::-1], needed[::-1]
+    for part in case.string.components:
+        end = total if part.length is None else min(start + part.length, total)
+        own = _nominal(part, end - start)
+        inside = (above_bit >= start) & (above_bit <= end)
+        least = float(shortest[inside].min(initial=own))
+        if start >= total or is_long(part) or least >= own:
+            pieces.append(part)
+        else:
+            # The case's own length and its halves.
+            halvings = np.ceil(np.log2(own / least) - 1e-9)
+            unit = own / 2**halvings
+            factor = np.minimum(np.minimum(shortest, own) / unit, LONGEST)
+            pieces += _grade(part, _walk(start, end, unit, above_bit, factor))
+        start = end
+    return tuple(pieces)
+
+
 LAYOUTS: dict[str, Layout] = {"uniform": uniform, "graded": graded}
 
 
@@ -102,6 +127,14 @@ def segments_in_hole(case: Case, bit_depth: float) -> int:
         count += max(take / nominal, 1)
         remaining -= take
     return round(count)
+
+
+def _nominal(part: ComponentSpec, in_hole: float) -> float:
+    """Length of a component's segments [m]."""
+    if part.segment_length is not None:
+        return part.segment_length
+    assert part.segments is not None  # ComponentSpec requires one of the two
+    return (in_hole if part.length is None else part.length) / part.segments
 
 
 def is_long(part: ComponentSpec) -> bool:

@@ -4,7 +4,7 @@ The string slides or turns at constant rates while its shape stands still; the f
 (tangent.py).  Newton's method starts from the guess of a soft string (first_guess.py, continuation.py).
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -12,49 +12,32 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.case.load import Case, check_bit_depth, naming_file
-from fctd.case.operations import KINDS
 from fctd.case.units import bare
 from fctd.mechanics import state
-from fctd.mechanics.contact import START_MD
-from fctd.mechanics.laws import CODES
 from fctd.mechanics.query import Walls
-from fctd.model.drillstring import String, check_fit, fill, lay_out
+from fctd.model.drillstring import String, check_fit, lay_out
 from fctd.model.operations import SteadyRates, sensors, steady_rates
-from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
+from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along, pipe_of
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
-from fctd.steady import tangent
-from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
-from fctd.steady.continuation import CONVERGED, NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, take_step
-from fctd.steady.first_guess import MD, NODE, guess
+from fctd.steady.climb import Climb, climb
+from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
+from fctd.steady.post_buckling import resolve
+from fctd.steady.problem import Pose, Problem, Workspace
 from fctd.steady.tangent import (
-    AXIAL_MOMENT,
-    CONTACT_COLUMNS,
-    FORCE,
     JOINT_BENDING,
-    JOINT_COLUMNS,
     JOINT_TENSION,
     JOINT_TORQUE,
     NORMAL_FORCE,
     PLACE,
-    POSE,
-    QUATERNION,
     R_FT,
     R_MU_FN,
-    Steady,
-    assemble,
-    frictionless_tangent,
-    read_loads,
 )
 
 Array = NDArray[np.float64]
 
-# Largest force out of balance at a body, over the weight of the string.
-TOLERANCE = 1e-7
-# Lateral imperfection of the first guess, so that a straight string may buckle [m].
-SEED = 1e-4
 # With large steps most strings converge in some eight iterations.  A string with little clearance needs a pseudo-time
 # that shrinks when the imbalance rises; one that buckles needs small steps to converge or to find a stable shape.
 # Fields of Pace: iterations, first pseudo-time [s], growth, shrink, largest lateral step [m].
@@ -66,6 +49,8 @@ ATTEMPTS = (
     (300, 0.05, 1.5, 0.3, 0.005),
 )
 LARGEST_TURN = 0.1  # [rad] per step
+# Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
+APART = 0.01
 
 
 @dataclass(frozen=True)
@@ -74,6 +59,9 @@ class Equilibrium:
 
     status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
     message : details.
+    shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high [N] : of
+    both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction at which the hook
+    load is −block weight and at which no push suffices, where they were found, else NaN.
     bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
     sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
@@ -93,11 +81,24 @@ class Equilibrium:
     sum_r_mu_fn: float
     imbalance: float
     _shape: "Shape" = field(repr=False)
+    shape: str = "none"
+    hookload_low: float = float("nan")
+    hookload_high: float = float("nan")
+    slack_off_spent_at: float = float("nan")
+    locked_up_at: float = float("nan")
 
     @property
     def answered(self) -> bool:
         """Whether the numbers belong to a balance of forces."""
-        return self.status.has_loads
+        return self.status.has_loads and bool(np.isfinite(self.hookload))
+
+    def without_loads(self) -> "Equilibrium":
+        """The same without loads, for a string that has none at these loads."""
+        none = float("nan")
+        return replace(
+            self, hookload=none, surface_torque=none, weight_indicator=none, drive_torque=none,
+            total_contact_force=none, sum_r_ft=none, sum_r_mu_fn=none,
+        )  # fmt: skip
 
     @cached_property
     def profile(self) -> pd.DataFrame:
@@ -161,23 +162,6 @@ class Shape:
         return buckling_along(self.hole, pipe, top_md, md, radius, tension, self.bit_tension)[1]
 
 
-class Workspace:
-    """The solver's arrays, allocated once for a whole chart.
-
-    S : engine's buffer, for the constants of bodies and joints; P (n + 1, POSE) pose; G (n + 1, NODE) guess;
-    R (n + 1, 6) imbalance; D, A, U (n + 1, 6, 6) tangent; W elimination; owner (n + 2,) pieces of the hole.
-    """
-
-    def __init__(self, segments: int) -> None:
-        rows = segments + 2
-        self.segments = segments
-        self.S = state.new_state(segments)
-        self.P, self.G, self.R = np.zeros((rows, POSE)), np.zeros((rows, NODE)), np.zeros((rows, SIZE))
-        self.D, self.A, self.U = (np.zeros((rows, SIZE, SIZE)) for _ in range(3))
-        self.W = np.zeros((rows, SIZE, SIZE + 1))
-        self.owner = np.zeros(rows, np.int64)
-
-
 class Solver:
     """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
@@ -189,7 +173,6 @@ class Solver:
         self.hole = build_wellbore(case) if hole is None else hole
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
-        self.law = CODES[case.contact.friction_law]
         self.work = Workspace(0)
 
     def lay_out(self, bit_depth: float) -> String:
@@ -203,113 +186,95 @@ class Solver:
     @np.errstate(over="ignore", invalid="ignore")
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
-        case, hole, string = self.case, self.hole, self.lay_out(bit_depth)
-        n = string.segments
-        if self.work.segments < n:
-            self.work = Workspace(n)
-        pipe = fill(self.work.S, string, case)
-        on_bottom = KINDS[operation].on_bottom
-        weight_on_bit = case.bit.weight_on_bit if on_bottom else 0.0
-        _, (downhole,) = hole.at(np.array([bit_depth]))
-        push = [float(-weight_on_bit * d) for d in downhole]
-        laws = Steady(
-            self.geometry, self.law, 1.0, rates.speed, rates.spin, push[0], push[1], push[2],
-            case.bit.torque if on_bottom else 0.0,
-        )  # fmt: skip
-        weight = float(string.of("weight") @ string.length) + weight_on_bit
-        # The stiffness of the shortest segments turns the rounding of positions into force.
-        rounding = np.finfo(float).eps * bit_depth * float(state.row(self.work.S, state.K_AXIAL, n).max())
-        allowed = max(TOLERANCE * weight, 16 * rounding)
-        code, iterations, negative, kinks = self._balance(string, laws, weight_on_bit, allowed)
+        problem = self.problem(operation, rates, bit_depth)
+        code, iterations, negative = balance(problem)
+        point = self.answer(problem, code, iterations, negative)
+        if self.geometry == state.OPEN:
+            return point
+        unsolved = not point.answered or (negative > 0 and point.buckling.mode != NOT_BUCKLED.mode)
+        if self.case.solver.buckling == "resolve" and (unsolved or point.buckling.mode != NOT_BUCKLED.mode):
+            return self.resolve(problem, iterations)
+        if unsolved:
+            problem.at_axis = 1
+            path = climb(problem)
+            path.iterations += iterations
+            return self.follow(problem, path)
+        return point
 
-        w = self.work
-        assemble(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, w.R, w.D, w.A, w.U)
-        joints, contacts = np.zeros((n + 1, JOINT_COLUMNS)), np.zeros((n + 1, CONTACT_COLUMNS))
-        read_loads(w.S, n, w.P, kinks, hole.pieces, w.owner, laws, joints, contacts)
-        top_axis = hole.at(np.array([string.top_md]))[1][0]
-        # Half of a long segment is lumped at the top: the top drive carries its weight and mud load.
-        half = 0.5 * string.length[0] if string.long_segment else 0.0
-        hung, resisted = half * (pipe.weight - pipe.mud_axial * rates.speed), half * pipe.mud_spin * rates.spin
-        hookload, torque = float(w.R[0, FORCE] @ top_axis) + hung, resisted - float(w.R[0, AXIAL_MOMENT])
-        joints[1, [JOINT_TENSION, JOINT_TORQUE]] += hung, resisted
-        imbalance = float(np.linalg.norm(w.R[1 : n + 1, FORCE], axis=1).max())
-        # The hook load of a horizontal string is 0 within rounding.
-        pushed = -hookload - case.rig.block_weight > n * allowed
-        shape = Shape(
-            hole, string, w.P[0, PLACE].copy(), joints[1:], contacts[1:], state.row(w.S, state.RADIUS, n).copy(),
-            w.owner[1 : n + 1].copy(), -weight_on_bit, laws.bit_torque,
-        )  # fmt: skip
-        status, message = self._judge(code, negative, pushed, shape, imbalance)
-        indicator, drive = sensors(case, operation, hookload, torque)
-        normal, r_ft, r_mu_n = (float(contacts[:, k].sum()) for k in (NORMAL_FORCE, R_FT, R_MU_FN))
-        return Equilibrium(
-            case, operation, bit_depth, status, message, iterations, hookload, torque, indicator, drive,
-            normal, r_ft, r_mu_n, imbalance, shape,
-        )  # fmt: skip
+    def resolve(self, problem: Problem, iterations: int) -> Equilibrium:
+        """The buckled string of a problem on segments that can bend as it does, in the shape of the lower energy."""
+        problem.at_axis = 1
+        coarse = climb(problem)
+        coarse.iterations += iterations
 
-    def _balance(self, string: String, laws: Steady, weight_on_bit: float, force: float) -> tuple[int, int, int, Array]:
-        """Iterate to a stable balance, more carefully with every attempt, or else to the first balance found.
+        def lay(case: Case) -> Problem:
+            finer = self.problem(problem.operation, problem.rates, problem.string.bit_depth, case)
+            finer.at_axis = 1
+            return finer
 
-        Returns code, iterations, number of unstable modes and bends; leaves the pose in the workspace.
+        problem, snaking, helix = resolve(self.case, coarse, problem, lay)
+        point = replace(self.follow(problem, snaking), shape="snaking")
+        if helix is None:
+            return point
+        wound = replace(self.follow(problem, helix), shape="helix")
+        loads = [p.hookload for p in (point, wound) if p.answered]
+        if len(loads) < 2 or abs(loads[1] - loads[0]) <= APART * problem.weight:
+            return wound
+        return replace(wound, hookload_low=min(loads), hookload_high=max(loads))
+
+    def follow(self, problem: Problem, path: Climb) -> Equilibrium:
+        """The string at the end of a path: with loads where the path reaches them, and with what ends the path."""
+        if path.pose is not None:
+            problem.put_pose(path.pose)
+        point = self.answer(problem, CONVERGED, path.iterations, 0)
+        point = replace(point, slack_off_spent_at=path.spent_at, locked_up_at=path.locked_at)
+        if path.pose is None:
+            # The pose is that of smaller loads.
+            status = SteadyStatus.LOCKED_UP if min(path.spent_at, path.locked_at) < 1 else SteadyStatus.UNSTABLE
+            point = replace(point.without_loads(), status=status, message=status.message)
+        if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE):
+            return point
+        words = (
+            ("slack-off is spent at", path.spent_at),
+            ("the string is locked up at", path.locked_at),
+            ("no steady shape was found beyond", path.ends_at),
+        )
+        text = ", ".join(f"{word} {100 * share:.3g} %" for word, share in words if np.isfinite(share))
+        return replace(point, message=f"{text} of the friction") if text else point
+
+    def problem(self, operation: str, rates: SteadyRates, bit_depth: float, cut: Case | None = None) -> Problem:
+        """The string at a bit depth [m] as a problem; raises InputError when string and hole do not fit there.
+
+        cut : the case with other segments.
         """
-        w, n, pieces = self.work, string.segments, self.hole.pieces
-        kinks = np.zeros((n + 2, 4))
-        kinks[:, 0] = 1.0
-        total, code, negative = 0, NOT_FINITE, 0
-        unstable: tuple[int, Array, NDArray[np.int64]] | None = None
-        for iterations, tau, growth, shrink, shift in ATTEMPTS:
-            guess(w.S, n, pieces, laws, string.top_md, -weight_on_bit, SEED, w.G, w.P)
-            self._bend(string, kinks)
-            w.owner[1 : n + 1] = np.searchsorted(pieces[:, START_MD], w.G[1 : n + 1, MD], side="right") - 1
-            pace = Pace(iterations, tau, growth, shrink, shift, LARGEST_TURN, force, force)
-            code, done = self._iterate(n, kinks, laws, pace)
-            total += done
-            if code != CONVERGED:
-                continue
-            frictionless_tangent(w.S, n, w.P, kinks, pieces, w.owner, laws, w.R, w.D, w.A, w.U)
-            negative = negative_pivots(w.D, w.A, w.U, n)
-            if negative == 0:
-                return code, total, 0, kinks
-            if unstable is None:
-                unstable = negative, w.P.copy(), w.owner.copy()
-        if unstable is not None:
-            code, (negative, w.P[:], w.owner[:]) = CONVERGED, unstable
-        return code, total, negative, kinks
+        case = self.case if cut is None else cut
+        string = self.lay_out(bit_depth) if cut is None else lay_out(cut, bit_depth)
+        if self.work.segments < string.segments:
+            self.work = Workspace(string.segments)
+        return Problem(case, self.hole, self.work, string, operation, rates)
 
-    def _iterate(self, n: int, kinks: Array, laws: Steady, pace: Pace) -> tuple[int, int]:
-        """Run the compiled iteration; steps with a near singular block are solved by ``solve_with_pivoting``."""
-        w, pieces = self.work, self.hole.pieces
-        done, tau = 0, pace.tau
-        while True:
-            code, k, tau = converge(
-                w.S, n, w.P, kinks, pieces, w.owner, laws, pace._replace(iterations=pace.iterations - done),
-                w.R, w.D, w.A, w.U, w.W, tau,
-            )  # fmt: skip
-            done += k
-            if code != UNSOUND:
-                return code, done
-            assemble(w.S, n, w.P, kinks, pieces, w.owner, laws, w.R, w.D, w.A, w.U)
-            add_pseudo_mass(w.S, n, tau, w.D)
-            try:
-                w.R[1 : n + 1] = solve_with_pivoting(w.D, w.A, w.U, w.R, n)
-            except (np.linalg.LinAlgError, ValueError):
-                return NOT_FINITE, done
-            take_step(w.P, n, w.R, 1.0)
-            done += 1
+    def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
+        """The steady string of a problem in its pose.
 
-    def _bend(self, string: String, kinks: Array) -> None:
-        """Write the bent housings into ``kinks``; the workspace must contain the first guess."""
-        for k, component in enumerate(self.case.string.components[: len(string.sections)]):
-            # The joint above the component's uppermost segment; joint 1 at the top drive has no bend.
-            j = int(np.argmax(string.component == k)) + 1
-            if component.bend == 0 or j == 1:
-                continue
-            _, direction = self.hole.at(self.work.G[j - 1 : j, MD])
-            (high,), (right,) = hole_frame(direction)
-            towards = np.cos(component.toolface) * high + np.sin(component.toolface) * right
-            x, y, _ = tangent.in_frame(*self.work.P[j - 1, QUATERNION], *towards)
-            half = 0.5 * component.bend
-            kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
+        code, iterations : of the iteration; negative : number of unstable modes.
+        """
+        case, string, n = self.case, problem.string, problem.n
+        found = problem.reactions()
+        row = state.row
+        shape = Shape(
+            self.hole, string, problem.work.P[0, PLACE].copy(), found.joints, found.contacts,
+            row(problem.work.S, state.RADIUS, n).copy(), problem.work.owner[1 : n + 1].copy(), -problem.weight_on_bit,
+            problem.bit_torque,
+        )  # fmt: skip
+        # The hook load of a horizontal string is 0 within rounding.
+        pushed = -found.hookload - case.rig.block_weight > n * problem.allowed
+        status, message = self._judge(code, negative, pushed, shape, found.imbalance)
+        indicator, drive = sensors(case, problem.operation, found.hookload, found.torque)
+        normal, r_ft, r_mu_n = (float(found.contacts[:, k].sum()) for k in (NORMAL_FORCE, R_FT, R_MU_FN))
+        return Equilibrium(
+            case, problem.operation, string.bit_depth, status, message, iterations, found.hookload, found.torque,
+            indicator, drive, normal, r_ft, r_mu_n, found.imbalance, shape,
+        )  # fmt: skip
 
     def _judge(
         self, code: int, negative: int, pushed: bool, shape: Shape, imbalance: float
@@ -336,6 +301,31 @@ class Solver:
             modes = f"{negative} mode{'s' * (negative > 1)}"
             return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {modes}"
         return SteadyStatus.CONVERGED, ""
+
+
+def balance(problem: Problem) -> tuple[int, int, int]:
+    """Iterate to a stable balance, more carefully with every attempt, or else to the first balance found.
+
+    Returns code, iterations and number of unstable modes; leaves the pose in the problem.
+    """
+    total, code, negative = 0, NOT_FINITE, 0
+    unstable: tuple[int, Pose] | None = None
+    for iterations, tau, growth, shrink, shift in ATTEMPTS:
+        problem.lay_guess()
+        allowed = problem.allowed
+        code, done = problem.iterate(Pace(iterations, tau, growth, shrink, shift, LARGEST_TURN, allowed, allowed))
+        total += done
+        if code != CONVERGED:
+            continue
+        negative = problem.unstable_modes()
+        if negative == 0:
+            return code, total, 0
+        if unstable is None:
+            unstable = negative, problem.copy_pose()
+    if unstable is not None:
+        code, negative = CONVERGED, unstable[0]
+        problem.put_pose(unstable[1])
+    return code, total, negative
 
 
 def equilibrium(

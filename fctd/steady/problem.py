@@ -10,9 +10,11 @@ from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.contact import START_MD
 from fctd.mechanics.laws import CODES
+from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String, fill
 from fctd.model.operations import SteadyRates
 from fctd.model.wellbore import Wellbore, hole_frame
+from fctd.results.buckling import buckling_along, pipe_of
 from fctd.steady import tangent
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
 from fctd.steady.continuation import NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, take_step
@@ -25,6 +27,7 @@ from fctd.steady.tangent import (
     JOINT_COLUMNS,
     JOINT_TENSION,
     JOINT_TORQUE,
+    PLACE,
     POSE,
     QUATERNION,
     Steady,
@@ -85,6 +88,18 @@ class Reactions(NamedTuple):
     contacts: Array
 
 
+class Compressed(NamedTuple):
+    """Top and contact points of a string, (n + 1, ...), against the buckling limits.
+
+    md [m]; compression [N]; EI [N m²]; rows : of ``buckling_along``.
+    """
+
+    md: Array
+    compression: Array
+    EI: Array
+    rows: Array
+
+
 class Problem:
     """What the solver's iterations work on; the pose is in the workspace and changes in place.
 
@@ -124,7 +139,7 @@ class Problem:
     def lay_guess(self, share: Share = FULL) -> None:
         """Lay the string where a soft string would press on the hole."""
         w, string = self.work, self.string
-        tension = -self.weight_on_bit * share.weight
+        tension = self.bit_tension(share)
         guess(w.S, self.n, self.hole.pieces, self.laws(share), string.top_md, tension, SEED, w.G, w.P)
         self._bend()
         self._find_owners()
@@ -169,9 +184,7 @@ class Problem:
     def unstable_modes(self) -> int:
         """Number of modes in which the pose would leave its balance without friction."""
         w = self.work
-        frictionless_tangent(
-            w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(), w.R, w.D, w.A, w.U
-        )
+        frictionless_tangent(w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(), w.R, w.D, w.A, w.U)
         return int(negative_pivots(w.D, w.A, w.U, self.n))
 
     def reactions(self, share: Share = FULL) -> Reactions:
@@ -189,6 +202,28 @@ class Problem:
         hookload, torque = float(w.R[0, FORCE] @ self._top_axis) + hung, resisted - float(w.R[0, AXIAL_MOMENT])
         imbalance = float(np.linalg.norm(w.R[1 : n + 1, FORCE], axis=1).max())
         return Reactions(hookload, torque, imbalance, joints[1:], contacts[1:])
+
+    def walls(self, contacts: Array) -> Walls:
+        """Walls beside the contact points (n, ...) of ``reactions``."""
+        return self.hole.walls(contacts[:, PLACE], self.work.owner[1 : self.n + 1])
+
+    def compressed(self, share: Share = FULL) -> Compressed:
+        """The string in its pose against the buckling limits."""
+        string, found = self.string, self.reactions(share)
+        walls, tension, bit_tension = (
+            self.walls(found.contacts),
+            found.joints[:, JOINT_TENSION],
+            self.bit_tension(share),
+        )
+        rows, _ = buckling_along(
+            self.hole, pipe_of(string), string.top_md, walls.md, walls.radius, tension, bit_tension
+        )
+        md, EI = np.append(string.top_md, walls.md), string.of("EI")
+        return Compressed(md, -np.append(tension, bit_tension), np.append(EI[0], EI), rows)
+
+    def bit_tension(self, share: Share = FULL) -> float:
+        """Effective tension at the bit [N]."""
+        return -self.weight_on_bit * share.weight
 
     def copy_pose(self) -> Pose:
         """A copy of the pose."""

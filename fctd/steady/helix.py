@@ -1,0 +1,97 @@
+"""A helix as the shape of a string wherever it has the lower energy.
+
+In a level hole a helix has w r − r² F²/8EI a metre more energy than the straight string (clearance r, weight w,
+compression F), snaking has −½ (1 − F_c/F)² or so of the same; they are equal at F = 1.45 F_c, F_c = 2√(EI w/r).
+Snaking never becomes a helix by more load alone: the helix is laid into the string, with θ′ = √(F/2EI) (Lubinski,
+Althouse & Logan 1962), and comes to rest from there.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.model.wellbore import hole_frame
+from fctd.results.buckling import SINUSOIDAL_LIMIT
+from fctd.steady.first_guess import MD, OFFSET, TENSION, TORQUE
+from fctd.steady.problem import Problem, Share
+from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
+
+Array = NDArray[np.float64]
+
+# Compression over the sinusoidal limit above which the helix has the lower energy.
+LOWER_ENERGY = 1.45
+# A helix of fewer turns is not laid, and not laid anew for fewer turns more.
+LEAST_TURNS = 1.0
+# Share of the turns laid that a string at rest must have to count as a helix.
+STILL = 0.7
+
+
+class Helix:
+    """Lays a helix into a string while its loads grow, wherever the helix has the lower energy.
+
+    turns : laid last.  beyond (n,) : which contact points it goes through.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.turns = 0.0
+        self.beyond = np.zeros(problem.n, np.bool_)
+
+    def prepare(self, share: Share) -> bool:
+        """Lay the helix, if it is at least a turn longer than before; returns whether it was.
+
+        share : loads of the balance that the string is in.
+        """
+        problem, n, string = self.problem, self.problem.n, self.problem.string
+        here = problem.compressed(share)
+        compression = here.compression[1:]
+        beyond = self.beyond | (compression > LOWER_ENERGY * here.rows[1:, SINUSOIDAL_LIMIT])
+        rate = np.sqrt(np.maximum(compression, 0.0) / (2 * string.of("EI")))
+        turns = float((rate * string.length)[beyond].sum()) / (2 * np.pi)
+        if turns < self.turns + LEAST_TURNS:
+            return False
+        found = problem.reactions(share)
+        walls = problem.walls(found.contacts)
+        self.turns, self.beyond = turns, beyond
+        low, right = _transported(problem.hole.at(walls.md)[1])
+        offset = walls.offset.copy()
+        # From the lower end of each stretch upwards, beginning where the string lies.
+        angle = np.arctan2((offset * right).sum(axis=1), (offset * low).sum(axis=1))
+        clearance = walls.radius - string.contact_radius()
+        for j in range(n - 1, -1, -1):
+            if not beyond[j]:
+                continue
+            if j + 1 < n and beyond[j + 1]:
+                angle[j] = angle[j + 1] + rate[j + 1] * string.length[j + 1]
+            offset[j] = clearance[j] * (np.cos(angle[j]) * low[j] + np.sin(angle[j]) * right[j])
+        nodes = problem.work.G
+        nodes[0, MD] = string.top_md
+        nodes[:n, TENSION], nodes[n, TENSION] = found.joints[:, JOINT_TENSION], problem.bit_tension(share)
+        nodes[:n, TORQUE] = found.joints[:, JOINT_TORQUE]
+        nodes[1 : n + 1, OFFSET : OFFSET + 3] = offset
+        problem.lay_nodes()
+        return True
+
+    def stands(self) -> bool:
+        """Whether the string in its pose still has most of the turns that were laid."""
+        if self.turns == 0:
+            return False
+        problem = self.problem
+        walls = problem.walls(problem.reactions().contacts)
+        low, right = _transported(problem.hole.at(walls.md)[1])
+        angle = np.unwrap(np.arctan2((walls.offset * right).sum(axis=1), (walls.offset * low).sum(axis=1)))
+        both = self.beyond[1:] & self.beyond[:-1]
+        return bool(abs(np.diff(angle)[both].sum()) / (2 * np.pi) > STILL * self.turns)
+
+
+def _transported(direction: Array) -> tuple[Array, Array]:
+    """Two directions across the hole (n, 3) along it, without a turn about it; near the bit the first is the low side.
+
+    High side and right have no meaning in vertical hole, and jump where it begins to build.
+    """
+    high, _ = hole_frame(direction[-1:])
+    first = np.empty_like(direction)
+    first[-1] = -high[0]
+    for j in range(len(direction) - 2, -1, -1):
+        here = first[j + 1] - (first[j + 1] @ direction[j]) * direction[j]
+        first[j] = here / np.linalg.norm(here)
+    return first, np.cross(first, direction)
