@@ -95,8 +95,8 @@ def run(context: Context) -> Outcome:
                   "0.5 % of the value or 0.1 % of the chart's largest"),
         ],
         notes=[
-            f"{len(coarse)} of {len(chart)} rows are under_resolved (bit depths in m: {depths}): the string is buckled, and its "
-            "segments are too long to bend that way.",
+            f"{len(coarse)} of {len(chart)} rows are under_resolved (bit depth in m: {depths}): the string is buckled, "
+            "and its segments are too long to bend that way.",
             f"A chart of 71 depths took {1e3 * spent:.0f} ms per operation on this machine, layout of every depth "
             f"included, compile excluded; one depth at most {slowest.iloc[0]:.2f} ms at 61 segments and "
             f"{slowest.iloc[2]:.1f} ms at 500 (targets 1.5 and 15 ms on one free core). Times of a busy machine are "
