@@ -149,7 +149,7 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
         table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
     buckled = bool(chart["buckled_from_md_m"].notna().any())
     if buckled:
-        table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold", min_width=len("sinusoidal"))
+        table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
     table.add_column("status", overflow="fold")
     series = list(chart.groupby(["operation", "friction"], sort=False, dropna=False))
     each = max(SCREEN_ROWS // len(series), 1)
