@@ -98,8 +98,8 @@ BUCKLED: dict[str, dict[str, Any]] = {
 }
 # Rows of a chart with a buckled string have a grey disc below their line.
 DISCS: dict[str, dict[str, Any]] = {
-    "sinusoidal": {"marker": "o", "linestyle": "none", "color": "#d8d8d8", "markersize": 12, "zorder": 1.2},
-    "helical": {"marker": "o", "linestyle": "none", "color": "#a0a0a0", "markersize": 12, "zorder": 1.3},
+    "sinusoidal": {"marker": "o", "linestyle": "none", "color": "#dcdcdc", "markersize": 12, "zorder": 1.2},
+    "helical": {"marker": "o", "linestyle": "none", "color": "#b0b0b0", "markersize": 12, "zorder": 1.3},
 }
 NOISE = 1e-6  # an axis that spans less shows zeros
 NOTE_LINE = 0.14  # height of a line of small type [in]

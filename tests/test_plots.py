@@ -20,6 +20,7 @@ from matplotlib.text import Annotation
 from fctd import plots
 from fctd.case.operations import KINDS
 from fctd.results.notes import MEANINGS, Note
+from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Equilibrium, equilibrium
 from tests.cases import make_case, pipe
 
@@ -138,6 +139,31 @@ def test_rows_without_an_answer_are_crossed_where_their_line_breaks() -> None:
     assert "locked_up" in legend
 
 
+def test_rows_with_a_buckled_string_have_a_disc_below_their_line() -> None:
+    """Light grey for snaking, dark for the helix, and both in the legend; none where nothing is buckled."""
+    table = chart(["trip_in", "trip_out"], [0.2])
+    rows = table.index[table["operation"] == "trip_in"]
+    table.loc[rows[3:6], "buckling"], table.loc[rows[6:], "buckling"] = "sinusoidal", "helical"
+    figure = plots.chart_figure(table)
+    for ax, column in zip(figure.axes, ("hookload_N", "surface_torque_N_m"), strict=True):
+        for mode, look in plots.DISCS.items():
+            (discs,) = lines(ax, color=look["color"])
+            at = table["buckling"] == mode
+            np.testing.assert_allclose(discs.get_xdata(), table.loc[at, column] / 1e3)
+            np.testing.assert_allclose(discs.get_ydata(), table.loc[at, "bit_depth_m"])
+            assert discs.get_zorder() < min(line.get_zorder() for line in lines(ax, color=plots.LOOKS["trip_in"][0]))
+    legend = [text.get_text() for box in figure.legends for text in box.get_texts()]
+    assert {"sinusoidal buckling", "helical buckling"} <= set(legend)
+    assert texts_that_overlap(figure) == []
+    figure = plots.chart_figure(chart(["trip_in"], [0.2]))
+    assert not [text for box in figure.legends for text in box.get_texts() if "buckling" in text.get_text()]
+
+
+def test_every_status_with_loads_has_a_mark() -> None:
+    flagged = {str(status) for status in SteadyStatus if status.has_loads and status != "converged"}
+    assert set(plots.FLAGS) == flagged
+
+
 def test_a_series_without_any_answer_is_still_seen() -> None:
     table = chart(["trip_in"], [0.2])
     table["status"] = "max_iterations"
@@ -197,7 +223,8 @@ def test_a_profile_marks_where_the_string_is_beyond_its_buckling_limits(points: 
 
 @pytest.mark.parametrize("units", ["si", "field"])
 def test_no_text_covers_another(points: list[Equilibrium], units: Any) -> None:
-    table = chart(list(KINDS), [0.1, 0.2, 0.3], {"max_iterations": "trip_in", "unstable": "drill_sliding"})
+    table = chart(list(KINDS), [0.1, 0.2, 0.3], {"max_iterations": "trip_in", "under_resolved": "drill_sliding"})
+    table.loc[table["status"] == "under_resolved", "buckling"] = "helical"
     assert texts_that_overlap(plots.chart_figure(table, units, "a well of a rather long name, $1 \\frac 5$")) == []
     assert texts_that_overlap(plots.chart_figure(chart(["trip_in"], [float("nan")]), units, "well")) == []
     assert texts_that_overlap(plots.profile_figure(points, units)) == []

@@ -35,8 +35,8 @@ segment_length = "40 m"
 """
 CHART_COLUMNS = [
     "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
-    "drive_torque_N_m", "total_contact_force_N", "status", "iterations", "notes",
-    "reason",
+    "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "status",
+    "iterations", "notes", "reason",
 ]  # fmt: skip
 # A pound-force and a foot in SI, exact by definition (NIST SP 811, appendix B.8).
 LBF, FOOT = 4.4482216152605, 0.3048
@@ -198,6 +198,7 @@ def test_a_chart_goes_on_below_the_hole(
     [
         (["wellbore.intervals[0].friction=0.6"], "trip_in", "locked_up", 0),
         (UNHELD, "drill_sliding", "unstable", 1),
+        (["bit.weight_on_bit=120 kN", "rig.block_weight=500 kN"], "drill_sliding", "under_resolved", 1),
     ],
 )
 def test_exit_code_of_a_legal_answer(
@@ -220,6 +221,33 @@ def test_exit_code_of_a_legal_answer(
     assert run(monkeypatch, *point, *settings(*changes)) == code
     assert f"{status}:" in capsys.readouterr().err
     assert profile.exists()
+
+
+@pytest.mark.parametrize(("units", "foot"), [("si", 1.0), ("field", FOOT)])
+def test_a_buckled_string_shows_in_row_screen_and_picture(
+    units: str, foot: float, case_file: Path, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    pytest.importorskip("matplotlib")
+    out, picture = tmp_path / "chart.csv", tmp_path / "chart.png"
+    code = run(
+        monkeypatch, "chart", case_file, "--operation", "drill_sliding", "--operation", "trip_out",
+        "--depths", "800:800:1", *settings("bit.weight_on_bit=120 kN", "rig.block_weight=500 kN"), "--out", out,
+        "--plot", picture, "--units", units,
+    )  # fmt: skip
+    assert code == 1
+    table = pd.read_csv(out)
+    unit = "m" if units == "si" else "ft"
+    first, last = (table[f"buckled_{end}_md_{unit}"] for end in ("from", "to"))
+    assert table["buckling"].tolist() == ["helical", "none"]
+    assert 0 <= first[0] * foot < last[0] * foot <= 800
+    assert np.isnan([first[1], last[1]]).all()
+    screen, errors = capsys.readouterr()
+    assert "buckled" in screen
+    assert "helical" in screen
+    assert f"{first[0]:.0f}–{last[0]:.0f}" in screen
+    assert "use segments of at most" in errors
+    assert picture.exists()
 
 
 CHART = {"--operation": "trip_in", "--depths": "500:800:100", "--out": "chart.csv"}

@@ -10,6 +10,7 @@ from fctd import Case, Equilibrium, SimulationResult, Wellbore, find_contacts
 from fctd.case.operations import KINDS
 from fctd.model.drillstring import String, lay_out
 from fctd.model.operations import steady_rates
+from fctd.results.columns import BUCKLED
 from fctd.results.status import RunStatus, SteadyStatus
 
 LOADS = (
@@ -18,6 +19,7 @@ LOADS = (
 )  # fmt: skip
 # A string without clearance cannot buckle: its limits are infinite.
 LIMITS = ["sinusoidal_limit_N", "helical_limit_N"]
+EXTENT = [column.name for column in BUCKLED]  # NaN where the string is not buckled
 SAME_LENGTH = 1e-6  # [m]
 
 
@@ -161,7 +163,7 @@ def run(case: Case, result: SimulationResult) -> Iterator[str]:
         return
     history, profile = result.history, result.profile
     for name, table in (("history", history), ("ledger", result.energy)):
-        numbers = table.select_dtypes("number")
+        numbers = table.select_dtypes("number").drop(columns=EXTENT, errors="ignore")
         if not np.isfinite(numbers).all(axis=None):
             yield f"a number of the {name} is not finite"
     yield from finite_profile(profile)

@@ -1,12 +1,16 @@
 """The records of a run, from sums and losses set by hand."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from fctd import open_result, simulate
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import Motion
+from fctd.results.buckling import NOT_BUCKLED
+from fctd.results.notes import MEANINGS
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.run import prepare, start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
@@ -68,7 +72,9 @@ def test_a_row_of_history_is_sums_over_its_span() -> None:
             "drive_torque_N_m": 40 / span + 50, "sum_r_ft_N_m": 3 * n / span, "sum_r_mu_fn_N_m": 5 * n / span,
             "mud_torque_N_m": 7 * n / span, "total_contact_force_N": 11 * n / span, "contact_count": 0,
         }  # fmt: skip
-        assert {name: row[name] for name in row if name != "operation"} == pytest.approx(expected)
+        assert row["buckling"] == "none"
+        others = {"operation", *NOT_BUCKLED.columns()}
+        assert {name: row[name] for name in row if name not in others} == pytest.approx(expected)
 
 
 def test_points_in_the_wall_are_counted() -> None:
@@ -149,3 +155,28 @@ def test_a_profile_has_the_means_of_its_interval(long: bool) -> None:
     bending = np.zeros(n + 1)
     bending[n - 1] = S[state.K_BEND + n] * 0.1
     np.testing.assert_allclose(profile["bending_moment_N_m"], bending, rtol=1e-9, atol=1e-6)
+
+
+@pytest.mark.parametrize(("friction", "mode"), [(0.05, "none"), (0.4, "helical")])
+def test_every_record_says_where_the_string_is_buckled(friction: float, mode: str, tmp_path: Path) -> None:
+    """A string that is pushed into 800 m of level hole: its vertical part buckles, and segments of 20 m cannot."""
+    hole = {"geometry": "arcs", "intervals": [{"to_md": 1500, "diameter": 0.2159, "friction": friction}]}
+    stations = [[0, 0, 0], [200, 0, 0], [500, 90, 0], [1500, 90, 0]]
+    parts = [pipe(1300, None, segment_length=20), pipe(None, 1)]
+    result = simulate(make_case(stations, parts, [trip(1318, 1320, speed=0.5, ramp=1.0)], wellbore=hole))
+    last, profile = result.history.iloc[-1], result.profile
+    assert result.history["buckling"].iloc[-1] == mode
+    rows = profile["md_m"][profile["buckling"] != "none"]
+    noted = [note for note in result.notes if note.code == "buckling"]
+    if mode == "none":
+        assert np.isnan([last["buckled_from_md_m"], last["buckled_to_md_m"]]).all()
+        assert len(rows) == len(noted) == 0
+        return
+    assert (last["buckled_from_md_m"], last["buckled_to_md_m"]) == (rows.min(), rows.max())
+    (note,) = noted
+    assert note.remedy == MEANINGS["buckling"].remedy
+    assert "segments of 20 m cannot bend that way; segments of at most" in note.text
+    result.save(tmp_path)
+    kept = open_result(tmp_path)
+    assert kept.notes == result.notes
+    assert kept.history["buckling"].tolist() == result.history["buckling"].tolist()

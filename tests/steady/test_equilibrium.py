@@ -171,7 +171,8 @@ def test_a_locked_up_string_has_loads() -> None:
     assert point.status == "locked_up"
     assert point.hookload < 0
     heavy = case.model_copy(update={"rig": case.rig.model_copy(update={"block_weight": 2e6})})
-    assert equilibrium(heavy, "trip_in", 3500.0).status == "converged"
+    # A block that pushes: the string goes, but its segments of 25 m are too long for the helix.
+    assert equilibrium(heavy, "trip_in", 3500.0).status == "under_resolved"
 
 
 def test_a_straight_string_beyond_its_buckling_load_is_unstable() -> None:

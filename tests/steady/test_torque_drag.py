@@ -11,8 +11,8 @@ from tests.cases import make_case, pipe
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
 COLUMNS = [
     "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
-    "drive_torque_N_m", "total_contact_force_N", "status", "iterations", "notes",
-    "reason",
+    "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "status",
+    "iterations", "notes", "reason",
 ]  # fmt: skip
 
 
