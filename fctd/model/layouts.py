@@ -66,7 +66,7 @@ def coarseness(case: Case, bit_depth: float) -> tuple[Array, Array]:
     stations = case.wellbore.trajectory
     above_bit = np.linspace(0.0, bit_depth - case.string.top_md, SAMPLES)
     md = bit_depth - above_bit
-    course = np.clip(np.searchsorted(stations[:, 0], md, side="right") - 1, 0, len(stations) - 2)
+    course = np.minimum(np.searchsorted(stations[:, 0], md, side="right") - 1, len(stations) - 2)
     curvature = (survey.dogleg(stations) / np.diff(stations[:, 0]))[course]
     sharpest = max(float(curvature.max()), STRAIGHT)
     factor = np.minimum(np.sqrt(sharpest / np.maximum(curvature, 1e-12)), LONGEST)
@@ -139,7 +139,7 @@ def _walk(start: float, end: float, length: float, above_bit: Array, factor: Arr
     """Runs of equal segments from ``start`` to ``end`` above the bit [m]: length of a run, segments in it."""
     lengths: list[float] = []
     at = start
-    while at < end - 1e-9:
+    while at < end:
         step = length
         # Twice as long while the string allows it all along the segment.
         while step < LONGEST * length and _least(at, at + 2 * step, above_bit, factor) > 1.999 * step / length:
