@@ -3,15 +3,17 @@
 import re
 from contextlib import nullcontext
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from fctd import Case
 from fctd.case.errors import InputError
 from fctd.mechanics import state
 from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import drillstring
-from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, check_fit, lay_out, section_of, shear_coefficient
+from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, check_fit, fill, lay_out, section_of, shear_coefficient
 from fctd.model.wellbore import build_wellbore
 from fctd.simulation.run import prepare
 from tests.cases import make_case, pipe, rotation, trip
@@ -35,6 +37,95 @@ def test_buoyancy_lowers_weight_and_not_mass() -> None:
     air, mud = section_of(component, 0.0), section_of(component, 1570.0)
     assert mud.mass == air.mass == pytest.approx(7850 * np.pi / 4 * (0.127**2 - 0.07**2))
     assert mud.weight == pytest.approx(0.8 * air.weight)
+
+
+def test_filled_rows_by_hand() -> None:
+    """From the top: three segments of pipe, a stabiliser that touches at its middle, two collars."""
+    case = filled_case(pipe(None, None, segment_length=30.0))
+    string = lay_out(case, 112.0)
+    collar, blade, top = string.sections
+    S = state.new_state(6)
+    fed = fill(S, string, case)
+    length = np.array([30, 30, 30, 2, 10, 10])
+    sections = [top, top, top, blade, collar, collar]
+    expected = {
+        state.MASS: [s.mass * m for s, m in zip(sections, length, strict=True)],
+        state.WEIGHT: [s.weight * m for s, m in zip(sections, length, strict=True)],
+        state.J_AXIAL: [s.axial_inertia * m for s, m in zip(sections, length, strict=True)],
+        state.J_TRANSVERSE: [s.mass * m**3 / 12 + s.tilt_inertia * m for s, m in zip(sections, length, strict=True)],
+        state.ARM_TOP: length / 2,
+        state.ARM_BOTTOM: length / 2,
+        state.ARM_CONTACT: [15, 15, 15, 0, 5, 5],
+        state.RADIUS: [0.0635, 0.0635, 0.0635, 0.1, 0.0795, 0.0795],
+        state.TRIBUTARY: [30, 30, 16, 2, 10, 5],
+        state.MUD_AXIAL: 3.0 * length,
+        state.MUD_LATERAL: 5.0 * length,
+        state.MUD_SPIN: 0.7 * length,
+    }
+    for row, name in ((state.K_AXIAL, "EA"), (state.K_SHEAR, "shear"), (state.K_BEND, "EI"), (state.K_TWIST, "GJ")):
+        p, b, c = (getattr(section, name) for section in (top, blade, collar))
+        expected[row] = [p / 15, p / 30, p / 30, 1 / (15 / p + 1 / b), 1 / (1 / b + 5 / c), c / 10]
+    check_rows(S, expected)
+    assert fed == (
+        top.mass, 0.0, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7,
+    )  # fmt: skip
+    # Stiffness of a point: every contact counts once.
+    case = filled_case(pipe(None, None, segment_length=30.0), stiffness=1e7)
+    fill(S, lay_out(case, 112.0), case)
+    np.testing.assert_array_equal(state.row(S, state.TRIBUTARY, 6), 1.0)
+
+
+def test_filled_rows_below_a_long_segment_by_hand() -> None:
+    """The pipe is one segment of 90 m: its springs have its whole length, its end half its mass and no arm below."""
+    case = filled_case(pipe(None, 1))
+    string = lay_out(case, 112.0)
+    collar, blade, top = string.sections
+    S = state.new_state(4)
+    fed = fill(S, string, case)
+    expected = {
+        state.MASS: [top.mass * 45, blade.mass * 2, collar.mass * 10, collar.mass * 10],
+        state.WEIGHT: [top.weight * 45, blade.weight * 2, collar.weight * 10, collar.weight * 10],
+        state.J_AXIAL: [top.axial_inertia * 45, blade.axial_inertia * 2, *[collar.axial_inertia * 10] * 2],
+        state.J_TRANSVERSE: [
+            top.mass * 45 * 90**2 / 3,
+            blade.mass * 8 / 12 + blade.tilt_inertia * 2,
+            *[collar.mass * 1000 / 12 + collar.tilt_inertia * 10] * 2,
+        ],
+        state.ARM_TOP: [90, 1, 5, 5],
+        state.ARM_BOTTOM: [0, 1, 5, 5],
+        state.ARM_CONTACT: [0, 0, 5, 5],
+        state.RADIUS: [0.0635, 0.1, 0.0795, 0.0795],
+        state.TRIBUTARY: [1, 2, 10, 5],
+        state.MUD_AXIAL: [135, 6, 30, 30],
+        state.MUD_LATERAL: [225, 10, 50, 50],
+        state.MUD_SPIN: [31.5, 1.4, 7, 7],
+    }
+    for row, name in ((state.K_AXIAL, "EA"), (state.K_SHEAR, "shear"), (state.K_BEND, "EI"), (state.K_TWIST, "GJ")):
+        p, b, c = (getattr(section, name) for section in (top, blade, collar))
+        expected[row] = [p / 90, b, 1 / (1 / b + 5 / c), c / 10]
+    check_rows(S, expected)
+    assert fed == (
+        top.mass, top.weight, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7,
+    )  # fmt: skip
+
+
+def filled_case(top: dict[str, Any], **stiffness: float) -> Case:
+    """20 m of collars, a stabiliser of 2 m and a component above them, in damping mud."""
+    mud = {"density": 1200, "axial_damping": 3.0, "lateral_damping": 5.0, "rotational_damping": 0.7}
+    components = [pipe(20, 2, outer=0.159), pipe(2, 1, outer=0.2), top]
+    return make_case(components=components, mud=mud, wellbore=stiffness or {"stiffness_per_length": 1e6})
+
+
+def check_rows(S: np.ndarray, expected: dict[int, Any]) -> None:
+    """Rows of the buffer, and the inverses of masses and inertias."""
+    for inverse, of in (
+        (state.INVERSE_MASS, state.MASS),
+        (state.INVERSE_JT, state.J_TRANSVERSE),
+        (state.INVERSE_JA, state.J_AXIAL),
+    ):
+        expected[inverse] = 1 / np.asarray(expected[of])
+    for row, values in expected.items():
+        np.testing.assert_allclose(state.row(S, row, len(values)), values, rtol=1e-12)
 
 
 def test_components_are_laid_from_the_bit_and_the_top_takes_the_remainder() -> None:
@@ -102,7 +193,10 @@ def test_a_short_component_touches_at_its_middle() -> None:
     assert run.S[state.ARM_CONTACT + k + 1] == 0
 
 
-@pytest.mark.parametrize(("above", "below", "short"), [(8.0, 10.0, False), (10.0, 8.0, False), (10.0, 10.0, True)])
+@pytest.mark.parametrize(
+    ("above", "below", "short"),
+    [(8.0, 10.0, False), (10.0, 8.0, False), (10.0, 10.0, True), (9.0, 10.0, False), (10.0, 9.0, False)],
+)
 def test_a_short_component_is_shorter_than_both_neighbours(above: float, below: float, short: bool) -> None:
     """One segment of 9 m; longer segments that are not its neighbours do not matter."""
     far, near = pipe(300, 10), pipe(4 * above, 4)
@@ -114,6 +208,12 @@ def test_a_short_component_is_shorter_than_both_neighbours(above: float, below: 
     radius = string.contact_radius()
     assert radius[k] == 0.1
     assert radius[k - 1] == (0.0635 if short else 0.1)
+
+
+def test_a_short_component_at_the_top_has_no_neighbour_above() -> None:
+    string = lay_out(make_case(components=[pipe(950, 10), pipe(50, 1, outer=0.2)]), 1000.0)
+    assert not string.mid_contact().any()
+    np.testing.assert_array_equal(string.contact_radius(), [0.1] + [0.0635] * 10)
 
 
 def test_a_bit_touches_at_its_end_with_its_own_radius() -> None:
@@ -145,8 +245,28 @@ def test_tributary_length_for_stiffness_per_metre() -> None:
             r"string\.components.*500 m of string.*reach from the bit at 1000 m",
         ),
         (
+            {"components": [pipe(999.5, 20)]},
+            r"string\.components.*999\.5 m of string.*reach from the bit at 1000 m",
+        ),
+        (
             {"components": [pipe(1000, MAX_SEGMENTS + 1)]},
             rf"string\.components.*{MAX_SEGMENTS + 1} segments.*at most {MAX_SEGMENTS}",
+        ),
+        (
+            {"components": [pipe(500, MAX_SEGMENTS), pipe(None, 1000)]},
+            rf"string\.components.*{MAX_SEGMENTS + 1000} segments.*at most {MAX_SEGMENTS}",
+        ),
+        (
+            {"components": [pipe(1000, None, segment_length=1e-7)]},
+            rf"string\.components.*1e\+10 segments.*at most {MAX_SEGMENTS}",
+        ),
+        (
+            {"components": [pipe(990.5, 20), pipe(None, 1)]},
+            r"string\.components\[1\].*9\.5 m of it at the top.*at least 10 m",
+        ),
+        (
+            {"components": [pipe(5e-7, 1), pipe(None, 20)]},
+            r"string\.components\[0\].*5e-07 m of it in one segment.*segments of at least 1e-06 m",
         ),
         (
             {"components": [pipe(995, 20), pipe(None, 1)]},
@@ -165,6 +285,27 @@ def test_tributary_length_for_stiffness_per_metre() -> None:
 def test_what_does_not_fit_is_refused(case: dict, pattern: str) -> None:
     with pytest.raises(InputError, match=pattern):
         prepare(make_case(operations=[rotation(1000, 1)], **case))
+
+
+def test_what_just_fits_is_laid_out() -> None:
+    """As many segments as the buffer holds, a long segment of 10 m, a fed one of 10 m, pipe as wide as its hole."""
+    assert lay_out(make_case(components=[pipe(1000, MAX_SEGMENTS)]), 1000.0).segments == MAX_SEGMENTS
+    assert lay_out(make_case(components=[pipe(990, 20), pipe(None, 1)]), 1000.0).length[0] == SHORTEST_LONG_SEGMENT
+    fed = lay_out(make_case(components=[pipe(None, None, segment_length=10.0)]), 100.0, 200.0)
+    np.testing.assert_allclose(fed.length, np.full(10, 10.0))
+    case = make_case(components=[pipe(None, 20, contact_diameter=0.2159)])
+    check_fit(case, lay_out(case, 1000.0), build_wellbore(case), 1000.0)
+
+
+def test_a_long_segment_hangs_in_the_vertical_part_alone() -> None:
+    case = make_case([[0, 0, 0], [300, 0, 0], [1000, 60, 0]], [pipe(900, 36), pipe(None, 1)])
+    check_fit(case, lay_out(case, 1000.0), build_wellbore(case), 1000.0)
+
+
+def test_a_narrow_hole_above_the_top_of_the_string_does_not_matter() -> None:
+    intervals = [{"to_md": 99.5, "diameter": 0.1, "friction": 0.2}, {"to_md": 1000, "diameter": 0.3, "friction": 0.2}]
+    case = make_case(components=[pipe(None, 20)], top_md=100.0, wellbore={"intervals": intervals})
+    check_fit(case, lay_out(case, 1000.0), build_wellbore(case), 1000.0)
 
 
 @pytest.mark.parametrize(("depth", "fits"), [(850.0, True), (900.0, True), (900.1, False), (1000.0, False)])
@@ -224,6 +365,9 @@ def test_a_whole_component_is_cut_evenly_and_a_part_of_it_nominally() -> None:
     np.testing.assert_allclose(lay_out(case, 95.0).length, [35, 30, 30])
     np.testing.assert_allclose(lay_out(case, 14.0).length, [14])
     np.testing.assert_allclose(lay_out(case, 40.0).length, [40])
+    np.testing.assert_allclose(lay_out(case, 99.5).length, [39.5, 30, 30])
+    short = make_case(components=[pipe(10, None, segment_length=30.0), pipe(None, None, segment_length=30.0)])
+    np.testing.assert_allclose(lay_out(short, 70.0).length, [30, 30, 10])
 
 
 def test_a_bit_at_the_top_of_the_string_is_refused() -> None:
@@ -239,6 +383,7 @@ def test_a_bit_at_the_top_of_the_string_is_refused() -> None:
         ({"top_md": 1e-5}, "end 1e-05 m below the bit depth, 1000 m"),
         ({"length": np.full(3, np.nan)}, "end nan m below"),
         ({"length": np.array([1100.0, -200.0, 100.0])}, "a segment of -200 m"),
+        ({"length": np.array([800.0, 0.0, 200.0])}, "a segment of 0 m"),
         ({"component": np.array([1, 0])}, "order of the components"),
         ({"component": np.array([0, 1, 0])}, "order of the components"),
         ({"component": np.array([1, 1, 1])}, "order of the components"),
@@ -260,6 +405,8 @@ def test_metres_of_the_wrong_component_are_a_defect() -> None:
     drillstring.check_lengths(string, [400.0, 600.0])
     with pytest.raises(AssertionError, match=r"a component do not add up.*\[401\.0, 599\.0\] m"):
         drillstring.check_lengths(string, [401.0, 599.0])
+    with pytest.raises(AssertionError, match=r"a component do not add up"):
+        drillstring.check_lengths(string, [400.0, 599.0])
 
 
 def test_a_fed_top_segment_must_stay_in_vertical_hole() -> None:
@@ -346,6 +493,9 @@ def test_section_by_hand() -> None:
     assert pytest.approx(206.8e9 / 2.6 * np.pi * (b**4 - a**4) / 2) == section.GJ
     assert section.axial_inertia == pytest.approx(7850 * np.pi * (b**4 - a**4) / 2)
     assert section.weight == pytest.approx(7850 * 8.819236e-3 * 9.80665, rel=1e-6)
+    shear_area = shear_coefficient(b, a, 0.3) * np.pi * (b * b - a * a)
+    assert section.shear == pytest.approx(206.8e9 / 2.6 * shear_area)
+    assert (section.outer, section.inner, section.contact_radius) == (b, a, b)
 
 
 @pytest.mark.parametrize(
