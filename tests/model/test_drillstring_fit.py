@@ -77,6 +77,13 @@ def test_what_just_fits_is_laid_out() -> None:
     check_fit(case, lay_out(case, 1000.0), build_wellbore(case), 1000.0)
 
 
+@pytest.mark.parametrize(("inclination", "fits"), [(0.99, True), (1.01, False)])
+def test_a_long_segment_hangs_within_a_degree_of_vertical(inclination: float, fits: bool) -> None:
+    case = make_case([[0, inclination, 0], [1000, inclination, 0]], [pipe(900, 36), pipe(None, 1)])
+    with nullcontext() if fits else pytest.raises(InputError, match=r"of up to 1\.01 deg.*within 1 deg of vertical"):
+        check_fit(case, lay_out(case, 1000.0), build_wellbore(case), 1000.0)
+
+
 def test_a_long_segment_hangs_in_the_vertical_part_alone() -> None:
     case = make_case([[0, 0, 0], [300, 0, 0], [1000, 60, 0]], [pipe(900, 36), pipe(None, 1)])
     check_fit(case, lay_out(case, 1000.0), build_wellbore(case), 1000.0)

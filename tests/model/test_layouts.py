@@ -13,6 +13,7 @@ from fctd.case.errors import InputError
 from fctd.case.specs import ComponentSpec
 from fctd.model.drillstring import lay_out
 from fctd.model.layouts import (
+    LAYOUTS,
     LONGEST,
     _grade,
     _least,
@@ -104,6 +105,14 @@ def test_length_goes_with_the_root_of_curvature() -> None:
     assert factor[0] == 1.0
 
 
+def test_a_gentle_bend_counts_against_half_a_degree_in_thirty_metres() -> None:
+    """A hole without a sharper bend: 0.1° in 30 m allows √5 times the length of 0.5°, far from the bit."""
+    stations = [[0, 0, 0], [900, 3, 0], [3000, 3, 0]]
+    case = make_case(stations, [pipe(None, None, segment_length=10.0)])
+    above_bit, factor = coarseness(case, 3000.0)
+    assert np.interp(2700.0, above_bit, factor) == pytest.approx(math.sqrt(5.0))
+
+
 def test_factor_grows_with_the_distance_in_waves() -> None:
     """Above the end of a bend: one more for every 2π (EI r/w)^¼."""
     case = build_case()
@@ -160,6 +169,10 @@ def test_a_bent_housing_stays_at_its_upper_end() -> None:
     at = int(np.argmax(bends))
     assert sum(part.length or 0.0 for part in pieces[: at + 1]) == pytest.approx(200.0)
     assert pieces[at].toolface == pytest.approx(math.radians(30))
+
+
+def test_layouts_have_the_names_that_commands_take() -> None:
+    assert (LAYOUTS["uniform"], LAYOUTS["graded"]) == (uniform, graded)
 
 
 def test_a_long_segment_stays_one() -> None:

@@ -115,9 +115,11 @@ def test_a_rate_that_applies_to_no_kind_is_refused() -> None:
 def test_rates_of_a_case_come_before_those_of_the_kind() -> None:
     """The first operation of the kind has them; a rate of the call comes before."""
     operations = [trip(100, 150, 0.4) | {"rpm": 20}, rotation(150, 10, 90), trip(150, 180, 0.7)]
+    operations += [{"kind": "drill_sliding", "from_md": 180, "to_md": 190, "speed": 0.01}]
     case = make_case(operations=operations)
     assert steady_rates(case, "trip_in") == (0.4, pytest.approx(TURN / 3))
     assert steady_rates(case, "rotate_off_bottom") == (0.0, pytest.approx(1.5 * TURN))
+    assert steady_rates(case, "drill_sliding") == (0.01, 0.0)
     assert steady_rates(case, "trip_out") == (-0.3, 0.0)
     assert steady_rates(case, "trip_in", speed=0.2) == (0.2, pytest.approx(TURN / 3))
     assert steady_rates(case, "trip_in", rpm=60) == (0.4, pytest.approx(TURN))
