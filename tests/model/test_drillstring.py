@@ -1,7 +1,7 @@
 """The layout of a string, its sections and its stiffness."""
 
 import re
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
@@ -76,6 +76,7 @@ def test_long_segment_puts_its_whole_length_at_the_top() -> None:
     stiffness = string.joints("GJ")
     assert stiffness[0] == pytest.approx(string.sections[1].GJ / 500)
     assert stiffness[1] == pytest.approx(string.sections[0].GJ / 25)
+    np.testing.assert_allclose(stiffness[2:], string.sections[0].GJ / 50)
 
 
 def test_contact_radius_is_the_larger_at_unlike_neighbours() -> None:
@@ -172,6 +173,20 @@ def test_metres_of_the_wrong_component_are_a_defect() -> None:
         drillstring.check_lengths(string, [401.0, 599.0])
     with pytest.raises(AssertionError, match=r"a component do not add up"):
         drillstring.check_lengths(string, [400.0, 599.0])
+
+
+def test_a_layout_of_the_wrong_pipe_is_a_defect(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = make_case(components=[pipe(400, 1, outer=0.159), pipe(None, 1)])
+    wrong = iter([[401.0], [599.0]])
+    monkeypatch.setattr(drillstring, "_divide", lambda part, take: next(wrong))
+    with pytest.raises(AssertionError, match=r"a component do not add up.*\[400\.0, 600\.0\] m"):
+        lay_out(case, 1000.0)
+
+
+def test_a_string_is_not_changed_in_place() -> None:
+    string = lay_out(make_case(), 1000.0)
+    with pytest.raises(FrozenInstanceError):
+        string.bit_depth = 900.0
 
 
 def test_section_by_hand() -> None:

@@ -18,7 +18,7 @@ from tests.cases import make_case, pipe, rotation, trip
     [
         (
             {"components": [pipe(1000, 20, contact_diameter=0.23)]},
-            r"string\.components\[0\]\.contact_diameter.*230 mm.*at most the hole's 215\.9 mm",
+            r"string\.components\[0\]\.contact_diameter = .230 mm.*at most the hole's 215\.9 mm",
         ),
         (
             {"components": [pipe(500, 20)]},

@@ -128,13 +128,13 @@ def test_rates_of_a_case_come_before_those_of_the_kind() -> None:
 @pytest.mark.parametrize(
     ("kind", "rates", "message"),
     [
-        ("trip_up", {}, 'operation = "trip_up": expected the kind trip_'),
+        ("trip_up", {}, 'operation = "trip_up": expected the kind trip_(in|out)'),
         ("trip_in", {"speed": "1 m/s"}, 'speed = "1 m/s": expected a number of metres per second'),
         ("trip_in", {"rpm": "60 rpm"}, 'rpm = "60 rpm": expected a number of revolutions per minute'),
     ],
 )
 def test_what_is_no_kind_or_no_rate(kind: str, rates: dict[str, Any], message: str) -> None:
-    with pytest.raises(InputError, match=message):
+    with pytest.raises(InputError, match=f"{message}$"):
         steady_rates(make_case(), kind, **rates)
 
 

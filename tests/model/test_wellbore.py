@@ -2,7 +2,7 @@
 
 import time
 import tracemalloc
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
@@ -325,5 +325,7 @@ def test_another_friction_is_the_hole_that_a_fresh_build_gives(geometry: str, fa
         assert getattr(found, name).tobytes() == getattr(fresh, name).tobytes(), name
     assert found.wall_along().tobytes() == fresh.wall_along().tobytes()
     assert found.points is here.points
+    with pytest.raises(FrozenInstanceError):
+        here.pieces = found.pieces
     assert here.pieces.tobytes() == before.tobytes()
     assert (found.pieces[:, contact.FACTOR] != before[:, contact.FACTOR]).any()
