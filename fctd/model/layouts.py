@@ -45,7 +45,7 @@ def graded(case: Case, bit_depth: float, length: float) -> Components:
     start, total = 0.0, bit_depth - case.string.top_md
     for part in case.string.components:
         end = total if part.length is None else min(start + part.length, total)
-        if start >= total or is_long(part):
+        if start >= total - 1e-9 or is_long(part):
             pieces.append(part)
         else:
             pieces += _grade(part, _walk(start, end, length, above_bit, factor))

@@ -67,7 +67,7 @@ def minimum_curvature(stations: Array) -> Courses:
     if np.any(angle > np.pi - 1e-6):
         raise ValueError(f"opposite directions at station {int(np.argmax(angle)) + 1}")
     half = 0.5 * np.maximum(angle, 1e-12)
-    steps = (0.5 * length * np.tan(half) / half)[:, None] * (t[1:] + t[:-1])
+    steps = (0.5 * length * (np.tan(half) / half))[:, None] * (t[1:] + t[:-1])
     start = np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])[:-1]
     across = t[1:] - np.sum(t[1:] * t[:-1], axis=1, keepdims=True) * t[:-1]
     size = np.linalg.norm(across, axis=1, keepdims=True)

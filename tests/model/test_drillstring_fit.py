@@ -70,6 +70,8 @@ def test_what_does_not_fit_is_refused(case: dict, pattern: str) -> None:
 def test_what_just_fits_is_laid_out() -> None:
     """As many segments as the buffer holds, a long segment of 10 m, a fed one of 10 m, pipe as wide as its hole."""
     assert lay_out(make_case(components=[pipe(1000, MAX_SEGMENTS)]), 1000.0).segments == MAX_SEGMENTS
+    longer = pipe(None, None, segment_length=1000 / (MAX_SEGMENTS + 0.4))
+    assert lay_out(make_case(components=[longer]), 1000.0).segments == MAX_SEGMENTS
     assert lay_out(make_case(components=[pipe(990, 20), pipe(None, 1)]), 1000.0).length[0] == SHORTEST_LONG_SEGMENT
     fed = lay_out(make_case(components=[pipe(None, None, segment_length=10.0)]), 100.0, 200.0)
     np.testing.assert_allclose(fed.length, np.full(10, 10.0))

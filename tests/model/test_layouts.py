@@ -152,6 +152,14 @@ def test_every_component_is_graded_where_it_lies() -> None:
     assert graded(case, 300.0, 5.0)[-2:] == (below, above)
 
 
+def test_a_component_that_rounding_alone_leaves_in_the_hole_stays_as_it_is() -> None:
+    """100.1 m and 200.2 m are 60 femtometres less than 300.3 m."""
+    case = make_case(components=[pipe(100.1, 10), pipe(200.2, 20), pipe(None, None, segment_length=10.0)])
+    cut = with_components(case, graded(case, 300.3, 5.0))
+    assert cut.string.components[-1] == case.string.components[-1]
+    assert lay_out(cut, 300.3).length.sum() == pytest.approx(300.3)
+
+
 def test_a_string_that_is_too_short_is_graded_and_then_refused() -> None:
     case = make_case(components=[pipe(200, 20), pipe(300, 30)])
     cut = with_components(case, graded(case, 900.0, 5.0))

@@ -55,6 +55,15 @@ def test_a_bend_of_any_size_ends_where_its_circle_does(angle: float) -> None:
     np.testing.assert_allclose(survey.along_courses(courses, np.array([100.0]))[0][0], expected, rtol=1e-13, atol=1e-12)
 
 
+def test_straight_courses_each_have_a_normal_of_their_own() -> None:
+    stations = to_radians(np.array([[0, 0, 0], [100, 0, 0], [200, 45, 60], [300, 45, 60], [400, 45, 60.0]]))
+    courses = survey.minimum_curvature(stations)
+    np.testing.assert_allclose(np.linalg.norm(courses.normal, axis=1), 1.0, rtol=1e-14)
+    np.testing.assert_allclose((courses.normal * courses.tangent).sum(axis=1), 0.0, atol=1e-12)
+    # A straight course is as long as its stations are apart, exactly.
+    assert courses.start[1].tolist() == [0.0, 0.0, 100.0]
+
+
 def test_above_its_first_station_a_hole_is_straight() -> None:
     courses = survey.minimum_curvature(to_radians(np.array([[0, 10, 30], [100, 30, 30], [200, 50, 90.0]])))
     md = np.array([-20.0, -0.5, 0.0])

@@ -146,10 +146,10 @@ def test_a_search_starts_at_the_nearest_piece(geometry: str) -> None:
 
 
 def test_the_nearest_piece_from_samples_half_a_metre_apart() -> None:
-    """In cylinders of 893 mm with a sample at the top and one in the middle, up to 223 mm beyond the middle."""
-    hole = hole_of([[0, 5, 350], [100, 30, 20]], cylinder_length=0.9)
-    k, share = np.divmod(np.arange(112 * 6), 6)
-    np.testing.assert_array_equal(hole.nearest(hole.at(hole.md[k] + 0.02 + 0.12 * share)[0]), k)
+    """In cylinders of 0.7 m with a sample at the top and one in the middle, up to 175 mm beyond the middle."""
+    hole = hole_of([[0, 5, 350], [100, 30, 20]], cylinder_length=0.7)
+    k, share = np.divmod(np.arange(143 * 6), 6)
+    np.testing.assert_array_equal(hole.nearest(hole.at(hole.md[k] + 0.02 + 0.09 * share)[0]), k)
 
 
 def test_the_owner_of_one_point() -> None:
