@@ -147,6 +147,8 @@ def test_every_component_is_graded_where_it_lies() -> None:
         *_grade(below, _walk(200.0, 500.0, 5.0, *factor)),
         *_grade(above, _walk(500.0, 1900.0, 5.0, *factor)),
     )
+    # Half a metre of the third one is in the hole.
+    assert graded(case, 600.5, 5.0)[-1].segment_length == 0.5
     # What is not in the hole stays as it is.
     assert graded(case, 600.0, 5.0)[-1] == above
     assert graded(case, 300.0, 5.0)[-2:] == (below, above)
