@@ -45,7 +45,7 @@ def graded(case: Case, bit_depth: float, length: float) -> Components:
     start, total = 0.0, bit_depth - case.string.top_md
     for part in case.string.components:
         end = total if part.length is None else min(start + part.length, total)
-        if start >= total or is_long(part):
+        if start >= total - 1e-9 or is_long(part):
             pieces.append(part)
         else:
             pieces += _grade(part, _walk(start, end, length, above_bit, factor))
@@ -91,7 +91,7 @@ def coarseness(case: Case, bit_depth: float) -> tuple[Array, Array]:
     stations = case.wellbore.trajectory
     above_bit = np.linspace(0.0, bit_depth - case.string.top_md, SAMPLES)
     md = bit_depth - above_bit
-    course = np.clip(np.searchsorted(stations[:, 0], md, side="right") - 1, 0, len(stations) - 2)
+    course = np.minimum(np.searchsorted(stations[:, 0], md, side="right") - 1, len(stations) - 2)
     curvature = (survey.dogleg(stations) / np.diff(stations[:, 0]))[course]
     sharpest = max(float(curvature.max()), STRAIGHT)
     factor = np.minimum(np.sqrt(sharpest / np.maximum(curvature, 1e-12)), LONGEST)
@@ -172,7 +172,7 @@ def _walk(start: float, end: float, length: float, above_bit: Array, factor: Arr
     """Runs of equal segments from ``start`` to ``end`` above the bit [m]: length of a run, segments in it."""
     lengths: list[float] = []
     at = start
-    while at < end - 1e-9:
+    while at < end:
         step = length
         # Twice as long while the string allows it all along the segment.
         while step < LONGEST * length and _least(at, at + 2 * step, above_bit, factor) > 1.999 * step / length:

@@ -110,8 +110,8 @@ def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float |
         raise InputError(nearest(kind, KINDS, "kind"), key="operation", value=kind)
     of = KINDS[kind]
     own = next((o for o in case.operations if o.kind == kind), None)
-    defaults = (of.default_speed, of.default_rpm) if own is None else (own.speed, own.rpm)
-    speed, rpm = defaults[0] if speed is None else speed, defaults[1] if rpm is None else rpm
+    own_speed, own_rpm = (of.default_speed, of.default_rpm) if own is None else (own.speed, own.rpm)
+    speed, rpm = own_speed if speed is None else speed, own_rpm if rpm is None else rpm
     bare(speed, "speed", "a number of metres per second")
     bare(rpm, "rpm", "a number of revolutions per minute")
     if not (0 < speed <= FASTEST if of.direction else speed == 0):

@@ -66,12 +66,13 @@ def minimum_curvature(stations: Array) -> Courses:
     length = np.diff(stations[:, 0])
     if np.any(angle > np.pi - 1e-6):
         raise ValueError(f"opposite directions at station {int(np.argmax(angle)) + 1}")
-    factor = np.where(angle > 1e-4, 2 / np.maximum(angle, 1e-12) * np.tan(angle / 2), 1 + angle**2 / 12)
-    steps = (0.5 * length * factor)[:, None] * (t[1:] + t[:-1])
+    half = 0.5 * np.maximum(angle, 1e-12)
+    steps = (0.5 * length * (np.tan(half) / half))[:, None] * (t[1:] + t[:-1])
     start = np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])[:-1]
     across = t[1:] - np.sum(t[1:] * t[:-1], axis=1, keepdims=True) * t[:-1]
     size = np.linalg.norm(across, axis=1, keepdims=True)
-    anything = np.cross(t[:-1], np.where(np.abs(t[:-1, :1]) < 0.9, [[1.0, 0, 0]], [[0, 1.0, 0]]))
+    # Any normal serves a straight course; this one is never zero, as no float has a cosine of exactly zero.
+    anything = np.cross(t[:-1], [1.0, 0.0, 0.0])
     anything /= np.linalg.norm(anything, axis=1, keepdims=True)
     normal = np.where(size > 1e-14, across / np.maximum(size, 1e-300), anything)
     return Courses(stations[:-1, 0], start, t[:-1], normal, angle / length, length)
@@ -79,7 +80,7 @@ def minimum_curvature(stations: Array) -> Courses:
 
 def along_courses(courses: Courses, md: Array) -> tuple[Array, Array]:
     """Positions (k, 3) [m] and tangents (k, 3) at measured depths md (k,) [m]; straight on beyond both ends."""
-    i = np.clip(np.searchsorted(courses.md, md, side="right") - 1, 0, len(courses.md) - 1)
+    i = np.maximum(np.searchsorted(courses.md, md, side="right") - 1, 0)
     t, n, k = courses.tangent[i], courses.normal[i], courses.curvature[i]
     s = md - courses.md[i]
     inside = np.clip(s, 0.0, courses.length[i])

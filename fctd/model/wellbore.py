@@ -103,7 +103,7 @@ class Wellbore:
         md = np.atleast_1d(np.asarray(md, dtype=float))
         if self.courses is not None:
             return survey.along_courses(self.courses, md)
-        i = np.clip(np.searchsorted(self.md, md, side="right") - 1, 0, len(self.md) - 2)
+        i = np.maximum(np.searchsorted(self.md, md, side="right") - 1, 0)
         direction = self.directions[i]
         return self.points[i] + (md - self.md[i])[:, None] * direction, direction
 
@@ -169,11 +169,9 @@ class Wellbore:
 
     def nearest(self, points: Array) -> NDArray[np.int64]:
         """Piece nearest to each point, from samples of the axis at most half a metre apart."""
-        md = _divided(self.md, np.maximum(np.ceil(np.diff(self.md) / 0.5), 1))
+        md = _divided(self.md, np.ceil(np.diff(self.md) / 0.5))
         _, i = cKDTree(self.at(md)[0]).query(points)
-        starts = self.pieces[:, contact.START_MD]
-        found = np.searchsorted(starts, md[i], side="right") - 1
-        return np.clip(found, 0, len(starts) - 1).astype(np.int64)
+        return np.searchsorted(self.pieces[:, contact.START_MD], md[i], side="right").astype(np.int64) - 1
 
 
 def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Contacts:
@@ -332,7 +330,7 @@ def _cylinders(longest_overlap: float, md: Array, points: Array) -> Array:
 def _arcs(courses: survey.Courses, md: Array) -> Array:
     """Arcs between successive depths, with a straight piece before the first and after the last; no wall yet."""
     point, tangent = survey.along_courses(courses, md)
-    i = np.clip(np.searchsorted(courses.md, md, side="right") - 1, 0, len(courses.md) - 1)
+    i = np.searchsorted(courses.md, md, side="right") - 1
     curvature, normal = courses.curvature[i], courses.normal[i]
     angle = (curvature * (md - courses.md[i]))[:, None]
     pieces = np.zeros((len(md) + 1, contact.COLUMNS))

@@ -40,3 +40,9 @@ def test_what_is_said_of_a_kind_does_not_contradict_itself(kind: str) -> None:
     assert model.may_turn or not model.turns
     assert (model.default_rpm > 0) == model.turns
     assert model.on_bottom == kind.startswith("drill")
+
+
+def test_a_rotation_stays_where_it_is_and_speeds_up_in_ten_seconds() -> None:
+    rotation = {"kind": "rotate_off_bottom", "at_md": 500.0, "duration": 60.0, "rpm": 60.0}
+    (operation,) = make_case(operations=[rotation]).operations
+    assert (operation.start_md, operation.end_md, operation.speed, operation.ramp_time) == (500.0, 500.0, 0.0, 10.0)

@@ -1,18 +1,14 @@
-"""The layout of a string, its stiffness, and strings that do not fit."""
+"""The layout of a string, its sections and its stiffness."""
 
 import re
-from contextlib import nullcontext
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
 
-from fctd.case.errors import InputError
 from fctd.mechanics import state
-from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import drillstring
-from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, check_fit, lay_out, section_of, shear_coefficient
-from fctd.model.wellbore import build_wellbore
+from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, lay_out, section_of, shear_coefficient
 from fctd.simulation.run import prepare
 from tests.cases import make_case, pipe, rotation, trip
 
@@ -80,6 +76,7 @@ def test_long_segment_puts_its_whole_length_at_the_top() -> None:
     stiffness = string.joints("GJ")
     assert stiffness[0] == pytest.approx(string.sections[1].GJ / 500)
     assert stiffness[1] == pytest.approx(string.sections[0].GJ / 25)
+    np.testing.assert_allclose(stiffness[2:], string.sections[0].GJ / 50)
 
 
 def test_contact_radius_is_the_larger_at_unlike_neighbours() -> None:
@@ -102,7 +99,10 @@ def test_a_short_component_touches_at_its_middle() -> None:
     assert run.S[state.ARM_CONTACT + k + 1] == 0
 
 
-@pytest.mark.parametrize(("above", "below", "short"), [(8.0, 10.0, False), (10.0, 8.0, False), (10.0, 10.0, True)])
+@pytest.mark.parametrize(
+    ("above", "below", "short"),
+    [(8.0, 10.0, False), (10.0, 8.0, False), (10.0, 10.0, True), (9.0, 10.0, False), (10.0, 9.0, False)],
+)
 def test_a_short_component_is_shorter_than_both_neighbours(above: float, below: float, short: bool) -> None:
     """One segment of 9 m; longer segments that are not its neighbours do not matter."""
     far, near = pipe(300, 10), pipe(4 * above, 4)
@@ -116,103 +116,16 @@ def test_a_short_component_is_shorter_than_both_neighbours(above: float, below: 
     assert radius[k - 1] == (0.0635 if short else 0.1)
 
 
+def test_a_short_component_at_the_top_has_no_neighbour_above() -> None:
+    string = lay_out(make_case(components=[pipe(950, 10), pipe(50, 1, outer=0.2)]), 1000.0)
+    assert not string.mid_contact().any()
+    np.testing.assert_array_equal(string.contact_radius(), [0.1] + [0.0635] * 10)
+
+
 def test_a_bit_touches_at_its_end_with_its_own_radius() -> None:
     string = lay_out(make_case(components=[pipe(1, 1, outer=0.2), pipe(None, 99)]), 1000.0)
     assert not string.mid_contact().any()
     np.testing.assert_array_equal(string.contact_radius(), [0.0635] * 99 + [0.1])
-
-
-def test_tributary_length_for_stiffness_per_metre() -> None:
-    case = make_case(
-        components=[pipe(100, 10, outer=0.159), pipe(900, 30)],
-        wellbore={"stiffness_per_length": 1e6},
-        operations=[rotation(1000, 1)],
-    )
-    run, _ = prepare(case)
-    tributary = state.row(run.S, state.TRIBUTARY, run.segments)
-    np.testing.assert_allclose(tributary[[0, 28, 29, 30, -1]], [30, 30, 20, 10, 5])
-
-
-@pytest.mark.parametrize(
-    ("case", "pattern"),
-    [
-        (
-            {"components": [pipe(1000, 20, contact_diameter=0.23)]},
-            r"string\.components\[0\]\.contact_diameter.*230 mm.*at most the hole's 215\.9 mm",
-        ),
-        (
-            {"components": [pipe(500, 20)]},
-            r"string\.components.*500 m of string.*reach from the bit at 1000 m",
-        ),
-        (
-            {"components": [pipe(1000, MAX_SEGMENTS + 1)]},
-            rf"string\.components.*{MAX_SEGMENTS + 1} segments.*at most {MAX_SEGMENTS}",
-        ),
-        (
-            {"components": [pipe(995, 20), pipe(None, 1)]},
-            r"string\.components\[1\].*5 m of it at the top.*at least 10 m",
-        ),
-        (
-            {
-                "stations": [[0, 0, 0], [300, 0, 0], [1000, 60, 0]],
-                "components": [pipe(500, 20), pipe(None, 1)],
-            },
-            r"string\.components\[1\].*500 m at the top.*within 1 deg of vertical",
-        ),
-        ({"solver": {"step": 0.1}}, r"solver\.step.*0\.1 s.*at most the stable step"),
-    ],
-)
-def test_what_does_not_fit_is_refused(case: dict, pattern: str) -> None:
-    with pytest.raises(InputError, match=pattern):
-        prepare(make_case(operations=[rotation(1000, 1)], **case))
-
-
-@pytest.mark.parametrize(("depth", "fits"), [(850.0, True), (900.0, True), (900.1, False), (1000.0, False)])
-def test_wide_pipe_fits_where_the_hole_is_wide(depth: float, fits: bool) -> None:
-    """400 m of pipe below 250 mm of it, in 320 mm of hole to 500 m and 215.9 mm below."""
-    intervals = [
-        {"to_md": 500, "diameter": 0.32, "friction": 0.2},
-        {"to_md": 1000, "diameter": 0.2159, "friction": 0.2},
-    ]
-    components = [pipe(400, 10), pipe(None, None, outer=0.25, segment_length=20.0)]
-    case = make_case(components=components, wellbore={"intervals": intervals})
-    hole, string = build_wellbore(case), lay_out(case, depth)
-    refused = pytest.raises(InputError, match=r"components\[1\]\.contact_diameter.*250 mm.*at most the hole's 215\.9")
-    with nullcontext() if fits else refused:
-        check_fit(case, string, hole, depth)
-    # The same depth reached by feeding.
-    fed = case.model_copy(update={"operations": make_case(operations=[trip(840, depth)]).operations})
-    with nullcontext() if fits else refused:
-        prepare(fed)
-
-
-def test_a_wide_bottom_stands_below_a_narrow_hole() -> None:
-    intervals = [{"to_md": 500, "diameter": 0.2, "friction": 0.2}, {"to_md": 1000, "diameter": 0.3, "friction": 0.2}]
-    case = make_case(components=[pipe(300, 10, outer=0.25), pipe(None, 20)], wellbore={"intervals": intervals})
-    hole = build_wellbore(case)
-    for depth in (1000.0, 800.0):
-        check_fit(case, lay_out(case, depth), hole, depth)
-    with pytest.raises(InputError, match=r"components\[0\]\.contact_diameter.*at most the hole's 200 mm"):
-        check_fit(case, lay_out(case, 799.0), hole, 799.0)
-
-
-@pytest.mark.parametrize(("narrow_to", "bit"), [(0.5, 900.0), (1000.0, 0.9)])
-def test_the_first_metre_counts(narrow_to: float, bit: float) -> None:
-    """The check includes a narrow interval at the surface, and a string that has just entered the hole."""
-    intervals = [
-        {"to_md": narrow_to, "diameter": 0.1, "friction": 0.2},
-        {"to_md": 2000, "diameter": 0.3, "friction": 0},
-    ]
-    case = make_case(components=[pipe(None, 4)], wellbore={"intervals": intervals})
-    with pytest.raises(InputError, match=r"contact_diameter.*127 mm.*at most the hole's 100 mm"):
-        check_fit(case, lay_out(case, bit), build_wellbore(case), bit)
-
-
-def test_a_trip_feeds_to_the_end_of_its_component() -> None:
-    case = make_case(components=[pipe(300, 12), pipe(500, 20)], top_md=100.0)
-    assert lay_out(case, 850.0, 900.0).long_segment
-    with pytest.raises(InputError, match=r"components\[1\]\.length.*depth of 900 m.*depth of 900\.1 m"):
-        lay_out(case, 850.0, 900.1)
 
 
 def test_a_whole_component_is_cut_evenly_and_a_part_of_it_nominally() -> None:
@@ -224,12 +137,9 @@ def test_a_whole_component_is_cut_evenly_and_a_part_of_it_nominally() -> None:
     np.testing.assert_allclose(lay_out(case, 95.0).length, [35, 30, 30])
     np.testing.assert_allclose(lay_out(case, 14.0).length, [14])
     np.testing.assert_allclose(lay_out(case, 40.0).length, [40])
-
-
-def test_a_bit_at_the_top_of_the_string_is_refused() -> None:
-    for depth in (100.0, 90.0):
-        with pytest.raises(InputError, match=rf"string\.top_md.*100 m.*less than the bit depth, {depth:g} m"):
-            lay_out(make_case(top_md=100.0), depth)
+    np.testing.assert_allclose(lay_out(case, 99.5).length, [39.5, 30, 30])
+    short = make_case(components=[pipe(10, None, segment_length=30.0), pipe(None, None, segment_length=30.0)])
+    np.testing.assert_allclose(lay_out(short, 70.0).length, [30, 30, 10])
 
 
 @pytest.mark.parametrize(
@@ -239,6 +149,7 @@ def test_a_bit_at_the_top_of_the_string_is_refused() -> None:
         ({"top_md": 1e-5}, "end 1e-05 m below the bit depth, 1000 m"),
         ({"length": np.full(3, np.nan)}, "end nan m below"),
         ({"length": np.array([1100.0, -200.0, 100.0])}, "a segment of -200 m"),
+        ({"length": np.array([800.0, 0.0, 200.0])}, "a segment of 0 m"),
         ({"component": np.array([1, 0])}, "order of the components"),
         ({"component": np.array([0, 1, 0])}, "order of the components"),
         ({"component": np.array([1, 1, 1])}, "order of the components"),
@@ -260,80 +171,22 @@ def test_metres_of_the_wrong_component_are_a_defect() -> None:
     drillstring.check_lengths(string, [400.0, 600.0])
     with pytest.raises(AssertionError, match=r"a component do not add up.*\[401\.0, 599\.0\] m"):
         drillstring.check_lengths(string, [401.0, 599.0])
+    with pytest.raises(AssertionError, match=r"a component do not add up"):
+        drillstring.check_lengths(string, [400.0, 599.0])
 
 
-def test_a_fed_top_segment_must_stay_in_vertical_hole() -> None:
-    stations = [[0, 0, 0], [100, 0, 0], [1000, 60, 0]]
-    with pytest.raises(InputError, match=r"string\.components\[0\].*within 1 deg of vertical"):
-        prepare(make_case(stations, [pipe(1000, 20)], [trip(600, 900)]))
+def test_a_layout_of_the_wrong_pipe_is_a_defect(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = make_case(components=[pipe(400, 1, outer=0.159), pipe(None, 1)])
+    wrong = iter([[401.0], [599.0]])
+    monkeypatch.setattr(drillstring, "_divide", lambda part, take: next(wrong))
+    with pytest.raises(AssertionError, match=r"a component do not add up.*\[400\.0, 600\.0\] m"):
+        lay_out(case, 1000.0)
 
 
-def test_a_case_without_operations_cannot_be_simulated() -> None:
-    with pytest.raises(InputError, match=r"operations.*at least one operation"):
-        prepare(make_case())
-
-
-@pytest.mark.parametrize(
-    ("components", "operation"),
-    [
-        ([pipe(700, 28)], trip(600, 900)),  # more string than there is
-        ([pipe(100, 10, outer=0.159), pipe(500, 20), pipe(1000, 40)], trip(590, 900)),  # of the wrong component
-    ],
-)
-def test_a_trip_feeds_one_component_and_no_more_than_there_is(components: list, operation: dict) -> None:
-    with pytest.raises(InputError, match=r"string\.components\[\d\]\.length.*to reach a bit depth of 900 m"):
-        prepare(make_case(components=components, operations=[operation]))
-
-
-@pytest.mark.parametrize(
-    ("sections", "pattern"),
-    [
-        ({"record": {"profile_at": [5000]}}, r"record\.profile_at\[0\].*5000 m.*1000 to 1000 m"),
-        ({"record": {"interval": 1e-9}}, r"record\.interval.*at most 200000 records"),
-        ({"record": {"profile_at": [1000.0] * 100_000}}, r"record\.profile_at.*100000 depths.*at most \d+ profiles"),
-        ({"wellbore": {"stiffness": 1e20}}, r"solver\.step.*at most 4\.2e\+10 steps of 20 segments"),
-        ({"solver": {"step": 1e-12}}, r"solver\.step.*1e-12 s for 60 s.*at most 4\.2e\+10 steps"),
-        ({"wellbore": {"cylinder_length": 1e-6, "overlap": 0}}, r"wellbore\.cylinder_length.*cylinders"),
-    ],
-)
-def test_what_would_run_for_hours_is_refused(sections: dict, pattern: str) -> None:
-    with pytest.raises(InputError, match=pattern):
-        prepare(make_case(operations=[rotation(1000, 60)], **sections))
-
-
-@pytest.mark.parametrize(
-    "operation", [rotation(1000, 1e-10), trip(1000, 1000 - 1e-9), trip(1000, 1000 - 1e-12, speed=10.0)]
-)
-def test_an_operation_that_is_over_before_it_begins_is_refused(operation: dict) -> None:
-    with pytest.raises(InputError, match=r"operations\[0\].* s\": expected an operation that lasts at least 1 ms"):
-        prepare(make_case(operations=[operation]))
-
-
-def test_cost_counts_the_steps_of_every_segment() -> None:
-    """A number of steps that is accepted for twenty segments is refused for five thousand."""
-    schedule, solver = [rotation(1000, 3600)], {"step": 2e-6}
-    prepare(make_case(operations=schedule, solver=solver))
-    with pytest.raises(InputError, match=r"solver\.step.*at most 2e\+08 steps of 5000 segments"):
-        prepare(make_case(components=[pipe(1000, 5000)], operations=schedule, solver=solver))
-
-
-def test_mud_must_be_lighter_than_the_string() -> None:
-    with pytest.raises(Exception, match="a density below the string's, 7850"):
-        make_case(mud={"density": 7850})
-
-
-def test_inertia_of_a_segment_by_hand() -> None:
-    """A rigid hollow cylinder: m (L²/12 + (a² + b²)/4) across, m (a² + b²)/2 along."""
-    run, _ = prepare(make_case(components=[pipe(1000, 500)], operations=[rotation(1000, 1)]))
-    mass = 7850 * 8.819236e-3 * 2
-    square = 0.0635**2 + 0.035**2
-    for row, inverse, expected in (
-        (state.MASS, state.INVERSE_MASS, mass),
-        (state.J_TRANSVERSE, state.INVERSE_JT, mass * (4 / 12 + square / 4)),
-        (state.J_AXIAL, state.INVERSE_JA, mass * square / 2),
-    ):
-        np.testing.assert_allclose(state.row(run.S, row, 500), expected, rtol=1e-6)
-        np.testing.assert_allclose(state.row(run.S, inverse, 500), 1 / expected, rtol=1e-6)
+def test_a_string_is_not_changed_in_place() -> None:
+    string = lay_out(make_case(), 1000.0)
+    with pytest.raises(FrozenInstanceError):
+        string.bit_depth = 900.0
 
 
 def test_section_by_hand() -> None:
@@ -346,6 +199,9 @@ def test_section_by_hand() -> None:
     assert pytest.approx(206.8e9 / 2.6 * np.pi * (b**4 - a**4) / 2) == section.GJ
     assert section.axial_inertia == pytest.approx(7850 * np.pi * (b**4 - a**4) / 2)
     assert section.weight == pytest.approx(7850 * 8.819236e-3 * 9.80665, rel=1e-6)
+    shear_area = shear_coefficient(b, a, 0.3) * np.pi * (b * b - a * a)
+    assert section.shear == pytest.approx(206.8e9 / 2.6 * shear_area)
+    assert (section.outer, section.inner, section.contact_radius) == (b, a, b)
 
 
 @pytest.mark.parametrize(

@@ -9,9 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fctd import Case
+from fctd.case.errors import InputError
 from fctd.case.specs import ComponentSpec
 from fctd.model.drillstring import lay_out
 from fctd.model.layouts import (
+    LAYOUTS,
     LONGEST,
     _grade,
     _least,
@@ -93,7 +95,7 @@ def test_segments_are_short_in_bends_and_near_the_bit() -> None:
 
 def test_length_goes_with_the_root_of_curvature() -> None:
     """A chord h misses a bend by κh²/8: a bend half as sharp allows √2 times the length; a straight hole the most."""
-    stations = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1500, 60, 0], [1800, 90, 0], [2600, 90, 0]]
+    stations = [[0, 0, 0], [600, 0, 0], [700, 20, 0], [900, 60, 0], [1500, 60, 0], [1800, 90, 0], [2600, 90, 0]]
     case = make_case(stations, [pipe(None, None, segment_length=10.0)])
     above_bit, factor = coarseness(case, 2600.0)
     sharp, mild, straight = (float(np.interp(2600.0 - md, above_bit, factor)) for md in (750.0, 1650.0, 300.0))
@@ -101,6 +103,14 @@ def test_length_goes_with_the_root_of_curvature() -> None:
     assert mild == pytest.approx(math.sqrt(2.0))
     assert straight == pytest.approx(LONGEST)
     assert factor[0] == 1.0
+
+
+def test_a_gentle_bend_counts_against_half_a_degree_in_thirty_metres() -> None:
+    """A hole without a sharper bend: 0.1° in 30 m allows √5 times the length of 0.5°, far from the bit."""
+    stations = [[0, 0, 0], [900, 3, 0], [3000, 3, 0]]
+    case = make_case(stations, [pipe(None, None, segment_length=10.0)])
+    above_bit, factor = coarseness(case, 3000.0)
+    assert np.interp(2700.0, above_bit, factor) == pytest.approx(math.sqrt(5.0))
 
 
 def test_factor_grows_with_the_distance_in_waves() -> None:
@@ -114,6 +124,52 @@ def test_factor_grows_with_the_distance_in_waves() -> None:
     assert found == pytest.approx(4.0, abs=0.05)
 
 
+def test_factor_grows_from_the_bit_in_the_waves_of_each_pipe() -> None:
+    """In straight hole: one more at the bit for each wave of the collars, then for each of the pipe."""
+    case = make_case(components=[pipe(100, 10, outer=0.159), pipe(None, None, segment_length=10.0)], top_md=50.0)
+    above_bit, factor = coarseness(case, 800.0)
+    collars, above = (float(_wave(case, 800.0 - at, at)[0]) for at in (np.array([0.0]), np.array([200.0])))
+    assert (above_bit[0], above_bit[-1]) == (0.0, 750.0)
+    near = above_bit < 100.0 - (above_bit[1] - above_bit[0])
+    np.testing.assert_allclose(factor[near], 1.0 + above_bit[near] / collars, rtol=1e-12)
+    expected = 1.0 + 100.0 / collars + 50.0 / above
+    assert np.interp(150.0, above_bit, factor) == pytest.approx(expected, abs=0.01)
+
+
+def test_every_component_is_graded_where_it_lies() -> None:
+    case = make_case(
+        BUILD, [pipe(200, 20, outer=0.159), pipe(300, 30), pipe(None, None, segment_length=10.0)], top_md=100.0
+    )
+    collars, below, above = case.string.components
+    factor = coarseness(case, 2000.0)
+    assert graded(case, 2000.0, 5.0) == (
+        *_grade(collars, _walk(0.0, 200.0, 5.0, *factor)),
+        *_grade(below, _walk(200.0, 500.0, 5.0, *factor)),
+        *_grade(above, _walk(500.0, 1900.0, 5.0, *factor)),
+    )
+    # Half a metre of the third one is in the hole.
+    assert graded(case, 600.5, 5.0)[-1].segment_length == 0.5
+    # What is not in the hole stays as it is.
+    assert graded(case, 600.0, 5.0)[-1] == above
+    assert graded(case, 300.0, 5.0)[-2:] == (below, above)
+
+
+def test_a_component_that_rounding_alone_leaves_in_the_hole_stays_as_it_is() -> None:
+    """100.1 m and 200.2 m are 60 femtometres less than 300.3 m."""
+    case = make_case(components=[pipe(100.1, 10), pipe(200.2, 20), pipe(None, None, segment_length=10.0)])
+    cut = with_components(case, graded(case, 300.3, 5.0))
+    assert cut.string.components[-1] == case.string.components[-1]
+    assert lay_out(cut, 300.3).length.sum() == pytest.approx(300.3)
+
+
+def test_a_string_that_is_too_short_is_graded_and_then_refused() -> None:
+    case = make_case(components=[pipe(200, 20), pipe(300, 30)])
+    cut = with_components(case, graded(case, 900.0, 5.0))
+    assert sum(part.length or 0.0 for part in cut.string.components) == pytest.approx(500.0)
+    with pytest.raises(InputError, match="enough to reach from the bit at 900 m"):
+        lay_out(cut, 900.0)
+
+
 def test_a_bent_housing_stays_at_its_upper_end() -> None:
     housing = pipe(200.0, 4, bend="1.5 deg", toolface="30 deg")
     case = build_case([housing, pipe(None, None, segment_length=10.0)])
@@ -123,6 +179,10 @@ def test_a_bent_housing_stays_at_its_upper_end() -> None:
     at = int(np.argmax(bends))
     assert sum(part.length or 0.0 for part in pieces[: at + 1]) == pytest.approx(200.0)
     assert pieces[at].toolface == pytest.approx(math.radians(30))
+
+
+def test_layouts_have_the_names_that_commands_take() -> None:
+    assert (LAYOUTS["uniform"], LAYOUTS["graded"]) == (uniform, graded)
 
 
 def test_a_long_segment_stays_one() -> None:
@@ -159,6 +219,9 @@ ABOVE = np.linspace(0.0, 1000.0, 4001)
         (480.0, 8.0, [(100.0, 10), (380.0, 5)]),
         (455.0, 8.0, [(100.0, 10), (355.0, 4)]),
         (130.0, 8.0, [(100.0, 10), (30.0, 1)]),
+        (115.0, 8.0, [(100.0, 10), (15.0, 1)]),
+        (114.9, 8.0, [(114.9, 11)]),
+        (120.0, 8.0, [(100.0, 10), (20.0, 1)]),
         (500.0, 4.0, [(100.0, 10), (400.0, 10)]),
         (500.0, 3.9, [(100.0, 10), (400.0, 20)]),
         (500.0, 1.99, [(500.0, 50)]),
@@ -177,6 +240,15 @@ def test_a_walk_begins_where_the_component_does() -> None:
     assert _walk(995.0, 1030.0, 10.0, ABOVE, factor) == [(35.0, 2)]
     # A stretch of 10 m holds no segment of 20 m.
     assert _walk(0.0, 200.0, 10.0, ABOVE, np.where(np.abs(ABOVE - 105.0) <= 5.0, 8.0, 1.0)) == [(200.0, 20)]
+    # One of 20 m holds one, next to shorter ones.
+    stretch = np.where(np.abs(ABOVE - 110.0) <= 10.0, 8.0, 1.0)
+    assert _walk(0.0, 200.0, 10.0, ABOVE, stretch) == [(100.0, 10), (20.0, 1), (80.0, 8)]
+
+
+def test_runs_are_rounded_to_millimetres() -> None:
+    assert _walk(0.0, 33.33333, 10.0, ABOVE, np.ones_like(ABOVE)) == [(33.333, 3)]
+    # Ten tenths are a little less than one.
+    assert _walk(0.0, 1.0, 0.1, ABOVE, np.ones_like(ABOVE)) == [(1.0, 10)]
 
 
 def test_the_least_factor_counts_both_ends() -> None:
@@ -222,10 +294,10 @@ def test_how_many_segments_by_hand(bit: float, count: int) -> None:
 
 
 def test_a_component_is_cut_by_hand() -> None:
-    components = [pipe(100, 10), pipe(8, 3), pipe(None, None, segment_length=25.0)]
+    components = [pipe(100, 10), pipe(90, None, segment_length=9.0), pipe(8, 3), pipe(None, 8)]
     parts = uniform(make_case(components=components), 1000.0, 23.0)
     assert [(part.length, part.segments, part.segment_length) for part in parts] == [
-        (100.0, 4, None), (8.0, 1, None), (None, None, 23.0),
+        (100.0, 4, None), (90.0, 4, None), (8.0, 1, None), (None, None, 23.0),
     ]  # fmt: skip
 
 
@@ -239,8 +311,11 @@ def test_a_component_is_graded_by_hand() -> None:
         return [(p.length, p.segments, p.segment_length, p.bend, p.toolface) for p in _grade(part, runs)]
 
     assert graded_as(whole, [(100.0, 4)]) == [(100.0, 4, None, 0.02, 0.3)]
+    assert graded_as(whole, [(100.0, 1)]) == [(100.0, 1, None, 0.02, 0.3)]
     assert graded_as(whole, [(40.0, 1), (60.0, 3)]) == [(40.0, 2, None, 0.0, 0.3), (60.0, 3, None, 0.02, 0.3)]
     # More of it than is in the hole: cut as below, by length.
     assert graded_as(whole, [(40.0, 4), (30.0, 1)]) == [(40.0, 4, None, 0.0, 0.3), (60.0, None, 15.0, 0.02, 0.3)]
     assert graded_as(whole, [(40.0, 4), (59.995, 3)])[1] == (60.0, 3, None, 0.02, 0.3)
+    assert graded_as(whole, [(40.0, 4), (59.988, 3)])[1] == (60.0, None, 19.996, 0.02, 0.3)
+    assert graded_as(whole, [(40.0, 4), (30.0, 7)])[1] == (60.0, None, 4.285714, 0.02, 0.3)
     assert graded_as(endless, [(40.0, 4), (30.0, 2)]) == [(40.0, 4, None, 0.0, 0.0), (None, None, 15.0, 0.0, 0.0)]

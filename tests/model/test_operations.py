@@ -7,7 +7,8 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
-from fctd.model.operations import depth_range, rates_of_all, schedule, sensors, steady_rates
+from fctd.case.units import FASTEST, MOST_RPM
+from fctd.model.operations import SHORTEST, depth_range, rates_of_all, schedule, sensors, steady_rates
 from tests.cases import make_case, rotation, trip
 
 TURN = 2 * np.pi  # 60 rev/min [rad/s]
@@ -47,6 +48,11 @@ def test_phases_by_hand(operations: list[dict[str, Any]], expected: list[tuple[f
     """Start, duration, feed from and to, spin from and to, operation."""
     found = [(*motion, k) for motion, k in schedule(make_case(operations=operations).operations)]
     np.testing.assert_allclose(found, expected, atol=1e-9)
+
+
+def test_the_shortest_operation_has_a_phase() -> None:
+    operations = make_case(operations=[rotation(100, SHORTEST)]).operations
+    assert [phase.motion.duration for phase in schedule(operations)] == [SHORTEST]
 
 
 def test_depths_of_a_schedule() -> None:
@@ -98,6 +104,48 @@ def test_given_rates_apply_to_the_kinds_that_have_them() -> None:
     assert found == {"trip_in": (0.7, half), "rotate_off_bottom": (0.0, half), "back_ream": (-0.7, half)}
 
 
+def test_a_rate_that_applies_to_no_kind_is_refused() -> None:
+    assert rates_of_all(make_case(), ["trip_in", "drill_sliding"], rpm=30)["drill_sliding"].spin == 0.0
+    with pytest.raises(InputError, match="rpm = 30: expected rev/min of 0 for drill_sliding"):
+        rates_of_all(make_case(), ["drill_sliding"], rpm=30)
+    with pytest.raises(InputError, match=r"speed = 0\.7: expected a speed of 0 for rotate_off_bottom"):
+        rates_of_all(make_case(), ["rotate_off_bottom"], speed=0.7)
+
+
+def test_rates_of_a_case_come_before_those_of_the_kind() -> None:
+    """The first operation of the kind has them; a rate of the call comes before."""
+    operations = [trip(100, 150, 0.4) | {"rpm": 20}, rotation(150, 10, 90), trip(150, 180, 0.7)]
+    operations += [{"kind": "drill_sliding", "from_md": 180, "to_md": 190, "speed": 0.01}]
+    case = make_case(operations=operations)
+    assert steady_rates(case, "trip_in") == (0.4, pytest.approx(TURN / 3))
+    assert steady_rates(case, "rotate_off_bottom") == (0.0, pytest.approx(1.5 * TURN))
+    assert steady_rates(case, "drill_sliding") == (0.01, 0.0)
+    assert steady_rates(case, "trip_out") == (-0.3, 0.0)
+    assert steady_rates(case, "trip_in", speed=0.2) == (0.2, pytest.approx(TURN / 3))
+    assert steady_rates(case, "trip_in", rpm=60) == (0.4, pytest.approx(TURN))
+
+
+@pytest.mark.parametrize(
+    ("kind", "rates", "message"),
+    [
+        ("trip_up", {}, 'operation = "trip_up": expected the kind trip_(in|out)'),
+        ("trip_in", {"speed": "1 m/s"}, 'speed = "1 m/s": expected a number of metres per second'),
+        ("trip_in", {"rpm": "60 rpm"}, 'rpm = "60 rpm": expected a number of revolutions per minute'),
+    ],
+)
+def test_what_is_no_kind_or_no_rate(kind: str, rates: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=f"{message}$"):
+        steady_rates(make_case(), kind, **rates)
+
+
+def test_the_fastest_rates() -> None:
+    assert steady_rates(make_case(), "trip_in", speed=FASTEST, rpm=MOST_RPM).speed == FASTEST
+    with pytest.raises(InputError, match=f"above 0 and at most {FASTEST:g} m/s for trip_in"):
+        steady_rates(make_case(), "trip_in", speed=1.001 * FASTEST)
+    with pytest.raises(InputError, match=f"at least 0 and at most {MOST_RPM:g} for trip_in"):
+        steady_rates(make_case(), "trip_in", rpm=1.001 * MOST_RPM)
+
+
 def test_rates_near_nothing() -> None:
     case = make_case()
     for kind in ("rotate_off_bottom", "back_ream", "drill_rotating", "trip_in"):
@@ -110,8 +158,8 @@ def test_rates_near_nothing() -> None:
 @pytest.mark.parametrize(
     ("kind", "rates", "expected"),
     [
-        ("rotate_off_bottom", {"rpm": 0.0}, "rev/min above 0"),
-        ("back_ream", {"rpm": 0.0}, "rev/min above 0"),
+        ("rotate_off_bottom", {"rpm": 0.0}, "rev/min above 0 and at most 10000"),
+        ("back_ream", {"rpm": 0.0}, "rev/min above 0 and at most 10000"),
         ("trip_in", {"rpm": -0.5}, "rev/min at least 0"),
         ("drill_sliding", {"rpm": 0.5}, "rev/min of 0"),
         ("trip_in", {"speed": 0.0}, "a speed above 0"),
@@ -121,5 +169,5 @@ def test_rates_near_nothing() -> None:
     ],
 )
 def test_rates_that_are_not_of_their_kind(kind: str, rates: dict[str, float], expected: str) -> None:
-    with pytest.raises(InputError, match=f"{next(iter(rates))} = .*{expected}.* for {kind}"):
+    with pytest.raises(InputError, match=f"{next(iter(rates))} = .*: expected {expected}.* for {kind}"):
         steady_rates(make_case(), kind, **rates)

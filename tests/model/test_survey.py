@@ -15,10 +15,17 @@ def test_average_angle_is_the_paper_eqs_21_to_23() -> None:
     stations = to_radians(np.array([[0, 0, 0], [100, 10, 30], [200, 30, 60.0]]))
     a1, a2 = np.radians(5), np.radians(20)
     e1, e2 = np.radians(15), np.radians(45)
-    north = 100 * (np.sin(a1) * np.cos(e1) + np.sin(a2) * np.cos(e2))
-    east = 100 * (np.sin(a1) * np.sin(e1) + np.sin(a2) * np.sin(e2))
-    down = 100 * (np.cos(a1) + np.cos(a2))
-    np.testing.assert_allclose(survey.average_angle(stations)[-1], [north, east, down], rtol=1e-14)
+    first = 100 * np.array([np.sin(a1) * np.cos(e1), np.sin(a1) * np.sin(e1), np.cos(a1)])
+    second = 100 * np.array([np.sin(a2) * np.cos(e2), np.sin(a2) * np.sin(e2), np.cos(a2)])
+    expected = [np.zeros(3), first, first + second]
+    np.testing.assert_allclose(survey.average_angle(stations), expected, rtol=1e-14)
+
+
+def test_angles_between_stations_by_hand() -> None:
+    stations = np.array([[0, 0.1, 6.0], [100, 0.3, 6.4], [300, 0.2, 6.8]])
+    found = survey.interpolate_angles(stations, np.array([0.0, 25.0, 100.0, 250.0]))
+    expected = [[0, 0.1, 6.0], [25, 0.15, 6.1], [100, 0.3, 6.4], [250, 0.225, 6.7]]
+    np.testing.assert_allclose(found, expected, rtol=1e-14)
 
 
 def test_minimum_curvature_is_exact_on_a_circle() -> None:
@@ -33,6 +40,36 @@ def test_minimum_curvature_is_exact_on_a_circle() -> None:
     expected = np.stack([across * np.cos(0.6), across * np.sin(0.6), radius * np.sin(angle)], axis=1)
     np.testing.assert_allclose(points, expected, atol=1e-9)
     np.testing.assert_allclose(tangents[:, 2], np.cos(angle), atol=1e-12)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1.0, 3.0])
+def test_a_bend_of_any_size_ends_where_its_circle_does(angle: float) -> None:
+    """A bend in a vertical plane: L (1 − cos α)/α aside and L sin α/α ahead, as series where α² is lost."""
+    stations = np.array([[0, 0.02, 0.0], [100, 0.02 + angle, 0.0], [200, 0.02 + angle, 0.0]])
+    aside, ahead = (0.5 * angle, 1.0) if angle < 1e-8 else (np.sin(0.5 * angle) ** 2 * 2 / angle, np.sin(angle) / angle)
+    expected = 100 * np.array(
+        [ahead * np.sin(0.02) + aside * np.cos(0.02), 0, ahead * np.cos(0.02) - aside * np.sin(0.02)]
+    )
+    courses = survey.minimum_curvature(stations)
+    np.testing.assert_allclose(courses.start[1], expected, rtol=1e-13, atol=1e-12)
+    np.testing.assert_allclose(survey.along_courses(courses, np.array([100.0]))[0][0], expected, rtol=1e-13, atol=1e-12)
+
+
+def test_straight_courses_each_have_a_normal_of_their_own() -> None:
+    stations = to_radians(np.array([[0, 0, 0], [100, 0, 0], [200, 45, 60], [300, 45, 60], [400, 45, 60.0]]))
+    courses = survey.minimum_curvature(stations)
+    np.testing.assert_allclose(np.linalg.norm(courses.normal, axis=1), 1.0, rtol=1e-14)
+    np.testing.assert_allclose((courses.normal * courses.tangent).sum(axis=1), 0.0, atol=1e-12)
+    # A straight course is as long as its stations are apart, exactly.
+    assert courses.start[1].tolist() == [0.0, 0.0, 100.0]
+
+
+def test_above_its_first_station_a_hole_is_straight() -> None:
+    courses = survey.minimum_curvature(to_radians(np.array([[0, 10, 30], [100, 30, 30], [200, 50, 90.0]])))
+    md = np.array([-20.0, -0.5, 0.0])
+    points, directions = survey.along_courses(courses, md)
+    np.testing.assert_allclose(points, np.outer(md, courses.tangent[0]), atol=1e-12)
+    np.testing.assert_allclose(directions, np.tile(courses.tangent[0], (3, 1)), rtol=1e-14)
 
 
 def test_both_methods_converge_to_each_other() -> None:
@@ -72,10 +109,16 @@ def test_a_straight_course_has_a_normal_too(inclination: float, azimuth: float) 
     np.testing.assert_allclose(points, np.outer([-5, 0, 60, 100, 120], tangents[0]), atol=1e-10)
 
 
-def test_opposite_directions_have_no_arc() -> None:
-    stations = to_radians(np.array([[0, 90, 0], [100, 90, 180.0]]))
-    with pytest.raises(ValueError, match="opposite directions at station 1"):
+@pytest.mark.parametrize(("inclination", "azimuth"), [(90, 0), (82, 145)])
+def test_opposite_directions_have_no_arc(inclination: float, azimuth: float) -> None:
+    """In the second pair half the difference of the tangents is longer than one, by rounding."""
+    back = [100, 180 - inclination, azimuth + 180]
+    stations = np.radians(np.array([[-10, inclination, azimuth], [0, inclination, azimuth], back]))
+    assert survey.dogleg(stations)[1] == pytest.approx(np.pi)
+    with pytest.raises(ValueError, match="opposite directions at station 2"):
         survey.minimum_curvature(stations)
+    stations[2, 2] -= 1e-3
+    assert np.isfinite(survey.minimum_curvature(stations).start).all()
 
 
 needs_data = pytest.mark.skipif(data_folder() is None, reason="public data folder is missing (see README)")

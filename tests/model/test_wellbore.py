@@ -2,7 +2,7 @@
 
 import time
 import tracemalloc
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from fctd import find_contacts
 from fctd.case.errors import InputError
 from fctd.case.survey_file import to_radians
 from fctd.mechanics import contact
-from fctd.model import survey
+from fctd.model import survey, wellbore
 from fctd.model.wellbore import hole_frame
 from tests.cases import hole_of
 
@@ -21,6 +21,43 @@ def test_angles_count_from_the_high_side_clockwise_looking_downhole() -> None:
     hole = hole_of([[0, 90, 0], [1000, 90, 0]], geometry="arcs")
     points = hole.off_axis(np.full(2, 500.0), np.radians([0.0, 90.0]), np.array([0.1, 0.2]))
     np.testing.assert_allclose(points, [[500, 0, -0.1], [500, 0.2, 0]], atol=1e-9)
+
+
+def test_the_high_side_of_a_hole_to_the_east() -> None:
+    """At 45 degrees it leans back and up; a hole counts as vertical up to a tenth of a degree."""
+    tilt = np.radians([45.0, 0.09, 0.11, 0.0])
+    direction = np.stack([np.zeros(4), np.sin(tilt), np.cos(tilt)], axis=1)
+    high, right = hole_frame(direction)
+    back = np.stack([np.zeros(4), np.cos(tilt), -np.sin(tilt)], axis=1)
+    north = np.array([1.0, 0.0, 0.0])
+    np.testing.assert_allclose(high, [back[0], north, back[2], north], atol=1e-12)
+    np.testing.assert_allclose(right, np.cross(direction, high), atol=1e-12)
+
+
+def test_the_axis_at_one_depth_and_at_a_joint() -> None:
+    """The tangent at a joint is that of the cylinder below."""
+    stations = [[0, 0, 0], [100, 60, 0]]
+    for hole in (hole_of(stations, geometry="arcs"), hole_of(stations, cylinder_length=10.0)):
+        for one, many in zip(hole.at(35.0), hole.at(np.array([35.0])), strict=True):
+            np.testing.assert_array_equal(one, many)
+    np.testing.assert_allclose(hole.at(hole.md)[1], hole.directions)
+    np.testing.assert_allclose(hole.at(hole.md)[0], hole.points)
+
+
+@pytest.mark.parametrize("inclination", [0.0, 180.0])
+def test_inclination_of_a_tangent_that_is_too_long_by_rounding(inclination: float) -> None:
+    hole = hole_of([[0, inclination, 0], [100, inclination, 0]])
+    longer = replace(hole, directions=hole.directions * np.nextafter(1.0, 2.0))
+    assert abs(longer.directions[0, 2]) > 1.0
+    np.testing.assert_allclose(longer.inclination(np.array([50.0])), np.radians(inclination), atol=1e-12)
+
+
+def test_the_stiffest_wall_of_several() -> None:
+    intervals = [
+        {"to_md": 500, "diameter": 0.32, "friction": 0.1, "stiffness": 2e7},
+        {"to_md": 1000, "diameter": 0.22, "friction": 0.3},
+    ]
+    assert hole_of([[0, 0, 0], [1000, 0, 0]], intervals=intervals).stiffest_wall == 2e7
 
 
 def test_cylinder_length_follows_the_chord_tolerance() -> None:
@@ -104,6 +141,41 @@ def test_the_pieces_of_cylinders_overlap_but_at_the_end() -> None:
     np.testing.assert_allclose(hole.pieces[:, contact.ALONE_FROM], [-np.inf, *overlap[:-1]], atol=1e-9)
 
 
+def test_a_point_is_alone_beyond_the_overlap_and_the_wedge_of_the_joint() -> None:
+    """Where two cylinders meet at an angle, both hold points up to the radius times that angle from the joint.
+
+    The margin is twice the diameter times the angle.
+    """
+    intervals = [
+        {"to_md": 50, "diameter": 0.3, "friction": 0.1},
+        {"to_md": 100, "diameter": 0.2, "friction": 0.3},
+    ]
+    hole = hole_of([[0, 0, 0], [100, 60, 0]], cylinder_length=10.0, overlap=0.1, intervals=intervals)
+    bend = 2 * np.sin(0.5 * np.radians(6.0))
+    radius = np.array([0.15] * 4 + [0.1] * 5)
+    np.testing.assert_allclose(hole.pieces[1:, contact.ALONE_FROM], 0.1 + 4 * radius * bend, rtol=1e-6)
+
+
+def test_arcs_have_a_straight_piece_at_each_end() -> None:
+    hole = hole_of([[0, 10, 30], [300, 40, 30], [400, 40, 120]], geometry="arcs")
+    np.testing.assert_allclose(hole.pieces[:, contact.START_MD], [-10, 0, 300, 400])
+    np.testing.assert_allclose(hole.pieces[:, contact.LENGTH], [10, 300, 100, 10])
+    np.testing.assert_array_equal(hole.pieces[[0, -1], contact.CURVATURE], 0.0)
+    assert hole.pieces[1, contact.CURVATURE] == pytest.approx(np.radians(30) / 300)
+
+
+def test_stations_a_hair_apart_have_a_cylinder_between_them() -> None:
+    hole = hole_of(
+        [[0, 0, 0], [100, 0, 0]],
+        intervals=[
+            {"to_md": 50, "diameter": 0.3, "friction": 0.1},
+            {"to_md": 50 + 1e-8, "diameter": 0.25, "friction": 0.1},
+            {"to_md": 100, "diameter": 0.2, "friction": 0.3},
+        ],
+    )
+    np.testing.assert_allclose(hole.md, [0, 25, 50, 50 + 1e-8, 75 + 5e-9, 100], rtol=1e-12)
+
+
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def test_below_the_last_interval_the_hole_stays_as_it_is(geometry: str) -> None:
     intervals = [
@@ -168,8 +240,11 @@ def test_pieces_that_do_not_cover_the_hole_are_a_defect(length: float, overlap: 
     pieces[:, contact.OVERLAP] += overlap
     with pytest.raises(AssertionError, match=r"the pieces of the hole cover (19|nan).* m of an axis of 199\.99"):
         replace(hole, pieces=pieces)
-    with pytest.raises(AssertionError, match="the axis of the hole is longer than its measured depth"):
-        replace(hole, md=0.999 * hole.md)
+    moved = hole.md.copy()
+    moved[3] += 1.0  # the next chord alone is too long
+    for md in (0.999 * hole.md, moved):
+        with pytest.raises(AssertionError, match="the axis of the hole is longer than its measured depth"):
+            replace(hole, md=md)
 
 
 def test_contact_angle_convention() -> None:
@@ -180,8 +255,19 @@ def test_contact_angle_convention() -> None:
 
 
 def test_overlap_longer_than_a_cylinder_is_refused() -> None:
+    """The shortest cylinder counts, here that of the bend: √(8 × 10 µm / (40°/100 m)) = 0.107 m."""
+    with pytest.raises(InputError, match=r"wellbore\.overlap.*0\.2 m.*at most the length of a cylinder, here 0\.107 m"):
+        hole_of([[0, 0, 0], [100, 0, 0], [200, 40, 0]], chord_tolerance=1e-5, overlap=0.2)
+    assert len(hole_of([[0, 0, 0], [100, 5, 0]], cylinder_length=2.0, overlap=2.0).pieces) == 50
     with pytest.raises(InputError, match=r"wellbore\.overlap.*3 m.*at most the length of a cylinder"):
         hole_of([[0, 0, 0], [100, 5, 0]], cylinder_length=2.0, overlap=3.0)
+
+
+def test_no_more_cylinders_than_fit_into_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(wellbore, "MOST_CYLINDERS", 50)
+    assert len(hole_of([[0, 0, 0], [100, 5, 0]], cylinder_length=2.0).pieces) == 50
+    with pytest.raises(InputError, match=r"wellbore\.cylinder_length.*51 cylinders.*at most 50 cylinders"):
+        hole_of([[0, 0, 0], [100, 5, 0]], cylinder_length=1.99)
 
 
 @pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
@@ -239,5 +325,7 @@ def test_another_friction_is_the_hole_that_a_fresh_build_gives(geometry: str, fa
         assert getattr(found, name).tobytes() == getattr(fresh, name).tobytes(), name
     assert found.wall_along().tobytes() == fresh.wall_along().tobytes()
     assert found.points is here.points
+    with pytest.raises(FrozenInstanceError):
+        here.pieces = found.pieces
     assert here.pieces.tobytes() == before.tobytes()
     assert (found.pieces[:, contact.FACTOR] != before[:, contact.FACTOR]).any()

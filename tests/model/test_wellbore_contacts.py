@@ -145,6 +145,20 @@ def test_a_search_starts_at_the_nearest_piece(geometry: str) -> None:
     np.testing.assert_array_equal(hole.owners(points), first + k[inside])
 
 
+def test_the_nearest_piece_from_samples_half_a_metre_apart() -> None:
+    """In cylinders of 0.7 m with a sample at the top and one in the middle, up to 175 mm beyond the middle."""
+    hole = hole_of([[0, 5, 350], [100, 30, 20]], cylinder_length=0.7)
+    k, share = np.divmod(np.arange(143 * 6), 6)
+    np.testing.assert_array_equal(hole.nearest(hole.at(hole.md[k] + 0.02 + 0.09 * share)[0]), k)
+
+
+def test_the_owner_of_one_point() -> None:
+    hole = hole_of(random_well([(20, 30)] * 6))
+    points, _ = points_near(hole, 20, seed=9)
+    together = hole.owners(points)
+    assert [int(hole.owners(point)[0]) for point in points] == together.tolist()
+
+
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 @pytest.mark.parametrize("far", [1e300, -1e300, 1.001e7, 1e160])
 def test_find_contacts_refuses_points_that_are_nowhere(far: float, geometry: str) -> None:
@@ -184,7 +198,17 @@ def test_for_loop_agrees_below_ninety_degrees_and_errs_beyond() -> None:
         assert (for_loop_owners(hole.pieces, points) != hole.owners(points)).any() == wrong
 
 
-@pytest.mark.parametrize(("points", "radii"), [([[0, 0, np.nan]], 0.1), ([[0, 0]], 0.1), ([[0, 0, 5]], np.inf)])
-def test_bad_queries_are_refused(points: list, radii: float) -> None:
-    with pytest.raises(ValueError, match="finite"):
+@pytest.mark.parametrize(
+    ("points", "radii", "message"),
+    [
+        ([[0, 0, np.nan]], 0.1, "points must be finite"),
+        ([[0, 0]], 0.1, "points must be finite, shape"),
+        ([[[0, 0, 5]]], 0.1, "points must be finite, shape"),
+        ([[0, 0, 5]], np.inf, "radii finite"),
+        ([[0, 0, 5], [0, 0, 6]], [0.1, np.inf], "radii finite"),
+        ([[0, 0, 5]], [0.1, 0.2], "broadcast"),
+    ],
+)
+def test_bad_queries_are_refused(points: list, radii: float | list[float], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         find_contacts(hole_of([[0, 0, 0], [100, 0, 0]]), np.array(points), radii)
