@@ -69,9 +69,7 @@ def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Componen
         if start >= total or is_long(part) or least >= own:
             pieces.append(part)
         else:
-            # The case's own length and its halves.
-            halvings = np.ceil(np.log2(own / least) - 1e-9)
-            unit = own / 2**halvings
+            unit = own / np.ceil(own / least - 1e-9)
             factor = np.minimum(np.minimum(shortest, own) / unit, LONGEST)
             pieces += _grade(part, _walk(start, end, unit, above_bit, factor))
         start = end

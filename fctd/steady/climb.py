@@ -19,12 +19,12 @@ from fctd.steady.relaxation import Creep
 # Share of the loads at which the string is laid; the friction of a climb in weight.
 LOW = 0.1
 # Steps of the share: first, smallest and largest; factors after a step of few or many iterations.
-FIRST, SMALLEST, LARGEST = 0.1, 1e-3, 0.25
+FIRST, SMALLEST, LARGEST = 0.1, 3e-3, 0.25
 FEW, MANY, LONGER, SHORTER = 70, 150, 1.5, 0.67
 START_ITERATIONS, STEP_ITERATIONS = 1500, 400
 # A push of so many weights of the string is beyond any rig; the climb ends, and the loads that no push overcomes are
 # extrapolated from 1/push → 0.
-BEYOND = 10.0
+BEYOND = 3.0
 # A locked string is followed up to this share of its loads.
 FARTHEST = 5.0
 
@@ -100,7 +100,10 @@ def _rise(
     problem: Problem, path: Climb, loads: Callable[[float], Share], share: float, end: float,
     prepare: Callable[[Share], object] | None,
 ) -> bool:  # fmt: skip
-    """Raise a share of the loads to its end; returns whether the string can follow.  Records balances at full weight."""
+    """Raise a share of the loads to its end; returns whether the string can follow.
+
+    Balances at full weight are recorded.
+    """
     step = FIRST
     while share < end * (1 - 1e-12):
         kept = problem.copy_pose()

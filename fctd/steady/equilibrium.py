@@ -59,9 +59,9 @@ class Equilibrium:
 
     status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
     message : details.
-    shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high [N] : of
-    both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction at which the hook
-    load is −block weight and at which no push suffices, where they were found, else NaN.
+    shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
+    [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction at
+    which the hook load is −block weight and at which no push suffices, NaN where they were not found.
     bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
     sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """

@@ -25,7 +25,7 @@ from fctd.steady.block_thomas import eliminate
 from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS, NOT_FINITE, add_pseudo_mass, imbalance
 from fctd.steady.tangent import SPIN, assemble, quaternion
 
-# Columns of the contact points: offset from the hole's axis [m], global, and radius of the hole less that of the string.
+# Columns of the contact points: offset from the hole's axis [m], global, and radius of the hole less the string's.
 CLEARANCE, PLACES = 3, 4
 # Points this close to the wall, as a share of the clearance, move round it.
 NEAR_WALL = 0.9
