@@ -14,7 +14,7 @@ from fctd import Case, equilibrium, open_result, simulate, torque_drag
 from fctd.case.units import conversion
 from fctd.model.drillstring import lay_out
 from fctd.model.wellbore import build_wellbore
-from fctd.results import notes
+from fctd.results import ledger, notes
 from fctd.results.profile import Loads
 from fctd.steady.equilibrium import Equilibrium
 from tests.cases import make_case, pipe, rotation, trip
@@ -186,6 +186,15 @@ def test_the_ledger_is_doubted_beyond_one_per_cent(error: float, noted: bool) ->
     assert (notes.ledger_off(error) is not None) == noted
 
 
+@pytest.mark.parametrize(("error", "status"), [(0.02, "completed"), (0.099, "completed"), (0.101, "inaccurate")])
+def test_a_run_is_inaccurate_beyond_a_tenth_of_the_work(
+    error: float, status: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ledger, "error", lambda energy: error)
+    result = simulate(make_case(operations=[rotation(1000, 0.1)]))
+    assert (result.status, result.notes[0].code) == (status, "ledger")
+
+
 def test_how_far_a_ledger_is_off() -> None:
     note = notes.ledger_off(0.05)
     assert note is not None
@@ -214,7 +223,7 @@ def test_the_worst_of_each_code_in_the_order_of_the_table() -> None:
 @pytest.mark.parametrize("joint", [0, 1, 7])
 def test_torque_alone_makes_steel_yield(joint: int) -> None:
     """√3 T r/J, against the pipe that the joint belongs to: the uppermost one is thinner than the others."""
-    case = make_case(components=[pipe(900, 18), pipe(None, 2, outer=0.11)])
+    case = make_case(components=[pipe(950, 19), pipe(None, 1, outer=0.11)])
     string, hole = lay_out(case, 1000.0), build_wellbore(case)
     walls = hole.walls(hole.at(np.linspace(50.0, 1000.0, 20))[0])
     outer = 0.055 if joint < 2 else 0.0635

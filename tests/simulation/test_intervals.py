@@ -29,9 +29,9 @@ def test_no_interval_is_empty_where_a_phase_begins_or_ends_on_the_grid(interval:
 
 
 def test_no_interval_is_empty_where_the_grid_is_rounded() -> None:
-    """1.1 s are 11.000000000000002 times 0.1 s."""
-    phase = Phase(Motion(0.0, 1.1, 0.0, 1.0, 0.0, 0.0), 0)
-    assert [part.end for part in whole_schedule([phase], 0.1)] == pytest.approx([0.1 * k for k in range(1, 12)])
+    """2.1 s are 7.000000000000001 times 0.3 s."""
+    phase = Phase(Motion(0.0, 2.1, 0.0, 1.0, 0.0, 0.0), 0)
+    assert [part.end for part in whole_schedule([phase], 0.3)] == pytest.approx([0.3 * k for k in range(1, 8)])
 
 
 def test_a_window_has_equal_parts_of_every_phase_it_meets() -> None:

@@ -36,6 +36,8 @@ def test_numbers_of_a_run() -> None:
     assert (numbers["wall_s"], numbers["real_time_factor"]) == (4.0, pytest.approx(0.5))
     assert (numbers["segments"], numbers["contact"], numbers["settling_residual"]) == (10, "cylinders", 1e-7)
     assert (numbers["steps"], numbers["step_s"]) == (run.steps, run.step)
+    assert numbers["pieces_of_hole"] == len(run.hole.pieces)
+    assert recorder.result("completed", "", 0.5, 1e-7).run["real_time_factor"] == pytest.approx(4.0)
     assert numbers["energy_error"] == pytest.approx(3.0 / numbers["work_J"])
     assert numbers["work_J"] == pytest.approx(1e6, rel=1e-2)
     idle = Recorder(run).result("unsettled", "", 0.0, float("nan"))
