@@ -370,3 +370,10 @@ def test_a_start_from_rest() -> None:
     assert run.time == 0.0
     axes = [state.row(each, state.AX, run.segments) for each in (run.S, settled)]
     np.testing.assert_allclose(*axes, atol=1e-12)
+
+
+@pytest.mark.parametrize("more", [{"shear_stiffness": 1e308, "linear_mass": 1e-30}, {"torsional_stiffness": 1e308}])
+def test_masses_and_stiffnesses_without_a_finite_frequency_are_refused(more: dict[str, float]) -> None:
+    light = pipe(1000, 20, **{"linear_mass": 1e-10} | more)
+    with pytest.raises(InputError, match=r"string\.components = \"a stiffest mode of inf rad/s\""):
+        prepare(make_case(components=[light], operations=[rotation(1000, 1)]))
