@@ -36,6 +36,29 @@ def as_interrupts() -> Iterator[None]:
 
 
 @contextmanager
+def deferred() -> Iterator[None]:
+    """Inside, Ctrl-C, SIGTERM and SIGHUP wait until the block has ended, so that results are written completely.
+
+    Ignored signals stay ignored.  Does nothing outside the main thread.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    arrived: list[int] = []
+    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    handlers = {number: signal.getsignal(number) for number in numbers if callable(signal.getsignal(number))}
+    for number in handlers:
+        signal.signal(number, lambda number, _: arrived.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        for number in arrived:
+            signal.raise_signal(number)
+
+
+@contextmanager
 def ends_program() -> Iterator[None]:
     """Inside, Ctrl-C, SIGTERM or SIGHUP end a program with exit code 130, without a traceback.
 

@@ -9,6 +9,7 @@ from rich.table import Table
 
 from fctd.case.load import Case
 from fctd.case.text import file_name, printable
+from fctd.cli.interrupts import deferred
 from fctd.cli.options import (
     INTERRUPTED,
     CaseFile,
@@ -73,7 +74,7 @@ def simulate_file(
         TimeElapsedColumn(),
         TimeRemainingColumn(),
     )
-    result = None
+    result, written = None, []
     try:
         with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
             task = bar.add_task("compiling, settling", total=1.0, factor="–")
@@ -87,11 +88,12 @@ def simulate_file(
 
             result = simulate(case, progress=show, contact=method, settling=settling)
             # The files are written before anything is printed: the terminal may have been closed.
-            written = result.save(folder, csv=csv)
-    finally:  # printed also where a file cannot be written
+            with deferred():
+                written = result.save(folder, csv=csv)
+    finally:  # printed also where a file cannot be written, or a signal came meanwhile
         if result is not None:
             _summarise(result)
-    print_written(written)
+            print_written(written)
     if result.status is RunStatus.INTERRUPTED:
         raise typer.Exit(INTERRUPTED)
     finish(result.status.acceptable, (note.code for note in result.notes), strict)

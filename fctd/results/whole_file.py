@@ -29,7 +29,7 @@ def whole_file(path: Path) -> Iterator[Path]:
         raise InputError(f"a file that can be written ({error.strerror or error})", value=path) from error
     finally:
         with suppress(OSError):
-            scratch.unlink(missing_ok=True)
+            scratch.unlink()
 
 
 def check_file(path: Path, key: str = "") -> None:
@@ -48,10 +48,8 @@ def check_file(path: Path, key: str = "") -> None:
 def check_new(path: Path) -> None:
     """Raise OSError where neither ``path`` nor the folders on the way to it can be made."""
     with suppress(FileNotFoundError):
-        path.lstat()  # raises OSError for a path that is too long
+        path.lstat()  # raises OSError for a path that is too long or leads through a file
     folder = next(parent for parent in path.parents if parent.exists())
-    if not folder.is_dir():
-        raise NotADirectoryError(None, f"{folder} is no folder")
     if not os.access(folder, os.W_OK | os.X_OK):
         raise PermissionError(None, "Permission denied")
     for name in path.relative_to(folder).parts:

@@ -29,7 +29,7 @@ def whole_schedule(phases: list[Phase], interval: float) -> list[Interval]:
     parts = []
     for motion, operation in phases:
         end = motion.start + motion.duration
-        grid = interval * np.arange(np.floor(motion.start / interval) + 1, np.ceil(end / interval))
+        grid = interval * np.arange(np.floor(motion.start / interval), np.ceil(end / interval))
         inside = grid[(grid > motion.start + 1e-6) & (grid < end - 1e-6)]
         parts += [Interval(motion, operation, float(t)) for t in [*inside, end]]
     return parts

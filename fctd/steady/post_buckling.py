@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 # Segments are short where the compression exceeds this share of the limit, and so many half waves beyond; shorter by
 # this factor than it needs there, as the compression grows when the string can bend.
-NEARLY, BEYOND, MARGIN = 0.75, 2, 0.9
+NEARLY, BEYOND, MARGIN = 0.75, 2, 0.8
 # Half waves of a lightly compressed string count as this long [m].
 LONGEST_WAVE = 30.0
 # Times that the string is laid out, and the helix laid at full loads.

@@ -104,7 +104,7 @@ def _row(case: Case, kind: str, depth: float, point: Equilibrium | None, misfit:
         "status": str(SteadyStatus.NOT_POSSIBLE if point is None else point.status),
         "iterations": 0 if point is None else point.iterations,
         "notes": codes_of(() if point is None else point.notes),
-        "reason": misfit or (point.message if point is not None else "") or "none",
+        "reason": (misfit if point is None else point.message) or "none",
     }
 
 

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd.case import survey_file
 from fctd.case.errors import MISSING, InputError
 from fctd.case.survey_file import StationKey, check_stations, read_stations, to_radians
 
@@ -81,6 +82,19 @@ def test_repeats_never_change_what_remains(steps: list[float], repeats: list[int
     assert np.array_equal(checked, to_radians(stations))
 
 
+def test_the_bounds_themselves_are_accepted(write: Write) -> None:
+    stations = read_stations(write("md_m,inc_deg,azi_deg", "0,0,-720", "10,180,720", "50000,0,720"))
+    assert stations[1:, 0].tolist() == [10, 50_000]
+    assert stations[1, 1] == pytest.approx(math.pi, rel=1e-15)
+
+
+def test_a_row_within_a_nanometre_of_the_one_before_is_the_same_station() -> None:
+    def kept(md: float) -> int:
+        return len(check_stations(np.array([[0, 0, 0], [md, 0, 0], [10, 0, 0]]), lambda *_: ("", MISSING)))
+
+    assert (kept(1e-9), kept(1.2e-9)) == (2, 3)
+
+
 # --- what is refused -------------------------------------------------------------------------------
 
 HEADERS = "md_m,inc_deg,azi_deg"
@@ -98,6 +112,7 @@ HEADERS = "md_m,inc_deg,azi_deg"
         (["0,-0.1,0", "10,0,0"], "row 2, inc_deg", "-0.1", "an inclination from 0 to 180 deg"),
         (["0,0,0", "10,0,-999.25"], "row 3, azi_deg", "-999.25", "an azimuth from -720 to 720 deg"),
         (["0,0,0", "10,0,720.5"], "row 3, azi_deg", "720.5", "an azimuth from -720 to 720 deg"),
+        (["0,0,0", "50000.5,0,0"], "row 3, md_m", "50000.5", "a measured depth of at most 50 km"),
         (["5,0,0", "10,0,0"], "row 2, md_m", "5", "measured depth 0, add a tie-in station at surface"),
         (["-5,0,0", "10,0,0"], "row 2, md_m", "-5", "measured depth 0, add a tie-in station at surface"),
         (
@@ -157,8 +172,22 @@ def test_an_empty_file(write: Write) -> None:
 def test_more_stations_than_any_well_has(tmp_path: Path) -> None:
     """Refused before the memory is full: the file is not read to its end."""
     path = tmp_path / "survey.csv"
-    path.write_text("md_m,inc_deg,azi_deg\n" + "".join(f"{0.01 * k:.2f},0,0\n" for k in range(100_002)) + "no number\n")
+    path.write_text("md_m,inc_deg,azi_deg\n" + "".join(f"{0.01 * k:.2f},0,0\n" for k in range(100_001)) + "no number\n")
     assert refusal(path).expected == "at most 100000 stations"
+
+
+def test_the_largest_survey_is_read_to_its_end(write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(survey_file, "MOST_STATIONS", 3)
+    rows = [HEADERS, "0,0,0", "10,0,0", "20,0,0", "30,0,0"]
+    assert read_stations(write(*rows[:-1]))[:, 0].tolist() == [0, 10, 20]
+    assert refusal(write(*rows)).expected == "at most 3 stations"
+
+
+def test_a_file_larger_than_any_survey(tmp_path: Path) -> None:
+    path = tmp_path / "survey.csv"
+    path.touch()
+    os.truncate(path, 32 * 2**20 + 1)
+    assert refusal(path).expected == "a file of at most 32 MiB"
 
 
 def test_a_missing_file(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ import pytest
 
 from fctd import open_result
 from fctd.cli import chart, refine, simulate
-from fctd.cli.interrupts import as_interrupts
+from fctd.cli.interrupts import as_interrupts, deferred
 from tests.cli.test_main import CASE, run
 
 ROOT = Path(__file__).parents[2]
@@ -97,6 +97,40 @@ def test_a_second_signal_does_not_stop_the_writing_of_results(
     monkeypatch.setattr(simulate.SimulationResult, "save", again)
     assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
     assert open_result(tmp_path / "out").status == "interrupted"
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_signal_while_results_are_written_waits(
+    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The results of a whole run are not lost because it is stopped in its last tenth of a second."""
+    save = simulate.SimulationResult.save
+
+    def stopped(*arguments: object, **more: object) -> object:
+        os.kill(os.getpid(), number)
+        return save(*arguments, **more)
+
+    monkeypatch.setattr(simulate.SimulationResult, "save", stopped)
+    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
+    assert open_result(tmp_path / "out").status == "completed"
+    assert "Written: " in capsys.readouterr().out
+    assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
+
+
+def test_signals_wait_for_their_handlers() -> None:
+    """The caller's own handlers get them afterwards; ignored signals stay ignored."""
+    handled: list[int] = []
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN), signal.signal(signal.SIGTERM, lambda n, _: handled.append(n))
+    try:
+        with deferred():
+            for number in KILL:
+                os.kill(os.getpid(), number)
+            assert handled == []
+        assert handled == [signal.SIGTERM]
+        assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before[0])
+        signal.signal(signal.SIGTERM, before[1])
 
 
 def test_results_are_written_after_the_terminal_has_closed(case_file: Path, tmp_path: Path) -> None:

@@ -39,6 +39,8 @@ def test_work_is_the_larger_of_losses_and_of_what_is_not_lifting() -> None:
 def test_the_error_is_the_largest_residual_of_the_run_over_its_work() -> None:
     assert ledger.error(table(residual_J=[-3.0, 1.0])) == pytest.approx(3 / 4)
     assert np.isnan(ledger.error(pd.DataFrame()))
+    little = table(**{name: [0.0, 0.1] for name in ledger.LOSSES}, residual_J=[0.0, 0.1])
+    assert ledger.error(little) == pytest.approx(1 / 4)
     still = table(**{name: [0.0, 0.0] for name in ledger.LOSSES}, residual_J=[1.0, 1.0])
     assert np.isnan(ledger.error(still))
 
@@ -47,5 +49,6 @@ def test_motion_and_strain_are_work_where_they_are_asked_for() -> None:
     moving = table(kinetic_J=[6.0, 0.0], strain_J=[0.0, -2.0], residual_J=[0.0, 1.0])
     assert ledger.work(moving) == 4.0
     assert ledger.work(moving, motion=True) == 8.0
+    assert ledger.error(moving) == pytest.approx(1 / 4)
     assert ledger.error(moving, motion=True) == pytest.approx(1 / 8)
     assert np.isnan(ledger.error(moving.assign(strain_J=[0.0, np.inf]), motion=True))

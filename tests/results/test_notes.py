@@ -12,7 +12,10 @@ import pytest
 
 from fctd import Case, equilibrium, open_result, simulate, torque_drag
 from fctd.case.units import conversion
-from fctd.results import notes
+from fctd.model.drillstring import lay_out
+from fctd.model.wellbore import build_wellbore
+from fctd.results import ledger, notes
+from fctd.results.profile import Loads
 from fctd.steady.equilibrium import Equilibrium
 from tests.cases import make_case, pipe, rotation, trip
 from tests.cli.test_main import run
@@ -181,6 +184,79 @@ def test_a_ledger_that_is_off_is_noted_and_beyond_a_tenth_inaccurate() -> None:
 )
 def test_the_ledger_is_doubted_beyond_one_per_cent(error: float, noted: bool) -> None:
     assert (notes.ledger_off(error) is not None) == noted
+
+
+@pytest.mark.parametrize(("error", "status"), [(0.02, "completed"), (0.099, "completed"), (0.101, "inaccurate")])
+def test_a_run_is_inaccurate_beyond_a_tenth_of_the_work(
+    error: float, status: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ledger, "error", lambda energy: error)
+    result = simulate(make_case(operations=[rotation(1000, 0.1)]))
+    assert (result.status, result.notes[0].code) == (status, "ledger")
+
+
+def test_how_far_a_ledger_is_off() -> None:
+    note = notes.ledger_off(0.05)
+    assert note is not None
+    assert (note.code, note.text, note.place) == ("ledger", "the energy ledger is off by 5 %", None)
+    assert note.excess == pytest.approx(5.0)
+
+
+def test_ringing_beyond_its_bound() -> None:
+    assert notes.rings(1e3, 2.5, 1500.0, 1e3) is None
+    assert notes.rings(float("nan"), 2.5, 1500.0, 1e3) is None
+    note = notes.rings(3e3, 2.5, 1500.0, 1e3)
+    assert note is not None
+    assert (note.code, note.excess) == ("ringing", 3.0)
+    for number in ("2.50 Hz", "near 1500 m", "±3 kN"):
+        assert number in note.text
+
+
+def test_the_worst_of_each_code_in_the_order_of_the_table() -> None:
+    mild, bad = (notes.Note("yield", "text", "remedy", excess=excess) for excess in (2.0, 3.0))
+    deep = notes.Note("penetration", "text", "remedy", 7.0, 1.5)
+    assert notes.worst([mild, bad, deep, mild]) == (deep, bad)
+    assert notes.worst([]) == ()
+    assert notes.from_metadata(notes.as_metadata([deep, bad])) == (deep, bad)
+
+
+@pytest.mark.parametrize("joint", [0, 1, 7])
+def test_torque_alone_makes_steel_yield(joint: int) -> None:
+    """√3 T r/J, against the pipe that the joint belongs to: the uppermost one is thinner than the others."""
+    case = make_case(components=[pipe(950, 19), pipe(None, 1, outer=0.11)])
+    string, hole = lay_out(case, 1000.0), build_wellbore(case)
+    walls = hole.walls(hole.at(np.linspace(50.0, 1000.0, 20))[0])
+    outer = 0.055 if joint < 2 else 0.0635
+
+    def codes(share: float) -> list[tuple[str, float | None]]:
+        torque = np.zeros(20)
+        polar = np.pi / 2 * (outer**4 - 0.035**4)
+        torque[joint] = share * string.sections[0].yield_strength * polar / (np.sqrt(3) * outer)
+        loads = Loads(np.zeros(20), torque, np.zeros(20), np.zeros(20))
+        found = notes.string_notes(string, loads, 0.0, walls, string.contact_radius())
+        return [(note.code, note.place) for note in found]
+
+    assert codes(0.999) == []
+    place = 50.0 * joint
+    assert codes(1.001) == [("yield", pytest.approx(place))]
+
+
+def test_the_hook_load_that_the_uppermost_pipe_takes() -> None:
+    case = make_case(components=[pipe(950, 19), pipe(None, 1, outer=0.11)])
+    string, hole = lay_out(case, 1000.0), build_wellbore(case)
+    walls = hole.walls(hole.at(np.linspace(50.0, 1000.0, 20))[0])
+    capacity = string.sections[0].yield_strength * np.pi / 4 * (0.11**2 - 0.07**2)
+
+    def pulled(share: float) -> tuple[notes.Note, ...]:
+        loads = Loads(*(np.zeros(20) for _ in range(4)))
+        return notes.string_notes(string, loads, share * capacity, walls, string.contact_radius())
+
+    assert pulled(0.999) == ()
+    (note,) = pulled(2.0)
+    assert (note.code, note.place, note.excess) == ("tensile_capacity", 0.0, pytest.approx(2.0))
+    assert note.text == (
+        f"the hook load is {2 * capacity / 1e3:.0f} kN, the uppermost pipe yields at {capacity / 1e3:.0f} kN"
+    )
 
 
 CASE = """

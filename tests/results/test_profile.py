@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 from fctd import equilibrium, simulate
+from fctd.model.drillstring import lay_out
+from fctd.model.wellbore import build_wellbore, hole_frame
+from fctd.results.profile import Loads, profile_table
 from tests.cases import make_case, pipe, rotation, trip
 
 LONG = [pipe(100, 4), pipe(None, 1)]
@@ -33,7 +36,23 @@ def test_the_top_has_the_section_of_the_uppermost_pipe() -> None:
     case = make_case(components=[pipe(980, 20), pipe(None, 1, outer=0.14)])
     point = equilibrium(case, "rotate_off_bottom", 1000.0)
     area = math.pi * (0.07**2 - 0.035**2)
-    assert point.profile["von_mises_Pa"].iloc[0] == pytest.approx(point.hookload / area, rel=1e-3)
+    top, first, second = (point.profile.iloc[k] for k in range(3))
+    assert top["von_mises_Pa"] == pytest.approx(point.hookload / area, rel=1e-3)
+    # It touches nothing; clearance is that of the segment below it.
+    assert not top[["contact_force_N", "contact_angle_deg", "offset_high_m", "offset_right_m"]].any()
+    assert top["clearance_m"] == first["clearance_m"] < second["clearance_m"]
+
+
+def test_a_rounding_error_to_the_left_of_the_high_side_is_the_high_side() -> None:
+    case = make_case([[0, 60, 0], [300, 60, 0]], [pipe(None, 3)])
+    string, hole = lay_out(case, 300.0), build_wellbore(case)
+    points, directions = hole.at(np.array([100.0, 200.0, 300.0]))
+    high, right = hole_frame(directions)
+    walls = hole.walls(points)._replace(offset=0.01 * high - 1e-19 * right)
+    zeros = np.zeros(3)
+    table = profile_table(hole, string, 0.0, points[0], points, walls, Loads(zeros, zeros, zeros, zeros))
+    assert list(table["contact_angle_deg"]) == [0.0] * 4
+    np.testing.assert_allclose(table["offset_high_m"][1:], 0.01)
 
 
 def test_stress_and_buckling_of_a_bent_string_in_tension_and_in_compression() -> None:
@@ -138,6 +157,7 @@ def test_the_ends_carry_hook_load_and_weight_on_bit(components: list[dict[str, o
     on_bit = 20e3 if kind == "drill_rotating" else 0.0
     assert point.hookload == pytest.approx(weight - on_bit, abs=0.005 * 20e3)
     assert top["torque_N_m"] == pytest.approx(point.surface_torque, abs=1e-3)
+    assert bit["bending_moment_N_m"] == 0.0
     assert bit["effective_tension_N"] == (-20e3 if kind == "drill_rotating" else 0)
 
 

@@ -88,7 +88,33 @@ def test_a_result_of_another_process_that_came_between_is_kept(tmp_path: Path) -
     result(3.0).save(folder)
     assert value(folder) == 3.0
     check_foreign(folder)
+    assert not list(folder.glob("*.old"))
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+@pytest.mark.parametrize("process", [ENDED, os.getpid()])
+def test_a_new_result_completes_what_a_killed_process_began(process: int, tmp_path: Path) -> None:
+    """Also one that had the id of this process."""
+    earlier(tmp_path / f".out-old-{process}")
+    result(2.0).save(tmp_path / f".out-run-{process}")
+    result(3.0).save(tmp_path / "out")
+    assert value(tmp_path / "out") == 3.0
+    check_foreign(tmp_path / "out")
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_where_the_new_folder_is_lost_the_old_one_comes_back(tmp_path: Path) -> None:
+    earlier(tmp_path / f".out-old-{ENDED}")
+    assert value(tmp_path / "out") == 1.0
+    check_foreign(tmp_path / "out")
+
+
+def test_a_symlink_is_repaired_where_it_leads(tmp_path: Path) -> None:
+    earlier(tmp_path / "far" / f".real-old-{ENDED}")
+    result(2.0).save(tmp_path / "far" / f".real-run-{ENDED}")
+    (tmp_path / "out").symlink_to("far/real")
+    assert value(tmp_path / "out") == 2.0
+    check_foreign(tmp_path / "out")
 
 
 def test_another_process_puts_its_own_between_the_two_renames(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -193,6 +219,41 @@ def test_a_symlink_stays_one(tmp_path: Path) -> None:
     assert (tmp_path / "out").readlink() == Path("real")
     assert value(tmp_path / "real") == 2.0
     check_foreign(tmp_path / "out")
+
+
+def test_where_a_new_folder_is_refused_the_message_says_where_the_files_are(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder, rename = tmp_path / "out", os.rename
+
+    def refuse(source: Path, target: Path) -> None:
+        if Path(target) == folder:
+            raise PermissionError(1, "Operation not permitted")
+        rename(source, target)
+
+    monkeypatch.setattr(os, "rename", refuse)
+    with pytest.raises(InputError, match="a folder that can be renamed"):
+        result(2.0).save(folder)
+    assert value(tmp_path / f"out-{os.getpid()}") == 2.0
+
+
+def test_what_cannot_be_moved_for_a_second_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder, rename = tmp_path / "out", os.rename
+    earlier(folder)
+    pauses: list[float] = []
+
+    def vanish(source: Path, target: Path) -> None:
+        if Path(source).name == "notes.txt":
+            raise FileNotFoundError(2, "No such file or directory")
+        rename(source, target)
+
+    monkeypatch.setattr(whole_folder_module.time, "sleep", pauses.append)
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "rename", vanish)
+        with pytest.raises(InputError, match="No such file or directory"):
+            result(2.0).save(folder)
+    assert sum(pauses) == pytest.approx(0.99)
+    assert value(folder) == 2.0
 
 
 @pytest.mark.parametrize("place", [".", "..", "~", "link", "/"])

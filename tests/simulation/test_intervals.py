@@ -21,6 +21,19 @@ def test_a_schedule_is_recorded_on_the_grid_and_at_the_ends_of_its_phases() -> N
     assert parts[3].motion == PHASES[1].motion
 
 
+@pytest.mark.parametrize(
+    ("interval", "ends"), [(2.0, [2.0, 2.5, 4.0, 6.0]), (1.25, [1.25, 2.5, 3.75, 5.0, 6.0]), (10.0, [2.5, 6.0])]
+)
+def test_no_interval_is_empty_where_a_phase_begins_or_ends_on_the_grid(interval: float, ends: list[float]) -> None:
+    assert [part.end for part in whole_schedule(PHASES, interval)] == ends
+
+
+def test_no_interval_is_empty_where_the_grid_is_rounded() -> None:
+    """2.1 s are 7.000000000000001 times 0.3 s."""
+    phase = Phase(Motion(0.0, 2.1, 0.0, 1.0, 0.0, 0.0), 0)
+    assert [part.end for part in whole_schedule([phase], 0.3)] == pytest.approx([0.3 * k for k in range(1, 8)])
+
+
 def test_a_window_has_equal_parts_of_every_phase_it_meets() -> None:
     parts = within(PHASES, Window(1.5, 3.0), 0.75)
     assert [part.end for part in parts] == pytest.approx([2.0, 2.5, 2.5 + 2 / 3, 2.5 + 4 / 3, 4.5])

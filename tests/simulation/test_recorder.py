@@ -40,6 +40,8 @@ def test_numbers_of_a_run() -> None:
     assert (numbers["wall_s"], numbers["real_time_factor"]) == (4.0, pytest.approx(0.5))
     assert (numbers["segments"], numbers["contact"], numbers["settling_residual"]) == (10, "cylinders", 1e-7)
     assert (numbers["steps"], numbers["step_s"]) == (run.steps, run.step)
+    assert numbers["pieces_of_hole"] == len(run.hole.pieces)
+    assert recorder.result("completed", "", 0.5, 1e-7).run["real_time_factor"] == pytest.approx(4.0)
     assert numbers["energy_error"] == pytest.approx(3.0 / numbers["work_J"])
     assert numbers["work_J"] == pytest.approx(1e6, rel=1e-2)
     idle = Recorder(run).result("unsettled", "", 0.0, float("nan"))
@@ -81,10 +83,21 @@ def test_points_in_the_wall_are_counted() -> None:
     recorder = recorder_of([pipe(None, 10)])
     S, n = recorder.run.S, recorder.run.segments
     recorder.run.top[topdrive.TOP_TIME] = 1.0
-    state.row(S, state.HOLE, n)[:], state.row(S, state.RADIUS, n)[:] = 0.1, 0.06
-    state.row(S, state.PX, n)[:] = [0.0, 0.03, 0.039, 0.041, 0.05, -0.041, -0.03, 0.0, 0.0, 0.041]
+    state.row(S, state.HOLE, n)[:], state.row(S, state.RADIUS, n)[:] = 0.125, 0.0625
+    # The third one is at the wall and not in it.
+    state.row(S, state.PX, n)[:] = [0.0, 0.03, 0.0625, 0.063, 0.07, -0.063, -0.03, 0.0, 0.0, 0.063]
     recorder.record(0, recorder.run.drain())
     assert recorder.history[-1]["contact_count"] == 4
+
+
+def test_the_bit_in_a_hole_that_turns() -> None:
+    """Laid on the axis without stretch, it is where its depth says."""
+    stations = [[0, 0, 0], [400, 60, 70], [1000, 60, 130]]
+    run, _ = prepare(make_case(stations, [pipe(None, 40)], [rotation(900, 5)]))
+    recorder = Recorder(run)
+    run.top[topdrive.TOP_TIME] = 1.0
+    recorder.record(0, run.drain())
+    assert recorder.history[0]["bit_md_m"] == pytest.approx(900.0, abs=0.1)
 
 
 def test_the_ledger_by_hand() -> None:
@@ -123,6 +136,8 @@ def test_a_profile_is_kept_where_the_bit_passes_its_depth() -> None:
     assert kept == [[1.0], [1.0], [1.0, 3.0], [1.0, 3.0], [1.0, 3.0, 5.0], [1.0, 3.0, 5.0]]
     assert recorder.wanted == [990.0]
     result = recorder.result("completed", "", 1.0, 0.0)
+    assert list(result.profile.columns[:2]) == ["bit_depth_m", "operation"]
+    assert list(result.profile.index) == list(range(len(result.profile)))
     assert list(result.profile["operation"].unique()) == ["trip_out", "rotate_off_bottom"]
     assert list(result.profile["bit_depth_m"].unique()) == pytest.approx([999.0, 994.0, 992.0005, 991.0])
 

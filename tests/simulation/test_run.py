@@ -11,11 +11,15 @@ from hypothesis import strategies as st
 
 from fctd import Case, InputError, equilibrium, simulate
 from fctd.mechanics import state, topdrive
+from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.laws import CODES
+from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.model.layouts import graded, uniform, with_components
 from fctd.model.operations import Phase, depth_range, schedule
-from fctd.simulation.run import Run, contact_points, prepare, relaxing
+from fctd.model.wellbore import Contacts, Wellbore, find_contacts
+from fctd.simulation import run as run_module
+from fctd.simulation.run import Run, contact_points, prepare, relaxing, settle, start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]
@@ -231,6 +235,8 @@ def test_a_run_starts_with_the_pieces_its_points_lie_in() -> None:
     np.testing.assert_array_equal(run.owner[1:-1], run.hole.owners(points))
     # Laid unstretched on the axis: ends of segments on it, each a segment's length from the one above.
     np.testing.assert_allclose(np.linalg.norm(np.diff(points, axis=0), axis=1), run.string.length[1:], atol=1e-9)
+    # The last one is the bit: fifteen chords of 20 m in the bend are 61 mm shorter than their arcs, L³/24R² each.
+    np.testing.assert_allclose(points[-1], run.hole.at(np.array([1400.0]))[0][0], atol=0.07)
     walls = run.hole.walls(points)
     np.testing.assert_allclose(np.linalg.norm(walls.offset, axis=1), 0.0, atol=5e-3)
 
@@ -259,3 +265,115 @@ def test_a_string_settles_against_its_own_weight_and_length() -> None:
 def test_input_that_only_the_steady_solver_supports_is_refused(sections: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
         prepare(make_case(**sections))
+
+
+def test_the_step_is_that_of_the_fastest_rotation_and_of_no_wall_without_contact() -> None:
+    def built(*rpm: float) -> Run:
+        moves = [rotation(1000, 10, rpm=each) for each in rpm]
+        sections = {"contact": {"enabled": False}, "solver": {"joint_damping": 1e-3}}
+        return prepare(make_case(operations=moves, **sections))[0]
+
+    slow, mixed, fast = built(10.0), built(900.0, 10.0), built(900.0)
+    assert mixed.step == fast.step < slow.step
+    frequency = stiffest_mode(fast.S, fast.segments, 0.0)
+    assert fast.step == SHARES["auto"] * stable_step(frequency, 1e-3, 900 * np.pi / 30)
+
+
+def test_records_and_profiles_up_to_their_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A profile of 20 segments has a row for each of them and one for the top."""
+    turn = [rotation(1000, 200)]
+    prepare(make_case(operations=turn, record={"interval": 1e-3}))
+    with pytest.raises(InputError, match="at most 200000 records"):
+        prepare(make_case(operations=turn, record={"interval": 0.999e-3}))
+    two = make_case(operations=turn, record={"profile_at": [1000.0] * 2})
+    monkeypatch.setattr(run_module, "MOST_PROFILE_ROWS", 42)
+    prepare(two)
+    monkeypatch.setattr(run_module, "MOST_PROFILE_ROWS", 41)
+    with pytest.raises(InputError, match="at most 1 profiles of 20 segments"):
+        prepare(two)
+
+
+def test_an_operation_below_the_survey_is_named() -> None:
+    with pytest.raises(InputError, match=r'operations\[1\]\.to_md = "1001 m": expected a depth below string\.top_md'):
+        prepare(make_case(operations=[trip(990, 1000), trip(1000, 1001)]))
+
+
+def test_settling_ends_where_the_imbalance_is_small() -> None:
+    """The imbalance is that of the forces alone: what moves the string in a step from rest without the drag."""
+    run, _ = prepare(make_case(BUILD, [pipe(None, 40)], [rotation(1000, 1)]))
+    seen: list[tuple[float, float]] = []
+    residual = settle(run, 1e-3, progress=lambda *values: seen.append(values))
+    assert residual == seen[-1][1] < 1e-3 <= min(values[1] for values in seen[:-1])
+    laws, weight = relaxing(run)
+    # A window is the drag's time constant; one more step after each measures the imbalance.
+    assert seen[0][0] == pytest.approx(1 / laws.settling)
+    assert run.time == pytest.approx(seen[-1][0] + len(seen) * run.step)
+    start_from_rest(run)
+    run.advance(run_module.STILL, run.step, laws)
+    speed = np.stack([state.row(run.S, row, run.segments) for row in (state.VX, state.VY, state.VZ)])
+    mass = state.row(run.S, state.MASS, run.segments)
+    # At rest joints and walls do not damp, so that it is somewhat smaller.
+    assert 0.5 * residual < np.abs(mass * speed).max() / run.step / weight < residual
+
+
+def test_a_string_that_does_not_settle_is_an_error() -> None:
+    run, _ = prepare(make_case(components=[pipe(1000, 4)], operations=[rotation(1000, 1)]))
+    times: list[float] = []
+    with pytest.raises(UnstableError, match=r"forces are out of balance by .* of the weight after 400 s"):
+        settle(run, 0.0, progress=lambda now, _: times.append(now))
+    assert 400 - 1 / relaxing(run)[0].settling < times[-1] <= 400
+
+
+class Shaking:
+    """The hole's own contacts, deeper and shallower in turn, as from meshes with facets."""
+
+    name = "shaking"
+
+    def __init__(self, hole: Wellbore, by: float) -> None:
+        self.hole, self.by, self.asked = hole, by, 0
+
+    def query(self, points: np.ndarray, radii: np.ndarray) -> Contacts:
+        self.asked += 1
+        hits = find_contacts(self.hole, points, radii)
+        return hits._replace(penetration=hits.penetration + self.by * (-1) ** self.asked)
+
+
+def test_a_wall_that_jumps_is_settled_against_on_average(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = make_case([[0, 0, 0], [300, 40, 60]], [pipe(None, 10)], [rotation(300, 1)])
+    hole = prepare(case)[0].hole
+    run, _ = prepare(case, Shaking(hole, 1e-6))
+    seen: list[tuple[float, float]] = []
+    residual = settle(run, progress=lambda *values: seen.append(values))
+    laws, _ = relaxing(run)
+    on_average = seen[next(k for k in range(1, len(seen)) if seen[k][0] < seen[k - 1][0]) :]
+    assert [now for now, _ in on_average] == pytest.approx([k / laws.settling for k in (1, 2, 3)])
+    assert residual == on_average[-1][1] < 1e-3
+    monkeypatch.setattr(run_module, "SETTLED_ON_AVERAGE", residual / 1e6)
+    monkeypatch.setattr(run_module, "LONGEST_SETTLING", 40.0)
+    seen.clear()
+    with pytest.raises(UnstableError, match=r"forces are out of balance by .* of the weight after 40 s"):
+        settle(run, progress=lambda *values: seen.append(values))
+    assert 40 - 1 / laws.settling < seen[-1][0] <= 40
+
+
+def test_a_start_from_rest() -> None:
+    """No speed, no sums, no clock, and axes and walls of the present places."""
+    run, _ = prepare(make_case(BUILD, [pipe(None, 40)], [rotation(1000, 1)]))
+    settled = run.S.copy()
+    rates = (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ)
+    for offset in (*rates, state.SUM_NORMAL, state.AX, state.PX):
+        state.row(run.S, offset, run.segments)[:] = 3.0
+    run.top[topdrive.TOP_TIME] = 5.0
+    start_from_rest(run)
+    for offset in (*rates, state.SUM_NORMAL):
+        assert not state.row(run.S, offset, run.segments).any()
+    assert run.time == 0.0
+    axes = [state.row(each, state.AX, run.segments) for each in (run.S, settled)]
+    np.testing.assert_allclose(*axes, atol=1e-12)
+
+
+@pytest.mark.parametrize("more", [{"shear_stiffness": 1e308, "linear_mass": 1e-30}, {"torsional_stiffness": 1e308}])
+def test_masses_and_stiffnesses_without_a_finite_frequency_are_refused(more: dict[str, float]) -> None:
+    light = pipe(1000, 20, **{"linear_mass": 1e-10} | more)
+    with pytest.raises(InputError, match=r"string\.components = \"a stiffest mode of inf rad/s\""):
+        prepare(make_case(components=[light], operations=[rotation(1000, 1)]))

@@ -60,7 +60,9 @@ def test_a_row_per_operation_friction_and_depth() -> None:
     [
         ({"bit_depths": []}, "bit_depths = []: expected at least one bit depth"),
         ({"bit_depths": [500, 400]}, 'bit_depths = "400 m": expected finite bit depths, each below the one before'),
+        ({"bit_depths": [500, 500]}, 'bit_depths = "500 m": expected finite bit depths'),
         ({"bit_depths": [500, float("nan")]}, "expected finite bit depths"),
+        ({"bit_depths": [500, float("inf")]}, "expected finite bit depths"),
         ({"bit_depths": [950, 960]}, 'bit_depth = "950 m": expected a depth below string.top_md, 0 m, within'),
         ({"operation": []}, "expected at least one kind of operation"),
         ({"operation": ["trip_in", "wiggle"]}, 'operation = "wiggle": expected one of the kinds'),
@@ -108,3 +110,14 @@ def test_a_depth_that_does_not_fit_is_a_row_with_its_reason() -> None:
                                             "survey and intervals, 900 m", "none"]  # fmt: skip
     assert "contact_diameter" in chart["reason"][2]
     assert type(chart["status"][0]) is str
+
+
+def test_a_row_without_loads_has_the_reason_of_the_solver() -> None:
+    """In a wall of 1 kN/m a string lies deeper than the hole is wide."""
+    case = case_of()
+    soft = case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"stiffness": 1e3})})
+    row = torque_drag(soft, "trip_out", [900.0]).iloc[0]
+    point = equilibrium(soft, "trip_out", 900.0)
+    assert row["status"] == "diverged"
+    assert row["reason"] == point.message
+    assert "deeper in the wall" in point.message
