@@ -18,15 +18,13 @@ from fctd.results.buckling import IN_HALF_WAVE, MODE, NEITHER, SINUSOIDAL_LIMIT
 from fctd.steady.climb import LOW, Climb, climb, creep_of
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.helix import Helix
-from fctd.steady.problem import FULL, Problem, Share
+from fctd.steady.problem import FULL, Compressed, Problem, Share
 
 Array = NDArray[np.float64]
 
-# Segments are short where the compression exceeds this share of the limit, and so many half waves beyond; shorter by
-# this factor than it needs there, as the compression grows when the string can bend.
-NEARLY, BEYOND, MARGIN = 0.75, 2, 0.8
-# Half waves of a lightly compressed string count as this long [m].
-LONGEST_WAVE = 30.0
+# The compression grows when the string can bend: by this factor and this share of the string's weight for the plan of
+# segments, which are short from this share of the limit on and so many half waves beyond.
+MORE, ADDED, NEARLY, BEYOND = 1.3, 0.02, 0.75, 2
 # Times that the string is laid out, and the helix laid at full loads.
 LAYOUTS, WINDINGS = 3, 4
 WINDING_ITERATIONS = 800
@@ -91,25 +89,35 @@ def _wind(problem: Problem, snaking: Climb) -> Climb | None:
 
 def _is_resolved(problem: Problem, path: Climb) -> bool:
     """Whether the segments are short enough at the end of a path."""
-    _, needed = _needed(problem, path, nearly=np.inf, margin=1.0)
+    here = _end_of(problem, path)
+    needed = np.where(here.rows[:, MODE] == NEITHER, np.inf, _half_wave(here.EI, here.compression) / IN_HALF_WAVE)
     return bool((problem.string.length <= np.minimum(needed[:-1], needed[1:])).all())
 
 
-def _needed(problem: Problem, path: Climb, nearly: float = NEARLY, margin: float = MARGIN) -> tuple[Array, Array]:
-    """Measured depths of top and contact points (n + 1,) [m], and the segment length that is needed there (n + 1,)."""
-    if path.sound is not None:
-        problem.put_pose(path.sound.pose)
-    here = problem.compressed(Share(LOW, LOW) if path.sound is None else path.sound.share)
-    half_wave = np.pi * np.sqrt(2 * here.EI / np.maximum(here.compression, 1e-3))
-    fine = (here.rows[:, MODE] != NEITHER) | (here.compression > nearly * here.rows[:, SINUSOIDAL_LIMIT])
-    length = np.where(fine, margin * half_wave / IN_HALF_WAVE, np.inf)
-    if nearly < np.inf:
-        # The stretch grows when the string can bend.
-        for k in np.flatnonzero(np.diff(fine, prepend=False, append=False)):
-            at = min(int(k), len(fine) - 1)
-            beside = np.abs(here.md - here.md[at]) < BEYOND * min(half_wave[at], LONGEST_WAVE)
-            length[beside] = np.minimum(length[beside], length[max(at - 1, 0) : at + 1].min())
+def _needed(problem: Problem, path: Climb) -> tuple[Array, Array]:
+    """Measured depths of top and contact points (n + 1,) [m], and the segment length to plan there (n + 1,)."""
+    here = _end_of(problem, path)
+    fine = (here.rows[:, MODE] != NEITHER) | (here.compression > NEARLY * here.rows[:, SINUSOIDAL_LIMIT])
+    half_wave = _half_wave(here.EI, MORE * here.compression + ADDED * problem.weight)
+    length = np.where(fine, half_wave / IN_HALF_WAVE, np.inf)
+    for k in np.flatnonzero(np.diff(fine, prepend=False, append=False)):
+        at = min(int(k), len(fine) - 1)
+        beside = np.abs(here.md - here.md[at]) < BEYOND * half_wave[at]
+        length[beside] = np.minimum(length[beside], length[max(at - 1, 0) : at + 1].min())
     return here.md, length
+
+
+def _end_of(problem: Problem, path: Climb) -> Compressed:
+    """The string at the end of a path, or at its last balance that needs no push beyond the string's weight."""
+    if path.sound is None:
+        return problem.compressed(Share(LOW, LOW))
+    problem.put_pose(path.sound.pose)
+    return problem.compressed(path.sound.share)
+
+
+def _half_wave(EI: Array, compression: Array) -> Array:
+    """Half wave of snaking π√(2EI/F) [m], half a turn of the helix."""
+    return np.asarray(np.pi * np.sqrt(2 * EI / np.maximum(compression, 1e-3)))
 
 
 def _shorter(before: tuple[Array, Array], now: tuple[Array, Array]) -> tuple[Array, Array]:
