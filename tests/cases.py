@@ -37,9 +37,11 @@ def hole_of(stations: list[list[float]], **wellbore: Any) -> Wellbore:
     return build_wellbore(make_case(stations, wellbore=wellbore))
 
 
-def pipe(length: float | None, segments: int | None, outer: float = 0.127, **more: Any) -> dict[str, Any]:
+def pipe(
+    length: float | None, segments: int | None, outer: float = 0.127, inner: float = 0.07, **more: Any
+) -> dict[str, Any]:
     """A component of 5 inch drill pipe, or of another outer diameter [m]; None leaves a key out."""
-    given = {"name": "pipe", "length": length, "outer_diameter": outer, "inner_diameter": 0.07, "segments": segments}
+    given = {"name": "pipe", "length": length, "outer_diameter": outer, "inner_diameter": inner, "segments": segments}
     return {key: value for key, value in given.items() if value is not None} | more
 
 

@@ -21,6 +21,7 @@ LOW = 0.1
 # Steps of the share: first, smallest and largest; factors after a step of few or many iterations.
 FIRST, SMALLEST, LARGEST = 0.1, 3e-3, 0.25
 FEW, MANY, LONGER, SHORTER = 70, 150, 1.5, 0.67
+SHAKES = 3
 START_ITERATIONS, STEP_ITERATIONS = 1500, 400
 # A push of so many weights of the string is beyond any rig; the climb ends, and the loads that no push overcomes are
 # extrapolated from 1/push → 0.
@@ -68,6 +69,21 @@ def creep_of(problem: Problem, iterations: int) -> Creep:
     return Creep(iterations, 0.05, 1.15, 0.5, 0.6, 0.04, 0.1, problem.allowed, problem.allowed)
 
 
+def come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:
+    """Relax the string, and shake it where it rests in a balance that it would leave; returns code and iterations.
+
+    A straight string stays straight above its buckling limit until something moves it aside.
+    """
+    code, done = problem.relax(creep_of(problem, iterations), share)
+    for _ in range(SHAKES):
+        if code != CONVERGED or problem.unstable_modes(share) == 0:
+            break
+        problem.shake()
+        code, more = problem.relax(creep_of(problem, iterations), share)
+        done += more
+    return code, done
+
+
 def climb(problem: Problem, prepare: Callable[[Share], object] | None = None) -> Climb:
     """Follow the string from small loads to those of the operation, and, where it must be pushed, to lock-up.
 
@@ -76,7 +92,7 @@ def climb(problem: Problem, prepare: Callable[[Share], object] | None = None) ->
     path = Climb()
     weight = LOW if problem.weight_on_bit > 0 else 1.0
     problem.lay_guess(Share(LOW, weight))
-    code, path.iterations = problem.relax(creep_of(problem, START_ITERATIONS), Share(LOW, weight))
+    code, path.iterations = come_to_rest(problem, START_ITERATIONS, Share(LOW, weight))
     if code != CONVERGED:
         path.ends_at = 0.0
         return path
@@ -110,7 +126,7 @@ def _rise(
         aim = min(share + step, end)
         if prepare is not None:
             prepare(loads(share))
-        code, done = problem.relax(creep_of(problem, STEP_ITERATIONS), loads(aim))
+        code, done = come_to_rest(problem, STEP_ITERATIONS, loads(aim))
         path.iterations += done
         if code != CONVERGED:
             problem.put_pose(kept)

@@ -15,7 +15,7 @@ from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.model.drillstring import lay_out
 from fctd.results.buckling import IN_HALF_WAVE, MODE, NEITHER, SINUSOIDAL_LIMIT
-from fctd.steady.climb import LOW, Climb, climb, creep_of
+from fctd.steady.climb import LOW, Climb, climb, come_to_rest
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.helix import Helix
 from fctd.steady.problem import FULL, Compressed, Problem, Share
@@ -72,7 +72,7 @@ def _wind(problem: Problem, snaking: Climb) -> Climb | None:
                 if path.pose is not None and helix.stands():
                     return path
                 break
-            code, done = problem.relax(creep_of(problem, WINDING_ITERATIONS))
+            code, done = come_to_rest(problem, WINDING_ITERATIONS, FULL)
             path.iterations += done
             if code != CONVERGED:
                 break

@@ -181,10 +181,17 @@ class Problem:
         )  # fmt: skip
         return code, done
 
-    def unstable_modes(self) -> int:
+    def shake(self) -> None:
+        """Shift every body across the string by up to ``SEED``, each another way, always the same."""
+        across = np.random.default_rng(0).uniform(-SEED, SEED, (self.n, 3))
+        self.work.P[1 : self.n + 1, PLACE] += across
+
+    def unstable_modes(self, share: Share = FULL) -> int:
         """Number of modes in which the pose would leave its balance without friction."""
         w = self.work
-        frictionless_tangent(w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(), w.R, w.D, w.A, w.U)
+        frictionless_tangent(
+            w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(share), w.R, w.D, w.A, w.U
+        )
         return int(negative_pivots(w.D, w.A, w.U, self.n))
 
     def reactions(self, share: Share = FULL) -> Reactions:

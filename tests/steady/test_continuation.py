@@ -19,8 +19,9 @@ from fctd.steady.continuation import (
     imbalance,
     take_step,
 )
-from fctd.steady.equilibrium import Solver, Workspace
+from fctd.steady.equilibrium import Solver
 from fctd.steady.first_guess import guess
+from fctd.steady.problem import Workspace
 from fctd.steady.tangent import Steady
 from tests.cases import make_case, pipe
 

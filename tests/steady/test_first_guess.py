@@ -6,10 +6,12 @@ from scipy.spatial.transform import Rotation
 
 from fctd import Case
 from fctd.mechanics import state
+from fctd.mechanics.laws import CODES
 from fctd.model.drillstring import fill, lay_out
 from fctd.model.operations import steady_rates
-from fctd.steady.equilibrium import Solver, Workspace
+from fctd.steady.equilibrium import Solver
 from fctd.steady.first_guess import MD, OFFSET, TENSION, TORQUE, guess
+from fctd.steady.problem import Workspace
 from fctd.steady.tangent import Steady
 from tests.cases import make_case, pipe
 
@@ -31,7 +33,7 @@ def guessed(case: Case, kind: str, bit_tension: float = 0.0, seed: float = 0.0) 
     solver, work = Solver(case), Workspace(SEGMENTS)
     fill(work.S, lay_out(case, LENGTH), case)
     rates = steady_rates(case, kind)
-    laws = Steady(solver.geometry, solver.law, 1.0, rates.speed, rates.spin, 0.0, 0.0, 0.0, 0.0)
+    laws = Steady(solver.geometry, CODES[case.contact.friction_law], 1.0, rates.speed, rates.spin, 0.0, 0.0, 0.0, 0.0)
     guess(work.S, SEGMENTS, solver.hole.pieces, laws, 0.0, bit_tension, seed, work.G, work.P)
     return work
 

@@ -1,0 +1,50 @@
+"""Resolved strings: segments short enough, and answers that do not hang on the case's own segments."""
+
+import numpy as np
+import pytest
+
+import fctd
+from fctd.case.load import Case
+from fctd.model.drillstring import section_of
+from fctd.results.status import SteadyStatus
+from tests.steady.buckled import HOLE, level_case, onset
+
+
+def with_resolution(case: Case) -> Case:
+    return case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": "resolve"})})
+
+
+@pytest.mark.parametrize(("segment", "length"), [(12.0, 120.0), (5.0, 150.0)])
+def test_coarse_segments_are_cut_until_they_follow_the_shape(segment: float, length: float) -> None:
+    case = level_case(1.3, length, segment, friction=0.1)
+    coarse = fctd.equilibrium(case, "drill_sliding", length)
+    assert coarse.status == SteadyStatus.LOCKED_UP or not coarse.buckling.resolved
+    fine = fctd.equilibrium(with_resolution(case), "drill_sliding", length)
+    assert fine.answered
+    assert fine.buckling.resolved
+    assert fine.shape == "snaking"
+    # It snakes: a string that lies straight above the onset is a balance that it leaves.
+    assert np.abs(fine.profile["offset_right_m"]).max() > 0.01
+    assert fine.shape == "snaking"
+
+
+def test_a_helix_is_the_answer_where_it_has_the_lower_energy() -> None:
+    """Its transmitted force follows 1/F₀ − 1/F = μ r x/4EI; snaking has less friction, and both are in the answer."""
+    mu, length = 0.4, 150.0
+    point = fctd.equilibrium(with_resolution(level_case(2.0, length, 3.0, friction=mu)), "drill_sliding", length)
+    assert point.status == SteadyStatus.LOCKED_UP
+    assert point.shape == "helix"
+    case = level_case(2.0, length)
+    EI, r, F = section_of(case.string.components[0], 1200.0).EI, 0.5 * (HOLE - 0.127), 2 * onset(case)
+    law = 1 / (1 / F - mu * r * length / (4 * EI))
+    assert -point.hookload == pytest.approx(law, rel=0.03)
+    assert point.hookload_low == point.hookload < point.hookload_high < -F
+
+
+def test_a_string_that_is_not_buckled_is_solved_as_it_is() -> None:
+    case = level_case(0.5, 60.0, 6.0, friction=0.2)
+    as_it_is = fctd.equilibrium(case, "drill_sliding", 60.0)
+    resolved = fctd.equilibrium(with_resolution(case), "drill_sliding", 60.0)
+    assert resolved.shape == "none"
+    assert resolved.hookload == as_it_is.hookload
+    assert np.isnan(resolved.hookload_low)
