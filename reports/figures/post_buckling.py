@@ -24,8 +24,12 @@ def shapes(tables: Tables) -> Canvas:
         flat.set_title(f"{name} at {part['times_onset'].iloc[0]:g} times the onset", loc="left")
         space = canvas.add_subplot(grid[row, 1], projection="3d")
         space.plot(md, 1e3 * aside, 1e3 * up, **style.line(row))
-        space.set(xlabel="along the hole, m", ylabel="aside, mm", zlabel="up, mm")
-        space.set_box_aspect((3, 1, 1), zoom=1.25)
+        wall = 1e3 * np.hypot(aside, up).max()
+        space.set(
+            xlabel="along the hole, m", ylabel="aside, mm", zlabel="up, mm", ylim=(-wall, wall), zlim=(-wall, wall)
+        )
+        space.set(yticks=[-40, 0, 40], zticks=[-40, 0, 40])
+        space.set_box_aspect((2.2, 1, 1), zoom=0.85)
     return canvas
 
 

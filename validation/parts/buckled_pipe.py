@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from fctd import Case, Equilibrium
 from fctd.case.specs import ComponentSpec
+from fctd.mechanics import state
+from fctd.mechanics.rotations import rotation_columns
 from fctd.model.drillstring import section_of
 from fctd.model.operations import steady_rates
 from fctd.model.wellbore import hole_frame
@@ -16,6 +18,8 @@ from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.first_guess import MD, OFFSET, TENSION
 from fctd.steady.relaxation import Creep
+from fctd.steady.tangent import PLACE, QUATERNION
+from references.beams.cosserat import Bit, rest
 from references.buckling.onset import Pipe
 
 Array = NDArray[np.float64]
@@ -30,6 +34,8 @@ WALL = 2e7  # [N/m/m]: some 0.05 % of the clearance under the weight, 0.5 % unde
 BELOW_SURFACE = 60.0  # [m] of hole above the rig
 OPERATION = "drill_sliding"
 CREEP = Creep(3000, 0.05, 1.15, 0.5, 0.6, 0.04, 0.1, 0.0, 0.0)  # the last two are the problem's
+# Of the rod: damping [1/s], largest unbalanced force over the weight, simulated time at most [s].
+ROD_DAMPING, ROD_TOLERANCE, ROD_LONGEST = 5.0, 1e-4, 60.0
 # Share of the pipe at either end in which its shape is that of the ends.
 ENDS = 0.25
 
@@ -61,7 +67,7 @@ class Rig:
         stretches = friction if isinstance(friction, list) else [(length, friction)]
         bit = [{**PIPE, "name": "bit", "length": 0.5 * segment, "segments": 1, "contact_diameter": HOLE}]
         pipe = {**PIPE, "length": length + 1.0, "segment_length": segment}
-        self.length, self.segment = length, segment
+        self.length, self.segment, self.wall = length, segment, wall
         self.case = Case.model_validate(
             {
                 "name": "buckled pipe",
@@ -119,6 +125,16 @@ class Rig:
         angle = np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(along))])
         self.lay(force, lambda above: np.interp(above, along, angle), compression)
 
+    def nodes(self, elements: int) -> Array:
+        """Points (elements + 1, 3) [m] at equal distances along the pipe as it lies."""
+        S, P, n = self.problem.work.S, self.problem.work.P, self.problem.n
+        axes = np.array([rotation_columns(*P[j, QUATERNION])[6:] for j in range(1, n + 1)])
+        lower = P[1 : n + 1, PLACE] + state.row(S, state.ARM_BOTTOM, n)[:, None] * axes
+        ends = np.vstack([P[:1, PLACE], lower])
+        along = np.insert(np.cumsum(self.problem.string.length), 0, 0.0)
+        even = np.linspace(0, along[-1], elements + 1)
+        return np.stack([np.interp(even, along, ends[:, k]) for k in range(3)], axis=1)
+
     def settle(self, force: float) -> Equilibrium:
         """The balance that the pipe finds from its pose under a compression [N] at its lower end.
 
@@ -130,6 +146,24 @@ class Rig:
         if code != CONVERGED:
             raise UnsettledError(f"no balance at {force / BUCKLING.onset:.4g} times the onset, {iterations} iterations")
         return self.solver.answer(problem, code, iterations, problem.unstable_modes())
+
+    def rest_as_rod(self, force: float) -> pd.DataFrame:
+        """The rows of a profile of PyElastica's rod, with elements as long as segments, relaxed from the pose."""
+        count, hole = round(self.length / self.segment), self.solver.hole
+        rod = rest(
+            hole, SECTION, BELOW_SURFACE, BELOW_SURFACE + self.length, count, self.wall, ROD_DAMPING, ROD_TOLERANCE,
+            ROD_LONGEST, Bit(force, 0.5 * HOLE), self.nodes(count),
+        )  # fmt: skip
+        walls = hole.walls(rod.nodes)
+        high, right = hole_frame(hole.at(walls.md)[1])
+        return pd.DataFrame(
+            {
+                "md_m": walls.md,
+                "offset_high_m": (walls.offset * high).sum(axis=1),
+                "offset_right_m": (walls.offset * right).sum(axis=1),
+                "contact_force_N": np.linalg.norm(rod.wall_force, axis=1),
+            }
+        )
 
     def onset(self, expected: float) -> tuple[float, float]:
         """Compression at the lower end at which the straight pipe becomes unstable [N], by bisection to 0.05 %.

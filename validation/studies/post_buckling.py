@@ -28,7 +28,6 @@ BUILD = np.radians(3.0) / 30.0  # [rad/m]
 SNAKING = (1.1, 1.25, 1.4, 1.7)  # times the onset, as are the next
 HELICES = (1.5, 1.7, 2.0, 2.5)
 ENERGIES = (1.35, 1.4, 1.45, 1.5, 1.55)
-SHORT = slice(1, None, 2)  # of HELICES and ENERGIES in the short way
 HIGHEST, STEP = 2.5, 0.05
 PUSHED, FRICTION = 1.5, 0.3  # compression at the lower end, above the helical limit of 1.41
 SHARES = (0.25, 0.5, 0.75)  # of the lock-up length
@@ -37,6 +36,8 @@ SEGMENTS = (3.0, 2.0, 1.5, 1.0, 0.75, 0.5)
 HALVED = (2.0, 1.0, 0.5)  # of these, to find the order
 ORDER_AT, ORDER_WAVES = 1.25, 19  # times the onset; half waves in the rig
 ORDER_LENGTH = 240.0  # [m]
+ROD = (1.4, 2.0)  # times the onset
+ROD_LENGTH, ROD_SEGMENT, ROD_WAVES = 100.0, 1.0, 8  # [m], [m], half waves
 
 
 def onsets() -> pd.DataFrame:
@@ -186,6 +187,28 @@ def hanging(segment: float, weights: Sequence[float]) -> pd.DataFrame:
     return _compared(pd.DataFrame(rows), "shortening_mm", "exact_mm")
 
 
+def second_route() -> pd.DataFrame:
+    """Snaking that leaves the wall, by the engine and as a rod of PyElastica, both from the same straight segments."""
+    rows, half = [], ROD_LENGTH / ROD_WAVES
+    for ratio in ROD:
+        rig, force = Rig(ROD_LENGTH, ROD_SEGMENT), ratio * ONSET
+        rig.lay(force, _angle_of(mitchell.snaking(BUCKLING, force, half)), np.zeros_like)
+        rod = rig.rest_as_rod(force)
+        for name, profile in (("PyElastica", rod), ("engine", rig.settle(force).profile)):
+            wave, part = wave_of(profile), middle(profile)
+            if wave is None:
+                raise UnsettledError(f"no snaking at {ratio:g} times the onset, {name}")
+            rows.append(
+                {
+                    "times_onset": ratio, "route": name, "amplitude_deg": wave.amplitude,
+                    "half_wave_m": wave.half_wave, "off_wall_percent": 100 * (part["contact_force_N"] <= 0).mean(),
+                    "wall_force_N_per_m": part["contact_force_N"].mean() / ROD_SEGMENT,
+                    "shortening_mm": 1e3 * (ROD_LENGTH - np.ptp(profile["md_m"])),
+                }
+            )  # fmt: skip
+    return pd.DataFrame(rows)
+
+
 def convergence() -> pd.DataFrame:
     """Snaking of a given number of half waves and helix of a given number of turns against the segment length."""
     force, rows = ORDER_AT * ONSET, []
@@ -223,7 +246,7 @@ def shapes(segment: float) -> pd.DataFrame:
         if name == "helix":
             rig.wind(force)
         else:
-            rig.lay_straight(force)
+            rig.lay(force, _angle_of(mitchell.snaking(BUCKLING, force)))
         part = middle(rig.settle(force).profile)
         columns = part[["md_m", "angle_deg", "offset_high_m", "offset_right_m", "contact_force_N"]]
         tables.append(columns.assign(shape=name, times_onset=ratio, md_m=part["md_m"] - part["md_m"].iloc[0]))
@@ -233,18 +256,20 @@ def shapes(segment: float) -> pd.DataFrame:
 def run(context: Context) -> Outcome:
     """All rigs; the short way with longer segments and fewer loads."""
     segment = 1.0 if context.quick else SEGMENT
-    chosen = SHORT if context.quick else slice(None)
+    wound, compared = (HELICES[1::2], ENERGIES[1::2]) if context.quick else (HELICES, ENERGIES)
     parts: list[tuple[str, Callable[[], pd.DataFrame]]] = [
         ("onset", onsets),
         ("snaking", lambda: snaking(FINE)),
-        ("helix", lambda: helices(segment, HELICES[chosen])),
-        ("energies", lambda: energies(segment, ENERGIES[chosen])),
+        ("helix", lambda: helices(segment, wound)),
+        ("energies", lambda: energies(segment, compared)),
         ("paths", lambda: paths(segment, 4 * STEP if context.quick else STEP)),
         ("pushed", lambda: pushed(segment)),
         ("hanging", lambda: hanging(segment, WEIGHTS[:3] if context.quick else WEIGHTS)),
         ("convergence", convergence),
         ("shapes", lambda: shapes(segment)),
     ]
+    if not context.quick:
+        parts.append(("second_route", second_route))
     tables = {name: part() for name, part in context.progress(parts, "rigs")}
     return Outcome(
         tables=tables,
@@ -256,7 +281,7 @@ def run(context: Context) -> Outcome:
             "Friction acts at the pipe's axis here, as in the closed forms: its moment at the pipe's surface turns a "
             "helix about the hole's axis without end.",
             f"Mitchell's equation holds up to {mitchell.wall_contact_limit():.3g} times the onset. Beyond it, snaking "
-            "leaves the wall at its turning points; no second route is compared there.",
+            "leaves the wall at its turning points; the full run compares it with a Cosserat rod of PyElastica there.",
         ],
         display={
             "onset": "Onset of buckling",
@@ -266,7 +291,8 @@ def run(context: Context) -> Outcome:
             "pushed": "Force through a helix that slides, with the tan law of the planning tools",
             "hanging": "Shortening of vertical tubing by its helix",
             "convergence": "Segment length, against the value of none",
-        },
+        }
+        | ({"second_route": "One string by a second route"} if "second_route" in tables else {}),
     )
 
 
@@ -310,6 +336,13 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
         order = float(np.log2((coarse - middling) / (middling - fine)))
         name = f"order of convergence, {column.split('_')[0]}"
         checks.append(Check(name, order, (1.7, 2.5), "within", "", "a chain of rigid segments: second order"))
+    if "second_route" in tables:
+        routes = tables["second_route"].set_index(["route", "times_onset"])
+        other, own = routes.loc["PyElastica"], routes.loc["engine"]
+        for column in ("amplitude_deg", "wall_force_N_per_m"):
+            worst = float(_percent(own[column], other[column]).abs().max())
+            name = f"engine against PyElastica, {column.split('_')[0]}"
+            checks.append(Check(name, worst, 3.0, "at_most", "%", "a second route for one string"))
     return checks
 
 
