@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from references.buckling import helix, mitchell
 from references.buckling.onset import FREE_END, half_wave, snaking_limit
 from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts import resolved_rows
 from validation.parts.buckled_pipe import BUCKLING, Rig, Turns, UnsettledError, energy, middle, turns_of, wave_of
 
 Array = NDArray[np.float64]
@@ -36,8 +37,16 @@ SEGMENTS = (3.0, 2.0, 1.5, 1.0, 0.75, 0.5)
 HALVED = (2.0, 1.0, 0.5)  # of these, to find the order
 ORDER_AT, ORDER_WAVES = 1.25, 19  # times the onset; half waves in the rig
 ORDER_LENGTH = 240.0  # [m]
-ROD = (1.4, 2.0)  # times the onset
+ROD = (2.0,)  # times the onset, where snaking leaves the wall
+ROWS = (1.25, 2.0)  # times the onset
 ROD_LENGTH, ROD_SEGMENT, ROD_WAVES = 100.0, 1.0, 8  # [m], [m], half waves
+
+# Captions of the tables of the full run.
+FULL = {
+    "pushed_row": "A row of the helix that slides",
+    "well": "Hook load of a horizontal well that slides, against the segment length; the last row is resolved",
+    "second_route": "One string by a second route",
+}
 
 
 def onsets() -> pd.DataFrame:
@@ -267,9 +276,14 @@ def run(context: Context) -> Outcome:
         ("hanging", lambda: hanging(segment, WEIGHTS[:3] if context.quick else WEIGHTS)),
         ("convergence", convergence),
         ("shapes", lambda: shapes(segment)),
+        ("rows", lambda: resolved_rows.level_rows(*ROWS)),
     ]
     if not context.quick:
-        parts.append(("second_route", second_route))
+        parts += [
+            ("pushed_row", lambda: resolved_rows.pushed_row(PUSHED, FRICTION, SHARES[0])),
+            ("well", resolved_rows.well_rows),
+            ("second_route", second_route),
+        ]
     tables = {name: part() for name, part in context.progress(parts, "rigs")}
     return Outcome(
         tables=tables,
@@ -291,8 +305,9 @@ def run(context: Context) -> Outcome:
             "pushed": "Force through a helix that slides, with the tan law of the planning tools",
             "hanging": "Shortening of vertical tubing by its helix",
             "convergence": "Segment length, against the value of none",
+            "rows": "Rows of a level pipe of long segments, with its buckling resolved",
         }
-        | ({"second_route": "One string by a second route"} if "second_route" in tables else {}),
+        | {name: caption for name, caption in FULL.items() if name in tables},
     )
 
 
@@ -336,6 +351,20 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
         order = float(np.log2((coarse - middling) / (middling - fine)))
         name = f"order of convergence, {column.split('_')[0]}"
         checks.append(Check(name, order, (1.7, 2.5), "within", "", "a chain of rigid segments: second order"))
+    rows = tables["rows"]
+    checks += [
+        Check(f"row of {ratio:g} times the onset", abs(off), 3.0, "at_most", "%", "Mitchell's equation, rF²/4EI")
+        for ratio, off in zip(rows["times_onset"], rows["off_percent"], strict=True)
+    ]
+    if "well" in tables:
+        row, well = tables["pushed_row"].iloc[0], tables["well"]
+        off = float(well["off_percent_of_weight"].abs().iloc[-1])
+        halved = float(well["off_percent_of_weight"].abs().iloc[-3])
+        checks += [
+            Check("row of the helix that slides, push", abs(row["off_percent"]), 3.0, "at_most", "%", "reciprocal law"),
+            Check("well, resolved against the finest segments", off, 1.0, "at_most", "%", "of the string's weight"),
+            Check("well, finest segments doubled", halved, 1.0, "at_most", "%", "of the string's weight"),
+        ]
     if "second_route" in tables:
         routes = tables["second_route"].set_index(["route", "times_onset"])
         other, own = routes.loc["PyElastica"], routes.loc["engine"]
