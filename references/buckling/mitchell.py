@@ -78,6 +78,12 @@ class Shape:
         first, second, _ = self.derivatives
         return np.asarray(self.pipe.clearance * np.hypot(first**2, second))
 
+    def waves(self, along: Array) -> Array:
+        """Angle of snaking (m,) [rad] at distances (m,) [m] from a passage of the low side."""
+        count, rest = np.divmod(along, self.length)
+        rising = np.interp(np.minimum(rest, self.length - rest), self.s, self.angle)
+        return np.where(count % 2 == 0, rising, -rising)
+
     @cached_property
     def mean_wall_force(self) -> float:
         """[N/m]."""

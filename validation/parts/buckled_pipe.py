@@ -118,12 +118,14 @@ class Rig:
         self.problem.lay_nodes()
 
     def wind(self, force: float, compression: Along | None = None) -> None:
-        """Lay the pipe as a helix θ' = √(F/2EI)."""
-        along = np.linspace(0, self.length, 20001)
-        forces = np.full_like(along, force) if compression is None else compression(along)
+        """Lay the pipe as a helix θ' = √(F/2EI); arguments as in ``lay``."""
+        self.lay_straight(force)
+        nodes = self.problem.work.G[self.problem.n :: -1]
+        above = BELOW_SURFACE + self.length - nodes[:, MD]
+        forces = -nodes[:, TENSION] if compression is None else compression(above)
         rate = np.sqrt(np.maximum(forces, 0.0) / (2 * BUCKLING.EI))
-        angle = np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(along))])
-        self.lay(force, lambda above: np.interp(above, along, angle), compression)
+        angle = np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(above))])
+        self.lay(force, lambda at: np.interp(at, above, angle), compression)
 
     def nodes(self, elements: int) -> Array:
         """Points (elements + 1, 3) [m] at equal distances along the pipe as it lies."""

@@ -127,7 +127,7 @@ def energies(segment: float, ratios: Sequence[float]) -> pd.DataFrame:
         rig.wind(force)
         wound = energy(rig, rig.settle(force))
         shape = mitchell.snaking(BUCKLING, force)
-        rig.lay(force, _angle_of(shape))
+        rig.lay(force, shape.waves)
         waved = energy(rig, rig.settle(force))
         exact = mitchell.helix(BUCKLING, force).energy - shape.energy
         rows.append(
@@ -187,7 +187,7 @@ def hanging(segment: float, weights: Sequence[float]) -> pd.DataFrame:
         force = times * BUCKLING.vertical
         length = force / BUCKLING.weight + 150.0  # above the neutral point the pipe hangs straight
         rig = Rig(length, segment, [(0.0, 0.0, 0.0), (length, 0.0, 0.0)])
-        rig.wind(force, _hanging_below(force))
+        rig.wind(force)
         short = rig.shortening(rig.settle(force))
         exact = helix.vertical_shortening(BUCKLING, force)
         rows.append(
@@ -201,7 +201,7 @@ def second_route() -> pd.DataFrame:
     rows, half = [], ROD_LENGTH / ROD_WAVES
     for ratio in ROD:
         rig, force = Rig(ROD_LENGTH, ROD_SEGMENT), ratio * ONSET
-        rig.lay(force, _angle_of(mitchell.snaking(BUCKLING, force, half)), np.zeros_like)
+        rig.lay(force, mitchell.snaking(BUCKLING, force, half).waves, np.zeros_like)
         rod = rig.rest_as_rod(force)
         for name, profile in (("PyElastica", rod), ("engine", rig.settle(force).profile)):
             wave, part = wave_of(profile), middle(profile)
@@ -225,7 +225,7 @@ def convergence() -> pd.DataFrame:
     shape = mitchell.snaking(BUCKLING, force, half)
     for segment in SEGMENTS:
         rig = Rig(ORDER_LENGTH, segment)
-        rig.lay(force, _angle_of(shape))
+        rig.lay(force, shape.waves)
         wave = wave_of(rig.settle(force).profile)
         rig = Rig(0.5 * LONG, segment)
         rig.wind(2 * ONSET)
@@ -255,7 +255,7 @@ def shapes(segment: float) -> pd.DataFrame:
         if name == "helix":
             rig.wind(force)
         else:
-            rig.lay(force, _angle_of(mitchell.snaking(BUCKLING, force)))
+            rig.lay(force, mitchell.snaking(BUCKLING, force).waves)
         part = middle(rig.settle(force).profile)
         columns = part[["md_m", "angle_deg", "offset_high_m", "offset_right_m", "contact_force_N"]]
         tables.append(columns.assign(shape=name, times_onset=ratio, md_m=part["md_m"] - part["md_m"].iloc[0]))
@@ -390,22 +390,6 @@ def _helix_of(turns: Turns | None, ratio: float) -> Turns:
     if turns is None:
         raise UnsettledError(f"no helix at {ratio:g} times the onset")
     return turns
-
-
-def _hanging_below(force: float) -> Callable[[Array], Array]:
-    """Compression of a vertical pipe at distances above its lower end, down to none."""
-    return lambda above: np.maximum(force - BUCKLING.weight * above, 0.0)
-
-
-def _angle_of(shape: mitchell.Shape) -> Callable[[Array], Array]:
-    """The angle of snaking at any distance from a passage of the low side."""
-
-    def angle(along: Array) -> Array:
-        waves, rest = np.divmod(along, shape.length)
-        rising = np.interp(np.minimum(rest, shape.length - rest), shape.s, shape.angle)
-        return np.where(waves % 2 == 0, rising, -rising)
-
-    return angle
 
 
 STUDY = Study(

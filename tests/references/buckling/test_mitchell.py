@@ -81,6 +81,12 @@ def test_snaking_begins_at_the_onset() -> None:
     assert shape.amplitude == pytest.approx(np.sqrt(0.002 / 1.375), rel=5e-3)
 
 
+def test_waves_alternate() -> None:
+    shape = snaking(PIPE, 1.3 * PIPE.onset)
+    quarters = shape.waves(0.5 * shape.length * np.arange(5))
+    assert quarters == pytest.approx(shape.amplitude * np.array([0, 1, 0, -1, 0]))
+
+
 def test_half_waves_that_do_not_buckle() -> None:
     with pytest.raises(NoShapeError, match="such half waves"):
         snaking(PIPE, 1.1 * PIPE.onset, 2 * half_wave(PIPE))
