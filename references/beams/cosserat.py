@@ -1,7 +1,7 @@
 """A Cosserat rod (PyElastica) at rest in a hole: a beam in three dimensions with which FCTD is compared.
 
-The rod starts on the axis of the hole and is relaxed by damping.  The hole is FCTD's; the mechanics of the pipe is
-PyElastica's (Gazzola and others 2018).
+The rod starts on the axis of the hole, or in a given shape, and is relaxed by damping.  The hole is FCTD's; the
+mechanics of the pipe is PyElastica's (Gazzola and others 2018).
 """
 
 from typing import Any, NamedTuple
@@ -33,18 +33,32 @@ class RestingRod(NamedTuple):
     steps: int
 
 
+class Bit(NamedTuple):
+    """The lower end: its force uphole [N] and its radius [m]; one as wide as the hole is held on the axis."""
+
+    weight_on_bit: float = 0.0
+    radius: float = 0.0
+
+
+FREE = Bit()
+
+
 class _Surroundings(elastica.NoForces[Any]):
-    """Wall, weight and clamp.
+    """Wall, weight, clamp and the force on the bit.
 
     The wall is a penalty per metre at the nodes, each for its tributary length of rod.  The clamp is a bending spring,
     half an element of pipe above the middle of the first element: PyElastica's own clamp fixes that element, which
     clamps the pipe half an element too low.
     """
 
-    def __init__(self, hole: Wellbore, section: Section, stiffness: float, share: Array, axis: Array) -> None:
+    def __init__(
+        self, hole: Wellbore, section: Section, stiffness: float, share: Array, axis: Array, bit: Bit, downhole: Array
+    ) -> None:
         super().__init__()
         self.axis, self.clamp = axis, section.EI / share[0]
-        self.hole, self.radius, self.stiffness = hole, section.contact_radius, stiffness * share
+        self.hole, self.stiffness, self.push = hole, stiffness * share, -bit.weight_on_bit * downhole
+        self.radius = np.full(len(share), section.contact_radius)
+        self.radius[-1] = max(bit.radius, section.contact_radius)
         self.weight = section.weight * share
         self.owner = np.zeros(len(share), dtype=np.int64)
         self.force = np.zeros((3, len(share)))
@@ -61,6 +75,7 @@ class _Surroundings(elastica.NoForces[Any]):
         self.find(system.position_collection)
         system.external_forces += self.force
         system.external_forces[2] += self.weight
+        system.external_forces[:, -1] += self.push
 
     def apply_torques(self, system: Any, time: Any = 0.0) -> None:
         """Add the moment of the clamp to the first element, in the element's frame (called by PyElastica)."""
@@ -119,15 +134,18 @@ def rest(
     damping: float,
     tolerance: float,
     longest: float,
+    bit: Bit = FREE,
+    start: Array | None = None,
 ) -> RestingRod:
     """Relax a pipe from ``top_md`` to ``bit_md`` [m], clamped along the hole at its top, until it is at rest.
 
     stiffness [N/m/m] of the wall; damping [1/s] of all motion; tolerance : largest unbalanced force over the weight;
-    longest [s] : simulated time at most.  Raises UnsettledError.
+    longest [s] : simulated time at most; start (elements + 1, 3) [m] : nodes of the unloaded pipe from which it starts,
+    by default on the axis.  Raises UnsettledError.
     """
     length = bit_md - top_md
     element = length / elements
-    points = hole.at(np.linspace(top_md, bit_md, elements + 1))[0]
+    points = hole.at(np.linspace(top_md, bit_md, elements + 1))[0] if start is None else start
     share = np.full(elements + 1, element)
     share[[0, -1]] *= 0.5
     rod = _rod(points, length, section)
@@ -142,7 +160,8 @@ def rest(
         constrained_position_idx=(0,),
         translational_constraint_selector=np.array([True, True, True]),
     )
-    around = hole, section, stiffness, share, hole.at(np.array([top_md]))[1][0]
+    top_axis, bit_axis = hole.at(np.array([top_md, bit_md]))[1]
+    around = hole, section, stiffness, share, top_axis, bit, bit_axis
     simulator.add_forcing_to(rod).using(_Surroundings, *around)
     simulator.dampen(rod).using(elastica.AnalyticalLinearDamper, uniform_damping_constant=damping, time_step=step)
     simulator.finalize()

@@ -38,6 +38,7 @@ MODULES: dict[str, str] = {
     "friction_laws": "reports.figures.friction_laws",
     "mud_effects": "reports.figures.mud_effects",
     "beam_in_hole": "reports.figures.beam_in_hole",
+    "post_buckling": "reports.figures.post_buckling",
     "real_chart": "reports.figures.real_chart",
     "segment_count": "reports.figures.segment_count",
     "refine": "reports.figures.refine",

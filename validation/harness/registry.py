@@ -21,6 +21,7 @@ STUDIES: dict[str, str] = {
     "friction_laws": "validation.studies.friction_laws",
     "mud_effects": "validation.studies.mud_effects",
     "beam_in_hole": "validation.studies.beam_in_hole",
+    "post_buckling": "validation.studies.post_buckling",
     "johancsik": "validation.studies.johancsik",
     "segment_count": "validation.studies.segment_count",
     "refine": "validation.studies.refine",

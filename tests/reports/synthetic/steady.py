@@ -119,3 +119,27 @@ def beam_in_hole() -> dict[str, pd.DataFrame]:
             for beam, sign in (("cantilever", 1.0), ("pendulum", -0.3))
         )
     }
+
+
+def post_buckling() -> dict[str, pd.DataFrame]:
+    md, ratio = np.arange(0.0, 120.0), np.linspace(1.1, 2.5, 8)
+    waves = [
+        pd.DataFrame(
+            {
+                "shape": shape, "times_onset": 1.4, "md_m": md, "angle_deg": (angle + 180) % 360 - 180,
+                "offset_high_m": -0.04 * np.cos(np.radians(angle)), "offset_right_m": 0.04 * np.sin(np.radians(angle)),
+            }
+        )
+        for shape, angle in (("snaking", 40 * np.sin(md / 4)), ("helix", 20 * md))
+    ]  # fmt: skip
+    length = np.array([400.0, 800.0, 1200.0])
+    return {
+        "shapes": pd.concat(waves, ignore_index=True),
+        "paths": pd.concat(
+            pd.DataFrame({"path": path, "times_onset": ratio, "wall_force_over_weight": ratio**power})
+            for path, power in (("loading", 1.0), ("unloading from a helix", 2.0))
+        ),
+        "pushed": pd.DataFrame(
+            {"length_m": length, "push_kN": 0.7 * length, "reciprocal_kN": 0.71 * length, "tan_kN": length}
+        ),
+    }

@@ -1,0 +1,83 @@
+"""Buckled pipe: its shapes, unrolled and in space, its wall force along paths of load, and the force it transmits."""
+
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+SHAPES = ("snaking", "helix")
+SHOWN = 100.0  # [m]
+
+
+def shapes(tables: Tables) -> Canvas:
+    """Angle over the length of hole on the left, the pipe's axis in space on the right, a row for each shape."""
+    table = tables["shapes"]
+    canvas = style.figure(5.2)
+    grid = canvas.add_gridspec(2, 2, width_ratios=(1.0, 1.1))
+    for row, name in enumerate(SHAPES):
+        part = table[(table["shape"] == name) & (table["md_m"] <= SHOWN)]
+        md, aside, up = (part[column].to_numpy() for column in ("md_m", "offset_right_m", "offset_high_m"))
+        flat = canvas.add_subplot(grid[row, 0])
+        angle = np.degrees(np.unwrap(np.radians(part["angle_deg"])))
+        flat.plot(md, angle, **style.line(row))
+        flat.set(xlabel="along the hole, m", ylabel="angle from the low side, °")
+        flat.set_title(f"{name} at {part['times_onset'].iloc[0]:g} times the onset", loc="left")
+        space = canvas.add_subplot(grid[row, 1], projection="3d")
+        space.plot(md, 1e3 * aside, 1e3 * up, **style.line(row))
+        wall = 1e3 * np.hypot(aside, up).max()
+        space.set(
+            xlabel="along the hole, m", ylabel="aside, mm", zlabel="up, mm", ylim=(-wall, wall), zlim=(-wall, wall)
+        )
+        space.set(yticks=[-40, 0, 40], zticks=[-40, 0, 40])
+        space.set_box_aspect((2.2, 1, 1), zoom=0.85)
+    return canvas
+
+
+def wall_force(tables: Tables) -> Canvas:
+    """Mean wall force along the paths of load, with the closed form of the helix."""
+    table = tables["paths"]
+    canvas = style.figure(3.6)
+    ax = canvas.subplots()
+    for index, path in enumerate(table["path"].unique()):
+        of_path = table[table["path"] == path]
+        ax.plot(of_path["times_onset"], of_path["wall_force_over_weight"], **style.marked(index), label=path)
+    ratio = np.linspace(table["times_onset"].min(), table["times_onset"].max(), 100)
+    # r F²/(4EI) over w is the square of F over the onset.
+    ax.plot(ratio, ratio**2, **style.ZERO, label="helix, rF²/4EI")
+    ax.set(xlabel="compression over the onset of snaking, –", ylabel="mean wall force over weight, –")
+    ax.legend()
+    return canvas
+
+
+def transmitted(tables: Tables) -> Canvas:
+    """Push at the top against the length of a helix that slides."""
+    table = tables["pushed"]
+    canvas = style.figure(3.4)
+    ax = canvas.subplots()
+    labels = {"reciprocal_kN": "reciprocal law", "tan_kN": "tan law", "push_kN": "engine"}
+    for index, (column, label) in enumerate(labels.items()):
+        drawn = style.dots(index) if column == "push_kN" else style.line(index)
+        ax.plot(table["length_m"], table[column], **drawn, label=label)
+    ax.set(xlabel="length of pipe, m", ylabel="push at the top, kN")
+    ax.legend()
+    return canvas
+
+
+FIGURES = [
+    Figure(
+        "shapes",
+        "The middle of a buckled 5 in pipe in a level 8½ in hole, unrolled and in space (drawn wider than it is).",
+        shapes,
+    ),
+    Figure(
+        "wall_force",
+        "Mean wall force of a level pipe. Snaking lasts as the load rises, and a helix as it falls: at one load the "
+        "wall force, and with it the friction, differs by up to a factor of two.",
+        wall_force,
+    ),
+    Figure(
+        "transmitted",
+        "Push that slides a helix through a level hole. The tan law adds the weight, which averages out over a turn.",
+        transmitted,
+    ),
+]

@@ -1,0 +1,113 @@
+"""Buckled strings as a user asks for them: rows of cases with long segments, which the engine cuts as it needs."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fctd import Case, Equilibrium, equilibrium
+from references.buckling import helix, mitchell
+from validation.parts.buckled_pipe import BELOW_SURFACE, BUCKLING, MUD, OPERATION, PIPE, SECTION, Rig, turns_of, wave_of
+
+JOINT = 9.0  # [m]: a joint of drill pipe, which cannot bend as the waves do
+LENGTH = 300.0  # [m]
+# A horizontal well: vertical to 900 m, build of 4.5° in 30 m, level from 1500 to 2700 m.
+BUILT = [[900.0 + 30 * k, 4.5 * k, 0.0] for k in range(21)]
+DEPTH, CASED, WEIGHT_ON_BIT, WALL = 2700.0, 1500.0, 88.96e3, 1e6
+WELL_FRICTION = 0.19
+WELL_SEGMENTS = (20.0, 10.0, 5.0, 2.5, 1.25)  # [m]
+
+
+def resolved(rig: Rig, force: float) -> Equilibrium:
+    """The row of a rig's case with its buckling resolved, with a weight on bit [N]."""
+    changes = {"bit": {"weight_on_bit": force}, "solver": {"buckling": "resolve"}}
+    case = Case.model_validate(rig.case.model_dump(exclude_defaults=True) | changes)
+    return equilibrium(case, OPERATION, BELOW_SURFACE + rig.length)
+
+
+def level_rows(waved: float, wound: float) -> pd.DataFrame:
+    """Rows of a level pipe at two times the onset, of snaking and of a helix, against Mitchell's equation."""
+    rows = []
+    for ratio in (waved, wound):
+        force = ratio * BUCKLING.onset
+        point = resolved(Rig(LENGTH, JOINT), force)
+        wave, turns = wave_of(point.profile), turns_of(point.profile)
+        found, exact = np.nan, np.nan
+        if point.shape == "helix" and turns is not None:
+            found, exact = turns.wall_force, helix.wall_force(BUCKLING, force)
+        elif point.shape == "snaking" and wave is not None:
+            found, exact = wave.amplitude, _amplitude(force, wave.half_wave)
+        rows.append(
+            {
+                "times_onset": ratio, "status": str(point.status), "shape": point.shape,
+                "measured": "wall force, N/m" if point.shape == "helix" else "amplitude, °",
+                "found": found, "expected": exact, "off_percent": 100 * (found / exact - 1),
+            }
+        )  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def pushed_row(times_onset: float, friction: float, share: float) -> pd.DataFrame:
+    """The row of a helix that slides through a share of its lock-up length."""
+    force = times_onset * BUCKLING.onset
+    length = share * helix.lock_up_length(BUCKLING, force, friction)
+    point = resolved(Rig(length, JOINT, friction=friction), force)
+    law = helix.pushed_force(BUCKLING, force, friction, length)
+    return pd.DataFrame(
+        [
+            {
+                "length_m": length, "status": str(point.status), "shape": point.shape, "push_kN": -point.hookload / 1e3,
+                "reciprocal_kN": law / 1e3, "off_percent": 100 * (-point.hookload / law - 1),
+                "push_snaking_kN": -point.hookload_high / 1e3,
+            }
+        ]
+    )  # fmt: skip
+
+
+def well_rows() -> pd.DataFrame:
+    """Hook load of a horizontal well that slides, against the segment length; the last row is resolved."""
+    weight = SECTION.weight * DEPTH
+    rows = []
+    for segment, mode in (*((segment, "detect") for segment in WELL_SEGMENTS), (WELL_SEGMENTS[0], "resolve")):
+        point = equilibrium(_well(segment, mode), OPERATION, DEPTH)
+        rows.append(
+            {
+                "segment_m": segment, "buckling": mode, "status": str(point.status), "shape": point.shape,
+                "segments": len(point.profile) - 1, "hookload_kN": point.hookload / 1e3,
+            }
+        )  # fmt: skip
+    table = pd.DataFrame(rows)
+    finest = table.loc[table["buckling"] == "detect", "hookload_kN"].iloc[-1]
+    return table.assign(off_percent_of_weight=100 * (table["hookload_kN"] - finest) * 1e3 / weight)
+
+
+def _well(segment: float, mode: str) -> Case:
+    """The horizontal well with segments of a length [m]."""
+    interval: dict[str, Any] = {"friction": WELL_FRICTION}
+    return Case.model_validate(
+        {
+            "name": "horizontal",
+            "wellbore": {
+                "stations": [[0.0, 0.0, 0.0], *BUILT, [DEPTH, 90.0, 0.0]],
+                "survey_method": "minimum_curvature",
+                "geometry": "arcs",
+                "stiffness_per_length": WALL,
+                "intervals": [
+                    interval | {"to_md": CASED, "diameter": "12.4 in"},
+                    interval | {"to_md": DEPTH, "diameter": "8.5 in"},
+                ],
+            },
+            "string": {"components": [PIPE | {"length": DEPTH, "segment_length": segment}]},
+            "mud": {"density": MUD},
+            "bit": {"weight_on_bit": WEIGHT_ON_BIT},
+            "solver": {"buckling": mode},
+        }
+    )
+
+
+def _amplitude(force: float, half_wave: float) -> float:
+    """Amplitude of snaking of such half waves [deg]; NaN where there is none."""
+    try:
+        return float(np.degrees(mitchell.snaking(BUCKLING, force, half_wave).amplitude))
+    except mitchell.NoShapeError:
+        return float("nan")
