@@ -61,6 +61,8 @@ def compile_all() -> None:
     case = Case.model_validate(SMALL)
     simulate(case)
     equilibrium(case, operation="trip_out", bit_depth=90.0)
+    buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}, "solver": {"buckling": "resolve"}})
+    equilibrium(buckled, operation="drill_sliding", bit_depth=90.0)
 
 
 @contextmanager

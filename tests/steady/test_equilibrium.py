@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import fctd
 from fctd import Case, InputError, equilibrium
 from fctd.case.operations import KINDS
+from fctd.mechanics.laws import CODES
 from fctd.model.operations import steady_rates
 from fctd.model.wellbore import build_wellbore, hole_frame
 from fctd.steady.block_thomas import solve_with_pivoting
@@ -216,7 +217,8 @@ def test_steps_by_the_other_solver_lead_to_the_same_balance() -> None:
     rates = steady_rates(solver.case, "trip_out")
     point = solver.solve("trip_out", rates, 1300.0)
     w, n, pieces = solver.work, 40, solver.hole.pieces
-    laws = Steady(solver.geometry, solver.law, 1.0, rates.speed, rates.spin, 0.0, 0.0, 0.0, 0.0)
+    law = CODES[solver.case.contact.friction_law]
+    laws = Steady(solver.geometry, law, 1.0, rates.speed, rates.spin, 0.0, 0.0, 0.0, 0.0)
     kinks = np.tile([1.0, 0.0, 0.0, 0.0], (n + 2, 1))
     guess(w.S, n, pieces, laws, 0.0, 0.0, 1e-4, w.G, w.P)
     w.owner[1 : n + 1] = np.searchsorted(pieces[:, 10], w.G[1 : n + 1, MD], side="right") - 1
