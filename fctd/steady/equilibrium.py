@@ -22,7 +22,7 @@ from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
-from fctd.steady.climb import Climb, climb
+from fctd.steady.climb import LOW, Climb, climb
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.post_buckling import resolve
 from fctd.steady.problem import Pose, Problem, Workspace
@@ -235,7 +235,7 @@ class Solver:
         if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE):
             return point
         words = (
-            ("slack-off is spent at", path.spent_at),
+            ("slack-off is spent before" if path.spent_at <= LOW else "slack-off is spent at", path.spent_at),
             ("the string is locked up at", path.locked_at),
             ("no steady shape was found beyond", path.ends_at),
         )
