@@ -9,7 +9,7 @@ import pytest
 
 import fctd
 from fctd.cli.equilibrium import stretches
-from tests.cli.test_chart import CASE, FOOT, LBF, SOFT_BELOW, settings
+from tests.cli.test_chart import CASE, FOOT, LBF, LEVEL, SOFT_BELOW, settings
 from tests.cli.test_main import run
 
 
@@ -60,6 +60,32 @@ def test_equilibrium_without_an_answer_writes_nothing(
     assert code == 1
     assert "diverged: segment" in capsys.readouterr().err
     assert not any(file.exists() for file in files)
+
+
+def test_a_resolved_string_shows_its_shapes_and_its_limits(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case_file, out = tmp_path / "level.toml", tmp_path / "profile.csv"
+    case_file.write_text(LEVEL)
+    point = ("equilibrium", case_file, "--operation", "drill_sliding", "--bit-depth", "150", "--out", out)
+    assert run(monkeypatch, *point, "--resolve-buckling") == 0
+    screen = " ".join(capsys.readouterr().out.split())
+    origin = json.loads((tmp_path / "profile.csv.json").read_text())
+    assert origin["shape"] == "helix"
+    assert "locked_up_at" not in origin
+    assert "shape helix" in screen
+    for end, word in (("low", "lower"), ("high", "higher")):
+        assert f"hook load, {word} of both shapes {origin[f'hookload_{end}_N'] / 1e3:.3f} kN" in screen
+
+    out.unlink()
+    assert run(monkeypatch, *point, "--resolve-buckling", "--friction", "2") == 1  # no file, as asked for
+    screen, errors = capsys.readouterr()
+    assert not out.exists()
+    assert "Nothing is written" in errors
+    found = fctd.load_case(case_file, {"solver.buckling": "resolve", "friction": 2})
+    locked = fctd.equilibrium(found, "drill_sliding", 150.0)
+    for words, share in (("slack-off spent at", locked.slack_off_spent_at), ("locked up at", locked.locked_up_at)):
+        assert f"{words} {100 * share:.3g} % of the friction" in " ".join(screen.split())
 
 
 def test_one_string_is_of_one_operation(
