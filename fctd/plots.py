@@ -86,7 +86,7 @@ CUT: dict[str, Any] = STUCK | {"markerfacecolor": "white"}
 # Hook loads at which slack-off is spent, and those between both shapes of a string.
 SPENT: dict[str, Any] = {"facecolor": "none", "hatch": "////", "edgecolor": "#dddddd", "linewidth": 0, "zorder": 0}
 BAND: dict[str, Any] = {"alpha": 0.3, "linewidth": 0.8}
-BESIDE = 0.2  # the axis shows pushes up to this share of the span of the other hook loads
+BESIDE = 0.25  # the axis shows pushes up to this share of the span of the other hook loads
 LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": QUIET}
 # The panels of a profile.
 TRACKS = (
@@ -224,8 +224,8 @@ def _series(
 ) -> None:
     """Draw one line of a chart.
 
-    place : separates the crosses of operations that have no loads at any depth.  edge : of the axis, which has the marks
-    of rows that are pushed harder and of those that no push moves, else NaN.
+    place : separates the crosses of operations that have no loads at any depth.  edge : of the axis, where rows are
+    marked that are pushed harder or that no push moves, else NaN.
     """
     colour, marker = LOOKS[kind]
     depth = rows["bit_depth_m"].to_numpy(float) * shown("bit_depth_m", units).factor

@@ -162,12 +162,12 @@ def test_rows_with_a_buckled_string_have_a_disc_below_their_line() -> None:
 
 
 def locked_chart() -> pd.DataFrame:
-    """A string that slides deeper: pushed from 1,500 m on, harder than any axis shows from 1,700 m, stuck from 1,800 m."""
+    """A string that slides deeper: pushed from 1,500 m on, too hard to show from 1,650 m, stuck from 1,800 m."""
     table = chart(["drill_sliding"], [0.3])
     depth = table["bit_depth_m"]
     table["hookload_N"] = 300.0 * (1400 - depth)
     table["surface_torque_N_m"] = 0.0
-    table.loc[depth >= 1700, "hookload_N"] = -5e7
+    table.loc[depth >= 1650, "hookload_N"] = -5e7
     table.loc[depth >= 1800, ["hookload_N", "surface_torque_N_m"]] = np.nan
     table.loc[depth >= 1500, "status"] = "locked_up"
     return table

@@ -65,8 +65,8 @@ class Refinement:
     steps : a row per stage, layout, level and operation; columns stage, layout, level, operation, segments,
     shortest_m, chord_m (largest distance of a cylinder from the hole), hookload_N, surface_torque_N_m, hookload_change,
     torque_change, hookload_error, torque_error (all relative; NaN while there is none), status, time_s.
-    notes : of the last strings that were solved, each code once.  resolved : largest number of segments of these strings
-    where the solver laid out a buckled stretch; such loads need ``solver.buckling = "resolve"``; else 0.
+    notes : of the last strings that were solved, each code once.  resolved : largest number of their segments where
+    the solver laid out a buckled stretch (such loads need ``solver.buckling = "resolve"``), else 0.
     """
 
     status: RefineStatus
