@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.text import Annotation
 from matplotlib.ticker import MaxNLocator
 from matplotlib.typing import RcKeyType
@@ -79,6 +80,13 @@ FLAGS: dict[str, dict[str, Any]] = {
     "unstable": {"marker": "o", "linestyle": "none", "markerfacecolor": "none", "markersize": 8},
     "under_resolved": {"marker": "d", "linestyle": "none", "markerfacecolor": "none", "markersize": 9},
 }
+# At the left edge of hook loads: a row that is pushed with more than the axis shows, and one that no push moves.
+STUCK: dict[str, Any] = {"marker": "<", "linestyle": "none", "markersize": 8, "clip_on": False}
+CUT: dict[str, Any] = STUCK | {"markerfacecolor": "white"}
+# Hook loads at which slack-off is spent, and those between both shapes of a string.
+SPENT: dict[str, Any] = {"facecolor": "none", "hatch": "////", "edgecolor": "#dddddd", "linewidth": 0, "zorder": 0}
+BAND: dict[str, Any] = {"alpha": 0.3, "linewidth": 0.8}
+BESIDE = 0.25  # the axis shows pushes up to this share of the span of the other hook loads
 LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": QUIET}
 # The panels of a profile.
 TRACKS = (
@@ -113,30 +121,38 @@ def save(figure: Figure, path: Path) -> list[Path]:
     return [path]
 
 
-def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "") -> Figure:
+def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "", block_weight: float = 0.0) -> Figure:
     """Hook load (the broomstick) and torque against bit depth: a line per operation and friction factor.
 
     chart : of ``fctd.torque_drag``, SI.  A cross marks each row without loads in the gap of its line, a grey disc each
-    row with a buckled string; notes are printed below the title.
+    row with a buckled string; a band spans the hook loads of both shapes of a resolved one; notes are printed below the
+    title.  Where a string is locked up, hook loads below −``block_weight`` [N] are hatched, and larger pushes, with
+    which the axis would show nothing else, have triangles at its edge.
     """
     factors = [float(factor) for factor in chart["friction"].unique()]
     with mpl.rc_context(RC):
         figure = Figure(figsize=(8.5, 6.8), layout="constrained")
         panels = figure.subplots(1, 2, sharey=True)
-        for ax, column in zip(panels, ("hookload_N", "surface_torque_N_m"), strict=True):
+        limits = _limits_of_pushes(chart, block_weight, units)
+        for ax, column, edge in zip(panels, ("hookload_N", "surface_torque_N_m"), (limits[0], np.nan), strict=True):
             for k, (_, same_factor) in enumerate(chart.groupby("friction", sort=False, dropna=False)):
                 for place, (kind, rows) in enumerate(same_factor.groupby("operation", sort=False)):
-                    _series(ax, rows, column, str(kind), DASHES[k % len(DASHES)], units, place)
+                    _series(ax, rows, column, str(kind), DASHES[k % len(DASHES)], units, place, edge)
             _label(ax, column, units)
+        if np.isfinite(limits).all():
+            panels[0].set_xlim(*limits)
+            spent = -block_weight * shown("hookload_N", units).factor
+            panels[0].axvspan(limits[0], spent, **SPENT)
+            panels[0].axvline(spent, color=QUIET, linewidth=1, zorder=1)
         panels[0].set_ylabel(f"{DEPTH.label}, {shown(DEPTH.name, units).label}")
         panels[0].invert_yaxis()
-        handles = [_handle(kind) for kind in LOOKS if kind in set(chart["operation"])]
-        figure.legend(handles=handles, loc="outside lower left", ncols=2)
-        handles = [
+        kinds = [_handle(kind) for kind in LOOKS if kind in set(chart["operation"])]
+        figure.legend(handles=kinds, loc="outside lower left", ncols=2)
+        handles: list[Line2D | Patch] = [
             Line2D([], [], color=QUIET, linestyle=DASHES[k % len(DASHES)], label=f"friction factor {factor:g}")
             for k, factor in enumerate(factors if len(factors) > 1 else [])
         ]
-        handles += _flag_handles(chart["status"])
+        handles += _flag_handles(chart, limits[0] / shown("hookload_N", units).factor)
         modes = set(chart["buckling"])
         handles += [Line2D([], [], **disc, label=f"{mode} buckling") for mode, disc in DISCS.items() if mode in modes]
         figure.legend(handles=handles, loc="outside lower right", ncols=2)
@@ -171,7 +187,7 @@ def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figur
             _limits(panels[TRACKS.index("effective_tension_N")], [point.profile for point in answers], units)
         panels[0].set_ylabel(f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}")
         panels[0].invert_yaxis()
-        handles = [_handle(point.operation, point.status) for point in points]
+        handles = [_handle(point.operation, point.status, answered=point.answered) for point in points]
         handles += [
             Line2D([], [], color=QUIET, linestyle=dash, label=f"{mode} buckling limit") for mode, dash in LIMITS.items()
         ]
@@ -188,12 +204,43 @@ def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figur
         return figure
 
 
-def _series(ax: Axes, rows: pd.DataFrame, column: str, kind: str, dash: Any, units: System, place: int) -> None:
-    """Draw one line of a chart; ``place`` separates the crosses of operations that have no loads at any depth."""
+def _limits_of_pushes(chart: pd.DataFrame, block_weight: float, units: System) -> tuple[float, float]:
+    """Limits of the axis of hook loads, which the pushes of locked strings do not set; NaN where none is locked."""
+    locked = chart["status"] == SteadyStatus.LOCKED_UP
+    if not locked.any():
+        return np.nan, np.nan
+    others = chart.loc[~locked, ["hookload_N", "hookload_low_N", "hookload_high_N"]].to_numpy(float)
+    visible = np.append(others[np.isfinite(others)], -block_weight)
+    if np.ptp(visible) == 0 and chart["hookload_N"].notna().any():
+        visible = np.append(visible, chart["hookload_N"].max())
+    factor = shown("hookload_N", units).factor
+    low, high = factor * visible.min(), factor * visible.max()
+    span = max(high - low, 1.0)
+    return low - BESIDE * span, high + 0.05 * span
+
+
+def _series(
+    ax: Axes, rows: pd.DataFrame, column: str, kind: str, dash: Any, units: System, place: int, edge: float
+) -> None:
+    """Draw one line of a chart.
+
+    place : separates the crosses of operations that have no loads at any depth.  edge : of the axis, where rows are
+    marked that are pushed harder or that no push moves, else NaN.
+    """
     colour, marker = LOOKS[kind]
     depth = rows["bit_depth_m"].to_numpy(float) * shown("bit_depth_m", units).factor
-    value = rows[column].to_numpy(float) * shown(column, units).factor
-    ax.plot(value, depth, color=colour, linestyle=dash, marker=marker, markevery=_marked(value), markersize=4.5)
+    factor = shown(column, units).factor
+    value = rows[column].to_numpy(float) * factor
+    locked = (rows["status"] == SteadyStatus.LOCKED_UP).to_numpy()
+    stuck = np.isnan(value) & locked
+    if column == "hookload_N":
+        low, high = (rows[f"hookload_{end}_N"].to_numpy(float) * factor for end in ("low", "high"))
+        apart = np.isfinite(low)
+        if apart.any():
+            ax.fill_betweenx(depth, np.where(apart, low, value), np.where(apart, high, value), color=colour, **BAND)
+            ax.hlines(depth[apart], low[apart], high[apart], color=colour, linewidth=1)
+    line = np.where(stuck | (value < edge), edge, value)
+    ax.plot(line, depth, color=colour, linestyle=dash, marker=marker, markevery=_marked(value), markersize=4.5)
     for mode, disc in DISCS.items():
         at = (rows["buckling"] == mode).to_numpy()
         if at.any():
@@ -203,9 +250,12 @@ def _series(ax: Axes, rows: pd.DataFrame, column: str, kind: str, dash: Any, uni
         if name != "converged":
             at = status == name
             ax.plot(value[at], depth[at], color=colour, **FLAGS[name])
-    lost, found = np.isnan(value), np.isfinite(value)
+    for look, at in ((CUT, locked & (value < edge)), (STUCK, stuck & np.isfinite(edge))):
+        if at.any():
+            ax.plot(np.full(at.sum(), edge), depth[at], color=colour, **look)
+    lost, found = np.isnan(line) & ~stuck, np.isfinite(line)
     if found.any():
-        ax.plot(np.interp(depth[lost], depth[found], value[found]), depth[lost], **LOST | {"markeredgecolor": colour})
+        ax.plot(np.interp(depth[lost], depth[found], line[found]), depth[lost], **LOST | {"markeredgecolor": colour})
     else:
         across = ax.get_yaxis_transform()
         ax.plot(np.full(len(depth), 0.15 + 0.14 * place), depth, transform=across, **LOST | {"markeredgecolor": colour})
@@ -283,18 +333,28 @@ def _title(figure: Figure, text: str, notes: Sequence[str]) -> None:
         figure.add_artist(small)
 
 
-def _handle(kind: str, status: str = "converged") -> Line2D:
+def _handle(kind: str, status: str = "converged", *, answered: bool = True) -> Line2D:
     """The legend's line for an operation, with its status unless it converged."""
     colour, marker = LOOKS[kind]
-    if not SteadyStatus(status).has_loads:
+    if not answered:
         return Line2D([], [], **LOST, label=f"{KINDS[kind].label}: no answer ({status})")
     label = KINDS[kind].label if status == "converged" else f"{KINDS[kind].label} ({status})"
     return Line2D([], [], color=colour, marker=marker, markersize=4.5, label=label)
 
 
-def _flag_handles(statuses: "pd.Series[str]") -> list[Line2D]:
-    """The legend's lines for statuses other than converged."""
-    found = [str(status) for status in statuses.unique() if status != "converged"]
-    handles = [Line2D([], [], color=QUIET, label=status, **FLAGS[status]) for status in found if status in FLAGS]
-    none = [status for status in found if not SteadyStatus(status).has_loads]
+def _flag_handles(chart: pd.DataFrame, edge: float) -> list[Line2D | Patch]:
+    """The legend's marks of rows that are not converged, or have two hook loads; edge : of the axis, or NaN [N]."""
+    load, status = chart["hookload_N"], chart["status"]
+    locked = status == SteadyStatus.LOCKED_UP
+    found = [str(name) for name in status[load.notna()].unique() if name in FLAGS]
+    handles: list[Line2D | Patch] = [Line2D([], [], color=QUIET, label=name, **FLAGS[name]) for name in found]
+    if locked.any():
+        handles.append(Patch(**SPENT, label="slack-off is spent"))
+    if (locked & (load < edge)).any():
+        handles.append(Line2D([], [], color=QUIET, label="pushed harder than shown", **CUT))
+    if (locked & load.isna()).any():
+        handles.append(Line2D([], [], color=QUIET, label="locked up: no push suffices", **STUCK))
+    if chart["hookload_low_N"].notna().any():
+        handles.append(Patch(color=QUIET, label="hook loads of both shapes", **BAND))
+    none = [str(name) for name in status[load.isna() & ~locked].unique()]
     return handles + ([Line2D([], [], **LOST, label=f"no answer: {', '.join(none)}")] if none else [])

@@ -32,6 +32,23 @@ def make_case(
     )
 
 
+def level_case(**more: Any) -> Case:
+    """150 m of 5 inch pipe, slid into a level hole with 300 kN on bit, which is 2.6 times the sinusoidal limit.
+
+    Its buckled string is resolved.  The rig's block weight, 2 MN, allows any push.
+    """
+    intervals = [{"to_md": 170.0, "diameter": 0.2159, "friction": 0.5}]
+    given: dict[str, Any] = {
+        "components": [pipe(None, None, inner_diameter=0.1086, segment_length=10.0)],
+        "wellbore": {"intervals": intervals, "stiffness_per_length": 1e6},
+        "mud": {"density": 1200.0},
+        "rig": {"block_weight": 2e6},
+        "bit": {"weight_on_bit": 300e3},
+        "solver": {"buckling": "resolve"},
+    }
+    return make_case([[0, 90, 0], [170, 90, 0]], **(given | more))
+
+
 def hole_of(stations: list[list[float]], **wellbore: Any) -> Wellbore:
     """The hole of such a case."""
     return build_wellbore(make_case(stations, wellbore=wellbore))

@@ -37,6 +37,8 @@ def chart(kinds: list[str], frictions: list[float], lost: dict[str, str] | None 
             "bit_depth_m": depth,
             "hookload_N": 400.0 * depth + 1e5 * friction * k,
             "surface_torque_N_m": 10.0 * friction * depth * (k + 1) ** 2,
+            "hookload_low_N": np.nan,
+            "hookload_high_N": np.nan,
             "buckling": "none",
             "status": "converged",
             "notes": "none",
@@ -157,6 +159,87 @@ def test_rows_with_a_buckled_string_have_a_disc_below_their_line() -> None:
     assert texts_that_overlap(figure) == []
     figure = plots.chart_figure(chart(["trip_in"], [0.2]))
     assert not [text for box in figure.legends for text in box.get_texts() if "buckling" in text.get_text()]
+
+
+def locked_chart() -> pd.DataFrame:
+    """A string that slides deeper: pushed from 1,500 m on, too hard to show from 1,650 m, stuck from 1,800 m."""
+    table = chart(["drill_sliding"], [0.3])
+    depth = table["bit_depth_m"]
+    table["hookload_N"] = 300.0 * (1400 - depth)
+    table["surface_torque_N_m"] = 0.0
+    table.loc[depth >= 1650, "hookload_N"] = -5e7
+    table.loc[depth >= 1800, ["hookload_N", "surface_torque_N_m"]] = np.nan
+    table.loc[depth >= 1500, "status"] = "locked_up"
+    return table
+
+
+def test_pushes_do_not_set_the_axis_and_are_marked_at_its_edge() -> None:
+    """Slack-off is spent at 30 kN block weight; 120 kN at 1,000 m to −15 kN at 1,450 m are the other hook loads."""
+    table, block = locked_chart(), 30e3
+    figure = plots.chart_figure(table, title="well", block_weight=block)
+    left, _ = figure.axes
+    edge, right = left.get_xlim()
+    assert edge == pytest.approx(-30 - plots.BESIDE * 150)
+    assert right > 120
+    (limit,) = lines(left, color=plots.QUIET, linestyle="-")
+    assert list(limit.get_xdata()) == [-30, -30]
+    (hatched,) = left.patches
+    assert (hatched.get_x(), hatched.get_x() + hatched.get_width()) == pytest.approx((edge, -30))
+    cut, stuck = (
+        next(line for line in lines(left, marker="<") if line.get_markerfacecolor() == face)
+        for face in ("white", plots.LOOKS["drill_sliding"][0])
+    )
+    for marks, depths in ((cut, [1650.0, 1700.0, 1750.0]), (stuck, [1800.0, 1850.0, 1900.0, 1950.0, 2000.0])):
+        assert list(marks.get_xdata()) == pytest.approx([edge] * len(depths))
+        assert list(marks.get_ydata()) == depths
+    (line,) = lines(left, marker=plots.LOOKS["drill_sliding"][1])
+    assert np.min(line.get_xdata()) == pytest.approx(edge)
+    assert not [marks for ax in figure.axes for marks in lines(ax, marker="x") if len(marks.get_xdata())]
+    legend = {text.get_text() for box in figure.legends for text in box.get_texts()}
+    assert {"slack-off is spent", "pushed harder than shown", "locked up: no push suffices", "locked_up"} <= legend
+    assert not [text for text in legend if "no answer" in text]
+    assert texts_that_overlap(figure) == []
+
+
+@pytest.mark.parametrize("units", ["si", "field"])
+def test_a_chart_of_nothing_but_pushes_shows_the_least(units: Any) -> None:
+    table = locked_chart()
+    table["status"] = "locked_up"
+    table.loc[table["bit_depth_m"] < 1500, "hookload_N"] = np.nan
+    left, _ = plots.chart_figure(table, units).axes
+    edge, right = left.get_xlim()
+    least = table["hookload_N"].max() / (1e3 if units == "si" else 1e3 * LBF)
+    assert edge < least < 0 < right
+    table["hookload_N"] = np.nan
+    left, _ = plots.chart_figure(table, units).axes
+    assert left.get_xlim()[0] < 0 < left.get_xlim()[1]
+
+
+def test_a_band_spans_the_hook_loads_of_both_shapes() -> None:
+    table = chart(["trip_in"], [0.2])
+    table.loc[4:8, "hookload_low_N"] = table.loc[4:8, "hookload_N"]
+    table.loc[4:8, "hookload_high_N"] = table.loc[4:8, "hookload_N"] + 5e4
+    figure = plots.chart_figure(table)
+    left, torque = figure.axes
+    band, bars = left.collections
+    edges = band.get_paths()[0].vertices
+    for k in range(4, 9):
+        row = table.loc[k]
+        at = edges[edges[:, 1] == row["bit_depth_m"], 0]
+        assert (at.min(), at.max()) == pytest.approx((row["hookload_low_N"] / 1e3, row["hookload_high_N"] / 1e3))
+    assert len(bars.get_segments()) == 5
+    assert not torque.collections
+    legend = {text.get_text() for box in figure.legends for text in box.get_texts()}
+    assert "hook loads of both shapes" in legend
+    assert texts_that_overlap(figure) == []
+
+
+def test_a_profile_of_a_locked_string_without_a_balance_is_only_named(points: list[Equilibrium]) -> None:
+    point = next(point for point in points if point.operation == "drill_sliding")
+    figure = plots.profile_figure([replace(point, status=SteadyStatus.LOCKED_UP).without_loads()])
+    legend = [text.get_text() for box in figure.legends for text in box.get_texts()]
+    assert "drilling, sliding: no answer (locked_up)" in legend
+    assert texts_that_overlap(figure) == []
 
 
 def test_every_status_with_loads_has_a_mark() -> None:

@@ -21,6 +21,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    changes_of,
     check_target,
     finish,
     messages,
@@ -33,6 +34,7 @@ from fctd.cli.options import (
 from fctd.cli.steady import (
     KIND_HELP,
     TABLES,
+    ResolveBuckling,
     Rpm,
     Speed,
     Units,
@@ -71,6 +73,7 @@ def chart_command(
     ] = [],  # noqa: B006 (typer copies it)
     speed: Speed = None,
     rpm: Rpm = None,
+    resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     out: Annotated[Path | None, file_option("--out", "The chart, a row for every string, .csv or .parquet.")] = None,
     plot: Annotated[Path | None, file_option("--plot", "Hook load and torque against depth, .png or .svg.")] = None,
@@ -85,7 +88,7 @@ def chart_command(
     """Compute a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
     check_target(out, "--out", TABLES)
     plots = plots_for({"--plot": plot, "--plot-profile": plot_profile})
-    case = read_case(case_file, overrides)
+    case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key)
     bit_depths = read_depths(depths)
@@ -108,7 +111,7 @@ def chart_command(
             metadata = metadata_of(case, units, kinds, drive) | {"notes": meanings_of(chart["notes"])}
             written += write_table(in_units(units, chart), out, metadata)
         if plots is not None and plot is not None:
-            written += plots.save(plots.chart_figure(chart, units, case.name), plot)
+            written += plots.save(plots.chart_figure(chart, units, case.name, case.rig.block_weight), plot)
         if plots is not None and plot_profile is not None:
             one = with_friction(case, factors[0]) if factors else case
             solver, rates = Solver(one), rates_of_all(one, kinds, **drive)

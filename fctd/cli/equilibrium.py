@@ -4,6 +4,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import pandas as pd
 import typer
 from rich.box import SIMPLE_HEAD
@@ -18,6 +19,7 @@ from fctd.cli.options import (
     Friction,
     Overrides,
     Strict,
+    changes_of,
     check_target,
     finish,
     messages,
@@ -32,6 +34,7 @@ from fctd.cli.options import (
 from fctd.cli.steady import (
     KIND_HELP,
     TABLES,
+    ResolveBuckling,
     Rpm,
     Speed,
     Units,
@@ -41,7 +44,7 @@ from fctd.cli.steady import (
     plots_for,
     read_drive,
 )
-from fctd.results.columns import COLUMNS, LOADS
+from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
 from fctd.results.tables import write_table
 from fctd.results.unit_systems import System, shown
@@ -54,6 +57,7 @@ def equilibrium_command(
     bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help="Bit depth, '2450 m'.")],
     speed: Speed = None,
     rpm: Rpm = None,
+    resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
     out: Annotated[Path | None, file_option("--out", "Profile of the string, .csv or .parquet.")] = None,
@@ -67,7 +71,7 @@ def equilibrium_command(
     if len(operations) > 1:
         raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
     (operation,) = operations
-    case = read_case(case_file, overrides, friction)
+    case = read_case(case_file, changes_of(overrides, friction, resolve_buckling))
     refuse_sources(case, out, "--out")
     refuse_sources(case, plot, "--plot")
     depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
@@ -80,16 +84,18 @@ def equilibrium_command(
         if point.answered and out is not None:
             metadata = metadata_of(case, units, [operation], drive)
             metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
-            metadata |= {"buckling": str(point.buckling), "notes": as_metadata(point.notes)}
+            metadata |= {"buckling": str(point.buckling), "shape": point.shape}
+            metadata |= _found(point) | {"notes": as_metadata(point.notes)}
             written += write_table(in_units(units, point.profile), out, metadata)
         if point.answered and plots is not None:
             written += plots.save(plots.profile_figure([point], units), plot)
     finally:
         _print_point(point, units)
-    if not point.answered and (out is not None or plot is not None):
+    lacking = not point.answered and (out is not None or plot is not None)
+    if lacking:
         messages.print("Nothing is written: no equilibrium was found, so there is no profile.")
     print_written(written)
-    finish(point.status.acceptable, (note.code for note in point.notes), strict)
+    finish(point.status.acceptable and not lacking, (note.code for note in point.notes), strict)
 
 
 def _loads(point: Equilibrium) -> dict[str, float]:
@@ -97,8 +103,14 @@ def _loads(point: Equilibrium) -> dict[str, float]:
     return {load.name: load.value(point) for load in LOADS}
 
 
+def _found(point: Equilibrium) -> dict[str, float]:
+    """What was found of the shapes of a buckled string, by column name."""
+    values = {column.name: column.value(point) for column in (*SHAPES, *SHARES)}
+    return {name: value for name, value in values.items() if np.isfinite(value)}
+
+
 def _print_point(point: Equilibrium, units: System) -> None:
-    """Print the loads of a string, its extreme tension, side force and stress, and the buckled depths."""
+    """Print the loads of a string, its extreme tension, side force and stress, and how it is buckled."""
     metre = shown("bit_depth_m", units)
     depth = f"{point.bit_depth * metre.factor:.1f} {metre.label}"
     screen.print(f"{printable(point.case.name)}: {point.operation}, bit at {depth}", style="bold")
@@ -117,6 +129,14 @@ def _print_point(point: Equilibrium, units: System) -> None:
             for first, last in stretches(profile, mode):
                 where = f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"
                 table.add_row(f"beyond {mode} limit", where, metre.label)
+    if point.shape != "none":
+        table.add_row("shape", point.shape, "")
+    for name, value in _found(point).items():
+        if COLUMNS[name] in SHARES:
+            table.add_row(COLUMNS[name].label, f"{100 * value:.3g}", "% of the friction")
+        else:
+            unit = shown(name, units)
+            table.add_row(COLUMNS[name].label, f"{value * unit.factor:z.3f}", unit.label)
     table.columns[1].justify = "right"
     screen.print(table)
     screen.print(f"{point.status}, {point.iterations} iterations")

@@ -1,6 +1,6 @@
 """Options, exit codes and consoles of the commands, and checks of values and files before any computing."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -54,12 +54,19 @@ Strict = Annotated[
 Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
 
 
-def read_case(path: Path, overrides: Sequence[str], friction: float | None = None) -> Case:
-    """The case of a file with the changes of ``--set`` and ``--friction``."""
-    repair(path.parent, own_files)  # a killed ``simulate`` may have left the case file in a renamed folder
+def changes_of(overrides: Sequence[str], friction: float | None = None, resolve: bool | None = None) -> dict[str, Any]:
+    """Keys and values of ``--set``, ``--friction`` and ``--resolve-buckling``, as ``load_case`` takes them."""
     changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
     if friction is not None:
         changes["friction"] = friction
+    if resolve is not None:
+        changes["solver.buckling"] = "resolve" if resolve else "detect"
+    return changes
+
+
+def read_case(path: Path, changes: Mapping[str, Any]) -> Case:
+    """The case of a file with changes."""
+    repair(path.parent, own_files)  # a killed ``simulate`` may have left the case file in a renamed folder
     return load_case(path, changes)
 
 

@@ -8,7 +8,6 @@ import typer
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from fctd.case.load import parse_override
 from fctd.case.text import printable
 from fctd.case.units import LENGTH
 from fctd.cli.options import (
@@ -17,6 +16,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    changes_of,
     check_target,
     finish,
     messages,
@@ -29,7 +29,7 @@ from fctd.cli.options import (
     refuse_sources,
     screen,
 )
-from fctd.cli.steady import KIND_HELP, Rpm, Speed, Units, read_drive
+from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, read_drive
 from fctd.results.unit_systems import System, shown
 from fctd.steady.refine import Refinement, refine
 from fctd.steady.refined_file import survey_from, write_refined
@@ -53,6 +53,7 @@ def refine_command(
     most: Annotated[int, typer.Option("--most", metavar="N", help="Largest number of segments.")] = 5000,
     speed: Speed = None,
     rpm: Rpm = None,
+    resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
     out: Annotated[
@@ -68,7 +69,8 @@ def refine_command(
     """Refine the segments of a case until hook load and torque no longer change, and estimate the remaining error."""
     check_target(out, "--out", (".toml",))
     share = read_share(tolerance, "--tolerance")
-    case = read_case(case_file, overrides, friction)
+    changes = changes_of(overrides, friction, resolve_buckling)
+    case = read_case(case_file, changes)
     refuse_sources(case, out, "--out")
     if out is not None:
         survey_from(out, case)  # raises InputError before the computing
@@ -82,9 +84,6 @@ def refine_command(
     target = out if refined.status.has_loads else None
     try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
         if target is not None:
-            changes = dict(parse_override(text) for text in overrides)
-            if friction is not None:
-                changes["friction"] = friction
             write_refined(refined, case_file, changes, target)
     finally:
         _print(refined, graded, units)
@@ -134,6 +133,12 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
             screen.print("A graded layout would save less than a tenth of the segments.", soft_wrap=True)
     else:
         print_status(refined.status, refined.message)
+    if refined.resolved:
+        screen.print(
+            "The string is buckled. Its buckled stretch has segments that can bend as it does (solver.buckling = "
+            f'"resolve"), {refined.resolved} in all; the loads depend on the length of the others alone.',
+            soft_wrap=True,
+        )  # fmt: skip
     print_notes(refined.notes)
 
 

@@ -19,6 +19,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    changes_of,
     finish,
     messages,
     print_notes,
@@ -62,7 +63,7 @@ def simulate_file(
     strict: bool = False,
 ) -> None:
     """Run ``fctd simulate``; ``contact`` builds another contact method for the case (see fctd.simulate)."""
-    case = read_case(case_file, overrides, friction)
+    case = read_case(case_file, changes_of(overrides, friction))
     method = None if contact is None else contact(case)
     folder = out or Path(file_name(case.name, "-result"))
     check_result_folder(folder, csv, "--out")  # before hours of computing

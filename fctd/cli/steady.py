@@ -42,6 +42,14 @@ Rpm = Annotated[
     typer.Option("--rpm", metavar="N", help=f"Rev/min; default: the case's, else {_defaults('default_rpm')}."),
 ]
 Units = Annotated[System, typer.Option("--units", help="Units of tables, pictures and screen.")]
+ResolveBuckling = Annotated[
+    bool | None,
+    typer.Option(
+        "--resolve-buckling/--no-resolve-buckling",
+        help="Lay out buckled strings in segments that can bend as they do; default: the case's.",
+        show_default=False,
+    ),
+]
 
 
 def file_option(option: str, what: str) -> typer.models.OptionInfo:

@@ -63,7 +63,8 @@ class Buckling:
         """Where segments are too long, and the length that would do."""
         return (
             f"buckling is {self}, where segments of {self.longest:.3g} m cannot bend that way: "
-            f"use segments of at most {self.segment_length:g} m there"
+            f'use segments of at most {self.segment_length:g} m there, or solver.buckling = "resolve" '
+            "(--resolve-buckling)"
         )
 
 

@@ -53,6 +53,16 @@ BUCKLED: Final = (
     Column("buckled_from_md_m", "buckled from", digits=0),
     Column("buckled_to_md_m", "buckled to", digits=0),
 )
+# Of a buckled string whose segments follow it: hook loads of its shapes, and the shares of the friction at which a
+# path of rising friction ends.
+SHAPES: Final = (
+    Column("hookload_low_N", "hook load, lower of both shapes"),
+    Column("hookload_high_N", "hook load, higher of both shapes"),
+)
+SHARES: Final = (
+    Column("slack_off_spent_at", "slack-off spent at"),
+    Column("locked_up_at", "locked up at"),
+)
 DEPTH: Final = Column("bit_depth_m", "bit depth", heading="bit")
 PROFILE: Final = (
     Column("md_m", "measured depth"),
@@ -66,5 +76,5 @@ PROFILE: Final = (
     Column("offset_right_m", "left | offset | right", across=True),
     Column("clearance_m", "clearance", across=True),
 )
-COLUMNS: Final = {column.name: column for column in (DEPTH, *LOADS, *BUCKLED, *PROFILE)}
+COLUMNS: Final = {column.name: column for column in (DEPTH, *LOADS, *BUCKLED, *SHAPES, *SHARES, *PROFILE)}
 IN_CHART: Final = tuple(load for load in LOADS if load.in_chart)

@@ -4,6 +4,9 @@ First the hole's cylinders are halved until their error is small, then the segme
 changes so far by Richardson's method, at first order, which is safe: the ends of contact move by whole segments, so
 torque converges irregularly, at first order or a little better, and one small change may be chance.
 
+The stretch where a string is buckled is laid out by the solver (post_buckling.py), in segments that its waves need, so
+that the loads depend on the length of the other segments alone; the case's ``solver.buckling`` can turn that off.
+
 Before a graded string a uniform one is found.  Since a graded string is valid for one bit depth only, it has to need
 at least a tenth fewer segments.
 """
@@ -22,11 +25,12 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.units import bare
 from fctd.mechanics.state import MAX_SEGMENTS
-from fctd.model import layouts, survey
+from fctd.model import layouts
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.notes import Note, worst
-from fctd.results.status import RefineStatus
+from fctd.results.status import RefineStatus, SteadyStatus
+from fctd.steady.chords import largest_chord, shorter_cylinders
 from fctd.steady.equilibrium import Equilibrium, Solver
 
 Array = NDArray[np.float64]
@@ -41,6 +45,8 @@ HALVINGS = 6
 SHARE_OF_HOLE = 0.25
 # Roache's factor of a grid convergence index (1994).
 SAFETY = 1.25
+# Largest number of segments beside those of a buckled stretch: each level takes seconds.
+MOST_BESIDE = 512
 # Solved levels that an estimate needs, and unsolved finer levels after which the refinement stops.
 ANSWERS, UNANSWERED = 3, 2
 # Segments of a graded string over those of a uniform one, at most.
@@ -59,7 +65,8 @@ class Refinement:
     steps : a row per stage, layout, level and operation; columns stage, layout, level, operation, segments,
     shortest_m, chord_m (largest distance of a cylinder from the hole), hookload_N, surface_torque_N_m, hookload_change,
     torque_change, hookload_error, torque_error (all relative; NaN while there is none), status, time_s.
-    notes : of the last strings that were solved, each code once.
+    notes : of the last strings that were solved, each code once.  resolved : largest number of their segments where
+    the solver laid out a buckled stretch (such loads need ``solver.buckling = "resolve"``), else 0.
     """
 
     status: RefineStatus
@@ -74,6 +81,7 @@ class Refinement:
     shortest: float
     steps: pd.DataFrame
     notes: tuple[Note, ...] = ()
+    resolved: int = 0
 
 
 def refine(
@@ -93,15 +101,20 @@ def refine(
     end.  graded : short segments in bends and near the bit, long ones elsewhere, if that takes at least a tenth fewer
     segments than one length for all; a graded string is valid for this bit depth only.  most : segments at most.  speed
     [m/s], rpm : see ``torque_drag``.  Errors are relative to the load, or to a tenth of the string's weight (hook load)
-    or of Σ r μ F_n (torque) where that is more; without rotation to all of Σ r μ F_n.  Raises InputError for bad input.
+    or of Σ r μ F_n (torque) where that is more; without rotation to all of Σ r μ F_n.  The solver lays out the buckled
+    stretch of a string, unless the case sets ``solver.buckling``.  Raises InputError for bad input.
     """
     with naming_file(case):
         kinds = _kinds(case, operation)
         depth = _depth(case, kinds[0], bit_depth)
         _check(case, tolerance, most, depth)
         task = _Task(rates_of_all(case, kinds, speed, rpm), depth, most, progress)
-        _solve("string", "uniform", _cut(case, task, "uniform", _divided(case, depth) / FIRST), task)  # compile
-        holes = _refine_hole(case, task, SHARE_OF_HOLE * tolerance)
+        coarse = _with_buckling(case, "detect")
+        _solve("string", "uniform", _cut(coarse, task, "uniform", _divided(case, depth) / FIRST), task)  # compile
+        if "buckling" not in case.solver.model_fields_set:
+            case = _with_buckling(case, "resolve")
+        # Chords change the loads of a string that lies too straight where it is buckled as they do those of any other.
+        holes = _refine_hole(coarse, task, SHARE_OF_HOLE * tolerance)
         error_of_hole = _error(holes) if holes else 0.0
         in_hole = case.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else case
         strings = _refine_string(in_hole, task, "uniform", tolerance - error_of_hole)
@@ -144,6 +157,11 @@ class _Level(NamedTuple):
         """Whether every operation has its loads."""
         return bool(np.isfinite(self.loads).all())
 
+    @property
+    def resolved(self) -> int:
+        """Segments of the longest string with a buckled stretch laid out by the solver, 0 without one."""
+        return max((len(point.profile) - 1 for point in self.points if point.shape != "none"), default=0)
+
 
 def _refine_hole(case: Case, task: _Task, allowed: float) -> list[_Level]:
     """Levels of ever shorter cylinders, until their error is allowed; empty for a hole without cylinders."""
@@ -156,7 +174,7 @@ def _refine_hole(case: Case, task: _Task, allowed: float) -> list[_Level]:
         if levels[0].answered:
             break
     while len(levels) <= HALVINGS and not (_error(levels) <= allowed):
-        cut = _shorter_cylinders(cut)
+        cut = shorter_cylinders(cut)
         levels.append(_solve("hole", "uniform", cut, task))
     return levels
 
@@ -167,7 +185,8 @@ def _refine_string(case: Case, task: _Task, layout: str, allowed: float) -> list
     length = _divided(case, task.bit_depth) / FIRST
     while True:
         cut = _cut(case, task, layout, length)
-        if levels and layouts.segments_in_hole(cut, task.bit_depth) > task.most:
+        most = min(task.most, MOST_BESIDE) if levels and levels[-1].resolved else task.most
+        if levels and layouts.segments_in_hole(cut, task.bit_depth) > most:
             return levels
         levels.append(_solve("string", layout, cut, task))
         answered = [k for k, level in enumerate(levels) if level.answered]
@@ -175,6 +194,8 @@ def _refine_string(case: Case, task: _Task, layout: str, allowed: float) -> list
             return levels
         if answered and len(levels) - answered[-1] > UNANSWERED:
             return levels
+        if len(levels) >= ANSWERS and all(level.resolved and not level.answered for level in levels[-ANSWERS:]):
+            return levels  # no balance with segments as short as a buckled string needs
         length /= 2
 
 
@@ -191,12 +212,18 @@ def _solve(stage: str, layout: str, case: Case, task: _Task) -> _Level:
         points.append(solver.solve(kind, rates, task.bit_depth))
         seconds.append(time.perf_counter() - began)
         began = time.perf_counter()
-    loads = [_loads(p) if p.status.acceptable else (np.nan, np.nan) for p in points]
+    loads = [_loads(p) if _counts(p, stage) else (np.nan, np.nan) for p in points]
     scales = [_scales(p, weight, rates.spin) for p, rates in zip(points, task.rates.values(), strict=True)]
     return _Level(
         stage, layout, case, string.segments, float(string.length.min()), np.array(loads), np.array(scales), points,
         seconds,
     )  # fmt: skip
+
+
+def _counts(point: Equilibrium, stage: str = "string") -> bool:
+    """Whether the loads of a string count; those of one that lies too straight count for the hole alone."""
+    by_hole = stage == "hole" and point.status == SteadyStatus.UNDER_RESOLVED
+    return point.answered and (point.status.acceptable or by_hole)
 
 
 def relative_difference(point: Equilibrium, other: Equilibrium, spin: float) -> tuple[float, float]:
@@ -262,11 +289,11 @@ def _result(
     ) -> Refinement:
         return Refinement(
             status, message, of, tuple(task.rates), task.bit_depth, tolerance, error, strings[0].layout, segments,
-            shortest, steps, notes,
+            shortest, steps, notes, strings[answered[-1]].resolved if answered else 0,
         )  # fmt: skip
 
     if not answered:
-        point = next(point for point in strings[-1].points if not point.status.acceptable)
+        point = next(point for point in strings[-1].points if not _counts(point))
         message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has a solution for "
         message += f"{point.operation} ({point.status}: {point.message})"
         return finish(RefineStatus.NO_ANSWER, message, case, np.inf, 0, np.nan)
@@ -277,7 +304,7 @@ def _result(
     left = f"an error of {100 * error:.3g} %" if np.isfinite(error) else "an unknown error"
     message = f"{left} remains at {found.segments} segments, the largest number tried"
     if answered[-1] != len(strings) - 1:
-        lost = next(point for point in strings[-1].points if not point.status.acceptable)
+        lost = next(point for point in strings[-1].points if not _counts(point))
         why = f"{lost.operation}: {lost.status}"
         message = f"strings of more than {found.segments} segments have no solution ({why}); {left} remains"
     if tolerance < error_of_hole < np.inf:
@@ -310,7 +337,7 @@ def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
                     "operation": kind,
                     "segments": level.segments,
                     "shortest_m": level.shortest,
-                    "chord_m": _chord(level.case),
+                    "chord_m": largest_chord(level.case),
                     "hookload_N": level.loads[i, 0],
                     "surface_torque_N_m": level.loads[i, 1],
                     "hookload_change": change[i, 0],
@@ -322,6 +349,10 @@ def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
                 }
             )
     return rows
+
+
+def _with_buckling(case: Case, how: str) -> Case:
+    return case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": how})})
 
 
 def _cut(case: Case, task: _Task, layout: str, length: float) -> Case:
@@ -338,38 +369,6 @@ def _divided(case: Case, bit_depth: float) -> float:
     if cut == 0:
         raise InputError("a component that can be cut, beside the long segment", key="string.components")
     return min(in_hole, cut)
-
-
-def _sharpest(case: Case) -> float:
-    """The largest curvature of the hole [1/m]."""
-    stations = case.wellbore.trajectory
-    return float((survey.dogleg(stations) / np.diff(stations[:, 0])).max())
-
-
-def _chord(case: Case) -> float:
-    """Largest distance between a cylinder and the hole's axis [m]."""
-    hole = case.wellbore
-    if hole.geometry == "arcs":
-        return 0.0
-    if hole.cylinder_length is None:
-        assert hole.chord_tolerance is not None  # a case has one of the two
-        return hole.chord_tolerance
-    return _sharpest(case) * hole.cylinder_length**2 / 8
-
-
-def _shorter_cylinders(case: Case) -> Case:
-    """The case with cylinders half as long in its bends; they stay longer than their overlap."""
-    hole = case.wellbore
-    if hole.cylinder_length is None:
-        assert hole.chord_tolerance is not None
-        chord = hole.chord_tolerance / 4
-        update = {"chord_tolerance": chord}
-        length = np.sqrt(8 * chord / max(_sharpest(case), 1e-12))
-    else:
-        length = hole.cylinder_length / 2
-        update = {"cylinder_length": length}
-    update["overlap"] = min(hole.overlap, 0.5 * length)
-    return case.model_copy(update={"wellbore": hole.model_copy(update=update)})
 
 
 def _kinds(case: Case, operation: str | Sequence[str] | None) -> list[str]:

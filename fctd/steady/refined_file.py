@@ -56,6 +56,8 @@ def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any
                 raw["wellbore"][key] = _metres(size)
                 note = raw["wellbore"].item(key).trivia
                 note.comment = note.comment_ws = ""  # it described the value before
+    if refined.resolved:
+        apply_override(raw, "solver.buckling", "resolve")
     survey = survey_from(out, refined.case)
     if survey is not None:
         raw["wellbore"]["survey"] = survey

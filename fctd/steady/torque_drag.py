@@ -11,7 +11,7 @@ from fctd.case.units import FRICTION, bare
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import build_wellbore
 from fctd.results.buckling import UNKNOWN
-from fctd.results.columns import IN_CHART
+from fctd.results.columns import IN_CHART, SHAPES, SHARES
 from fctd.results.notes import codes_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Equilibrium, Solver
@@ -35,9 +35,12 @@ def torque_drag(
     in turn, None for the case's own.  speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.
     Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, the loads of
     ``columns.IN_CHART`` (hookload_N and so on), buckling (none, sinusoidal, helical, or unknown without loads),
-    buckled_from_md_m and buckled_to_md_m (NaN where the string is not buckled), status (of ``SteadyStatus``),
+    buckled_from_md_m and buckled_to_md_m (NaN where the string is not buckled), shape (of a resolved string: none,
+    snaking or helix), hookload_low_N and hookload_high_N (of both shapes, NaN where they do not differ),
+    slack_off_spent_at and locked_up_at (shares of the friction, NaN where not found), status (of ``SteadyStatus``),
     iterations, notes (codes of ``notes.MEANINGS``, or none), reason (of a status other than converged, or none).  A
-    row whose status has no loads has NaN in their place; at a depth where string and hole do not fit the status is
+    row without a balance has NaN in place of loads; so has one that is ``locked_up`` where no push suffices, and one
+    that is ``unstable`` because no steady shape was found.  At a depth where string and hole do not fit the status is
     ``not_possible``.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
     """
     with naming_file(case):
@@ -95,12 +98,16 @@ def _row(case: Case, kind: str, depth: float, point: Equilibrium | None, misfit:
     answer = point if point is not None and point.answered else None
     # The values of an unfinished iteration are not loads.
     loads = {load.name: float("nan") if answer is None else load.value(answer) for load in IN_CHART}
+    # A string that no push moves has no loads, but a share at which it locked up.
+    found = {column.name: float("nan") if point is None else column.value(point) for column in (*SHAPES, *SHARES)}
     return {
         "operation": kind,
         "friction": own_friction(case),
         "bit_depth_m": depth,
         **loads,
         **(UNKNOWN if point is None else point.buckling).columns(),
+        "shape": "none" if point is None else point.shape,
+        **found,
         "status": str(SteadyStatus.NOT_POSSIBLE if point is None else point.status),
         "iterations": 0 if point is None else point.iterations,
         "notes": codes_of(() if point is None else point.notes),

@@ -35,9 +35,32 @@ segment_length = "40 m"
 """
 CHART_COLUMNS = [
     "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
-    "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "status",
-    "iterations", "notes", "reason",
+    "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
+    "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
+    "reason",
 ]  # fmt: skip
+# 5 inch pipe in a level hole, compressed to 2.6 times its sinusoidal limit.
+LEVEL = """
+name = "level"
+[wellbore]
+stations = [[0, 90, 0], [170, 90, 0]]
+stiffness_per_length = 1e6
+[[wellbore.intervals]]
+to_md = "170 m"
+diameter = "8.5 in"
+friction = 0.5
+[[string.components]]
+name = "pipe"
+outer_diameter = "127 mm"
+inner_diameter = "108.6 mm"
+segment_length = "10 m"
+[mud]
+density = "1200 kg/m^3"
+[rig]
+block_weight = "2 MN"
+[bit]
+weight_on_bit = "300 kN"
+"""
 # A pound-force and a foot in SI, exact by definition (NIST SP 811, appendix B.8).
 LBF, FOOT = 4.4482216152605, 0.3048
 # Below 600 m the wall is too soft to hold any string.
@@ -247,6 +270,45 @@ def test_a_buckled_string_shows_in_row_screen_and_picture(
     assert "helical" in screen
     assert f"{first[0]:.0f}–{last[0]:.0f}" in screen
     assert "use segments of at most" in errors
+    assert picture.exists()
+
+
+def test_a_buckled_string_is_resolved_where_that_is_asked_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    case_file, out, picture = tmp_path / "level.toml", tmp_path / "chart.csv", tmp_path / "chart.png"
+    case_file.write_text(LEVEL)
+    chart = ("chart", case_file, "--operation", "drill_sliding", "--depths", "150:150:1", "--out", out, "--quiet")
+    assert run(monkeypatch, *chart) == 1
+    assert 'or solver.buckling = "resolve" (--resolve-buckling)' in capsys.readouterr().err
+    assert pd.read_csv(out)["status"].tolist() == ["under_resolved"]
+    assert run(monkeypatch, *chart, "--resolve-buckling", "--plot", picture) == 0
+    (row,) = pd.read_csv(out).to_dict("records")
+    assert (row["status"], row["shape"]) == ("converged", "helix")
+    assert row["hookload_low_N"] < row["hookload_high_N"]
+    assert json.loads((tmp_path / "chart.csv.json").read_text())["case"]["solver"]["buckling"] == "resolve"
+    assert picture.exists()
+    asked = (*chart, "--set", "solver.buckling=resolve")
+    assert run(monkeypatch, *asked, "--no-resolve-buckling") == 1
+    assert pd.read_csv(out)["shape"].tolist() == ["none"]
+
+
+def test_a_string_that_no_push_moves_is_an_answer_without_loads(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    case_file, out, picture = tmp_path / "level.toml", tmp_path / "chart.csv", tmp_path / "chart.png"
+    case_file.write_text(LEVEL)
+    code = run(
+        monkeypatch, "chart", case_file, "--operation", "drill_sliding", "--depths", "150:150:1", "--friction", "2",
+        "--set", "rig.block_weight=350 kN", "--resolve-buckling", "--out", out, "--plot", picture, "--quiet",
+    )  # fmt: skip
+    assert code == 0
+    assert "locked_up at 150 m (1 of 1): slack-off is spent at" in capsys.readouterr().err
+    (row,) = pd.read_csv(out).to_dict("records")
+    assert np.isnan(row["hookload_N"])
+    assert 0 < row["slack_off_spent_at"] < row["locked_up_at"] < 1
     assert picture.exists()
 
 

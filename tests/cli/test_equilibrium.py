@@ -1,6 +1,7 @@
 """``fctd equilibrium``: loads, profile and what is refused."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 import fctd
 from fctd.cli.equilibrium import stretches
-from tests.cli.test_chart import CASE, FOOT, LBF, SOFT_BELOW, settings
+from tests.cli.test_chart import CASE, FOOT, LBF, LEVEL, SOFT_BELOW, settings
 from tests.cli.test_main import run
 
 
@@ -60,6 +61,36 @@ def test_equilibrium_without_an_answer_writes_nothing(
     assert code == 1
     assert "diverged: segment" in capsys.readouterr().err
     assert not any(file.exists() for file in files)
+
+
+def test_a_resolved_string_shows_its_shapes_and_its_limits(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case_file, out = tmp_path / "level.toml", tmp_path / "profile.csv"
+    case_file.write_text(LEVEL)
+    point = ("equilibrium", case_file, "--operation", "drill_sliding", "--bit-depth", "150", "--out", out)
+    assert run(monkeypatch, *point, "--resolve-buckling") == 0
+    screen = " ".join(capsys.readouterr().out.split())
+    origin = json.loads((tmp_path / "profile.csv.json").read_text())
+    assert origin["shape"] == "helix"
+    assert "locked_up_at" not in origin
+    assert "shape helix" in screen
+    for end, word in (("low", "lower"), ("high", "higher")):
+        assert f"hook load, {word} of both shapes {origin[f'hookload_{end}_N'] / 1e3:.3f} kN" in screen
+
+    out.unlink()
+    stuck = ("--friction", "2", *settings("rig.block_weight=350 kN"))
+    assert run(monkeypatch, *point, "--resolve-buckling", *stuck) == 1  # the file that was asked for is not there
+    assert not out.exists()
+    printed = capsys.readouterr()
+    assert "Nothing is written" in printed.err
+    screen = " ".join(printed.out.split())
+    for label, words in (
+        ("slack-off spent at", "slack-off is spent at"),
+        ("locked up at", "the string is locked up at"),
+    ):
+        (share,) = re.findall(rf"{words} ([\d.]+) %", printed.err)
+        assert f"{label} {share} % of the friction" in screen
 
 
 def test_one_string_is_of_one_operation(

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import fctd
+from tests.cli.test_chart import LEVEL
 from tests.cli.test_main import run
 
 CASE = """
@@ -143,6 +144,28 @@ def test_a_message_says_that_the_string_is_locked_up(
     more = ("--operation", "trip_in", "--friction", "1", "--tolerance", "20%")
     assert run(monkeypatch, "refine", case_file, *more, "--quiet") == 0
     assert "trip_in (locked up)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "resolved"),
+    [((), True), (("--no-resolve-buckling",), False), (("--set", "solver.buckling=detect"), False)],
+)
+def test_a_buckled_string_is_resolved_unless_the_user_says_otherwise(
+    options: tuple[str, ...], resolved: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """The buckled stretch keeps its own segments, and the file says so."""
+    case_file, out = tmp_path / "level.toml", tmp_path / "fine.toml"
+    case_file.write_text(LEVEL)
+    kinds = ("--operation", "drill_sliding", "--bit-depth", "150", "--tolerance", "5%", "--most", "64", "--out", out)
+    assert run(monkeypatch, "refine", case_file, *kinds, *options, "--quiet") == (0 if resolved else 1)
+    assert ("Its buckled stretch has segments that can bend as it does" in capsys.readouterr().out) == resolved
+    if resolved:
+        written = fctd.load_case(out)
+        assert written.solver.buckling == "resolve"
+        assert fctd.equilibrium(written, "drill_sliding", 150.0).shape == "helix"
+    else:
+        assert not out.exists()
 
 
 def test_a_tolerance_out_of_reach_is_exit_code_1(

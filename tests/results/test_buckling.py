@@ -267,6 +267,7 @@ def test_chart_rows_say_where_the_string_is_buckled() -> None:
     assert (down["buckling"], down["status"]) == ("helical", "under_resolved")
     assert (down["buckled_from_md_m"], down["buckled_to_md_m"]) == (buckled.min(), buckled.max())
     assert "use segments of at most" in down["reason"]
+    assert 'or solver.buckling = "resolve" (--resolve-buckling)' in down["reason"]
     assert up["buckling"] == "none"
     assert np.isnan([up["buckled_from_md_m"], up["buckled_to_md_m"]]).all()
     (free,) = torque_drag(

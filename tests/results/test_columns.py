@@ -5,13 +5,13 @@ from types import SimpleNamespace
 import pytest
 
 from fctd import equilibrium
-from fctd.results.columns import BUCKLED, COLUMNS, ENDINGS, IN_CHART, LOADS, PROFILE, Column
+from fctd.results.columns import BUCKLED, COLUMNS, ENDINGS, IN_CHART, LOADS, PROFILE, SHAPES, SHARES, Column
 from tests.cases import make_case, rotation
 
 
 def test_every_name_ends_in_a_unit_and_stands_once() -> None:
-    assert all(name.endswith(ENDINGS) for name in COLUMNS)
-    assert len(COLUMNS) == 1 + len(LOADS) + len(BUCKLED) + len(PROFILE)
+    assert {name for name in COLUMNS if not name.endswith(ENDINGS)} == {share.name for share in SHARES}
+    assert len(COLUMNS) == 1 + len(LOADS) + len(BUCKLED) + len(SHAPES) + len(SHARES) + len(PROFILE)
 
 
 @pytest.mark.parametrize(("name", "stem"), [("hookload_N", "hookload"), ("sum_r_ft_N_m", "sum_r_ft"), ("rows", "rows")])

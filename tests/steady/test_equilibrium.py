@@ -187,7 +187,7 @@ def test_a_straight_string_beyond_its_buckling_load_leaves_it_for_a_helix() -> N
     buckled = profile[profile["buckling"] == "helical"]
     # Compressed are the lower 147 m: 1e5 N over 680 N/m.
     assert buckled["md_m"].min() == pytest.approx(300 - 1e5 / 680, abs=5.0)
-    lower = profile[profile["md_m"].between(200, 290)]
+    lower = profile[profile["md_m"].between(200, 285)]
     assert (np.hypot(lower["offset_high_m"], lower["offset_right_m"]) > 0.99 * lower["clearance_m"]).all()
     case = case.model_copy(update={"bit": case.bit.model_copy(update={"weight_on_bit": 1e3})})
     straight = equilibrium(case, "drill_sliding", 300.0)

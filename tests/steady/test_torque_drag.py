@@ -3,16 +3,18 @@
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from fctd import InputError, equilibrium, load_case, torque_drag
-from tests.cases import make_case, pipe
+from tests.cases import level_case, make_case, pipe
 
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
 COLUMNS = [
     "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
-    "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "status",
-    "iterations", "notes", "reason",
+    "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
+    "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
+    "reason",
 ]  # fmt: skip
 
 
@@ -121,3 +123,26 @@ def test_a_row_without_loads_has_the_reason_of_the_solver() -> None:
     assert row["status"] == "diverged"
     assert row["reason"] == point.message
     assert "deeper in the wall" in point.message
+
+
+def test_a_resolved_row_has_both_shapes_and_does_not_depend_on_its_neighbours() -> None:
+    """At 2.6 times the sinusoidal limit a helix and snaking are both balances; the helix has the lower energy."""
+    chart = torque_drag(level_case(), ["drill_sliding", "trip_in"], [120.0, 150.0], friction=[0.2, 0.5])
+    row = chart.iloc[3]
+    assert (row["status"], row["shape"], row["buckling"]) == ("converged", "helix", "helical")
+    assert row["hookload_N"] == row["hookload_low_N"] < row["hookload_high_N"] < -300e3
+    assert (chart["shape"][4:] == "none").all()
+    assert chart.loc[4:, "hookload_low_N":"locked_up_at"].isna().all(axis=None)
+    alone = torque_drag(level_case(), "drill_sliding", [150.0], friction=0.5).iloc[0]
+    pd.testing.assert_series_equal(row, alone, check_names=False, check_exact=True)
+
+
+def test_a_string_that_no_push_moves_has_no_loads_but_says_where_it_locked_up() -> None:
+    chart = torque_drag(level_case(rig={"block_weight": 3.5e5}), "drill_sliding", [150.0], friction=2.0)
+    (row,) = chart.to_dict("records")
+    assert (row["status"], row["buckling"]) == ("locked_up", "unknown")
+    loads = chart.loc[:, "hookload_N":"total_contact_force_N"]
+    assert loads.isna().all(axis=None)
+    assert 0 < row["slack_off_spent_at"] < row["locked_up_at"] < 1
+    spent, locked = (f"{100 * row[name]:.3g} %" for name in ("slack_off_spent_at", "locked_up_at"))
+    assert row["reason"] == f"slack-off is spent at {spent}, the string is locked up at {locked} of the friction"
