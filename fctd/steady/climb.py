@@ -16,13 +16,16 @@ from fctd.steady.continuation import CONVERGED
 from fctd.steady.problem import Pose, Problem, Share
 from fctd.steady.relaxation import Creep
 
-# Share of the loads at which the string is laid; the friction of a climb in weight.
+# Share of the friction at which the string is laid and the weight on bit grows.
 LOW = 0.1
 # Steps of the share: first, smallest and largest; factors after a step of few or many iterations.
 FIRST, SMALLEST, LARGEST = 0.1, 3e-3, 0.25
 FEW, MANY, LONGER, SHORTER = 70, 150, 1.5, 0.67
 SHAKES = 3
 START_ITERATIONS, STEP_ITERATIONS = 1500, 400
+# A string that rolls round the hole is not worth smaller steps than this.  It rolls where so much of the motion of its
+# points in a few iterations goes one way round.
+ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.02, 20, 0.8
 # A push of so many weights of the string is beyond any rig; the climb ends, and the loads that no push overcomes are
 # extrapolated from 1/push → 0.
 BEYOND = 3.0
@@ -51,8 +54,8 @@ class Climb:
     steps : balances from less to more; pose : at full loads, None where the path ends before; sound : the last balance
     up to there in which the string is not pushed with more than its weight; iterations : all.
     spent_at : share of the friction at which the hook load is −block weight; locked_at : at which no push suffices;
-    NaN where the path does not get there.  ends_at : share of the friction at which a path ends that found no shape,
-    else NaN.
+    NaN where the path does not get there.  ends_at, weight_ends_at : share of the friction, or before it of the weight
+    on bit, at which a path ends that found no shape, else NaN; rolls : whether the string then goes round the hole.
     """
 
     steps: list[Step] = field(default_factory=list)
@@ -62,6 +65,8 @@ class Climb:
     spent_at: float = float("nan")
     locked_at: float = float("nan")
     ends_at: float = float("nan")
+    weight_ends_at: float = float("nan")
+    rolls: bool = False
 
 
 def creep_of(problem: Problem, iterations: int) -> Creep:
@@ -72,7 +77,8 @@ def creep_of(problem: Problem, iterations: int) -> Creep:
 def come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:
     """Relax the string, and shake it where it rests in a balance that it would leave; returns code and iterations.
 
-    A straight string stays straight above its buckling limit until something moves it aside.
+    A straight string stays straight above its buckling limit until something moves it aside.  A string that comes back
+    to rest where it was is taken as it is: its friction holds it in modes that are counted without friction.
     """
     code, done = problem.relax(creep_of(problem, iterations), share)
     for _ in range(SHAKES):
@@ -90,7 +96,7 @@ def climb(problem: Problem, prepare: Callable[[Share], object] | None = None) ->
     prepare : called before each step with the loads of the last balance; may change the pose from which it starts.
     """
     path = Climb()
-    weight = LOW if problem.weight_on_bit > 0 else 1.0
+    weight = 0.0 if problem.weight_on_bit > 0 else 1.0
     problem.lay_guess(Share(LOW, weight))
     code, path.iterations = come_to_rest(problem, START_ITERATIONS, Share(LOW, weight))
     if code != CONVERGED:
@@ -99,7 +105,7 @@ def climb(problem: Problem, prepare: Callable[[Share], object] | None = None) ->
     if weight == 1:
         _record(problem, path, LOW)
     elif not _rise(problem, path, lambda s: Share(LOW, s), weight, 1.0, prepare):
-        path.ends_at = 0.0
+        path.weight_ends_at = path.sound.share.weight if path.sound is not None else 0.0
         return path
     if not _rise(problem, path, lambda s: Share(s, 1.0), LOW, 1.0, prepare):
         _close(problem, path)
@@ -129,18 +135,31 @@ def _rise(
         code, done = come_to_rest(problem, STEP_ITERATIONS, loads(aim))
         path.iterations += done
         if code != CONVERGED:
-            problem.put_pose(kept)
             step *= 0.5
-            if step < SMALLEST:
+            path.rolls = step < ROLLING_STEP and _rolls(problem, loads(aim))
+            problem.put_pose(kept)
+            if path.rolls or step < SMALLEST:
                 return False
             continue
         share = aim
-        if loads(share).weight == 1.0:
+        if loads(share).weight < 1.0:
+            path.sound = Balance(problem.copy_pose(), loads(share))
+        else:
             _record(problem, path, loads(share).friction)
             if -path.steps[-1].hookload > BEYOND * problem.weight:
                 return False
         step = min(step * (LONGER if done < FEW else SHORTER if done > MANY else 1.0), LARGEST)
     return True
+
+
+def _rolls(problem: Problem, share: Share) -> bool:
+    """Whether the string in its pose, far from balance, goes round the hole in one direction all along."""
+    before = problem.walls(problem.reactions(share).contacts)
+    problem.relax(creep_of(problem, ROLLING_ITERATIONS), share)
+    after = problem.walls(problem.reactions(share).contacts).offset
+    _, along = problem.hole.at(before.md)
+    swept = (along * np.cross(before.offset, after)).sum(axis=1)
+    return bool(abs(swept.sum()) > ONE_WAY * np.abs(swept).sum())
 
 
 def _record(problem: Problem, path: Climb, friction: float) -> None:
@@ -159,10 +178,10 @@ def _close(problem: Problem, path: Climb) -> None:
         path.spent_at = float(roots[0])
     elif len(left) and left[0] <= 0:
         path.spent_at = float(friction[0])
-    if len(left) < 3 or (path.pose is not None and friction[-1] <= 1.0):
+    if path.pose is not None and friction[-1] <= 1.0:
         return
     push = 1 / -left[-3:]
-    if (push > 0).all() and -left[-1] > problem.weight and push[1] > push[2]:
+    if len(push) == 3 and (push > 0).all() and -left[-1] > problem.weight and push[1] > push[2]:
         path.locked_at = float(friction[-1] + (friction[-1] - friction[-2]) * push[2] / (push[1] - push[2]))
     elif path.pose is None:
         path.ends_at = float(friction[-1])

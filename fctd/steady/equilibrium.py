@@ -198,7 +198,11 @@ class Solver:
             problem.at_axis = 1
             path = climb(problem)
             path.iterations += iterations
-            return self.follow(problem, path)
+            followed = self.follow(problem, path)
+            if not point.answered or followed.answered or followed.status != SteadyStatus.UNSTABLE:
+                return followed
+            message = f"the string would leave this balance, and {followed.message}"
+            return replace(point, status=followed.status, message=message, iterations=path.iterations)
         return point
 
     def resolve(self, problem: Problem, iterations: int) -> Equilibrium:
@@ -230,17 +234,11 @@ class Solver:
         point = replace(point, slack_off_spent_at=path.spent_at, locked_up_at=path.locked_at)
         if path.pose is None:
             # The pose is that of smaller loads.
-            status = SteadyStatus.LOCKED_UP if min(path.spent_at, path.locked_at) < 1 else SteadyStatus.UNSTABLE
+            status = SteadyStatus.LOCKED_UP if np.fmin(path.spent_at, path.locked_at) < 1 else SteadyStatus.UNSTABLE
             point = replace(point.without_loads(), status=status, message=status.message)
         if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE):
             return point
-        words = (
-            ("slack-off is spent before" if path.spent_at <= LOW else "slack-off is spent at", path.spent_at),
-            ("the string is locked up at", path.locked_at),
-            ("no steady shape was found beyond", path.ends_at),
-        )
-        text = ", ".join(f"{word} {100 * share:.3g} %" for word, share in words if np.isfinite(share))
-        return replace(point, message=f"{text} of the friction") if text else point
+        return replace(point, message=_end_of(problem, path) or point.message)
 
     def problem(self, operation: str, rates: SteadyRates, bit_depth: float, cut: Case | None = None) -> Problem:
         """The string at a bit depth [m] as a problem; raises InputError when string and hole do not fit there.
@@ -326,6 +324,24 @@ def balance(problem: Problem) -> tuple[int, int, int]:
         code, negative = CONVERGED, unstable[0]
         problem.put_pose(unstable[1])
     return code, total, negative
+
+
+def _end_of(problem: Problem, path: Climb) -> str:
+    """What ends a path, in words; empty where nothing does."""
+    ends = (
+        ("slack-off is spent at" if path.spent_at > LOW else "slack-off is spent below", path.spent_at),
+        ("the string is locked up at", path.locked_at),
+        ("no steady shape was found beyond", path.ends_at),
+        ("no steady shape was found beyond", path.weight_ends_at),
+    )
+    parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
+    if not parts:
+        return ""
+    text = f"{parts} of the {'friction' if np.isnan(path.weight_ends_at) else 'weight on bit'}"
+    if not path.rolls or not np.isfinite([path.ends_at, path.weight_ends_at]).any():
+        return text
+    cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
+    return f"{text}: {cause} rolls the buckled string round the hole" if cause else text
 
 
 def equilibrium(
