@@ -191,7 +191,7 @@ class Solver:
         point = self.answer(problem, code, iterations, negative)
         if self.geometry == state.OPEN:
             return point
-        unsolved = not point.answered or (negative > 0 and point.buckling.mode != NOT_BUCKLED.mode)
+        unsolved = code != CONVERGED or (negative > 0 and point.buckling.mode != NOT_BUCKLED.mode)
         if self.case.solver.buckling == "resolve" and (unsolved or point.buckling.mode != NOT_BUCKLED.mode):
             return self.resolve(problem, iterations)
         if unsolved:
@@ -199,7 +199,7 @@ class Solver:
             path = climb(problem)
             path.iterations += iterations
             followed = self.follow(problem, path)
-            if not point.answered or followed.answered or followed.status != SteadyStatus.UNSTABLE:
+            if code != CONVERGED or followed.answered or followed.status != SteadyStatus.UNSTABLE:
                 return followed
             message = f"the string would leave this balance, and {followed.message}"
             return replace(point, status=followed.status, message=message, iterations=path.iterations)
