@@ -294,8 +294,6 @@ def test_finer_strings_without_an_answer_end_the_search(monkeypatch: pytest.Monk
 @pytest.mark.parametrize(
     ("loads", "segments"), [((math.nan,), [16, 32, 64]), ((1.0, 2.0), [16, 32, 64, 128, 256, 512])]
 )
-    ("loads", "segments"), [((math.nan,), [16, 32, 64]), ((1.0, 2.0), [16, 32, 64, 128, 256, 512])]
-)
 def test_a_buckled_string_ends_the_search_early(
     loads: tuple[float, ...], segments: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
