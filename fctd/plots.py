@@ -239,7 +239,7 @@ def _series(
         if apart.any():
             ax.fill_betweenx(depth, np.where(apart, low, value), np.where(apart, high, value), color=colour, **BAND)
             ax.hlines(depth[apart], low[apart], high[apart], color=colour, linewidth=1)
-    line = np.where(stuck | (value < edge), edge, value)
+    line = np.where(stuck, edge, value)
     ax.plot(line, depth, color=colour, linestyle=dash, marker=marker, markevery=_marked(value), markersize=4.5)
     for mode, disc in DISCS.items():
         at = (rows["buckling"] == mode).to_numpy()
@@ -255,7 +255,11 @@ def _series(
             ax.plot(np.full(at.sum(), edge), depth[at], color=colour, **look)
     lost, found = np.isnan(line) & ~stuck, np.isfinite(line)
     if found.any():
-        ax.plot(np.interp(depth[lost], depth[found], line[found]), depth[lost], **LOST | {"markeredgecolor": colour})
+        ax.plot(
+            np.interp(depth[lost], depth[found], np.fmax(line[found], edge)),
+            depth[lost],
+            **LOST | {"markeredgecolor": colour},
+        )
     else:
         across = ax.get_yaxis_transform()
         ax.plot(np.full(len(depth), 0.15 + 0.14 * place), depth, transform=across, **LOST | {"markeredgecolor": colour})

@@ -111,12 +111,11 @@ def refine(
         task = _Task(rates_of_all(case, kinds, speed, rpm), depth, most, progress)
         coarse = _with_buckling(case, "detect")
         _solve("string", "uniform", _cut(coarse, task, "uniform", _divided(case, depth) / FIRST), task)  # compile
-        if "buckling" not in case.solver.model_fields_set:
-            case = _with_buckling(case, "resolve")
+        resolving = case if "buckling" in case.solver.model_fields_set else _with_buckling(case, "resolve")
         # Chords change the loads of a string that lies too straight where it is buckled as they do those of any other.
         holes = _refine_hole(coarse, task, SHARE_OF_HOLE * tolerance)
         error_of_hole = _error(holes) if holes else 0.0
-        in_hole = case.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else case
+        in_hole = resolving.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else resolving
         strings = _refine_string(in_hole, task, "uniform", tolerance - error_of_hole)
         found = _result(case, task, tolerance, error_of_hole, holes, strings)
         if not graded:

@@ -3,6 +3,7 @@
 import math
 import sys
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from fctd.model.operations import SteadyRates, steady_rates
 from fctd.results.status import RefineStatus, SteadyStatus
 from fctd.steady.equilibrium import Solver
 from fctd.steady.refine import SAFETY, Refinement, _better, _errors, _Level, relative_difference
-from tests.cases import make_case, pipe, rotation, trip
+from tests.cases import level_case, make_case, pipe, rotation, trip
 from validation.parts.refinement import finer
 
 BUILD = [[0, 0, 0], [400, 0, 0], [800, 60, 0], [1300, 60, 0]]
@@ -288,3 +289,41 @@ def test_finer_strings_without_an_answer_end_the_search(monkeypatch: pytest.Monk
     assert found.segments == 64
     assert found.steps["segments"].tolist() == [16, 32, 64, 128, 256]
     assert found.steps["hookload_N"].isna().tolist() == [False] * 3 + [True] * 2
+
+
+@pytest.mark.parametrize(
+    ("loads", "segments"), [((math.nan,), [16, 32, 64]), ((1.0, 2.0), [16, 32, 64, 128, 256, 512])]
+)
+def test_a_buckled_string_ends_the_search_early(
+    loads: tuple[float, ...], segments: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where no push moves it, and where its hook load goes on jumping between two shapes."""
+    module = sys.modules["fctd.steady.refine"]
+    case, point = build_case(), SimpleNamespace(shape="helix", profile=range(1001))
+    cuts: list[int] = []
+
+    def solve(stage: str, layout: str, cut: Case, task: Any) -> _Level:
+        cuts.append(lay_out(cut, task.bit_depth).segments)
+        load = np.array([[loads[len(cuts) % len(loads)], 0.0]])
+        return _Level(stage, layout, cut, cuts[-1], 1.0, load, np.ones((1, 2)), [point], [0.0])  # type: ignore[list-item]
+
+    monkeypatch.setattr(module, "_solve", solve)
+    levels = module._refine_string(case, module._Task({}, 1300.0, 5000, None), "uniform", 0.01)
+    assert cuts == segments
+    assert levels[-1].resolved == 1000
+
+
+def test_buckled_strings_are_resolved_unless_the_case_says_otherwise() -> None:
+    """A level string in a hole of arcs at 2.6 times its sinusoidal limit."""
+    given = level_case(wellbore={
+        "intervals": [{"to_md": 170.0, "diameter": 0.2159, "friction": 0.5}], "stiffness_per_length": 1e6,
+        "survey_method": "minimum_curvature", "geometry": "arcs",
+    })  # fmt: skip
+    case = given.model_copy(update={"solver": type(given.solver)()})
+    found = fctd.refine(case, 0.05, "drill_sliding", 150.0, most=64)
+    assert found.status == "within_tolerance"
+    assert found.case.solver.buckling == "resolve"
+    point = fctd.equilibrium(found.case, "drill_sliding", 150.0)
+    assert found.resolved == len(point.profile) - 1 > 3 * found.segments
+    detect = case.model_copy(update={"solver": type(given.solver)(buckling="detect")})
+    assert fctd.refine(detect, 0.05, "drill_sliding", 150.0, most=64).resolved == 0
