@@ -25,7 +25,7 @@ SHAKES = 3
 START_ITERATIONS, STEP_ITERATIONS = 1500, 400
 # A string that rolls round the hole is not worth smaller steps than this.  It rolls where so much of the motion of its
 # points in a few iterations goes one way round.
-ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.02, 20, 0.8
+ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
 # A push of so many weights of the string is beyond any rig; the climb ends, and the loads that no push overcomes are
 # extrapolated from 1/push → 0.
 BEYOND = 3.0

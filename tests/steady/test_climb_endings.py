@@ -1,0 +1,51 @@
+"""Strings that Newton's method does not find directly: each ends with loads, or with what keeps it from them."""
+
+from random import Random
+
+import pytest
+
+from fctd import load_case
+from fctd.model.operations import steady_rates
+from fctd.results.status import SteadyStatus
+from fctd.steady.equilibrium import Solver
+from tests.fuzz.wells import well
+
+# Wells of the fuzzer's seeds: those of short strings among 200.
+SEEDS = (27, 3, 4, 5, 7, 8, 10, 11, 12, 14, 17, 18, 21, 44, 63, 22, 24, 140, 181, 188)
+ANSWERS = {SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.UNDER_RESOLVED}
+
+
+def solver_of(seed, tmp_path, overrides=None):
+    path = tmp_path / "case.toml"
+    path.write_bytes(well(Random(seed)).content)
+    return Solver(load_case(path, overrides or {}))
+
+
+def drilled(solver, kind):
+    """The string with its bit at six tenths of the depths that can be reached."""
+    top, *_, bottom = solver.depths
+    return solver.solve(kind, steady_rates(solver.case, kind), round(top + 0.6 * (bottom - top), 2))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_every_string_has_an_answer_or_a_reason(seed, tmp_path):
+    solver = solver_of(seed, tmp_path)
+    for kind in ("trip_in", "drill_rotating", "drill_sliding"):
+        point = drilled(solver, kind)
+        assert point.status in ANSWERS, (kind, point.status, point.message)
+        assert point.answered or "%" in point.message, (kind, point.status, point.message)
+        assert (point.status == "converged") == (point.message == "")
+
+
+def test_a_buckled_string_in_vertical_hole_rolls_round_it_by_the_torque_at_its_bit_alone(tmp_path):
+    # Nothing in vertical hole holds it at an angle; without torque nothing drives it either.
+    rolling = drilled(solver_of(124, tmp_path), "drill_sliding")
+    assert rolling.status == "unstable"
+    assert "% of the weight on bit: the torque at the bit rolls the buckled string round the hole" in rolling.message
+    # The straight balance, which it would leave, still has its loads.
+    assert rolling.answered
+    assert rolling.buckling.mode == "sinusoidal"
+    still = drilled(solver_of(124, tmp_path, {"bit.torque": 0}), "drill_sliding")
+    assert still.status in ("converged", "under_resolved")
+    # It buckles in vertical hole: the top carries the weight less that on the bit, and hardly any friction.
+    assert still.hookload == pytest.approx(rolling.hookload, rel=0.01)
