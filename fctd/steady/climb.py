@@ -29,6 +29,9 @@ ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
 # A push of so many weights of the string is beyond any rig; the climb ends, and the loads that no push overcomes are
 # extrapolated from 1/push → 0.
 BEYOND = 3.0
+# The compression for which segments are cut is that of a push of at most this share of the weight beyond the block's:
+# lock-up hangs little on the segments (0.2 % for segments twice as long), and their number grows with the push.
+SOUND = 0.05
 # A locked string is followed up to this share of its loads.
 FARTHEST = 5.0
 
@@ -52,7 +55,7 @@ class Climb:
     """A path in friction at full weight on bit.
 
     steps : balances from less to more; pose : at full loads, None where the path ends before; sound : the last balance
-    up to there in which the string is not pushed with more than its weight; iterations : all.
+    up to there in which the string is hardly pushed (``SOUND``); iterations : all.
     spent_at : share of the friction at which the hook load is −block weight; locked_at : at which no push suffices;
     NaN where the path does not get there.  ends_at, weight_ends_at : share of the friction, or before it of the weight
     on bit, at which a path ends that found no shape, else NaN; rolls : whether the string then goes round the hole.
@@ -165,7 +168,7 @@ def _rolls(problem: Problem, share: Share) -> bool:
 def _record(problem: Problem, path: Climb, friction: float) -> None:
     share = Share(friction, 1.0)
     path.steps.append(Step(friction, problem.reactions(share).hookload))
-    if friction <= 1 and -path.steps[-1].hookload < problem.weight:
+    if friction <= 1 and -path.steps[-1].hookload < problem.case.rig.block_weight + SOUND * problem.weight:
         path.sound = Balance(problem.copy_pose(), share)
 
 

@@ -92,7 +92,7 @@ def test_a_result_of_another_process_that_came_between_is_kept(tmp_path: Path) -
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
-@pytest.mark.parametrize("process", [ENDED, os.getpid()])
+@pytest.mark.parametrize("process", [ENDED, os.getpid()], ids=["ended", "own"])
 def test_a_new_result_completes_what_a_killed_process_began(process: int, tmp_path: Path) -> None:
     """Also one that had the id of this process."""
     earlier(tmp_path / f".out-old-{process}")
