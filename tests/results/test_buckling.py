@@ -1,6 +1,7 @@
 """Buckling limits against closed forms, over many sizes; where a string is buckled; which segments can follow."""
 
 import math
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,8 +13,6 @@ from numpy.typing import NDArray
 from fctd import Equilibrium, Wellbore, equilibrium, torque_drag
 from fctd.results.buckling import (
     HELICAL_LIMIT,
-    IN_HALF_WAVE,
-    IN_TURN,
     MODE,
     NEEDED,
     NEITHER,
@@ -191,9 +190,9 @@ def test_segments_resolve_the_wave_or_not(
     lying = 2 * math.sqrt(EI * q / clearance)
     assume(lying > 5.55 * (EI * weight**2) ** (1 / 3))
     F = share * lying
-    length = math.pi * (EI * clearance / q) ** 0.25 / math.sqrt(share) / IN_HALF_WAVE
+    length = math.pi * (EI * clearance / q) ** 0.25 / math.sqrt(share) / 8
     if share > HELIX:
-        length = 2 * math.pi * math.sqrt(2 * EI / F) / IN_TURN
+        length = 2 * math.pi * math.sqrt(2 * EI / F) / 12
     for factor, resolved in ((0.999, True), (1.001, False)):
         md = list(100.0 + factor * length * np.arange(4))
         rows, found = judge(straight(inclination), md, F, EI=EI, weight=weight, clearance=clearance)
@@ -289,4 +288,64 @@ def test_the_middle_of_a_short_component_has_the_mean_of_both_its_joints() -> No
     rows, _ = buckling_along(hole, of, 100.0, md, np.full(n, 0.1), -1e6 * np.array([1.0, 1.0, 3.0]), -5e6)
     turns = 2 * math.pi * np.sqrt(2 * 2e6 / (1e6 * np.array([1.0, 1.0, 2.0, 5.0])))
     assert (rows[:, MODE] > SINUSOIDAL).all()
-    np.testing.assert_allclose(rows[:, NEEDED], turns / IN_TURN, rtol=1e-12)
+    np.testing.assert_allclose(rows[:, NEEDED], turns / 12, rtol=1e-12)
+
+
+def bends(*rows: tuple[float, float, float, float]) -> Any:
+    """A hole given by tangents at depths alone, between which they change evenly."""
+    return SimpleNamespace(bends=np.array(rows))
+
+
+def test_the_lateral_load_within_an_even_bend() -> None:
+    """q = |w (z − t_z t) − F dt/ds| where t is between two rows; in tension its bend does not count."""
+    t, turn = np.array([0.48, 0.6, 0.64]), np.array([3e-4, -2e-4, -3.75e-5])  # of unit length, and across t
+    hole = bends((100.0, *(t - 40 * turn)), (200.0, *(t + 60 * turn)), (300.0, *(t + 60 * turn)))
+    across = 250.0 * (np.array([0.0, 0.0, 1.0]) - t[2] * t)
+    for load in (-1e5, 0.0, 1e5):
+        q = np.linalg.norm(across - max(load, 0.0) * turn)
+        assert at(hole, 140.0, load)[SINUSOIDAL_LIMIT] == pytest.approx(2 * math.sqrt(2e6 * q / 0.04), rel=1e-12)
+
+
+def test_contact_points_need_not_follow_each_other_downwards() -> None:
+    """Points in the first, the last and the middle one of three bends, each with the limit of its own."""
+    first, last = np.array([0.6, 0.0, 0.8]), np.array([0.8, 0.0, 0.6])
+    hole = bends((100.0, *first), (200.0, *last), (300.0, *last), (400.0, *first))
+    turn, level, F = (last - first) / 100, 250.0 * np.array([-0.48, 0.0, 0.64]), 1e5
+    steep = 250.0 * np.array([-0.48, 0.0, 0.36])
+    by_depth = {100.0: steep - F * turn, 250.0: level, 400.0: steep + F * turn}
+    md = [100.0, 400.0, 250.0, 100.0, 250.0, 400.0, 100.0]
+    rows, _ = judge(hole, md, F)
+    limits = [2 * math.sqrt(2e6 * np.linalg.norm(by_depth[depth]) / 0.04) for depth in md]
+    np.testing.assert_allclose(rows[:, SINUSOIDAL_LIMIT], limits, rtol=1e-12)
+
+
+def test_every_row_has_the_section_of_its_own_segment() -> None:
+    """And the top that of the first one: EI, weight and clearance of three components by hand."""
+    EI, weight, clearance = np.array([1e6, 2e6, 8e6]), np.array([200.0, 300.0, 900.0]), np.array([0.05, 0.03, 0.02])
+    of = Pipe(EI, weight, 0.1 - clearance, np.full(3, 10.0), np.zeros(3, bool))
+    F = 1e7
+    rows, found = buckling_along(straight(90.0), of, 100.0, np.array([110.0, 120.0, 130.0]), np.full(3, 0.1),
+                                 np.full(3, -F), -F)  # fmt: skip
+    own = [0, 0, 1, 2]
+    np.testing.assert_allclose(rows[:, SINUSOIDAL_LIMIT], (2 * np.sqrt(EI * weight / clearance))[own], rtol=1e-9)
+    np.testing.assert_allclose(rows[:, NEEDED], (2 * math.pi * np.sqrt(2 * EI / F) / 12)[own], rtol=1e-12)
+    assert (found.from_md, found.to_md, found.longest) == (100.0, 130.0, 10.0)
+
+
+def test_a_point_without_clearance_ends_a_stretch_of_vertical_pipe() -> None:
+    """Above it the pipe is compressed less than the limit, and not judged by the end of the pipe below it."""
+    unit = (2e6 * 250.0**2) ** (1 / 3)
+    clearance = np.array([0.04, 0.04, 0.0, 0.04, 0.04])
+    of = Pipe(*(np.full(5, value) for value in (2e6, 250.0)), 0.1 - clearance, np.full(5, 100.0), np.zeros(5, bool))
+    hole, md = hole_of([[0, 0, 0], [500, 0, 0]]), np.arange(100.0, 501.0, 100.0)
+    rows, found = buckling_along(hole, of, 0.0, md, np.full(5, 0.1), np.full(5, -unit), -4 * unit)
+    assert rows[:, MODE].tolist() == [0, 0, 0, 0, 1, 1]
+    assert (found.from_md, found.to_md) == (400.0, 500.0)
+
+
+def test_the_excess_over_no_limit_is_a_thousand() -> None:
+    """A drop in which nothing presses the string to the wall, w sin α = F dt/ds."""
+    hole = bends((0.0, 1.0, 0.0, -0.05), (100.0, 1.0, 0.0, 0.05), (200.0, 1.0, 0.0, 0.05))
+    rows, found = judge(hole, [49.0, 50.0, 51.0], 250.0 / 1e-3)
+    assert rows[1, SINUSOIDAL_LIMIT] < 10.0
+    assert found.excess == pytest.approx(1e3)

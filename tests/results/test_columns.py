@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from fctd import equilibrium
-from fctd.results.columns import BUCKLED, COLUMNS, ENDINGS, IN_CHART, LOADS, PROFILE, SHAPES, SHARES, Column
+from fctd.results.columns import BUCKLED, COLUMNS, DEPTH, ENDINGS, IN_CHART, LOADS, PROFILE, SHAPES, SHARES, Column
 from tests.cases import make_case, rotation
 
 
@@ -14,7 +14,13 @@ def test_every_name_ends_in_a_unit_and_stands_once() -> None:
     assert len(COLUMNS) == 1 + len(LOADS) + len(BUCKLED) + len(SHAPES) + len(SHARES) + len(PROFILE)
 
 
-@pytest.mark.parametrize(("name", "stem"), [("hookload_N", "hookload"), ("sum_r_ft_N_m", "sum_r_ft"), ("rows", "rows")])
+@pytest.mark.parametrize(
+    ("name", "stem"),
+    [
+        ("hookload_N", "hookload"), ("sum_r_ft_N_m", "sum_r_ft"), ("von_mises_Pa", "von_mises"), ("md_m", "md"),
+        ("inclination_deg", "inclination"), ("rows", "rows"),
+    ],
+)  # fmt: skip
 def test_the_stem_is_the_name_without_its_unit(name: str, stem: str) -> None:
     assert Column(name, "").stem == stem
 
@@ -31,3 +37,22 @@ def test_every_load_and_column_of_a_profile_is_there() -> None:
     assert loads["hookload_N"] == point.hookload
     assert {column.name for column in PROFILE} <= set(point.profile.columns)
     assert {column.name for column in IN_CHART} <= set(loads)
+
+
+def test_loads_are_shown_to_a_hundred_newtons_and_one_newton_metre() -> None:
+    """In kN and kN·m; lengths of the buckled part to the metre, the bit depth to a tenth of it."""
+    for load in LOADS:
+        assert load.digits == (3 if load.name.endswith("_N_m") else 1)
+    assert [column.digits for column in (DEPTH, *BUCKLED)] == [1, 0, 0]
+
+
+def test_widths_of_the_hole_are_lengths_across_it() -> None:
+    assert {name for name, column in COLUMNS.items() if column.across} == {
+        "offset_high_m", "offset_right_m", "clearance_m",
+    }  # fmt: skip
+
+
+def test_a_chart_leaves_out_the_torques_of_wall_friction() -> None:
+    """They are parts of the drive torque, for the loads of one string."""
+    assert [load.name for load in LOADS if load not in IN_CHART] == ["sum_r_ft_N_m", "sum_r_mu_fn_N_m"]
+    assert all(load in LOADS for load in IN_CHART)

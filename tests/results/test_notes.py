@@ -15,6 +15,7 @@ from fctd.case.units import conversion
 from fctd.model.drillstring import lay_out
 from fctd.model.wellbore import build_wellbore
 from fctd.results import ledger, notes
+from fctd.results.buckling import Buckling
 from fctd.results.profile import Loads
 from fctd.steady.equilibrium import Equilibrium
 from tests.cases import make_case, pipe, rotation, trip
@@ -341,3 +342,14 @@ def test_a_note_as_text() -> None:
     assert str(note) == "text: remedy"
     assert replace(note, place=None).place is None
     assert conversion("ksi", "Pa") * 135 == pytest.approx(931e6, rel=1e-3)  # the default: S-135
+
+
+def test_a_buckled_string_on_long_segments_is_noted_at_its_upper_end() -> None:
+    """Segments of 10 m where 2.5 m would do are four times too long; short ones are no note."""
+    buckled = Buckling("helical", 540.0, 1500.0, longest=10.0, segment_length=2.5, excess=3.0)
+    note = notes.under_resolved(buckled)
+    assert note is not None
+    assert (note.code, note.place, note.excess) == ("buckling", 540.0, 4.0)
+    assert "helical from 540 to 1500 m, where segments of 10 m cannot bend that way" in note.text
+    assert "segments of at most 2.5 m would" in note.text
+    assert notes.under_resolved(replace(buckled, longest=0.0)) is None

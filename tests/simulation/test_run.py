@@ -11,15 +11,13 @@ from hypothesis import strategies as st
 
 from fctd import Case, InputError, equilibrium, simulate
 from fctd.mechanics import state, topdrive
-from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.model.layouts import graded, uniform, with_components
 from fctd.model.operations import Phase, depth_range, schedule
-from fctd.model.wellbore import Contacts, Wellbore, find_contacts
 from fctd.simulation import run as run_module
-from fctd.simulation.run import Run, contact_points, prepare, relaxing, settle, start_from_rest
+from fctd.simulation.run import Run, contact_points, prepare, relaxing
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]
@@ -296,80 +294,6 @@ def test_records_and_profiles_up_to_their_bounds(monkeypatch: pytest.MonkeyPatch
 def test_an_operation_below_the_survey_is_named() -> None:
     with pytest.raises(InputError, match=r'operations\[1\]\.to_md = "1001 m": expected a depth below string\.top_md'):
         prepare(make_case(operations=[trip(990, 1000), trip(1000, 1001)]))
-
-
-def test_settling_ends_where_the_imbalance_is_small() -> None:
-    """The imbalance is that of the forces alone: what moves the string in a step from rest without the drag."""
-    run, _ = prepare(make_case(BUILD, [pipe(None, 40)], [rotation(1000, 1)]))
-    seen: list[tuple[float, float]] = []
-    residual = settle(run, 1e-3, progress=lambda *values: seen.append(values))
-    assert residual == seen[-1][1] < 1e-3 <= min(values[1] for values in seen[:-1])
-    laws, weight = relaxing(run)
-    # A window is the drag's time constant; one more step after each measures the imbalance.
-    assert seen[0][0] == pytest.approx(1 / laws.settling)
-    assert run.time == pytest.approx(seen[-1][0] + len(seen) * run.step)
-    start_from_rest(run)
-    run.advance(run_module.STILL, run.step, laws)
-    speed = np.stack([state.row(run.S, row, run.segments) for row in (state.VX, state.VY, state.VZ)])
-    mass = state.row(run.S, state.MASS, run.segments)
-    # At rest joints and walls do not damp, so that it is somewhat smaller.
-    assert 0.5 * residual < np.abs(mass * speed).max() / run.step / weight < residual
-
-
-def test_a_string_that_does_not_settle_is_an_error() -> None:
-    run, _ = prepare(make_case(components=[pipe(1000, 4)], operations=[rotation(1000, 1)]))
-    times: list[float] = []
-    with pytest.raises(UnstableError, match=r"forces are out of balance by .* of the weight after 400 s"):
-        settle(run, 0.0, progress=lambda now, _: times.append(now))
-    assert 400 - 1 / relaxing(run)[0].settling < times[-1] <= 400
-
-
-class Shaking:
-    """The hole's own contacts, deeper and shallower in turn, as from meshes with facets."""
-
-    name = "shaking"
-
-    def __init__(self, hole: Wellbore, by: float) -> None:
-        self.hole, self.by, self.asked = hole, by, 0
-
-    def query(self, points: np.ndarray, radii: np.ndarray) -> Contacts:
-        self.asked += 1
-        hits = find_contacts(self.hole, points, radii)
-        return hits._replace(penetration=hits.penetration + self.by * (-1) ** self.asked)
-
-
-def test_a_wall_that_jumps_is_settled_against_on_average(monkeypatch: pytest.MonkeyPatch) -> None:
-    case = make_case([[0, 0, 0], [300, 40, 60]], [pipe(None, 10)], [rotation(300, 1)])
-    hole = prepare(case)[0].hole
-    run, _ = prepare(case, Shaking(hole, 1e-6))
-    seen: list[tuple[float, float]] = []
-    residual = settle(run, progress=lambda *values: seen.append(values))
-    laws, _ = relaxing(run)
-    on_average = seen[next(k for k in range(1, len(seen)) if seen[k][0] < seen[k - 1][0]) :]
-    assert [now for now, _ in on_average] == pytest.approx([k / laws.settling for k in (1, 2, 3)])
-    assert residual == on_average[-1][1] < 1e-3
-    monkeypatch.setattr(run_module, "SETTLED_ON_AVERAGE", residual / 1e6)
-    monkeypatch.setattr(run_module, "LONGEST_SETTLING", 40.0)
-    seen.clear()
-    with pytest.raises(UnstableError, match=r"forces are out of balance by .* of the weight after 40 s"):
-        settle(run, progress=lambda *values: seen.append(values))
-    assert 40 - 1 / laws.settling < seen[-1][0] <= 40
-
-
-def test_a_start_from_rest() -> None:
-    """No speed, no sums, no clock, and axes and walls of the present places."""
-    run, _ = prepare(make_case(BUILD, [pipe(None, 40)], [rotation(1000, 1)]))
-    settled = run.S.copy()
-    rates = (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ)
-    for offset in (*rates, state.SUM_NORMAL, state.AX, state.PX):
-        state.row(run.S, offset, run.segments)[:] = 3.0
-    run.top[topdrive.TOP_TIME] = 5.0
-    start_from_rest(run)
-    for offset in (*rates, state.SUM_NORMAL):
-        assert not state.row(run.S, offset, run.segments).any()
-    assert run.time == 0.0
-    axes = [state.row(each, state.AX, run.segments) for each in (run.S, settled)]
-    np.testing.assert_allclose(*axes, atol=1e-12)
 
 
 @pytest.mark.parametrize("more", [{"shear_stiffness": 1e308, "linear_mass": 1e-30}, {"torsional_stiffness": 1e308}])
