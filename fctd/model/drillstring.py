@@ -262,7 +262,7 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
     whole = take if part.length is None else part.length
     nominal = whole / part.segments if part.segments is not None else part.segment_length
     assert nominal is not None  # ComponentSpec requires one of the two
-    _check_segments(take // nominal)  # before a list of them fills the memory
+    _check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
     if abs(take - whole) < 1e-9:
         count = max(round(whole / nominal), 1)
         return [whole / count] * count

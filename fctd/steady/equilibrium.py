@@ -199,6 +199,8 @@ class Solver:
             path = climb(problem)
             path.iterations += iterations
             followed = self.follow(problem, path)
+            if point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE):
+                return followed if followed.answered else point
             if code != CONVERGED or followed.answered or followed.status != SteadyStatus.UNSTABLE:
                 return followed
             message = f"the string would leave this balance, and {followed.message}"

@@ -23,8 +23,9 @@ from fctd.steady.problem import FULL, Compressed, Problem, Share
 Array = NDArray[np.float64]
 
 # The compression grows when the string can bend: by this factor and this share of the string's weight for the plan of
-# segments, which are short from this share of the limit on and so many half waves beyond.
-MORE, ADDED, NEARLY, BEYOND = 1.3, 0.02, 0.75, 2
+# segments, which are short from this share of the limit on and so many half waves beyond.  With the factor a half wave
+# has 10 segments, and the amplitude of snaking an error below 3 %.
+MORE, ADDED, NEARLY, BEYOND = 1.6, 0.02, 0.75, 2
 # Times that the string is laid out, and the helix laid at full loads.
 LAYOUTS, WINDINGS = 3, 4
 WINDING_ITERATIONS = 800

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 from importlib.metadata import version
 from pathlib import Path
+from types import SimpleNamespace
 
 import numba
 import numpy as np
@@ -93,12 +94,12 @@ def test_a_folder_without_a_whole_result_is_read_again_for_a_fifth_of_a_second(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pauses: list[float] = []
-    monkeypatch.setattr(tables.time, "sleep", pauses.append)
+    monkeypatch.setattr(tables, "time", SimpleNamespace(sleep=pauses.append))
     with pytest.raises(InputError, match="a folder that fctd simulate wrote"):
         open_result(tmp_path / "out")
     assert sum(pauses) == pytest.approx(0.19)
     result = SimulationResult(make_case(), "completed", "", TABLE, TABLE, TABLE, {})
-    monkeypatch.setattr(tables.time, "sleep", lambda _: result.save(tmp_path / "out"))
+    monkeypatch.setattr(tables, "time", SimpleNamespace(sleep=lambda _: result.save(tmp_path / "out")))
     assert open_result(tmp_path / "out").identity == result.identity
 
 

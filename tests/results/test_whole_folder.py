@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pandas as pd
 import pyarrow.parquet as pq
@@ -149,7 +150,7 @@ def test_what_the_user_keeps_waits_for_another_process_between_its_renames(
         rename(source, target)
 
     monkeypatch.setattr(os, "rename", hidden)
-    monkeypatch.setattr(whole_folder_module.time, "sleep", lambda _: rename(tmp_path / "hidden", folder))
+    monkeypatch.setattr(whole_folder_module, "time", SimpleNamespace(sleep=lambda _: rename(tmp_path / "hidden", folder)))
     result(2.0).save(folder)
     assert value(folder) == 2.0
     check_foreign(folder)
@@ -247,7 +248,7 @@ def test_what_cannot_be_moved_for_a_second_is_an_error(tmp_path: Path, monkeypat
             raise FileNotFoundError(2, "No such file or directory")
         rename(source, target)
 
-    monkeypatch.setattr(whole_folder_module.time, "sleep", pauses.append)
+    monkeypatch.setattr(whole_folder_module, "time", SimpleNamespace(sleep=pauses.append))
     with monkeypatch.context() as patched:
         patched.setattr(os, "rename", vanish)
         with pytest.raises(InputError, match="No such file or directory"):

@@ -38,7 +38,7 @@ def test_preparation_comes_before_each_step() -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0, friction=0.1))
     seen: list[Share] = []
     path = climb(problem, seen.append)
-    assert seen[0] == Share(LOW, LOW)
+    assert seen[0] == Share(LOW, 0.0)
     assert [share.friction for share in seen if share.weight == 1.0][: len(path.steps) - 1] == [
         step.friction for step in path.steps[:-1]
     ]

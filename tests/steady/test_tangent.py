@@ -11,6 +11,7 @@ from fctd.case.operations import KINDS
 from fctd.mechanics import dynamics, state
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.joints import update_joint_loads
+from fctd.mechanics.laws import CODES
 from fctd.mechanics.rotations import turned
 from fctd.mechanics.state import LANES, Laws
 from fctd.model.operations import steady_rates
@@ -47,7 +48,7 @@ def laws_of(solver: Solver, kind: str) -> Steady:
     rates = steady_rates(solver.case, kind)
     push = np.array([0.3, -0.2, -0.9]) * (3e4 if KINDS[kind].on_bottom else 0.0)
     torque = 2e3 if KINDS[kind].on_bottom else 0.0
-    return Steady(solver.geometry, solver.law, 1.0, rates.speed, rates.spin, *push, torque)
+    return Steady(solver.geometry, CODES[solver.case.contact.friction_law], 1.0, rates.speed, rates.spin, *push, torque)
 
 
 def changed(P: Array, j: int, k: int, by: float) -> Array:
@@ -133,7 +134,7 @@ def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, ge
         state.row(S, offset, n)[:] = slow * rates.speed * walls[:, k]
     state.row(S, state.WZ, n)[:] = slow * rates.spin
     dynamics.update_axes(S, packed)
-    laws = Laws(solver.geometry, solver.law, 1.0, 0.0, 0.0, 0.0)
+    laws = Laws(solver.geometry, CODES[case.contact.friction_law], 1.0, 0.0, 0.0, 0.0)
     dt = 1e-9
     before = S.copy()
     update_joint_loads(S, packed, 0.0, dt)

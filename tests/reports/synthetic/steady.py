@@ -19,6 +19,9 @@ def _chart() -> pd.DataFrame:
                 "bit_depth_m": depth,
                 "hookload_N": (200 + 20 * k) * depth,
                 "surface_torque_N_m": 3 * depth * (k > 1),
+                "hookload_low_N": np.nan,
+                "hookload_high_N": np.nan,
+                "buckling": ["none"] * (len(depth) - 1) + ["helical"],
                 "status": ["converged"] * (len(depth) - 1) + ["unstable"],
             }
         )
