@@ -150,7 +150,8 @@ def test_what_the_user_keeps_waits_for_another_process_between_its_renames(
         rename(source, target)
 
     monkeypatch.setattr(os, "rename", hidden)
-    monkeypatch.setattr(whole_folder_module, "time", SimpleNamespace(sleep=lambda _: rename(tmp_path / "hidden", folder)))
+    moment = SimpleNamespace(sleep=lambda _: rename(tmp_path / "hidden", folder))
+    monkeypatch.setattr(whole_folder_module, "time", moment)
     result(2.0).save(folder)
     assert value(folder) == 2.0
     check_foreign(folder)
