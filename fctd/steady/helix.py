@@ -1,9 +1,9 @@
 """A helix as the shape of a string wherever it has the lower energy.
 
 In a level hole a helix has w r − r² F²/8EI a metre more energy than the straight string (clearance r, weight w,
-compression F), snaking has −½ (1 − F_c/F)² or so of the same; they are equal at F = 1.45 F_c, F_c = 2√(EI w/r).
-Snaking never becomes a helix by more load alone: the helix is laid into the string, with θ′ = √(F/2EI) (Lubinski,
-Althouse & Logan 1962), and comes to rest from there.
+compression F).  That of snaking, by Mitchell's equation, is equal to it at 1.45 times the onset 2√(EI w/r).  Snaking
+never becomes a helix by more load alone: the helix is laid into the string, with θ′ = √(F/2EI) (Lubinski, Althouse &
+Logan 1962), and comes to rest from there.
 """
 
 import numpy as np
