@@ -18,9 +18,9 @@ from tests.cases import make_case, pipe, rotation, trip
 RIG = {"block_weight": 1e4, "sheave_efficiency": 0.5, "torque_offset": 50.0}
 
 
-def recorder_of(components: list[dict[str, Any]], profile_at: tuple[float, ...] = ()) -> Recorder:
+def recorder_of(components: list[dict[str, Any]], profile_at: tuple[float, ...] = (), wall: bool = False) -> Recorder:
     """A string in vertical hole at the start of a trip out of 10 m, at rest and unstretched."""
-    sections = {"rig": RIG, "record": {"profile_at": profile_at}, "contact": {"enabled": False}}
+    sections = {"rig": RIG, "record": {"profile_at": profile_at}, "contact": {"enabled": wall}}
     run, _ = prepare(make_case(components=components, operations=[trip(1000, 990)], **sections))
     start_from_rest(run)
     return Recorder(run)
@@ -170,6 +170,20 @@ def test_a_profile_has_the_means_of_its_interval(long: bool) -> None:
     bending = np.zeros(n + 1)
     bending[n - 1] = S[state.K_BEND + n] * 0.1
     np.testing.assert_allclose(profile["bending_moment_N_m"], bending, rtol=1e-9, atol=1e-6)
+
+
+@pytest.mark.parametrize("wall", [True, False])
+def test_a_string_in_tension_above_and_in_compression_below_is_buckled_where_it_has_a_wall(wall: bool) -> None:
+    """A push of 1 MN through the lower 500 m; without a wall no buckling is looked for."""
+    recorder = recorder_of([pipe(None, 10)], wall=wall)
+    S, top, n = recorder.run.S, recorder.run.top, recorder.run.segments
+    top[topdrive.TOP_TIME] = 1.0
+    state.row(S, state.SUM_TENSION, n)[:] = np.where(np.arange(n) < n // 2, 1e6, -1e6)
+    recorder.record(0, recorder.run.drain())
+    row = recorder.history[-1]
+    assert row["buckling"] == ("helical" if wall else "none")
+    if wall:
+        assert 500 <= row["buckled_from_md_m"] < row["buckled_to_md_m"] <= 1000
 
 
 @pytest.mark.parametrize(("friction", "mode"), [(0.05, "none"), (0.4, "helical")])

@@ -108,6 +108,7 @@ def test_a_depth_that_does_not_fit_is_a_row_with_its_reason() -> None:
     lost = chart["status"] == "not_possible"
     assert chart.loc[lost, "hookload_N":"total_contact_force_N"].isna().all(axis=None)
     assert (chart.loc[lost, "iterations"] == 0).all()
+    assert (chart["shape"] == "none").all()
     assert chart["reason"].tolist()[:2] == ['bit_depth = "0 m": expected a depth below string.top_md, 0 m, within '
                                             "survey and intervals, 900 m", "none"]  # fmt: skip
     assert "contact_diameter" in chart["reason"][2]
