@@ -65,7 +65,7 @@ RULES: list[tuple[str, Any, str]] = [
     ("wellbore.columns", {"md": "D"}, "columns only beside survey"),
     ("wellbore.columns", 1, "a table of keys and values"),
     ("wellbore.stations", [[0, 0, 0]], "two different stations, found 1"),
-    ("wellbore.stations[0][0]", 5, "measured depth 0, add a tie-in"),
+    ("wellbore.stations[0][0]", -5, "a measured depth of at least 0"),
     ("wellbore.stations[0][0]", "0 m", "a bare number"),
     ("wellbore.stations[2][0]", 900, "greater than that of the station"),
     ("wellbore.stations[2][0]", 50_001, "a measured depth of at most 50 km"),
@@ -154,7 +154,7 @@ COMBINED: list[tuple[dict[str, Any], str, Any, str]] = [
     ({"operations": [3]}, "operations[0]", 3, "a table of keys and values"),
     ({"wellbore.stations": None}, "wellbore.survey", MISSING, "survey or stations"),
     ({"wellbore.columns": {"m": "D"}}, "wellbore.columns.m", "D", "the key md"),
-    ({"wellbore.columns": {"md": 1}}, "wellbore.columns.md", 1, "a text in quotes"),
+    ({"wellbore.columns": {"md": 1}}, "wellbore.columns.md", 1, "a header in quotes or a table"),
     ({"wellbore.stations[1]": [9, 0]}, "wellbore.stations[1][2]", MISSING, "a bare number"),
     (
         {"wellbore.geometry": "arcs", "wellbore.survey_method": "average_angle"},

@@ -64,7 +64,11 @@ class ColumnSpec(Table):
 
 def _as_column(raw: object) -> object:
     """A header alone is written as a text."""
-    return {"header": raw} if isinstance(raw, str) else raw
+    if isinstance(raw, str):
+        return {"header": raw}
+    if not isinstance(raw, Mapping | ColumnSpec):
+        raise InputError('a header in quotes or a table such as {header = "DEPTH", unit = "m"}', value=raw)
+    return raw
 
 
 Column = Annotated[ColumnSpec, BeforeValidator(_as_column, json_schema_input_type=str | ColumnSpec)]

@@ -20,6 +20,8 @@ Row = tuple[int, list[str]]
 KEYS: Final[tuple[StationKey, ...]] = get_args(StationKey)
 TITLES: Final = 100  # rows that may stand above the headers
 COMMENT: Final = "#"
+_REFERRED: Final = re.compile("(m|ft)(?:md|rkb|kb|rt|brt)")
+_LONGEST: Final = 60  # characters of a header
 _LETTER: Final = re.compile(r"[^\W\d_]")
 
 # A header names a quantity if all its words are names or additions of that quantity and one of them is a name.
@@ -138,7 +140,8 @@ def _words(text: str) -> list[str]:
 
 def _as_unit(word: str) -> str | None:
     """The unit of a word; "mMD" and "ftRKB" are units with the reference of the depth."""
-    return _UNIT_WORDS.get(re.sub(r"^(m|ft)(md|rkb|kb|rt|brt)$", r"\1", word))
+    referred = _REFERRED.fullmatch(word)
+    return _UNIT_WORDS.get(referred[1] if referred else word)
 
 
 def _named_unit(header: str) -> str | None:
@@ -159,7 +162,7 @@ def _candidates(key: StationKey, cells: Sequence[str], wanted: Wanted) -> list[C
         return [Column(k, cells[k], _named_unit(cells[k])) for k in places]
     found, explicit = [], []
     for place, cell in enumerate(cells):
-        if not _LETTER.search(cell):  # a number
+        if len(cell) > _LONGEST or not _LETTER.search(cell):  # a sentence, or a number
             continue
         words = {word for word in _words(cell) if _as_unit(word) is None}
         if words & _NAMES[key] and words <= _NAMES[key] | _ADDITIONS[key]:
@@ -205,10 +208,8 @@ def _unit(key: StationKey, row: Row, column: Column, below: Row | None, said: st
     if below is not None and cell_of(below, column):
         stated = unit_of(cell_of(below, column))
         if stated is None or (unit is not None and stated != unit):
-            both = f", as the header {show(column.header)} says" if unit is not None else ""
-            raise InputError(
-                f"a unit, {accepted}{both}", key=f"row {below[0]}, {column.header}", value=cell_of(below, column)
-            )
+            expected = f"a unit of {accepted}" if unit is None else f"{unit}, as the header says"
+            raise InputError(expected, key=f"row {below[0]}, {column.header}", value=cell_of(below, column))
         unit, place, text = stated, f"row {below[0]}, {column.header}", cell_of(below, column)
     if unit is None and key != "md":
         return "deg"

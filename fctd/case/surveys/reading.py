@@ -45,7 +45,8 @@ def _read(path: Path, columns: Mapping[StationKey, Wanted], sheet: str | None) -
     text = decode(content)
     if text.lstrip().startswith("<"):
         if columns:
-            raise InputError("no columns, since WITSML names its elements", key="columns")
+            said = {key: wanted.header or wanted.unit for key, wanted in columns.items()}
+            raise InputError("no columns, since WITSML names its elements", key="columns", value=said)
         return read_witsml(text, sheet)
     if sheet is not None:
         raise InputError("no sheet for a text in columns", key="sheet", value=sheet)

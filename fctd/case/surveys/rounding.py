@@ -9,9 +9,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys.directions import severity, tangents
-from fctd.case.surveys.smoothing import LARGEST_ANGLE, MOST_SMOOTHED, smooth
+from fctd.case.surveys.smoothing import LARGEST_ANGLE, smooth
 from fctd.case.surveys.stations import Survey
 
 Array = NDArray[np.float64]
@@ -72,14 +73,14 @@ def rounded(survey: Survey) -> Iterator[InputWarning]:
         return
     across = float(np.max(np.sin(s[:, 1])))
     angle = 0.5 * math.hypot(inclination, across * azimuth) + 0.5 * depth * float(np.median(bend[bend > 0.0]))
-    worst, effect = _effect(survey, angle)
+    worst, effect = _effect(survey, angle, np.ones(len(survey.stations) - 1, dtype=bool))
     names = ("depths", "inclinations", "azimuths")
     columns = zip(names, survey.written.values.T, survey.written.units, strict=True)
     steps = [f"{name} to {last_digit(values):g} {unit}" for name, values, unit in columns if last_digit(values) > 0.0]
     yield InputWarning(
         "rounded_survey",
         survey.rows(worst, worst + 1),
-        f"rounding ({', '.join(steps)}) makes dog-legs of about {typical:.2g} deg/30 m, here and elsewhere",
+        f"rounding ({', '.join(steps)}) makes dog-legs of about {typical:.2g} deg/30 m in the whole well",
         effect,
     )
 
@@ -97,7 +98,7 @@ def spinning(survey: Survey) -> Iterator[InputWarning]:
     if bend < _VERTICAL:
         return
     first, *_, last = np.flatnonzero(spins)
-    _, effect = _effect(survey, float(s[vertical, 1].max()))
+    _, effect = _effect(survey, float(s[vertical, 1].max()), courses)
     yield InputWarning(
         "azimuth_noise",
         survey.rows(int(first), int(last) + 1),
@@ -107,21 +108,21 @@ def spinning(survey: Survey) -> Iterator[InputWarning]:
     )
 
 
-def _effect(survey: Survey, angle: float) -> tuple[int, str]:
-    """The course whose dog-leg smoothing reduces most, and what smoothing does, in words."""
-    angle = min(float(f"{1.005 * math.degrees(angle):.2g}"), math.degrees(LARGEST_ANGLE))
-    key = f'survey_smoothing = "{angle:g} deg"'
-    before = severity(survey.stations)
-    if len(survey.stations) > MOST_SMOOTHED:
-        return int(np.argmax(before)), f"survey the well with fewer stations; {key} is for at most {MOST_SMOOTHED}"
+def _effect(survey: Survey, angle: float, courses: NDArray[np.bool_]) -> tuple[int, str]:
+    """The course whose dog-leg smoothing reduces most, and what smoothing does to these courses, in words."""
     from scipy.integrate import cumulative_trapezoid
 
-    smoothed = smooth(survey.stations, math.radians(angle))
-    after = severity(smoothed)
+    angle = min(float(f"{1.005 * math.degrees(angle):.2g}"), math.degrees(LARGEST_ANGLE))
+    before = np.where(courses, severity(survey.stations), 0.0)
+    try:
+        smoothed = smooth(survey.stations, math.radians(angle))
+    except InputError:  # too many stations, or too close to each other
+        return int(np.argmax(before)), "use a survey with more digits"
+    after = np.where(courses, severity(smoothed), 0.0)
     turned = tangents(smoothed) - tangents(survey.stations)
     path = cumulative_trapezoid(turned, survey.stations[:, 0], axis=0)
     moved = float(np.linalg.norm(path, axis=1).max())
     return int(np.argmax(before - after)), (
-        f"{key} brings the greatest dog-leg from {before.max():.3g} to {after.max():.3g} deg/30 m, and moves the path "
-        f"by at most {moved:.2g} m"
+        f'survey_smoothing = "{angle:g} deg" brings the greatest of these dog-legs from {before.max():.3g} to '
+        f"{after.max():.3g} deg/30 m, and moves the path by at most {moved:.2g} m"
     )

@@ -118,7 +118,9 @@ def check(written: Written) -> Survey:
     for row in kept[1:][np.diff(stations[kept, 0]) <= 0.0].tolist():
         raise refuse(row, 0, "a measured depth greater than that of the station before")
     checked = stations[kept]
-    if checked[0, 0] > 0.0:
+    if checked[0, 0] <= _SAME:
+        checked[0, 0] = 0.0
+    else:
         # The azimuth of a vertical station is any; that of the next one keeps interpolated azimuths from turning.
         checked = np.vstack([[0.0, 0.0, checked[0, 2]], checked])
         kept = np.concatenate([[TIE_IN], kept])

@@ -91,7 +91,9 @@ def _lines(text: str) -> list[tuple[int, str]]:
 
 
 def _split(lines: list[tuple[int, str]], separator: str) -> list[Row]:
-    return [(number, _HEADERS[separator].split(line)) for number, line in lines]
+    """Headers may stand in a comment, "# MD Inc Azi": its sign belongs to the first cell."""
+    pattern = _HEADERS[separator]
+    return [(number, pattern.split(re.sub(f"^{COMMENT}+\\s*", COMMENT, line))) for number, line in lines]
 
 
 def _blanks(text: str, separator: str, columns: Mapping[StationKey, Wanted]) -> list[Row]:
@@ -99,7 +101,7 @@ def _blanks(text: str, separator: str, columns: Mapping[StationKey, Wanted]) -> 
     lines = _lines(text)
     rows = _split(lines, separator)
     top, _ = find_header(rows, columns)
-    count = len(rows[top][1]) - (rows[top][1][0] == COMMENT)
+    count = len(rows[top][1])
     for index in range(top + 1, len(rows)):
         number, line = lines[index]
         if len(rows[index][1]) == count or is_comment(rows[index][1]):

@@ -65,7 +65,7 @@ def _choose(root: Element, name: str | None) -> Element:
         raise InputError(f"a WITSML trajectory with stations, found the element {show(_tag(root))}")
     names = ", ".join(map(show, trajectories))
     if name is not None and name not in trajectories:
-        raise InputError(nearest(name, trajectories, "trajectory"), key="sheet", value=name)
+        raise InputError(nearest(name, trajectories, "name"), key="sheet", value=name)
     if name is None and len(trajectories) > 1:
         raise InputError(f"the name of the trajectory in wellbore.sheet: {names}", key="sheet")
     (found, *others) = trajectories[name or next(iter(trajectories))]
