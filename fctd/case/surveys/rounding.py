@@ -19,12 +19,14 @@ Array = NDArray[np.float64]
 
 _LAST_DIGITS: Final = (1.0, 0.5, 0.25, 0.1, 0.05, 0.01, 0.001)
 _FEWEST: Final = 10  # inner stations in bends: with fewer, chance decides
-_FALSE: Final = 0.25  # [deg/30 m]: dog-legs by rounding below this change no load by a per cent
+# [deg/30 m]: twice what tenths of a degree make every 10 m, and six times what they make every 30 m.
+_FALSE: Final = 0.25
 # The change of curvature from course to course over that which rounding makes: about 1 where all of it is rounding, 0
 # in a plan with whole numbers, and large where the hole itself turns.
 _BY_ROUNDING: Final = (0.4, 1.6)
+_FEWEST_VALUES: Final = 5  # of an angle, to tell how it is written
 _SPINS: Final = 30.0  # [deg] azimuth from station to station
-_FEWEST_SPINS: Final = 3
+_FEWEST_SPINS: Final = 3  # of them in the well
 _VERTICAL: Final = 0.1  # [deg/30 m] on the mean of a vertical section
 
 
@@ -38,10 +40,21 @@ def last_digit(values: Array) -> float:
 
 
 def _digits(survey: Survey) -> Array:
-    """The steps in which depth [m], inclination and azimuth [rad] are written."""
-    written = survey.written
-    steps = np.array([last_digit(column) for column in written.values.T]) * written.factors
-    return np.asarray(steps * np.array([1.0, math.pi / 180, math.pi / 180]))
+    """The steps in which depth, inclination and azimuth are written, in the units of their columns.
+
+    An angle that hardly changes may have no decimals by chance: it is written as the other one is.
+    """
+    values = survey.written.values
+    steps = np.array([last_digit(column) for column in values.T])
+    for angle, other in ((1, 2), (2, 1)):
+        if len(np.unique(values[:, angle])) < _FEWEST_VALUES:
+            steps[angle] = min(steps[angle], last_digit(values[:, other]))
+    return steps
+
+
+def _errors(survey: Survey) -> Array:
+    """`_digits` in m, rad, rad."""
+    return np.asarray(_digits(survey) * survey.written.factors * np.array([1.0, math.pi / 180, math.pi / 180]))
 
 
 def rounded(survey: Survey) -> Iterator[InputWarning]:
@@ -49,7 +62,7 @@ def rounded(survey: Survey) -> Iterator[InputWarning]:
     s = survey.stations[int(survey.tied_in) :]
     if len(s) < _FEWEST + 2:
         return
-    depth, inclination, azimuth = _digits(survey)
+    depth, inclination, azimuth = _errors(survey)
     length = np.diff(s[:, 0])
     curvature = np.diff(tangents(s), axis=0) / length[:, None]
     bend = np.linalg.norm(curvature, axis=1)
@@ -74,9 +87,8 @@ def rounded(survey: Survey) -> Iterator[InputWarning]:
     across = float(np.max(np.sin(s[:, 1])))
     angle = 0.5 * math.hypot(inclination, across * azimuth) + 0.5 * depth * float(np.median(bend[bend > 0.0]))
     worst, effect = _effect(survey, angle, np.ones(len(survey.stations) - 1, dtype=bool))
-    names = ("depths", "inclinations", "azimuths")
-    columns = zip(names, survey.written.values.T, survey.written.units, strict=True)
-    steps = [f"{name} to {last_digit(values):g} {unit}" for name, values, unit in columns if last_digit(values) > 0.0]
+    columns = zip(("depths", "inclinations", "azimuths"), _digits(survey), survey.written.units, strict=True)
+    steps = [f"{name} to {step:g} {unit}" for name, step, unit in columns if step > 0.0]
     yield InputWarning(
         "rounded_survey",
         survey.rows(worst, worst + 1),
@@ -87,7 +99,7 @@ def rounded(survey: Survey) -> Iterator[InputWarning]:
 
 def spinning(survey: Survey) -> Iterator[InputWarning]:
     """A warning where a vertical hole turns because the azimuth of a rounded inclination is any."""
-    s, step = survey.stations, _digits(survey)[1]
+    s, step = survey.stations, _errors(survey)[1]
     vertical = (s[:, 1] > 0.0) & (s[:, 1] <= 2.001 * step)
     spin = np.degrees(np.abs(np.angle(np.exp(1j * np.diff(s[:, 2])))))
     courses = vertical[1:] & vertical[:-1]
@@ -98,7 +110,8 @@ def spinning(survey: Survey) -> Iterator[InputWarning]:
     if bend < _VERTICAL:
         return
     first, *_, last = np.flatnonzero(spins)
-    _, effect = _effect(survey, float(s[vertical, 1].max()), courses)
+    # A turn has two components, of which each is bounded by the angle over √2.
+    _, effect = _effect(survey, math.sqrt(2.0) * float(s[vertical, 1].max()), courses)
     yield InputWarning(
         "azimuth_noise",
         survey.rows(int(first), int(last) + 1),
