@@ -89,6 +89,9 @@ class WellboreSpec(Table):
     One of `survey` and `stations` is set; so is one of `cylinder_length` [m] and `chord_tolerance` [m],
     and one of `stiffness` [N/m per contact point] and `stiffness_per_length` [N/m/m].
 
+    `columns` and `sheet` say what a survey file does not. With `survey_smoothing` the direction of each station may
+    turn by that angle, so that rounded stations make no false dog-legs.
+
     With `geometry` "arcs" the hole follows the circular arcs between the stations. With "cylinders" it is cut into
     straight pieces of `cylinder_length`, or so short that their chords deviate from the arc by at most
     `chord_tolerance`; neighbouring cylinders overlap by `overlap` [m]. Where the diameter of the hole changes, arcs

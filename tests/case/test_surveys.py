@@ -319,3 +319,21 @@ def test_real_surveys(name: str, count: int, last: tuple[float, float, float]) -
     md, inclination, azimuth = survey.stations[-1]
     assert (md, np.degrees(inclination), np.degrees(azimuth) % 360) == pytest.approx(last, rel=1e-12)
     assert doubts.find(survey) == ()
+
+
+# --- the guide -------------------------------------------------------------------------------------
+
+GUIDE = (Path(__file__).parents[2] / "docs" / "well.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("example", re.findall(r"^```csv\n(.*?)^```", GUIDE, re.DOTALL | re.MULTILINE))
+def test_the_examples_of_the_guide(example: str, tmp_path: Path) -> None:
+    assert read(tmp_path, example).stations[1] == pytest.approx([500, math.radians(12.5), math.pi / 4], rel=1e-3)
+
+
+def test_every_warning_has_its_line_in_the_guide() -> None:
+    folder = Path(doubts.__file__).parent
+    sources = "".join((folder / name).read_text() for name in ("doubts.py", "rounding.py"))
+    codes = re.findall(r'InputWarning\(\s*f?"([a-z_]+)', sources)
+    assert len(codes) == 7
+    assert [code for code in codes if f"\n| `{code}" not in GUIDE] == []
