@@ -2,6 +2,7 @@
 
 import io
 import os
+import time
 import zipfile
 from pathlib import Path
 from random import Random
@@ -112,6 +113,16 @@ def test_a_cell_without_end(tmp_path: Path) -> None:
     path = tmp_path / "survey.csv"
     path.write_bytes(HEADERS.encode() + b'\n"' + b"0" * 200_000)
     assert "a text in columns (field larger than field limit" in str(refusal(path))
+
+
+@pytest.mark.parametrize("line", ["1" + " " * 100_000 + "(", "# " + " " * 100_000, "<c " * 30_000])
+def test_long_lines_take_no_time(line: str, tmp_path: Path) -> None:
+    """No pattern goes back over blanks again and again."""
+    path = tmp_path / "survey.csv"
+    path.write_text(f"MD (m) Inc Azi\n0 0 0\n{line}\n1 2\n")
+    began = time.process_time()
+    assert refusal(path).key.startswith("row ")
+    assert time.process_time() - began < 1.0
 
 
 def test_elements_within_elements(tmp_path: Path) -> None:

@@ -16,11 +16,13 @@ from fctd.case.surveys.stations import MOST_STATIONS, StationKey, Written
 from fctd.case.surveys.table import read_table
 
 KINDS: Final = "a survey: text in columns, an Excel workbook (xlsx) or a WITSML trajectory (XML)"
-_SEPARATORS: Final = ("\t", ";", ",", "|", "  ", " ")
 _BINARY: Final = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 # Columns apart by blanks: a row of headers is split at two blanks or more, "Measured Depth  Inclination", or at every
 # blank, except before a bracket, which holds the unit: "MD (m) Inc (deg)".
-_HEADERS: Final = {"  ": re.compile(r"\s{2,}"), " ": re.compile(r"\s+(?![\s(\[])|(?<=[)\]])\s+")}
+_WIDE: Final = "  "
+_NARROW: Final = " "
+_SEPARATORS: Final = ("\t", ";", ",", "|", _WIDE, _NARROW)
+_BREAK: Final = re.compile(r" (?![(\[])|(?<=[)\]]) ")
 _LONGEST: Final = MOST_STATIONS + TITLES + 2  # rows: enough to refuse a survey that is too long
 
 
@@ -46,7 +48,7 @@ def read_text(text: str, columns: Mapping[StationKey, Wanted]) -> Written:
     try:
         start = "\n".join(text.split("\n", 4 * TITLES)[: 4 * TITLES])
         separator = max(_SEPARATORS, key=lambda separator: _likelihood(start, separator, columns))
-        if separator in _HEADERS:
+        if separator in (_WIDE, _NARROW):
             return read_table(_blanks(text, separator, columns), columns, decimal_commas=True)
         return read_table(_separated(text, separator), columns, decimal_commas=separator != ",")
     except csv.Error as error:
@@ -69,7 +71,7 @@ def _encoding(content: bytes) -> str:
 
 def _likelihood(start: str, separator: str, columns: Mapping[StationKey, Wanted]) -> tuple[int, int]:
     """How many of the three columns a separator gives; without any, how many columns at all."""
-    blanks = separator in _HEADERS
+    blanks = separator in (_WIDE, _NARROW)
     rows = _split(_lines(start), separator) if blanks else _separated(start, separator)
     if not rows:
         return 0, 0
@@ -92,8 +94,11 @@ def _lines(text: str) -> list[tuple[int, str]]:
 
 def _split(lines: list[tuple[int, str]], separator: str) -> list[Row]:
     """Headers may stand in a comment, "# MD Inc Azi": its sign belongs to the first cell."""
-    pattern = _HEADERS[separator]
-    return [(number, pattern.split(re.sub(f"^{COMMENT}+\\s*", COMMENT, line))) for number, line in lines]
+    rows = []
+    for number, line in lines:
+        text = COMMENT + line.lstrip(COMMENT).lstrip() if line.startswith(COMMENT) else line
+        rows.append((number, re.split(r"\s{2,}", text) if separator == _WIDE else _BREAK.split(" ".join(text.split()))))
+    return rows
 
 
 def _blanks(text: str, separator: str, columns: Mapping[StationKey, Wanted]) -> list[Row]:

@@ -76,16 +76,18 @@ def _choose(root: Element, name: str | None) -> Element:
 
 def _common_unit(key: StationKey, cells: Sequence[Element | None], where: Where) -> str:
     """The unit of an element, the same at every station."""
-    column, first = KEYS.index(key), None
+    column, first, before = KEYS.index(key), None, None
     for row, cell in enumerate(cells):
         if cell is None:
             continue  # refused with the numbers
         stated = cell.get("uom", "")
+        if stated == before:
+            continue
         unit = unit_of(stated)
         if unit not in UNITS[key] or first not in (None, unit):
             expected = accepted_units(key) if first is None else f"{first}, the unit of the stations before"
             raise InputError(expected, key=f"{where(row, column)[0]}, uom", value=stated)
-        first = unit
+        first, before = unit, stated
     return first or next(iter(UNITS[key]))
 
 

@@ -18,7 +18,7 @@ ZIP: Final = b"PK\x03\x04"
 OLD_EXCEL: Final = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _LARGEST: Final = 256  # MiB: the parts of a workbook, which are packed some ten times smaller in the file
 _MOST_CELLS: Final = 20_000_000  # from the first row and column to the last ones with a cell
-_REFERENCE: Final = re.compile(rb"<(?:\w+:)?c\b[^>]*?\br\s*=\s*[\"']([A-Z]{1,9})([0-9]{1,9})")
+_REFERENCE: Final = re.compile(rb"<(?:\w+:)?c\b[^<>]*?\br\s*=\s*[\"']([A-Z]{1,9})([0-9]{1,9})")
 _UNREADABLE: Final = "a workbook (xlsx) that can be read"
 
 
