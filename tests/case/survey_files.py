@@ -104,6 +104,13 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         "in columns",
     ),
     (
+        "prose",
+        {},
+        "# A well\n\nDepth and azimuth of this well\nare not listed here.\n",
+        'column inc_deg or inc_rad is missing: expected it among the headers "Depth", "and", "azimuth", "of", "this", '
+        '"well", or another header named in columns',
+    ),
+    (
         "no headers",
         {},
         "\n".join(ROWS),

@@ -11,7 +11,7 @@ from itertools import islice
 from typing import Final
 
 from fctd.case.errors import InputError
-from fctd.case.surveys.headers import COMMENT, TITLES, Row, Wanted, find_header, is_comment
+from fctd.case.surveys.headers import COMMENT, KEYS, TITLES, Row, Wanted, find_header, is_comment
 from fctd.case.surveys.stations import MOST_STATIONS, StationKey, Written
 from fctd.case.surveys.table import read_table
 
@@ -105,7 +105,9 @@ def _blanks(text: str, separator: str, columns: Mapping[StationKey, Wanted]) -> 
     """Rows of columns apart by blanks: below the headers a row has as many cells as they have, or InputError."""
     lines = _lines(text)
     rows = _split(lines, separator)
-    top, _ = find_header(rows, columns)
+    top, score = find_header(rows, columns)
+    if score < len(KEYS):
+        return rows  # refused with the headers
     count = len(rows[top][1])
     for index in range(top + 1, len(rows)):
         number, line = lines[index]
