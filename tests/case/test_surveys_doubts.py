@@ -17,7 +17,8 @@ from fctd.case.surveys.directions import severity
 from fctd.case.surveys.rounding import last_digit
 from fctd.case.surveys.smoothing import MOST_SMOOTHED
 from fctd.case.surveys.stations import Written, check, to_radians
-from tests.case.test_surveys import written
+from tests.case.survey_files import STATION, witsml
+from tests.case.test_surveys import read, written
 from tests.fuzz.paths import path
 
 Rows = Sequence[Sequence[float]] | NDArray[np.float64]
@@ -107,7 +108,8 @@ def test_angles_that_look_like_radians() -> None:
     assert (warning.code, warning.key) == ("angles_look_like_radians", f"s.csv, rows 2 to {len(rows) + 1}")
     assert warning.text.startswith("inclinations up to 0.8552 and azimuths up to 1.332")
     assert 'columns = {inc = {unit = "rad"}, azi = {unit = "rad"}}' in warning.remedy
-    assert codes(rows, file="") == ["angles_look_like_radians"]
+    (of_the_case,) = found(rows, file="")
+    assert (of_the_case.code, of_the_case.remedy) == (warning.code, "if they are, write them in degrees")
     assert codes(rows, units=("m", "rad", "rad")) == []
 
 
@@ -154,6 +156,13 @@ def test_the_words_about_a_unit() -> None:
     warning = only(stands(94.0))
     assert warning.text == "most stations are 93.9 m apart, which is a stand in feet"
     assert warning.remedy == 'if the depths are in feet, say so in the case: columns = {md = {unit = "ft"}}'
+
+
+def test_witsml_has_no_columns_to_describe(tmp_path: Path) -> None:
+    each = "".join(STATION.format(*row) for row in stands(28.8))
+    (warning,) = doubts.find(read(tmp_path, witsml("S1", stations=each)))
+    assert (warning.code, warning.key) == ("depths_look_like_metres", "survey.dat, trajectoryStations 1 to 41")
+    assert warning.remedy == "if the depths are in metres, correct their unit (uom) in the file"
 
 
 def test_a_well_of_more_than_12_km() -> None:
@@ -226,7 +235,7 @@ def spin(step: float, spacing: float) -> NDArray[np.float64]:
 def test_azimuths_that_turn_at_rounding_noise() -> None:
     warning = next(w for w in found(spin(0.1, 10.0)) if w.code == "azimuth_noise")
     assert re.fullmatch(r"s\.csv, rows \d to 3\d", warning.key)
-    assert "whose inclination is at most its last digit, which bends a vertical hole by 0." in warning.text
+    assert "whose inclination is at most twice its last digit, which bends a vertical hole by 0." in warning.text
     assert 'survey_smoothing = "0.14 deg" brings the greatest of these dog-legs from 0.' in warning.remedy
 
 

@@ -87,7 +87,7 @@ def _radians(survey: Survey) -> Iterator[InputWarning]:
             survey.rows(0, -1),
             f"inclinations up to {largest[0]:.4g} and azimuths up to {largest[1]:.4g} are read as degrees and look "
             "like radians",
-            'if they are, say so in the case: columns = {inc = {unit = "rad"}, azi = {unit = "rad"}}',
+            "if they are, " + _another_unit(survey, 'inc = {unit = "rad"}, azi = {unit = "rad"}', "degrees"),
         )
 
 
@@ -110,8 +110,17 @@ def _depth_unit(survey: Survey) -> Iterator[InputWarning]:
         f"depths_look_like_{word}",
         survey.rows(0, -1),
         text,
-        f'if the depths are in {word}, say so in the case: columns = {{md = {{unit = "{other}"}}}}',
+        f"if the depths are in {word}, " + _another_unit(survey, f'md = {{unit = "{other}"}}', "metres"),
     )
+
+
+def _another_unit(survey: Survey, columns: str, accepted: str) -> str:
+    """How to say that a column is in another unit: stations in a case have no columns, nor has WITSML."""
+    if not survey.written.file:
+        return f"write them in {accepted}"
+    if not survey.written.has_columns:
+        return "correct their unit (uom) in the file"
+    return f"say so in the case: columns = {{{columns}}}"
 
 
 _DOUBTS: Final[tuple[Doubt, ...]] = (_tie_in, _few, _gap, _radians, _depth_unit)

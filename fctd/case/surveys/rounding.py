@@ -115,8 +115,8 @@ def spinning(survey: Survey) -> Iterator[InputWarning]:
     yield InputWarning(
         "azimuth_noise",
         survey.rows(int(first), int(last) + 1),
-        f"the azimuth turns by up to {spin[spins].max():.3g} deg between stations whose inclination is at most its "
-        f"last digit, which bends a vertical hole by {bend:.2g} deg/30 m",
+        f"the azimuth turns by up to {spin[spins].max():.3g} deg between stations whose inclination is at most "
+        f"twice its last digit, which bends a vertical hole by {bend:.2g} deg/30 m",
         effect,
     )
 

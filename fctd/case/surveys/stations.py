@@ -54,6 +54,11 @@ class Written:
         """What the units of the columns are in m, deg, deg, shape (3,)."""
         return np.array([UNITS[key][unit] for key, unit in zip(UNITS, self.units, strict=True)])
 
+    @property
+    def has_columns(self) -> bool:
+        """Whether they are a text or a sheet, whose columns the case may describe."""
+        return self.one == "row {}"
+
     def rows(self, first: int, last: int) -> str:
         """The name of the rows of two indices and those between them."""
         here, there = self.numbers[first], self.numbers[last]
