@@ -13,7 +13,9 @@ from fctd.case.specs import IntervalKind, IntervalSpec
 from fctd.case.units import FRICTION
 
 KINDS: Final[tuple[str, ...]] = get_args(IntervalKind)
-_FORM: Final = "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, or factors by kind such as cased=0.2,open=0.3"
+_FORM: Final = (
+    "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, or factors by kind such as cased=0.2,open=0.3"
+)
 _MOST_PARTS: Final = 4  # intervals that the label of a case's own factors lists
 
 T = TypeVar("T")
@@ -60,15 +62,15 @@ def pick(by_kind: Mapping[str, T], kinds: Sequence[object]) -> list[T | None]:
     for kind in by_kind:
         if kind not in KINDS:
             raise InputError(nearest(kind, KINDS, "kind"), key="friction", value=dict(by_kind))
-    for i, kind in enumerate(kinds):
-        if kind not in KINDS:
-            expected, value = '"cased" or "open", since friction is given by kind', MISSING if kind is None else kind
+    for i, has in enumerate(kinds):
+        if has not in KINDS:
+            expected, value = '"cased" or "open", since friction is given by kind', MISSING if has is None else has
             raise InputError(expected, key=f"wellbore.intervals[{i}].kind", value=value)
     lacking = [kind for kind in by_kind if kind not in kinds]
     if lacking or not by_kind:
         expected = f"factors of kinds that the intervals have, {' and '.join(dict.fromkeys(map(str, kinds)))}"
         raise InputError(expected, key="friction", value=dict(by_kind))
-    return [by_kind.get(str(kind)) for kind in kinds]
+    return [by_kind.get(str(has)) for has in kinds]
 
 
 def parse_frictions(texts: Iterable[str], key: str) -> list[FrictionSet]:

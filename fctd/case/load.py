@@ -12,9 +12,11 @@ from typing import Annotated, Any, Final, Self
 
 from pydantic import Field, ValidationError, field_validator, model_validator
 
+from fctd.case.doubts import warnings_of
 from fctd.case.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
 from fctd.case.friction import pick
 from fctd.case.input_file import read_text
+from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
 from fctd.case.specs import (
     BitSpec,
@@ -76,9 +78,11 @@ class Case(Table):
                     f"{before.end_md:g} m, where the operation before ends (or leave it out)",
                     key=f"operations[{i}].{here.start_key}",
                 )
-        lightest = min(component.density for component in self.string.components)
+        densities = [component.density for component in self.string.components]
+        lightest = min(densities)
         if self.mud.density >= lightest:
-            raise InputError(f"a density below the string's, {lightest:g} kg/m^3", key="mud.density")
+            of = f"string.components[{densities.index(lightest)}].density"
+            raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key="mud.density")
         return self
 
     @property
@@ -86,6 +90,11 @@ class Case(Table):
         """Top of the string and greatest bit depth within survey and intervals [m]; reads the survey."""
         deepest = min(float(self.wellbore.trajectory[-1, 0]), self.wellbore.intervals[-1].to_md)
         return self.string.top_md, deepest
+
+    @property
+    def warnings(self) -> tuple[InputWarning, ...]:
+        """Probable mistakes of the case and of its operations (`doubts`); reads the survey."""
+        return warnings_of(self)
 
     def check_depths(self, raw: Mapping[str, Any] | None = None) -> None:
         """Raise InputError for a bit depth above the top of the string, or below the end of survey or intervals.
@@ -105,7 +114,9 @@ class Case(Table):
 
 @contextmanager
 def naming_file(case: Case) -> Iterator[None]:
-    """Add the case's file to an InputError that is raised inside."""
+    """Add the case's file to an InputError that is raised inside; InputError for what is no case, such as a path."""
+    if not isinstance(case, Case):
+        raise InputError("a case, which fctd.load_case reads from a file", key="case", value=case)
     try:
         yield
     except InputError as error:

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 _PLAIN: Final = str.maketrans(
     {
         **{"½": " 1/2", "¼": " 1/4", "¾": " 3/4", "⅛": " 1/8", "⅜": " 3/8", "⅝": " 5/8", "⅞": " 7/8", "⁄": "/"},
-        **{"·": "*", "⋅": "*", "∙": "*", "²": "^2", "³": "^3", "−": "-", "–": "-", "‑": "-"},  # noqa: RUF001
-        **{"″": '"', "”": '"', "′": "'", "’": "'", "º": "°", "˚": "°", "\u00a0": " ", "\u202f": " ", "\u2009": " "},  # noqa: RUF001
+        **{"·": "*", "⋅": "*", "∙": "*", "²": "^2", "³": "^3", "−": "-", "–": "-", "‑": "-"},
+        **{"″": '"', "”": '"', "′": "'", "’": "'", "º": "°", "˚": "°", "\u00a0": " ", "\u202f": " ", "\u2009": " "},
     }
 )
 _LONGEST: Final = 80  # characters of a quantity
@@ -124,9 +124,9 @@ def _without_doubt(number: Decimal, unit: str) -> Written:
 def factor(unit: str, target: str, words: Mapping[str, str], gravity: int = 0, *, listed: bool = False) -> float:
     """How many `target` units one `unit`, as it is written, is.
 
-    words : spellings of this dimension, in lower case, in pint's words.  gravity : 1 where a mass stands for its weight,
-    −1 where a weight stands for its mass, else 0.  listed : whether only these words are units.  Raises ValueError for
-    a unit that is unknown or of another dimension.
+    words : spellings of this dimension, in lower case, in pint's words.  gravity : 1 where a mass stands for its
+    weight, −1 where a weight stands for its mass, else 0.  listed : whether only these words are units.  Raises
+    ValueError for a unit that is unknown or of another dimension.
     """
     known_words = [words.get(_BLANKS.sub("", unit).lower(), "")] if listed else _in_pints_words(unit, words)
     for known in filter(None, known_words):

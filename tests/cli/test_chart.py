@@ -32,9 +32,11 @@ name = "pipe"
 outer_diameter = "5 in"
 inner_diameter = "4.276 in"
 segment_length = "40 m"
+[mud]
+density = 0
 """
 CHART_COLUMNS = [
-    "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
+    "operation", "friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
     "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
     "reason",
@@ -319,9 +321,9 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
 @pytest.mark.parametrize(
     ("command", "options", "expected"),
     [
-        ("chart", {"--operation": "trip_inn"}, ["tiny.toml", "operation", "trip_inn", "the kind trip_in"]),
+        ("chart", {"--operation": "trip_inn"}, ["--operation", "trip_inn", "the kind trip_in"]),
         ("chart", {"--operation": "drill"}, ["operation", "drill"]),
-        ("chart", {"--depths": "1000:1200:100"}, ["tiny.toml", 'bit_depth = "1000 m"', "900 m"]),
+        ("chart", {"--depths": "1000:1200:100"}, ["tiny.toml", '--depths = "1000 m"', "900 m"]),
         ("chart", {"--depths": "800:500:100"}, ["--depths", "800:500:100", "rise"]),
         ("chart", {"--depths": "500:800:0"}, ["--depths", "500:800:0", "STEP above 0"]),
         ("chart", {"--depths": "500:800:-10"}, ["--depths", "-10", "a length"]),
@@ -329,10 +331,10 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
         ("chart", {"--depths": "500:800 kg:10"}, ["--depths", "800 kg", "a length"]),
         ("chart", {"--depths": "500:nan:10"}, ["--depths", "nan", "a length"]),
         ("chart", {"--depths": "500:800:1e-9"}, ["--depths", "1e-9", "at most 10000 depths"]),
-        ("chart", {"--friction": "-0.1"}, ["tiny.toml", "friction", "-0.1", "at least 0"]),
-        ("chart", {"--operation": "rotate_off_bottom", "--speed": "1"}, ["tiny.toml", "speed", "of 0 for rotate_off"]),
+        ("chart", {"--friction": "-0.1"}, ["--friction", "-0.1", "at least 0"]),
+        ("chart", {"--operation": "rotate_off_bottom", "--speed": "1"}, ["--speed = 1.0", "of 0 for rotate_off"]),
         ("chart", {"--speed": "3 kg"}, ["--speed", "3 kg", "a speed"]),
-        ("chart", {"--rpm": "-5"}, ["tiny.toml", "rpm", "-5", "at least 0"]),
+        ("chart", {"--rpm": "-5"}, ["--rpm", "-5", "a rotation"]),
         ("chart", {"--out": "chart.xlsx"}, ["--out", "chart.xlsx", ".csv or .parquet"]),
         ("chart", {"--plot": "chart.pdf"}, ["--plot", "chart.pdf", ".png or .svg"]),
         ("chart", {"--plot-profile": "chart"}, ["--plot-profile", ".png or .svg"]),
@@ -341,10 +343,10 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
         ("chart", {"--plot": "a.png", "--plot-profile": "./a.png"}, ["--plot-profile", "a.png", "of its own"]),
         ("chart", {"--out": 300 * "a" + ".csv"}, ["--out", 'aaa.csv": expected', "can be written"]),
         ("chart", {"--units": "metric"}, ["--units", "metric", "field"]),
-        ("equilibrium", {"--operation": "rotate"}, ["tiny.toml", "operation", "rotate", "kind"]),
+        ("equilibrium", {"--operation": "rotate"}, ["--operation", "rotate", "kind"]),
         ("equilibrium", {"--bit-depth": "950 m"}, ["tiny.toml", "--bit-depth", "950 m", "900 m"]),
         ("equilibrium", {"--bit-depth": "deep"}, ["--bit-depth", "deep", "a length"]),
-        ("equilibrium", {"--friction": "-0.1"}, ["tiny.toml", "wellbore.intervals[0].friction", "-0.1"]),
+        ("equilibrium", {"--friction": "-0.1"}, ["--friction", "-0.1"]),
         ("equilibrium", {"--plot": "profile.gif"}, ["--plot", "profile.gif", ".png or .svg"]),
         ("equilibrium", {"--out": "folder.csv"}, ["--out", "folder.csv", "can be written"]),
     ],
