@@ -131,6 +131,9 @@ def chart_figure(
     title.  Where a string is locked up, hook loads below −``block_weight`` [N] are hatched, and larger pushes, with
     which the axis would show nothing else, have triangles at its edge.
     """
+    if "friction_label" not in chart:  # a table of another origin
+        labels = [f"{factor:g}" if np.isfinite(factor) else "" for factor in chart["friction"].astype(float)]
+        chart = chart.assign(friction_label=labels)
     factors = list(chart["friction_label"].unique())
     with mpl.rc_context(RC):
         figure = Figure(figsize=(8.5, 6.8), layout="constrained")
@@ -161,7 +164,7 @@ def chart_figure(
         words = [title] if title else []
         _title(
             figure,
-            ", ".join([*words, f"friction factor {factors[0]}"] if len(factors) == 1 else words),
+            ", ".join([*words, f"friction factor {factors[0]}"] if len(factors) == 1 and factors[0] else words),
             [f"{code}: {meaning['headline']}" for code, meaning in meanings_of(chart.get("notes", ())).items()],
             warnings,
         )

@@ -11,10 +11,11 @@ from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 
+from fctd.case.friction import FrictionSet
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
 from fctd.case.specs import BitSpec, ComponentSpec, MudSpec, RigSpec, StringSpec, WellboreSpec
-from fctd.case.units import Slip, looks_like
+from fctd.case.units import FASTEST, MOST_RPM, Slip, looks_like
 
 Doubts = Iterator[InputWarning]
 
@@ -37,27 +38,29 @@ class Well(Protocol):
 
 
 class Range(NamedTuple):
-    """Values that a key has in practice, and what smaller or larger ones look like."""
+    """Values that a key has in practice, as SI numbers and in words, and what others look like."""
 
     unit: str
     low: float
     high: float
-    slips: tuple[Slip, ...] = ()
+    usual: str
+    slips: tuple[Slip, ...]
 
 
 DEEP: Final = 500.0  # [m]: a string this long hangs in mud, unless the case says that it does not
 # Foam and the lightest oil to mud weighted with barite or galena.
-MUD: Final = Range("kg/m^3", 600, 2600, (Slip(0.6, 2.6, " sg"), Slip(5, 22, " ppg"), Slip(37, 165, " lb/ft^3")))
+SLIPS_OF_MUD: Final = (Slip(0.6, 2.6, " sg"), Slip(5, 22, " ppg"), Slip(37, 165, " lb/ft^3"))
+MUD: Final = Range("kg/m^3", 600, 2600, "0.6 to 2.6 sg", SLIPS_OF_MUD)
 # Composite, aluminium, titanium, steel; tungsten weights.
-PIPE: Final = Range("kg/m^3", 1200, 20_000, (Slip(1.2, 20, " g/cm^3"),))
-YOUNG: Final = Range("Pa", 10e9, 450e9, (Slip(10, 450, " GPa"), Slip(10e3, 450e3, " MPa")))
-YIELD: Final = Range("Pa", 50e6, 3e9, (Slip(50, 3000, " MPa"),))
+PIPE: Final = Range("kg/m^3", 1200, 20_000, "1.2 to 20 g/cm^3", (Slip(1.2, 20, " g/cm^3"),))
+YOUNG: Final = Range("Pa", 10e9, 450e9, "10 to 450 GPa", (Slip(10, 450, " GPa"), Slip(10e3, 450e3, " MPa")))
+YIELD: Final = Range("Pa", 50e6, 3e9, "50 to 3000 MPa", (Slip(50, 3000, " MPa"),))
 # Below, a weight in kN or t or a torque in kN*m was written as a bare number; above, in a unit a thousand times too
 # large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.
-BIT_LOAD: Final = Range("N", 1e3, 2e6, (Slip(1, 999, " kN"),))
-BIT_TORQUE: Final = Range("N*m", 20, 200e3, (Slip(0.5, 19.99, " kN*m"),))
-BLOCK: Final = Range("N", 1e3, 5e6, (Slip(10, 999, " kN"),))
-OFFSET: Final = Range("N*m", 5, 50e3, (Slip(0.1, 4.99, " kN*m"),))
+BIT_LOAD: Final = Range("N", 1e3, 2e6, "1 kN to 2 MN", (Slip(1, 999, " kN"),))
+BIT_TORQUE: Final = Range("N*m", 20, 200e3, "20 N*m to 200 kN*m", (Slip(0.5, 19.99, " kN*m"),))
+BLOCK: Final = Range("N", 1e3, 5e6, "1 kN to 5 MN", (Slip(10, 999, " kN"),))
+OFFSET: Final = Range("N*m", 5, 50e3, "5 N*m to 50 kN*m", (Slip(0.1, 4.99, " kN*m"),))
 ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
 NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
 UNDERREAMED: Final = 1.5  # an under-reamer opens the hole below a shoe to some 1.3 times its diameter
@@ -70,9 +73,13 @@ FOOT: Final = 0.3048
 
 
 def warnings_of(
-    case: Well, kinds: Sequence[str] = (), speed: float | None = None, rpm: float | None = None
+    case: Well,
+    kinds: Sequence[str] = (),
+    speed: float | None = None,
+    rpm: float | None = None,
+    frictions: Sequence[FrictionSet] = (),
 ) -> tuple[InputWarning, ...]:
-    """The probable mistakes of a case, and of the kinds of operation and the rates [m/s], [rev/min] asked for.
+    """The probable mistakes of a case, and of what is asked for: kinds of operation, rates [m/s], [rev/min], friction.
 
     Reads the survey; raises InputError where it cannot be used.
     """
@@ -84,7 +91,7 @@ def warnings_of(
         *shoe_below_td(case.wellbore, float(stations[-1, 0])),
         *hole_size(case.wellbore),
         *wider_below(case.wellbore),
-        *rough_wall(case.wellbore),
+        *rough_wall(case.wellbore, frictions),
         *no_mud(case.mud, float(stations[-1, 0])),
         *mud_density(case.mud),
         *materials(case.string),
@@ -108,12 +115,13 @@ def few_stations(hole: WellboreSpec, stations: int) -> Doubts:
 
 
 def shoe_below_td(hole: WellboreSpec, td: float) -> Doubts:
-    """A casing shoe, or a change of hole size, below the last station [m]."""
+    """A casing shoe or a change of hole size below the last station [m], or an end of the hole in feet."""
     last = len(hole.intervals) - 1
+    feet = abs(hole.intervals[-1].to_md * FOOT / td - 1) < 0.02
     for i, interval in enumerate(hole.intervals):
         below = interval.to_md - td
-        if (below > BELOW_TD and (i < last or interval.kind == "cased")) or (i < last and below >= 0):
-            feet = abs(interval.to_md * FOOT / td - 1) < 0.02
+        in_hole = below < 0 if i < last else below <= BELOW_TD or not (feet or interval.kind == "cased")
+        if not in_hole:
             yield InputWarning(
                 "shoe_below_td", f"wellbore.intervals[{i}].to_md",
                 f"the interval ends at {interval.to_md:g} m, the survey at {td:g} m",
@@ -144,14 +152,16 @@ def wider_below(hole: WellboreSpec) -> Doubts:
             )  # fmt: skip
 
 
-def rough_wall(hole: WellboreSpec) -> Doubts:
-    """A friction factor beyond that of dry rock."""
-    i = int(np.argmax([interval.friction for interval in hole.intervals]))
-    friction = hole.intervals[i].friction
-    if friction > ROUGH:
+def rough_wall(hole: WellboreSpec, frictions: Sequence[FrictionSet]) -> Doubts:
+    """A friction factor beyond that of dry rock: the largest of those asked for, or without them of the case."""
+    factors = {f"wellbore.intervals[{i}].friction": interval.friction for i, interval in enumerate(hole.intervals)}
+    if frictions:
+        factors = {"friction": max(factor for one in frictions for factor in one.factors)}
+    key = max(factors, key=lambda key: factors[key])
+    if factors[key] > ROUGH:
         yield InputWarning(
-            "friction", f"wellbore.intervals[{i}].friction",
-            f"a friction factor of {friction:g}, where casing has 0.15 to 0.3 and open hole 0.2 to 0.5",
+            "friction", key,
+            f"a friction factor of {factors[key]:g}, where casing has 0.15 to 0.3 and open hole 0.2 to 0.5",
             "check it; 30 % is written 0.3",
         )  # fmt: skip
 
@@ -255,11 +265,11 @@ def rates(operations: Sequence[Operation], kinds: Sequence[str], speed: float | 
 
 def _rates(where: str, kind: str, speed: float, rpm: float) -> Doubts:
     fastest = FASTEST_DRILLING if KINDS[kind].on_bottom else FASTEST_HOIST
-    if speed > fastest:
+    if fastest < speed <= FASTEST:  # the case refuses a higher one
         doing = "drilling" if KINDS[kind].on_bottom else "moving the string"
-        text = f"{doing} at {speed:g} m/s, which is {3600 * speed:.4g} m/h"
+        text = f"{doing} at {speed:g} m/s, which is {3600 * speed:.0f} m/h"
         yield InputWarning("speed", f"{where}speed", text, "write the speed with its unit, such as '20 m/h'")
-    if rpm > FASTEST_ROTATION:
+    if FASTEST_ROTATION < rpm <= MOST_RPM:
         text = f"{rpm:g} rev/min, where top drives turn at up to {FASTEST_ROTATION:g}"
         yield InputWarning("rotation", f"{where}rpm", text, "check the rotation of the string")
 
@@ -269,7 +279,7 @@ def _outside(code: str, key: str, value: float, what: str, usual: Range) -> Doub
     if value != 0 and not usual.low <= value <= usual.high:
         guess = looks_like(value, usual.slips)
         text = f"{what} of {value:g} {usual.unit}{guess}"
-        yield InputWarning(code, key, text, f"write it with its unit; usual are {usual.low:g} to {usual.high:g}")
+        yield InputWarning(code, key, text, f"write it with its unit; usual is {usual.usual}")
 
 
 def _name(component: ComponentSpec) -> str:

@@ -207,6 +207,7 @@ _EXPECTED: Final = {
     "dict_type": "a table of keys and values",
     "model_type": "a table of keys and values",
     "model_attributes_type": "a table of keys and values",
+    "bool_type": "true or false",
     "string_type": "a text in quotes",
     "path_type": "a file name in quotes",
 }

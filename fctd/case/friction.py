@@ -35,6 +35,11 @@ class FrictionSet:
         return {kind: factor for kind in KINDS if (factor := getattr(self, kind)) is not None}
 
     @property
+    def factors(self) -> tuple[float, ...]:
+        """All factors of the set."""
+        return tuple(self.by_kind.values()) if self.every is None else (self.every,)
+
+    @property
     def override(self) -> float | dict[str, float]:
         """The value of the override "friction" that sets these factors (`load_case`)."""
         return self.by_kind if self.every is None else self.every
@@ -127,7 +132,7 @@ def friction_sets(value: Any) -> list[FrictionSet]:
 
 
 def own_label(intervals: Sequence[IntervalSpec]) -> str:
-    """The factors of a case as it stands: "0.25", or "case's own: 0.2 to 1500 m, 0.3 below"."""
+    """The factors of a case as it stands: "0.25", or "case's own: 0.2 down to 1500 m, 0.3 below"."""
     ends: list[tuple[float, float]] = []  # factor, lower end
     for interval in intervals:
         if ends and ends[-1][0] == interval.friction:
@@ -138,7 +143,7 @@ def own_label(intervals: Sequence[IntervalSpec]) -> str:
     if len(ends) > _MOST_PARTS:
         factors = [factor for factor, _ in ends]
         return f"case's own: {min(factors):g} to {max(factors):g}"
-    parts = ", ".join(f"{factor:g} to {to_md:g} m" for factor, to_md in ends[:-1])
+    parts = ", ".join(f"{factor:g} down to {to_md:g} m" for factor, to_md in ends[:-1])
     return f"case's own: {parts}, {ends[-1][0]:g} below"
 
 

@@ -150,7 +150,8 @@ class Number(Expects):
     def read(self, value: object) -> float:
         """The value as a float; InputError unless it is a number (a boolean is not)."""
         if isinstance(value, bool) or not isinstance(value, Real):
-            raise InputError(self.expected, value=value)
+            number = isinstance(value, str) and re.fullmatch(r"\s*[+-]?[\d.]+\s*", value)
+            raise InputError(f"{self.expected}, without quotes" if number else self.expected, value=value)
         try:
             return float(value)
         except OverflowError as error:  # an integer beyond the floats

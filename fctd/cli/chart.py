@@ -108,7 +108,7 @@ def chart_command(
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
     factors = parse_frictions(frictions, "--friction")
     drive = read_drive(speed, rpm, units)
-    warnings = warnings_of(case, kinds, **drive)
+    warnings = warnings_of(case, kinds, **drive, frictions=factors)
     told = tell(case, warnings, strict=strict, units=units)
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())

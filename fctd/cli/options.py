@@ -71,7 +71,7 @@ Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
 
 def changes_of(overrides: Sequence[str], friction: str | None = None, resolve: bool | None = None) -> dict[str, Any]:
     """Keys and values of ``--set``, ``--friction`` and ``--resolve-buckling``, as ``load_case`` takes them."""
-    changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
+    changes: dict[str, Any] = dict(map(_override, overrides))
     if friction is not None:
         sets = parse_frictions([friction], "--friction")
         if len(sets) > 1:
@@ -80,6 +80,13 @@ def changes_of(overrides: Sequence[str], friction: str | None = None, resolve: b
     if resolve is not None:
         changes["solver.buckling"] = "resolve" if resolve else "detect"
     return changes
+
+
+def _override(text: str) -> tuple[str, Any]:
+    try:
+        return parse_override(text)
+    except InputError as error:
+        raise (error if error.key else error.at("--set")) from None
 
 
 def read_case(path: Path, changes: Mapping[str, Any]) -> Case:

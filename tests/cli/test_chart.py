@@ -140,7 +140,7 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
     code = run(monkeypatch, "chart", case_file, *given, *factors, "--depths", "700:850:50", "--rpm", "80", "--out", out)
     assert code == 0
     assert "16 rows: 16 converged" in capsys.readouterr().out
-    table = pd.read_csv(out)
+    table = pd.read_csv(out, dtype={"friction_label": str})
     assert list(table.columns) == CHART_COLUMNS
     kinds, depths = ["trip_in", "rotate_off_bottom"], [700, 750, 800, 850]
     expected = fctd.torque_drag(fctd.load_case(case_file), kinds, depths, [0.1, 0.3], rpm=80)
@@ -216,6 +216,46 @@ def test_a_chart_goes_on_below_the_hole(
     assert table["hookload_N"].isna().tolist() == [False, False, True]
     assert table["reason"].str.contains("within survey and intervals, 900 m").tolist() == [False, False, True]
     assert all(picture.exists() for picture in pictures)
+
+
+def test_a_warning_is_on_screen_once_in_the_files_and_on_the_picture(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    files = {"--out": tmp_path / "chart.csv", "--plot": tmp_path / "chart.svg", "--plot-profile": tmp_path / "p.svg"}
+    chart = ("chart", case_file, "--operation", "trip_in", "--depths", "500:800:300", "--quiet")
+    given = (*chart, *(part for pair in files.items() for part in pair), "--set", "mud.density=10.4")
+    assert run(monkeypatch, *given) == 0
+    text = "a mud of 10.4 kg/m^3 (10.4 looks like '10.4 ppg'): write it with its unit; usual is 0.6 to 2.6 sg"
+    assert capsys.readouterr().err == f"warning: {case_file}: mud.density: {text}\n"
+    (kept,) = json.loads((tmp_path / "chart.csv.json").read_text())["warnings"]
+    assert (kept["code"], kept["key"]) == ("mud_density", "mud.density")
+    for name in ("chart.svg", "p.svg"):
+        assert "<!-- warning mud.density: a mud of 10.4 kg/m^3" in (tmp_path / name).read_text()
+
+    for file in tmp_path.glob("*.svg"):
+        file.unlink()
+    assert run(monkeypatch, *given, "--strict") == 1
+    assert "strict: warnings are errors (mud_density); nothing is computed" in capsys.readouterr().err
+    assert not list(tmp_path.glob("*.svg"))
+
+
+def test_friction_by_kind_is_a_line_of_its_own(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "chart.csv"
+    intervals = (
+        'wellbore.intervals=[{to_md = 600, diameter = 0.3, friction = 0.1, kind = "cased"},'
+        '{to_md = 900, diameter = 0.2159, friction = 0.1, kind = "open"}]'
+    )
+    code = run(
+        monkeypatch, "chart", case_file, "--operation", "trip_out", "--depths", "800:800:1", "--quiet", "--out", out,
+        "--friction", "cased=0.2,open=0.3", "--friction", "0.2,0.3", *settings(intervals),
+    )  # fmt: skip
+    assert code == 0
+    assert "cased 0.20, open 0.30" in capsys.readouterr().out
+    table = pd.read_csv(out).set_index("friction_label")["hookload_N"]
+    assert table["0.2"] < table["cased 0.20, open 0.30"] < table["0.3"]
 
 
 @pytest.mark.parametrize(

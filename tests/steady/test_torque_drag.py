@@ -57,6 +57,24 @@ def test_a_row_per_operation_friction_and_depth() -> None:
         assert down.weight_indicator == pytest.approx((down.hookload + 1e5) / 0.9)
 
 
+def test_friction_by_kind_of_interval() -> None:
+    """The rows are those of a case with these factors, and a label says which they are."""
+
+    def well(cased: float, below: float) -> Any:
+        rows = [(500, 0.3, "cased", cased), (700, 0.25, "cased", cased), (900, 0.2159, "open", below)]
+        keys = ("to_md", "diameter", "kind", "friction")
+        intervals = [dict(zip(keys, row, strict=True)) for row in rows]
+        return make_case(STATIONS, [pipe(None, None, segment_length=20.0)], wellbore={"intervals": intervals})
+
+    chart = torque_drag(well(0.1, 0.1), "trip_out", [900.0], [{"cased": 0.2, "open": 0.4}, 0.3, {"open": 0.4}])
+    assert chart["friction_label"].tolist() == ["cased 0.20, open 0.40", "0.3", "open 0.40"]
+    assert chart["friction"].isna().tolist() == [True, False, True]
+    for row, case in zip(chart.to_dict("records"), (well(0.2, 0.4), well(0.3, 0.3), well(0.1, 0.4)), strict=True):
+        assert row["hookload_N"] == equilibrium(case, "trip_out", 900.0).hookload
+    own = torque_drag(case_of(), "trip_out", [900.0])
+    assert own["friction_label"].tolist() == ["case's own: 0.1 down to 500 m, 0.3 below"]
+
+
 @pytest.mark.parametrize(
     ("call", "expected"),
     [
