@@ -26,7 +26,7 @@ from fctd.case.text import printable
 from fctd.results.columns import COLUMNS, DEPTH
 from fctd.results.notes import meanings_of, worst
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System, reworded, shown
 from fctd.results.whole_file import whole_file
 from fctd.steady.equilibrium import Equilibrium
 from fctd.steady.torque_drag import own_friction
@@ -134,7 +134,7 @@ def chart_figure(
     if "friction_label" not in chart:  # a table of another origin
         labels = [f"{factor:g}" if np.isfinite(factor) else "" for factor in chart["friction"].astype(float)]
         chart = chart.assign(friction_label=labels)
-    factors = list(chart["friction_label"].unique())
+    factors = [reworded(label, units) for label in chart["friction_label"].unique()]
     with mpl.rc_context(RC):
         figure = Figure(figsize=(8.5, 6.8), layout="constrained")
         panels = figure.subplots(1, 2, sharey=True)
