@@ -8,6 +8,7 @@ from typing import Any, Literal, Union, get_args, get_origin
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
+from fctd.case import units
 from fctd.case.errors import Expects, Table
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
@@ -20,7 +21,16 @@ or as a bare number in SI units. A default of "–" means that you may leave the
 own](well.md) says how the keys belong together, and `examples/my_well.toml` uses most of them.
 
 `name`, a text in quotes, stands at the top of the file, before the first table. `--friction 0.2` and the override
-`friction` set the friction factor of every interval.
+`friction` set the friction factor of every interval, `--friction cased=0.2,open=0.3` those of intervals of a `kind`.
+"""
+
+UNITS = """## Units
+
+The units that messages list. Each has its usual spellings (`in`, `"`, `inches`), in capitals too, and other units that
+the package pint knows are read as well. [A well of your own](well.md#quantities) says what is refused.
+
+| quantity | units, the first that of a bare number in the case file |
+|---|---|
 """
 
 OPERATIONS = """## The operations
@@ -37,6 +47,7 @@ def page() -> str:
     parts += [_section(heading, table) for heading, table in _tables(Case)]
     parts.append(OPERATIONS)
     parts += [_section(f'[[operations]], kind = "{kind}"', model) for kind, model in KINDS.items()]
+    parts.append(UNITS + "".join(map(_units, _dimensions())))
     return "\n".join(parts)
 
 
@@ -67,10 +78,22 @@ def _section(heading: str, table: type[Table]) -> str:
     rows = [
         f"| `{name}` | {_expected(field)} | {_default(field)} |"
         for name, field in table.model_fields.items()
-        if name != "kind" and not any(isinstance(p, type) and issubclass(p, Table) for p in _parts(field.annotation))
+        if not (name == "kind" and table in KINDS.values())
+        and not any(isinstance(p, type) and issubclass(p, Table) for p in _parts(field.annotation))
     ]
     head = ["| key | expects | default |", "|---|---|---|"]
     return "\n".join([f"## `{heading}`", "", inspect.getdoc(table) or "", "", *head, *rows, ""])
+
+
+def _dimensions() -> list[units.Dimension]:
+    return [value for value in vars(units).values() if isinstance(value, units.Dimension)]
+
+
+def _units(dimension: units.Dimension) -> str:
+    """A row of the table of units; the unit of a bare number stands first."""
+    own = dimension.unit
+    others = [unit for unit in dimension.units if unit not in (own, own.replace("m^2", "m/m"))]
+    return f"| {dimension.noun} | {', '.join(f'`{unit}`' for unit in (own, *others))} |\n"
 
 
 def _expected(field: FieldInfo) -> str:
@@ -118,6 +141,6 @@ def _shown(field: FieldInfo, value: object) -> str:
     """A value with its unit."""
     if isinstance(value, bool):
         return f"`{str(value).lower()}`"
-    units = [item.dimension.unit for item in _metadata(field) if isinstance(item, Quantity)]
+    written = [item.dimension.unit for item in _metadata(field) if isinstance(item, Quantity)]
     number = f"{value:g}" if isinstance(value, float) else f"{value}"
-    return f"`{number} {units[0]}`" if units else f"`{number}`"
+    return f"`{number} {written[0]}`" if written else f"`{number}`"

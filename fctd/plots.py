@@ -26,7 +26,7 @@ from fctd.case.text import printable
 from fctd.results.columns import COLUMNS, DEPTH
 from fctd.results.notes import meanings_of, worst
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System, reworded, shown
 from fctd.results.whole_file import whole_file
 from fctd.steady.equilibrium import Equilibrium
 from fctd.steady.torque_drag import own_friction
@@ -121,7 +121,9 @@ def save(figure: Figure, path: Path) -> list[Path]:
     return [path]
 
 
-def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "", block_weight: float = 0.0) -> Figure:
+def chart_figure(
+    chart: pd.DataFrame, units: System = "si", title: str = "", block_weight: float = 0.0, warnings: Sequence[str] = ()
+) -> Figure:
     """Hook load (the broomstick) and torque against bit depth: a line per operation and friction factor.
 
     chart : of ``fctd.torque_drag``, SI.  A cross marks each row without loads in the gap of its line, a grey disc each
@@ -129,13 +131,16 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "", blo
     title.  Where a string is locked up, hook loads below −``block_weight`` [N] are hatched, and larger pushes, with
     which the axis would show nothing else, have triangles at its edge.
     """
-    factors = [float(factor) for factor in chart["friction"].unique()]
+    if "friction_label" not in chart:  # a table of another origin
+        labels = [f"{factor:g}" if np.isfinite(factor) else "" for factor in chart["friction"].astype(float)]
+        chart = chart.assign(friction_label=labels)
+    factors = [reworded(label, units) for label in chart["friction_label"].unique()]
     with mpl.rc_context(RC):
         figure = Figure(figsize=(8.5, 6.8), layout="constrained")
         panels = figure.subplots(1, 2, sharey=True)
         limits = _limits_of_pushes(chart, block_weight, units)
         for ax, column, edge in zip(panels, ("hookload_N", "surface_torque_N_m"), (limits[0], np.nan), strict=True):
-            for k, (_, same_factor) in enumerate(chart.groupby("friction", sort=False, dropna=False)):
+            for k, (_, same_factor) in enumerate(chart.groupby("friction_label", sort=False)):
                 for place, (kind, rows) in enumerate(same_factor.groupby("operation", sort=False)):
                     _series(ax, rows, column, str(kind), DASHES[k % len(DASHES)], units, place, edge)
             _label(ax, column, units)
@@ -149,24 +154,24 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", title: str = "", blo
         kinds = [_handle(kind) for kind in LOOKS if kind in set(chart["operation"])]
         figure.legend(handles=kinds, loc="outside lower left", ncols=2)
         handles: list[Line2D | Patch] = [
-            Line2D([], [], color=QUIET, linestyle=DASHES[k % len(DASHES)], label=f"friction factor {factor:g}")
+            Line2D([], [], color=QUIET, linestyle=DASHES[k % len(DASHES)], label=f"friction factor {factor}")
             for k, factor in enumerate(factors if len(factors) > 1 else [])
         ]
         handles += _flag_handles(chart, limits[0] / shown("hookload_N", units).factor)
         modes = set(chart["buckling"])
         handles += [Line2D([], [], **disc, label=f"{mode} buckling") for mode, disc in DISCS.items() if mode in modes]
         figure.legend(handles=handles, loc="outside lower right", ncols=2)
-        one = len(factors) == 1 and np.isfinite(factors[0])
         words = [title] if title else []
         _title(
             figure,
-            ", ".join([*words, f"friction factor {factors[0]:g}"] if one else words),
+            ", ".join([*words, f"friction factor {factors[0]}"] if len(factors) == 1 and factors[0] else words),
             [f"{code}: {meaning['headline']}" for code, meaning in meanings_of(chart.get("notes", ())).items()],
+            warnings,
         )
         return figure
 
 
-def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figure:
+def profile_figure(points: Sequence[Equilibrium], units: System = "si", warnings: Sequence[str] = ()) -> Figure:
     """Strings from the top to the bit, side by side on one depth axis, each operation a line.
 
     Inclination; tension, with buckling limits and where they are exceeded; torque; side force at the contact
@@ -200,6 +205,7 @@ def profile_figure(points: Sequence[Equilibrium], units: System = "si") -> Figur
             figure,
             f"{points[0].case.name}, bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}{suffix}",
             [f"{note.code}: {note.text}" for note in worst(note for point in answers for note in point.notes)],
+            warnings,
         )
         return figure
 
@@ -324,14 +330,15 @@ def _label(ax: Axes, column: str, units: System) -> None:
     ax.xaxis.set_major_locator(MaxNLocator(3 if column in TRACKS else 6))
 
 
-def _title(figure: Figure, text: str, notes: Sequence[str]) -> None:
-    """Write a heading, with the notes in small type below it; a case's name is not parsed as a formula."""
+def _title(figure: Figure, text: str, notes: Sequence[str], warnings: Sequence[str] = ()) -> None:
+    """Write a heading, with warnings and notes in small type below it; a case's name is not parsed as a formula."""
+    said = [f"warning {text}" for text in warnings] + [f"note {text}" for text in notes]
     heading = figure.suptitle(printable(text), parse_math=False, x=0.01, ha="left", fontsize=10.5, fontweight="bold")
     layout = figure.get_layout_engine()
-    if notes and isinstance(layout, ConstrainedLayoutEngine):
+    if said and isinstance(layout, ConstrainedLayoutEngine):
         # The layout makes room for the heading only.
-        layout.set(rect=(0, 0, 1, 1 - len(notes) * NOTE_LINE / figure.get_figheight()))
-        lines = "\n".join(f"note {printable(note)}" for note in notes)
+        layout.set(rect=(0, 0, 1, 1 - len(said) * NOTE_LINE / figure.get_figheight()))
+        lines = "\n".join(map(printable, said))
         small = Annotation(lines, (0, 0), xycoords=heading, va="top", fontsize=7.5, color=QUIET, parse_math=False)
         small.set_in_layout(False)
         figure.add_artist(small)

@@ -8,7 +8,7 @@ from rich.table import Table
 from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case, parse_override
 from fctd.cli.main import run
-from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, screen
+from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, changes_of, screen
 from fctd.cli.simulate import simulate_file
 from references import contact, engines
 from references.contact import ContactMethod, build
@@ -73,7 +73,7 @@ def engine_command(
     friction: Friction = None,
 ) -> None:
     """Run a window of a case in another engine; print its final loads and the result of each check."""
-    changes = dict(parse_override(text) for text in overrides) | ({} if friction is None else {"friction": friction})
+    changes = changes_of(overrides, friction)
     case = load_case(case_file, changes)
     run = engines.build(engine, **_chosen(options)).run(case, engines.Window(start, duration))
     last = run.history.iloc[-1]

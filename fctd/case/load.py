@@ -12,8 +12,11 @@ from typing import Annotated, Any, Final, Self
 
 from pydantic import Field, ValidationError, field_validator, model_validator
 
+from fctd.case.doubts import warnings_of
 from fctd.case.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
+from fctd.case.friction import pick
 from fctd.case.input_file import read_text
+from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
 from fctd.case.specs import (
     BitSpec,
@@ -75,9 +78,11 @@ class Case(Table):
                     f"{before.end_md:g} m, where the operation before ends (or leave it out)",
                     key=f"operations[{i}].{here.start_key}",
                 )
-        lightest = min(component.density for component in self.string.components)
+        densities = [component.density for component in self.string.components]
+        lightest = min(densities)
         if self.mud.density >= lightest:
-            raise InputError(f"a density below the string's, {lightest:g} kg/m^3", key="mud.density")
+            of = f"string.components[{densities.index(lightest)}].density"
+            raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key="mud.density")
         return self
 
     @property
@@ -85,6 +90,11 @@ class Case(Table):
         """Top of the string and greatest bit depth within survey and intervals [m]; reads the survey."""
         deepest = min(float(self.wellbore.trajectory[-1, 0]), self.wellbore.intervals[-1].to_md)
         return self.string.top_md, deepest
+
+    @property
+    def warnings(self) -> tuple[InputWarning, ...]:
+        """Probable mistakes of the case and of its operations (`doubts`); reads the survey."""
+        return warnings_of(self)
 
     def check_depths(self, raw: Mapping[str, Any] | None = None) -> None:
         """Raise InputError for a bit depth above the top of the string, or below the end of survey or intervals.
@@ -104,7 +114,9 @@ class Case(Table):
 
 @contextmanager
 def naming_file(case: Case) -> Iterator[None]:
-    """Add the case's file to an InputError that is raised inside."""
+    """Add the case's file to an InputError that is raised inside; InputError for what is no case, such as a path."""
+    if not isinstance(case, Case):
+        raise InputError("a case, which fctd.load_case reads from a file", key="case", value=case)
     try:
         yield
     except InputError as error:
@@ -123,7 +135,8 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
     """The case of a TOML file, validated after the overrides; raises InputError for bad input.
 
     overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
-    file; None deletes a key. The key "friction" sets the friction of every interval.
+    file; None deletes a key. The key "friction" sets the friction of every interval, or with {"cased": 0.2,
+    "open": 0.3} that of the intervals of these kinds.
     """
     path = Path(path)
     raw: dict[str, Any] = {}
@@ -174,8 +187,13 @@ def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
     """Set or delete one dotted key of an unvalidated case."""
     if key == "friction":
         intervals = look_up(raw, "wellbore", "intervals")
-        for i in range(len(intervals) if isinstance(intervals, list) else 0):
-            set_key(raw, f"wellbore.intervals[{i}].friction", value)
+        count = len(intervals) if isinstance(intervals, list) else 0
+        picked = [value] * count
+        if isinstance(value, Mapping):
+            picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
+        for i, factor in enumerate(picked):
+            if factor is not None or not isinstance(value, Mapping):
+                set_key(raw, f"wellbore.intervals[{i}].friction", factor)
     elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
         set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
     else:

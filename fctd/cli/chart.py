@@ -12,7 +12,9 @@ from rich.box import SIMPLE_HEAD
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
+from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
+from fctd.case.friction import parse_frictions
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.case.units import LENGTH
@@ -30,6 +32,7 @@ from fctd.cli.options import (
     read_quantity,
     refuse_sources,
     screen,
+    tell,
 )
 from fctd.cli.steady import (
     KIND_HELP,
@@ -49,7 +52,7 @@ from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
 from fctd.results.notes import MEANINGS, meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.results.tables import write_table
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Solver
 from fctd.steady.torque_drag import torque_drag, with_friction
 
@@ -66,10 +69,20 @@ def chart_command(
     ],
     depths: Annotated[
         str,
-        typer.Option("--depths", metavar="FROM:TO:STEP", help="Bit depths, 1750:2450:10 or '5000 ft:8000 ft:30 ft'."),
+        typer.Option(
+            "--depths",
+            metavar="FROM:TO:STEP",
+            help="Bit depths, 1750:2450:10 in m, with --units field in ft, or '5000 ft:8000 ft:30 ft'.",
+        ),
     ],
     frictions: Annotated[
-        list[float], typer.Option("--friction", metavar="X", help="Friction factor of every interval; may be repeated.")
+        list[str],
+        typer.Option(
+            "--friction",
+            metavar="X",
+            help="Friction factor of every interval, 0.25, a list, 0.1,0.2,0.3, or by kind, cased=0.2,open=0.3; "
+            "may be repeated.",
+        ),
     ] = [],  # noqa: B006 (typer copies it)
     speed: Speed = None,
     rpm: Rpm = None,
@@ -91,10 +104,12 @@ def chart_command(
     case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key)
-    bit_depths = read_depths(depths)
+    bit_depths = read_depths(depths, units)
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
-    factors = list(dict.fromkeys(frictions))
-    drive = read_drive(speed, rpm)
+    factors = parse_frictions(frictions, "--friction")
+    drive = read_drive(speed, rpm, units)
+    warnings = warnings_of(case, kinds, **drive, frictions=factors)
+    told = tell(case, warnings, strict=strict, units=units)
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
@@ -108,17 +123,18 @@ def chart_command(
     written = []
     try:  # as above
         if out is not None:
-            metadata = metadata_of(case, units, kinds, drive) | {"notes": meanings_of(chart["notes"])}
+            metadata = metadata_of(case, units, kinds, drive, warnings) | {"notes": meanings_of(chart["notes"])}
             written += write_table(in_units(units, chart), out, metadata)
         if plots is not None and plot is not None:
-            written += plots.save(plots.chart_figure(chart, units, case.name, case.rig.block_weight), plot)
+            figure = plots.chart_figure(chart, units, case.name, case.rig.block_weight, told)
+            written += plots.save(figure, plot)
         if plots is not None and plot_profile is not None:
             one = with_friction(case, factors[0]) if factors else case
             solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
             # At the last depth at which string and hole fit.
             last = chart.loc[chart["status"] != SteadyStatus.NOT_POSSIBLE, "bit_depth_m"].max()
             points = [solver.solve(kind, rates[kind], float(last)) for kind in kinds]
-            written += plots.save(plots.profile_figure(points, units), plot_profile)
+            written += plots.save(plots.profile_figure(points, units, told), plot_profile)
     finally:
         _print_chart(chart, case.name, units)
     print_written(written)
@@ -126,12 +142,12 @@ def chart_command(
     finish(acceptable, meanings_of(chart["notes"]), strict)
 
 
-def read_depths(text: str) -> list[float]:
-    """Bit depths [m] of FROM:TO:STEP, with TO where it lies on the grid."""
+def read_depths(text: str, units: System = "si") -> list[float]:
+    """Bit depths [m] of FROM:TO:STEP, with TO where it lies on the grid; bare numbers are in the system's unit."""
     parts = text.split(":")
     if len(parts) != 3:
         raise InputError("FROM:TO:STEP, such as 1750:2450:10 or '5000 ft:8000 ft:30 ft'", key="--depths", value=text)
-    first, last, step = (read_quantity(part, LENGTH, "--depths") for part in parts)
+    first, last, step = (read_quantity(part, LENGTH, "--depths", units) for part in parts)
     if not (first <= last and step > 0):
         raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key="--depths", value=text)
     steps = (last - first) / step
@@ -154,7 +170,7 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     if buckled:
         table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
     table.add_column("status", overflow="fold")
-    series = list(chart.groupby(["operation", "friction"], sort=False, dropna=False))
+    series = list(chart.groupby(["operation", "friction_label"], sort=False))
     each = max(SCREEN_ROWS // len(series), 1)
     for (operation, friction), rows in series:
         # Evenly spread rows, always with the deepest one.
@@ -166,7 +182,7 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
             ]
             if buckled:
                 values.append(_buckled(row, units_of[DEPTH.name].factor))
-            names = ("", "") if k else (str(operation), _factor(friction))
+            names = ("", "") if k else (str(operation), reworded(str(friction), units))
             table.add_row(*names, *values, row["status"])
     screen.print(table)
     counts = ", ".join(f"{count} {status}" for status, count in chart["status"].value_counts().items())
@@ -174,7 +190,7 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     depth = units_of["bit_depth_m"]
     for (operation, friction), rows in series:
         for line in _exceptions(rows, depth.factor, depth.label):
-            messages.print(f"{operation}, friction {_factor(friction)}: {line}", soft_wrap=True)
+            messages.print(reworded(f"{operation}, friction {friction}: {line}", units), soft_wrap=True)
 
 
 def _buckled(row: dict[Hashable, Any], factor: float) -> str:
@@ -210,8 +226,3 @@ def _runs(values: "pd.Series[Any]", depths: "pd.Series[float]", label: str) -> l
         span = f"{at[0]:g}" if len(at) == 1 else f"{at[0]:g} to {at[-1]:g}"
         found.append((value, f"{span} {label} ({len(at)} of {len(depths)})"))
     return found
-
-
-def _factor(friction: object) -> str:
-    """A friction factor as text; "case's" where intervals differ."""
-    return f"{friction:g}" if isinstance(friction, float) and np.isfinite(friction) else "case's"

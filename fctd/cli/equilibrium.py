@@ -10,6 +10,7 @@ import typer
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
+from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.load import check_bit_depth, naming_file
 from fctd.case.text import printable
@@ -30,6 +31,7 @@ from fctd.cli.options import (
     read_quantity,
     refuse_sources,
     screen,
+    tell,
 )
 from fctd.cli.steady import (
     KIND_HELP,
@@ -54,7 +56,9 @@ from fctd.steady.equilibrium import Equilibrium, equilibrium
 def equilibrium_command(
     case_file: CaseFile,
     operations: Annotated[list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}.")],
-    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help="Bit depth, '2450 m'.")],
+    bit_depth: Annotated[
+        str, typer.Option("--bit-depth", metavar="D", help="Bit depth, '2450 m'; bare in m, with --units field in ft.")
+    ],
     speed: Speed = None,
     rpm: Rpm = None,
     resolve_buckling: ResolveBuckling = None,
@@ -74,21 +78,23 @@ def equilibrium_command(
     case = read_case(case_file, changes_of(overrides, friction, resolve_buckling))
     refuse_sources(case, out, "--out")
     refuse_sources(case, plot, "--plot")
-    depth = read_quantity(bit_depth, LENGTH, "--bit-depth")
+    depth = read_quantity(bit_depth, LENGTH, "--bit-depth", units)
     with naming_file(case):
         check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
-    drive = read_drive(speed, rpm)
+    drive = read_drive(speed, rpm, units)
+    warnings = warnings_of(case, [operation], **drive)
+    told = tell(case, warnings, strict=strict, units=units)
     point = equilibrium(case, operation, depth, **drive)
     written = []
     try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
         if point.answered and out is not None:
-            metadata = metadata_of(case, units, [operation], drive)
+            metadata = metadata_of(case, units, [operation], drive, warnings)
             metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
             metadata |= {"buckling": str(point.buckling), "shape": point.shape}
             metadata |= _found(point) | {"notes": as_metadata(point.notes)}
             written += write_table(in_units(units, point.profile), out, metadata)
         if point.answered and plots is not None:
-            written += plots.save(plots.profile_figure([point], units), plot)
+            written += plots.save(plots.profile_figure([point], units, told), plot)
     finally:
         _print_point(point, units)
     lacking = not point.answered and (out is not None or plot is not None)
@@ -141,8 +147,8 @@ def _print_point(point: Equilibrium, units: System) -> None:
     screen.print(table)
     screen.print(f"{point.status}, {point.iterations} iterations")
     if point.message:
-        print_status(point.status, point.message)
-    print_notes(point.notes)
+        print_status(point.status, point.message, units)
+    print_notes(point.notes, units)
 
 
 def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:

@@ -17,6 +17,7 @@ from fctd.cli.options import (
     messages,
 )
 from fctd.cli.refine import refine_command
+from fctd.cli.refusals import naming_options
 from fctd.cli.simulate import simulate_command
 
 app = typer.Typer(
@@ -26,10 +27,10 @@ app = typer.Typer(
     help="Fast contact torque and drag of a stiff drill string.",
 )
 
-app.command("simulate")(simulate_command)
-app.command("equilibrium")(equilibrium_command)
-app.command("chart")(chart_command)
-app.command("refine")(refine_command)
+app.command("simulate")(naming_options(simulate_command))
+app.command("equilibrium")(naming_options(equilibrium_command))
+app.command("chart")(naming_options(chart_command, {"bit_depth": "--depths"}))
+app.command("refine")(naming_options(refine_command, {"bit_depth": "--bit-depth"}))
 app.command("compile")(compile_command)
 
 

@@ -9,14 +9,19 @@ from rich.console import Console
 from rich.text import Text
 
 from fctd.case.errors import InputError
+from fctd.case.friction import parse_frictions
+from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, load_case, parse_override
 from fctd.case.text import printable, printable_lines
 from fctd.case.units import Dimension, Quantity
 from fctd.results.notes import Note
 from fctd.results.tables import own_files, table_files
+from fctd.results.unit_systems import System, reworded
 from fctd.results.whole_file import check_file
 from fctd.results.whole_folder import repair
 
+# Units of bare numbers of options with ``--units field``, by SI unit.
+BARE_FIELD_UNITS = {"m": "ft", "m/s": "ft/min"}
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
@@ -43,31 +48,67 @@ Overrides = Annotated[
     list[str],
     typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case, e.g. wellbore.overlap='0.1 m'."),
 ]
-Friction = Annotated[float | None, typer.Option("--friction", metavar="X", help="Friction factor of every interval.")]
+Friction = Annotated[
+    str | None,
+    typer.Option(
+        "--friction", metavar="X", help="Friction factor of every interval, 0.25, or by kind, cased=0.2,open=0.3."
+    ),
+]
 Out = Annotated[
     Path | None, typer.Option("--out", metavar="FOLDER", help="Folder for the results; default: CASE-NAME-result.")
 ]
 Csv = Annotated[bool, typer.Option("--csv", help="Write CSV files beside the Parquet ones.")]
 Strict = Annotated[
-    bool, typer.Option("--strict", help="Exit code 1 where the result has a note; results are still written.")
+    bool,
+    typer.Option(
+        "--strict",
+        help="Exit code 1 where the case has a warning, before computing, and where the result has a note; results "
+        "with notes are still written.",
+    ),
 ]
 Quiet = Annotated[bool, typer.Option("--quiet", help="No progress bar.")]
 
 
-def changes_of(overrides: Sequence[str], friction: float | None = None, resolve: bool | None = None) -> dict[str, Any]:
+def changes_of(overrides: Sequence[str], friction: str | None = None, resolve: bool | None = None) -> dict[str, Any]:
     """Keys and values of ``--set``, ``--friction`` and ``--resolve-buckling``, as ``load_case`` takes them."""
-    changes: dict[str, Any] = dict(parse_override(text) for text in overrides)
+    changes: dict[str, Any] = dict(map(_override, overrides))
     if friction is not None:
-        changes["friction"] = friction
+        sets = parse_frictions([friction], "--friction")
+        if len(sets) > 1:
+            raise InputError("one set of friction factors (fctd chart takes several)", key="--friction", value=friction)
+        changes["friction"] = sets[0].override
     if resolve is not None:
         changes["solver.buckling"] = "resolve" if resolve else "detect"
     return changes
+
+
+def _override(text: str) -> tuple[str, Any]:
+    try:
+        return parse_override(text)
+    except InputError as error:
+        raise (error if error.key else error.at("--set")) from None
 
 
 def read_case(path: Path, changes: Mapping[str, Any]) -> Case:
     """The case of a file with changes."""
     repair(path.parent, own_files)  # a killed ``simulate`` may have left the case file in a renamed folder
     return load_case(path, changes)
+
+
+def tell(case: Case, warnings: Sequence[InputWarning], *, strict: bool, units: System = "si") -> list[str]:
+    """Print probable mistakes of the input, a line each; with ``strict`` end the command with exit code 1.
+
+    Returns their texts, for pictures.
+    """
+    told = [reworded(str(warning), units) for warning in warnings]
+    for warning, text in zip(warnings, told, strict=True):
+        file = case.wellbore.survey if warning.key.startswith("row") else case.file
+        messages.print(f"warning: {printable(str(file))}: {text}", soft_wrap=True)
+    if strict and warnings:
+        codes = ", ".join(sorted({warning.code for warning in warnings}))
+        messages.print(f"strict: warnings are errors ({codes}); nothing is computed", soft_wrap=True)
+        raise typer.Exit(FAILED)
+    return told
 
 
 def finish(acceptable: bool, codes: Iterable[str], strict: bool) -> None:
@@ -79,18 +120,21 @@ def finish(acceptable: bool, codes: Iterable[str], strict: bool) -> None:
         raise typer.Exit(FAILED)
 
 
-def print_notes(notes: Iterable[Note]) -> None:
+def print_notes(notes: Iterable[Note], units: System = "si") -> None:
     """Print notes, a line each."""
     for note in notes:
-        messages.print(f"note: {note}", soft_wrap=True)
+        messages.print(f"note: {reworded(str(note), units)}", soft_wrap=True)
 
 
-def read_quantity(text: str, dimension: Dimension, key: str) -> float:
-    """A quantity of at least 0 as a case file has it, "1750" or "1750 m", in SI; InputError names the option."""
+def read_quantity(text: str, dimension: Dimension, key: str, units: System = "si") -> float:
+    """A quantity of at least 0, "1750 m" or a bare "1750" in the system's unit, in SI; InputError names the option."""
     try:
         value: object = float(text)
     except ValueError:
         value = text
+    else:
+        if units == "field" and dimension.unit in BARE_FIELD_UNITS:
+            value = f"{text} {BARE_FIELD_UNITS[dimension.unit]}"
     try:
         return Quantity(dimension=dimension, at_least=0.0).parse(value)
     except InputError as error:
@@ -135,9 +179,10 @@ def refuse_source_files(case: Case, paths: Iterable[Path], key: str) -> None:
                 raise InputError("another file than the case and its survey", key=key, value=path)
 
 
-def print_status(status: str, message: str) -> None:
+def print_status(status: str, message: str, units: System = "si") -> None:
     """Print how a computation ended and why, on standard error."""
-    messages.print(Text.assemble((status, "bold"), f": {printable(message)}"), soft_wrap=True)
+    text = printable(reworded(message, units))
+    messages.print(Text.assemble((status, "bold"), f": {text}"), soft_wrap=True)
 
 
 def print_written(paths: Sequence[Path]) -> None:

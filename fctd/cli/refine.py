@@ -8,6 +8,7 @@ import typer
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
+from fctd.case.doubts import warnings_of
 from fctd.case.text import printable
 from fctd.case.units import LENGTH
 from fctd.cli.options import (
@@ -28,6 +29,7 @@ from fctd.cli.options import (
     read_share,
     refuse_sources,
     screen,
+    tell,
 )
 from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, read_drive
 from fctd.results.unit_systems import System, shown
@@ -45,7 +47,12 @@ def refine_command(
         typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}; may be repeated; default: the case's first."),
     ] = [],  # noqa: B006 (typer copies it)
     bit_depth: Annotated[
-        str | None, typer.Option("--bit-depth", metavar="D", help="Bit depth; default: the end of that operation.")
+        str | None,
+        typer.Option(
+            "--bit-depth",
+            metavar="D",
+            help="Bit depth, '2450 m'; bare in m, with --units field in ft; default: the end of that operation.",
+        ),
     ] = None,
     graded: Annotated[
         bool, typer.Option("--graded", help="Short segments only in bends and near the bit, if that saves a tenth.")
@@ -74,13 +81,13 @@ def refine_command(
     refuse_sources(case, out, "--out")
     if out is not None:
         survey_from(out, case)  # raises InputError before the computing
-    depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth")
+    depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth", units)
+    drive = read_drive(speed, rpm, units)
+    tell(case, warnings_of(case, operations, **drive), strict=strict, units=units)
     with messages.status("compiling") as status:
         if quiet:
             status.stop()
-        refined = refine(
-            case, share, operations or None, depth, graded, most, **read_drive(speed, rpm), progress=status.update
-        )
+        refined = refine(case, share, operations or None, depth, graded, most, **drive, progress=status.update)
     target = out if refined.status.has_loads else None
     try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
         if target is not None:
@@ -132,14 +139,14 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
         if graded and refined.layout == "uniform":
             screen.print("A graded layout would save less than a tenth of the segments.", soft_wrap=True)
     else:
-        print_status(refined.status, refined.message)
+        print_status(refined.status, refined.message, units)
     if refined.resolved:
         screen.print(
             "The string is buckled. Its buckled stretch has segments that can bend as it does (solver.buckling = "
             f'"resolve"), {refined.resolved} in all; the loads depend on the length of the others alone.',
             soft_wrap=True,
         )  # fmt: skip
-    print_notes(refined.notes)
+    print_notes(refined.notes, units)
 
 
 def _percent(share: float) -> str:

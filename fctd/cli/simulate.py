@@ -28,6 +28,7 @@ from fctd.cli.options import (
     read_case,
     refuse_source_files,
     screen,
+    tell,
 )
 from fctd.results.columns import BUCKLED, COLUMNS
 from fctd.results.status import RunStatus
@@ -55,7 +56,7 @@ def simulate_file(
     case_file: Path,
     out: Path | None,
     overrides: list[str],
-    friction: float | None,
+    friction: str | None,
     csv: bool,
     quiet: bool,
     contact: Callable[[Case], WallQuery] | None = None,
@@ -64,6 +65,7 @@ def simulate_file(
 ) -> None:
     """Run ``fctd simulate``; ``contact`` builds another contact method for the case (see fctd.simulate)."""
     case = read_case(case_file, changes_of(overrides, friction))
+    tell(case, case.warnings, strict=strict)
     method = None if contact is None else contact(case)
     folder = out or Path(file_name(case.name, "-result"))
     check_result_folder(folder, csv, "--out")  # before hours of computing

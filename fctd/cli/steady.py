@@ -9,13 +9,11 @@ import pandas as pd
 import typer
 
 from fctd.case.errors import InputError
+from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.case.units import SPEED
-from fctd.cli.options import (
-    check_target,
-    read_quantity,
-)
+from fctd.case.units import ROTATION, SPEED
+from fctd.cli.options import check_target, read_quantity
 from fctd.model.operations import rates_of_all
 from fctd.results.tables import versions
 from fctd.results.unit_systems import System, in_field_units
@@ -34,14 +32,18 @@ Speed = Annotated[
     typer.Option(
         "--speed",
         metavar="V",
-        help=f"Speed along the hole, '0.3 m/s'; default: the case's, else {_defaults('default_speed')} m/s.",
+        help=f"Speed along the hole, '0.3 m/s', bare in m/s, with --units field in ft/min; default: the case's, else "
+        f"{_defaults('default_speed')} m/s.",
     ),
 ]
 Rpm = Annotated[
-    float | None,
+    str | None,
     typer.Option("--rpm", metavar="N", help=f"Rev/min; default: the case's, else {_defaults('default_rpm')}."),
 ]
-Units = Annotated[System, typer.Option("--units", help="Units of tables, pictures and screen.")]
+Units = Annotated[
+    System,
+    typer.Option("--units", help="Units of tables, pictures and screen, and of bare depths and speeds of options."),
+]
 ResolveBuckling = Annotated[
     bool | None,
     typer.Option(
@@ -57,9 +59,12 @@ def file_option(option: str, what: str) -> typer.models.OptionInfo:
     return info
 
 
-def read_drive(speed: str | None, rpm: float | None) -> dict[str, Any]:
+def read_drive(speed: str | None, rpm: str | None, units: System = "si") -> dict[str, Any]:
     """The given rates: speed [m/s] and rpm, None where the case sets them."""
-    return {"speed": None if speed is None else read_quantity(speed, SPEED, "--speed"), "rpm": rpm}
+    return {
+        "speed": None if speed is None else read_quantity(speed, SPEED, "--speed", units),
+        "rpm": None if rpm is None else read_quantity(rpm, ROTATION, "--rpm"),
+    }
 
 
 def plots_for(targets: Mapping[str, Path | None]) -> ModuleType | None:
@@ -84,12 +89,15 @@ def in_units(units: System, table: pd.DataFrame) -> pd.DataFrame:
     return in_field_units(table) if units == "field" else table
 
 
-def metadata_of(case: Case, units: System, kinds: Sequence[str], drive: Mapping[str, Any]) -> dict[str, Any]:
-    """Metadata of a table: case, units, versions, and the rates used, positive downwards and clockwise."""
+def metadata_of(
+    case: Case, units: System, kinds: Sequence[str], drive: Mapping[str, Any], warnings: Sequence[InputWarning] = ()
+) -> dict[str, Any]:
+    """Metadata of a table: case, units, warnings, versions, and the rates used, positive downwards and clockwise."""
     rates = rates_of_all(case, kinds, **drive)
     return {
         "case": case.model_dump(mode="json"),
         "units": units,
         "rates": {kind: {"speed_m_s": r.speed, "spin_rad_s": r.spin} for kind, r in rates.items()},
+        "warnings": [warning.as_metadata() for warning in warnings],
         "versions": versions(),
     }

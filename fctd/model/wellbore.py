@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from fctd.case.errors import InputError
-from fctd.case.load import Case
+from fctd.case.load import Case, naming_file
 from fctd.case.specs import IntervalSpec, WellboreSpec
 from fctd.mechanics import contact
 from fctd.mechanics.query import WALL_COLUMNS, Walls, query_walls, walls_in
@@ -210,10 +210,14 @@ def build_wellbore(case: Case) -> Wellbore:
     Raises InputError for an overlap longer than a cylinder, for too many pieces, or for stations that no arc
     joins.
     """
-    hole = case.wellbore
+    with naming_file(case):
+        return _build(case.wellbore)
+
+
+def _build(hole: WellboreSpec) -> Wellbore:
     stations, intervals = hole.trajectory, _intervals(hole)
     ends = intervals[:, TO_MD][intervals[:, TO_MD] < stations[-1, 0]]
-    courses = _courses(stations) if hole.survey_method == "minimum_curvature" else None
+    courses = _courses(hole, stations) if hole.survey_method == "minimum_curvature" else None
     if hole.geometry == "arcs":
         assert courses is not None  # WellboreSpec requires the method
         # Where the hole changes, a shoe as long as the overlap of cylinders leads from one size to the next.
@@ -235,11 +239,17 @@ def build_wellbore(case: Case) -> Wellbore:
     return Wellbore(pieces, geometry, md, points, directions, intervals, hole.overlap, kept)
 
 
-def _courses(stations: Array) -> survey.Courses:
+def _courses(hole: WellboreSpec, stations: Array) -> survey.Courses:
     try:
         return survey.minimum_curvature(stations)
-    except ValueError as error:
-        raise InputError("stations that a circular arc can join", key="wellbore.survey", value=str(error)) from None
+    except ValueError:
+        k = int(np.argmax(survey.dogleg(stations))) + 1
+        md, inc, azi = stations[k, 0], *np.degrees(stations[k, 1:])
+        raise InputError(
+            "a direction that an arc can join with that of the station before, which is the opposite",
+            key=f"station {k + 1}" if hole.survey is not None else f"wellbore.stations[{k}]",
+            value=f"{md:g} m, {inc:g} deg, {azi:g} deg", file=hole.survey,
+        ) from None  # fmt: skip
 
 
 def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:

@@ -21,6 +21,7 @@ import pyarrow.parquet as pq
 
 from fctd.case.errors import InputError
 from fctd.case.input_file import check_regular
+from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.results.notes import Note, as_metadata, from_metadata
 from fctd.results.status import RunStatus
@@ -39,7 +40,7 @@ class SimulationResult:
     interval; loads are means over the interval, depths and energies values at its end.  profile : a row per contact
     point from the top to the bit, for every recorded bit depth.  energy : the ledger, a row per record interval.  run :
     segments, step, counts and timing.  notes : warnings about the numbers, each code once, where it was worst.
-    identity : of the run, the same in all of its files.
+    warnings : probable mistakes of the case.  identity : of the run, the same in all of its files.
     """
 
     case: Case
@@ -50,6 +51,7 @@ class SimulationResult:
     energy: pd.DataFrame
     run: dict[str, Any]
     notes: tuple[Note, ...] = ()
+    warnings: tuple[InputWarning, ...] = ()
     identity: str = field(default_factory=lambda: uuid4().hex)
 
     def save(self, folder: Path, csv: bool = False) -> list[Path]:
@@ -63,6 +65,7 @@ class SimulationResult:
             "status": self.status,
             "message": self.message,
             "notes": as_metadata(self.notes),
+            "warnings": [warning.as_metadata() for warning in self.warnings],
             "run": self.run,
             "versions": versions(),
             "identity": self.identity,
@@ -156,6 +159,7 @@ def _read(folder: Path) -> SimulationResult:
             **tables,
             run=json.loads(run),
             notes=from_metadata(json.loads(origin[b"notes"])),
+            warnings=tuple(InputWarning(**kept) for kept in json.loads(origin.get(b"warnings", b"[]"))),
             identity=runs["history"],
         )
     except (KeyError, TypeError, ValueError) as error:

@@ -3,6 +3,7 @@
 In memory and in files the columns are SI; screen and pictures show the same quantities in larger or smaller units.
 """
 
+import re
 from typing import Final, Literal, NamedTuple
 
 import pandas as pd
@@ -70,6 +71,40 @@ def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
             values = table[name] / conversion(measure.field, measure.table)
             columns[renamed] = values.map("{:.15g}".format).astype(float)
     return pd.DataFrame(columns)
+
+
+# Units of messages, which the program writes in SI.
+IN_MESSAGES: Final = {
+    "m": "ft", "mm": "in", "km": "ft", "m/s": "ft/min", "m/h": "ft/h", "kN": "klbf", "N": "lbf", "kN·m": "kft·lbf",
+    "MPa": "ksi", "kg/m^3": "ppg", "kg/m": "lb/ft",
+}  # fmt: skip
+_NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
+# A number or several with one unit, "540 to 1500 m"; what stands in quotes is the user's or an example.
+_IN_MESSAGES: Final = re.compile(
+    rf"(?<![\w.\"'(\[]){_NUMBER}(?:(?: to | and |, |–){_NUMBER})* "
+    rf"(?P<unit>{'|'.join(sorted(map(re.escape, IN_MESSAGES), key=len, reverse=True))})(?![\w/^*·])"
+)
+
+
+def reworded(text: str, system: System) -> str:
+    """A message of the program in a system of units: its lengths, loads and speeds with SI units are converted."""
+    if system == "si":
+        return text
+
+    def convert(found: re.Match[str]) -> str:
+        unit = found["unit"]
+        factor = conversion(unit.replace("·", "*"), _PINTS.get(IN_MESSAGES[unit], IN_MESSAGES[unit]))
+        numbers = found[0].removesuffix(unit)
+        return re.sub(_NUMBER, lambda n: _short(float(n[0]) * factor), numbers) + IN_MESSAGES[unit]
+
+    return _IN_MESSAGES.sub(convert, text)
+
+
+_PINTS: Final = {"kft·lbf": "kft*lbf", "ppg": "lb/gal"}
+
+
+def _short(value: float) -> str:
+    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.4g}"
 
 
 def _ending(unit: str) -> str:

@@ -118,7 +118,9 @@ class Recorder:
         }
         profile = pd.concat(list(profiles.values()), ignore_index=True) if profiles else pd.DataFrame()
         history, notes = pd.DataFrame(self.history), tuple(self.notes.values())
-        return SimulationResult(run.case, status, message, history, profile, energy, numbers, notes)
+        return SimulationResult(
+            run.case, status, message, history, profile, energy, numbers, notes, run.case.warnings
+        )  # fmt: skip
 
     def _bit_md(self) -> float:
         """Measured depth of the bit [m]."""

@@ -100,6 +100,18 @@ def test_friction_sets_every_interval(case_file: Path) -> None:
     assert [interval.friction for interval in hole.intervals] == [0.17, 0.17]
 
 
+def test_friction_by_kind_sets_the_intervals_of_that_kind(case_file: Path) -> None:
+    kinds = {"wellbore.intervals[0].kind": "cased", "wellbore.intervals[1].kind": "open"}
+    hole = load_case(case_file, kinds | {"friction": {"open": 0.4}}).wellbore
+    assert [interval.friction for interval in hole.intervals] == [0.2, 0.4]
+    error = refusal(case_file, {"friction": {"open": 0.4}})
+    assert (error.key, error.expected) == (
+        "wellbore.intervals[0].kind", '"cased" or "open", since friction is given by kind',
+    )  # fmt: skip
+    error = refusal(case_file, kinds | {"friction": {"open": "rough"}})
+    assert (error.key, error.value) == ("wellbore.intervals[1].friction", "rough")
+
+
 def test_numpy_numbers_may_override(case_file: Path) -> None:
     overrides = {"friction": np.float64(0.25), "string.components[0].segments": np.int64(7)}
     case = load_case(case_file, overrides)

@@ -32,9 +32,11 @@ name = "pipe"
 outer_diameter = "5 in"
 inner_diameter = "4.276 in"
 segment_length = "40 m"
+[mud]
+density = 0
 """
 CHART_COLUMNS = [
-    "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
+    "operation", "friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
     "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
     "reason",
@@ -138,7 +140,7 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
     code = run(monkeypatch, "chart", case_file, *given, *factors, "--depths", "700:850:50", "--rpm", "80", "--out", out)
     assert code == 0
     assert "16 rows: 16 converged" in capsys.readouterr().out
-    table = pd.read_csv(out)
+    table = pd.read_csv(out, dtype={"friction_label": str})
     assert list(table.columns) == CHART_COLUMNS
     kinds, depths = ["trip_in", "rotate_off_bottom"], [700, 750, 800, 850]
     expected = fctd.torque_drag(fctd.load_case(case_file), kinds, depths, [0.1, 0.3], rpm=80)
@@ -214,6 +216,46 @@ def test_a_chart_goes_on_below_the_hole(
     assert table["hookload_N"].isna().tolist() == [False, False, True]
     assert table["reason"].str.contains("within survey and intervals, 900 m").tolist() == [False, False, True]
     assert all(picture.exists() for picture in pictures)
+
+
+def test_a_warning_is_on_screen_once_in_the_files_and_on_the_picture(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    files = {"--out": tmp_path / "chart.csv", "--plot": tmp_path / "chart.svg", "--plot-profile": tmp_path / "p.svg"}
+    chart = ("chart", case_file, "--operation", "trip_in", "--depths", "500:800:300", "--quiet")
+    given = (*chart, *(part for pair in files.items() for part in pair), "--set", "mud.density=10.4")
+    assert run(monkeypatch, *given) == 0
+    text = "a mud of 10.4 kg/m^3 (10.4 looks like '10.4 ppg'): write it with its unit; usual is 0.6 to 2.6 sg"
+    assert capsys.readouterr().err == f"warning: {case_file}: mud.density: {text}\n"
+    (kept,) = json.loads((tmp_path / "chart.csv.json").read_text())["warnings"]
+    assert (kept["code"], kept["key"]) == ("mud_density", "mud.density")
+    for name in ("chart.svg", "p.svg"):
+        assert "<!-- warning mud.density: a mud of 10.4 kg/m^3" in (tmp_path / name).read_text()
+
+    for file in tmp_path.glob("*.svg"):
+        file.unlink()
+    assert run(monkeypatch, *given, "--strict") == 1
+    assert "strict: warnings are errors (mud_density); nothing is computed" in capsys.readouterr().err
+    assert not list(tmp_path.glob("*.svg"))
+
+
+def test_friction_by_kind_is_a_line_of_its_own(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "chart.csv"
+    intervals = (
+        'wellbore.intervals=[{to_md = 600, diameter = 0.3, friction = 0.1, kind = "cased"},'
+        '{to_md = 900, diameter = 0.2159, friction = 0.1, kind = "open"}]'
+    )
+    code = run(
+        monkeypatch, "chart", case_file, "--operation", "trip_out", "--depths", "800:800:1", "--quiet", "--out", out,
+        "--friction", "cased=0.2,open=0.3", "--friction", "0.2,0.3", *settings(intervals),
+    )  # fmt: skip
+    assert code == 0
+    assert "cased 0.20, open 0.30" in capsys.readouterr().out
+    table = pd.read_csv(out).set_index("friction_label")["hookload_N"]
+    assert table["0.2"] < table["cased 0.20, open 0.30"] < table["0.3"]
 
 
 @pytest.mark.parametrize(
@@ -319,9 +361,9 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
 @pytest.mark.parametrize(
     ("command", "options", "expected"),
     [
-        ("chart", {"--operation": "trip_inn"}, ["tiny.toml", "operation", "trip_inn", "the kind trip_in"]),
+        ("chart", {"--operation": "trip_inn"}, ["--operation", "trip_inn", "the kind trip_in"]),
         ("chart", {"--operation": "drill"}, ["operation", "drill"]),
-        ("chart", {"--depths": "1000:1200:100"}, ["tiny.toml", 'bit_depth = "1000 m"', "900 m"]),
+        ("chart", {"--depths": "1000:1200:100"}, ["tiny.toml", '--depths = "1000 m"', "900 m"]),
         ("chart", {"--depths": "800:500:100"}, ["--depths", "800:500:100", "rise"]),
         ("chart", {"--depths": "500:800:0"}, ["--depths", "500:800:0", "STEP above 0"]),
         ("chart", {"--depths": "500:800:-10"}, ["--depths", "-10", "a length"]),
@@ -329,10 +371,10 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
         ("chart", {"--depths": "500:800 kg:10"}, ["--depths", "800 kg", "a length"]),
         ("chart", {"--depths": "500:nan:10"}, ["--depths", "nan", "a length"]),
         ("chart", {"--depths": "500:800:1e-9"}, ["--depths", "1e-9", "at most 10000 depths"]),
-        ("chart", {"--friction": "-0.1"}, ["tiny.toml", "friction", "-0.1", "at least 0"]),
-        ("chart", {"--operation": "rotate_off_bottom", "--speed": "1"}, ["tiny.toml", "speed", "of 0 for rotate_off"]),
+        ("chart", {"--friction": "-0.1"}, ["--friction", "-0.1", "at least 0"]),
+        ("chart", {"--operation": "rotate_off_bottom", "--speed": "1"}, ["--speed = 1.0", "of 0 for rotate_off"]),
         ("chart", {"--speed": "3 kg"}, ["--speed", "3 kg", "a speed"]),
-        ("chart", {"--rpm": "-5"}, ["tiny.toml", "rpm", "-5", "at least 0"]),
+        ("chart", {"--rpm": "-5"}, ["--rpm", "-5", "a rotation"]),
         ("chart", {"--out": "chart.xlsx"}, ["--out", "chart.xlsx", ".csv or .parquet"]),
         ("chart", {"--plot": "chart.pdf"}, ["--plot", "chart.pdf", ".png or .svg"]),
         ("chart", {"--plot-profile": "chart"}, ["--plot-profile", ".png or .svg"]),
@@ -341,10 +383,10 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
         ("chart", {"--plot": "a.png", "--plot-profile": "./a.png"}, ["--plot-profile", "a.png", "of its own"]),
         ("chart", {"--out": 300 * "a" + ".csv"}, ["--out", 'aaa.csv": expected', "can be written"]),
         ("chart", {"--units": "metric"}, ["--units", "metric", "field"]),
-        ("equilibrium", {"--operation": "rotate"}, ["tiny.toml", "operation", "rotate", "kind"]),
+        ("equilibrium", {"--operation": "rotate"}, ["--operation", "rotate", "kind"]),
         ("equilibrium", {"--bit-depth": "950 m"}, ["tiny.toml", "--bit-depth", "950 m", "900 m"]),
         ("equilibrium", {"--bit-depth": "deep"}, ["--bit-depth", "deep", "a length"]),
-        ("equilibrium", {"--friction": "-0.1"}, ["tiny.toml", "wellbore.intervals[0].friction", "-0.1"]),
+        ("equilibrium", {"--friction": "-0.1"}, ["--friction", "-0.1"]),
         ("equilibrium", {"--plot": "profile.gif"}, ["--plot", "profile.gif", ".png or .svg"]),
         ("equilibrium", {"--out": "folder.csv"}, ["--out", "folder.csv", "can be written"]),
     ],

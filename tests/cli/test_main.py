@@ -26,6 +26,8 @@ length = "800 m"
 outer_diameter = "5 in"
 inner_diameter = "4.276 in"
 segments = 32
+[mud]
+density = 0
 [[operations]]
 kind = "rotate_off_bottom"
 at_md = "800 m"

@@ -6,7 +6,7 @@ import pytest
 
 from fctd.case import units
 from fctd.case.errors import InputError
-from fctd.cli.options import check_target, read_quantity, read_share
+from fctd.cli.options import changes_of, check_target, read_quantity, read_share
 
 
 @pytest.mark.parametrize(("text", "share"), [("1%", 0.01), ("1 %", 0.01), ("0.01", 0.01), (" 2.5% ", 0.025)])
@@ -25,6 +25,22 @@ def test_a_quantity_is_a_number_in_si_or_one_with_a_unit() -> None:
     assert read_quantity("1750 m", units.LENGTH, "--bit-depth") == 1750.0
     assert read_quantity("30 ft", units.LENGTH, "--bit-depth") == pytest.approx(9.144, rel=1e-14)
     assert read_quantity("0", units.SPEED, "--speed") == 0.0
+
+
+def test_a_bare_number_is_in_the_units_asked_for() -> None:
+    assert read_quantity("1000", units.LENGTH, "--bit-depth", "field") == 304.8
+    assert read_quantity("1000 m", units.LENGTH, "--bit-depth", "field") == 1000.0
+    assert read_quantity("60", units.SPEED, "--speed", "field") == pytest.approx(0.3048, rel=1e-14)
+    assert read_quantity("60", units.ROTATION, "--rpm", "field") == 60.0
+    with pytest.raises(InputError, match='"-5": expected a length'):
+        read_quantity("-5", units.LENGTH, "--bit-depth", "field")
+
+
+def test_one_set_of_friction_factors_is_an_override() -> None:
+    assert changes_of(["mud.density=1200"], "0.25") == {"mud.density": 1200, "friction": 0.25}
+    assert changes_of([], "cased=0.2,open=0.3") == {"friction": {"cased": 0.2, "open": 0.3}}
+    with pytest.raises(InputError, match="one set of friction factors"):
+        changes_of([], "0.1,0.2")
 
 
 @pytest.mark.parametrize("text", ["-1 m", "-1", "deep", "3 kg", "nan", "inf", ""])

@@ -130,7 +130,7 @@ def test_several_operations_and_field_units(
     case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     kinds = ("--operation", "trip_in", "--operation", "rotate_off_bottom")
-    assert run(monkeypatch, "refine", case_file, *kinds, "--bit-depth", "880", "--tolerance", "0.03", "--rpm", "80",
+    assert run(monkeypatch, "refine", case_file, *kinds, "--bit-depth", "880 m", "--tolerance", "0.03", "--rpm", "80",
                "--units", "field", "--quiet") == 0  # fmt: skip
     screen = capsys.readouterr().out
     assert "klbf" in screen
@@ -198,10 +198,10 @@ def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
         (("--tolerance", "-1%"), ["--tolerance", '"-1%"']),
         (("--tolerance", "1 permille"), ["--tolerance", "1 permille"]),
         (("--out", "fine.txt"), ["--out", "fine.txt", ".toml"]),
-        (("--operation", "trip"), ["tiny.toml", "operation", "trip"]),
-        (("--bit-depth", "950 m"), ["tiny.toml", "bit_depth", "950 m", "900 m"]),
+        (("--operation", "trip"), ['--operation = "trip"', "the kind trip_in"]),
+        (("--bit-depth", "950 m"), ["tiny.toml", '--bit-depth = "950 m"', "900 m"]),
         (("--out", "tiny.toml"), ["--out", "tiny.toml", "another file than the case and its survey"]),
-        (("--most", "3"), ["tiny.toml", "most", "16 to 10000"]),
+        (("--most", "3"), ["--most = 3", "16 to 10000"]),
     ],
 )
 def test_bad_input_is_one_message_and_exit_code_2(

@@ -194,6 +194,14 @@ def test_every_note_has_its_line() -> None:
     )
 
 
+def test_every_warning_has_its_line() -> None:
+    source = (ROOT / "fctd" / "case" / "doubts.py").read_text(encoding="utf-8")
+    codes = set(re.findall(r'(?:InputWarning|_outside)\(\s*"(\w+)"', source))
+    assert len(codes) > 15
+    guide = (ROOT / "docs" / "well.md").read_text(encoding="utf-8")
+    assert {code for code in codes if not re.search(rf"^\|[^|]*`{code}`", guide, re.MULTILINE)} == set()
+
+
 def test_the_default_rates_are_those_of_the_guide() -> None:
     case = load_case(ROOT / "examples" / "my_well.toml", {"operations": None})
     row = re.compile(r"^\| `(\w+)` \| [^|]* \| (?:([\d.]+) m/s|–) \| (?:([\d.]+) rev/min|none) \|$", re.MULTILINE)

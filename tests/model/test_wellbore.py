@@ -290,7 +290,7 @@ def test_the_deepest_well_takes_little_time_and_memory(geometry: str) -> None:
 
 
 def test_stations_that_no_arc_joins_are_refused() -> None:
-    with pytest.raises(InputError, match=r"wellbore\.survey.*opposite directions"):
+    with pytest.raises(InputError, match=r"wellbore\.stations\[2\] = .*which is the opposite"):
         hole_of([[0, 0, 0], [500, 90, 0], [501, 90, 180]])
 
 

@@ -276,6 +276,8 @@ outer_diameter = "9.625 in"
 inner_diameter = "8.755 in"
 segment_length = "12 m"
 yield_strength = "130 MPa"
+[mud]
+density = 0
 [[operations]]
 kind = "rotate_off_bottom"
 at_md = "1700 m"

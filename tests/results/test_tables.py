@@ -46,6 +46,7 @@ def test_a_result_is_a_table_per_file_with_its_case(csv: bool, tmp_path: Path) -
             b"run",
             b"versions",
             b"notes",
+            b"warnings",
             b"identity",
             b"csv",
         }
@@ -81,6 +82,15 @@ def test_a_result_names_the_survey_of_its_case(tmp_path: Path) -> None:
     case = make_case(wellbore={"stations": None, "survey": survey})
     SimulationResult(case, "completed", "", TABLE, TABLE, TABLE, {}).save(tmp_path / "out")
     assert open_result(tmp_path / "out").case.wellbore.survey == survey
+
+
+def test_a_result_keeps_the_warnings_of_its_case(tmp_path: Path) -> None:
+    case = make_case()
+    SimulationResult(case, "completed", "", TABLE, TABLE, TABLE, {}, warnings=case.warnings).save(tmp_path)
+    found = open_result(tmp_path)
+    assert [warning.code for warning in found.warnings] == ["no_mud"]
+    assert found.warnings == case.warnings
+    assert found.case.warnings == ()  # the density of 0 is written out there
 
 
 def test_a_result_is_opened_and_closed(tmp_path: Path) -> None:

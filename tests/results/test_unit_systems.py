@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from fctd.results.unit_systems import in_field_units, measure_of, shown
+from fctd.results.unit_systems import in_field_units, measure_of, reworded, shown
 
 # Exact by definition (NIST SP 811, appendix B.8).
 LBF, FOOT, INCH = 4.4482216152605, 0.3048, 0.0254
@@ -66,3 +66,25 @@ def test_a_column_on_the_screen(column: str, system: str, factor: float, label: 
 def test_a_column_without_a_unit_cannot_be_shown_in_one() -> None:
     with pytest.raises(ValueError, match="column iterations has no unit"):
         shown("iterations", "si")
+
+
+@pytest.mark.parametrize(
+    ("text", "field"),
+    [
+        ("within survey and intervals, 900 m", "within survey and intervals, 2953 ft"),
+        (
+            "helical between 540 and 1500 m, where segments of 20 m",
+            "helical between 1772 and 4921 ft, where segments of 65.62 ft",
+        ),
+        ("12.3 mm deep", "0.4843 in deep"),
+        ("by about ±3.2 kN at 0.31 Hz", "by about ±0.7194 klbf at 0.31 Hz"),
+        ("out of balance by 1.2e+03 N: the", "out of balance by 269.8 lbf: the"),
+        ("955 MPa, 7850 kg/m^3, 10 m/s", "138.5 ksi, 65.51 ppg, 1969 ft/min"),
+        ("case's own: 0.2 down to 1500 m, 0.3 below", "case's own: 0.2 down to 4921 ft, 0.3 below"),
+        ("the user's \"12 m\", such as '40 m' or 2 ms, 1e7 N/m, 3 modes, x10 m", None),
+    ],
+)
+def test_a_message_in_field_units(text: str, field: str | None) -> None:
+    """900 m / 0.3048 m = 2952.8 ft, and so on; what is quoted and other units stay."""
+    assert reworded(text, "field") == (text if field is None else field)
+    assert reworded(text, "si") == text

@@ -11,7 +11,7 @@ from tests.cases import level_case, make_case, pipe
 
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
 COLUMNS = [
-    "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
+    "operation", "friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
     "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
     "reason",
@@ -57,6 +57,24 @@ def test_a_row_per_operation_friction_and_depth() -> None:
         assert down.weight_indicator == pytest.approx((down.hookload + 1e5) / 0.9)
 
 
+def test_friction_by_kind_of_interval() -> None:
+    """The rows are those of a case with these factors, and a label says which they are."""
+
+    def well(cased: float, below: float) -> Any:
+        rows = [(500, 0.3, "cased", cased), (700, 0.25, "cased", cased), (900, 0.2159, "open", below)]
+        keys = ("to_md", "diameter", "kind", "friction")
+        intervals = [dict(zip(keys, row, strict=True)) for row in rows]
+        return make_case(STATIONS, [pipe(None, None, segment_length=20.0)], wellbore={"intervals": intervals})
+
+    chart = torque_drag(well(0.1, 0.1), "trip_out", [900.0], [{"cased": 0.2, "open": 0.4}, 0.3, {"open": 0.4}])
+    assert chart["friction_label"].tolist() == ["cased 0.20, open 0.40", "0.3", "open 0.40"]
+    assert chart["friction"].isna().tolist() == [True, False, True]
+    for row, case in zip(chart.to_dict("records"), (well(0.2, 0.4), well(0.3, 0.3), well(0.1, 0.4)), strict=True):
+        assert row["hookload_N"] == equilibrium(case, "trip_out", 900.0).hookload
+    own = torque_drag(case_of(), "trip_out", [900.0])
+    assert own["friction_label"].tolist() == ["case's own: 0.1 down to 500 m, 0.3 below"]
+
+
 @pytest.mark.parametrize(
     ("call", "expected"),
     [
@@ -69,14 +87,19 @@ def test_a_row_per_operation_friction_and_depth() -> None:
         ({"operation": []}, "expected at least one kind of operation"),
         ({"operation": ["trip_in", "wiggle"]}, 'operation = "wiggle": expected one of the kinds'),
         ({"friction": -0.1}, "friction = -0.1: expected a friction factor at least 0"),
-        ({"friction": [0.2, 20]}, "friction = 20.0: expected a friction factor at least 0 and at most 5"),
+        (
+            {"friction": [0.2, 20]},
+            "friction = 20: expected a friction factor at least 0 and at most 5 (20 looks like '0.2')",
+        ),
         ({"friction": []}, "friction = []: expected at least one friction factor"),
         ({"speed": -1.0}, "speed = -1.0: expected a speed above 0"),
         ({"bit_depths": "500 m"}, 'bit_depths = "500 m": expected a list of numbers of metres'),
         ({"bit_depths": 500.0}, "bit_depths = 500.0: expected a list of numbers of metres"),
         ({"bit_depths": [500, "600 m"]}, 'bit_depths[1] = "600 m": expected a number of metres'),
         ({"friction": "0.2"}, 'friction = "0.2": expected a friction factor'),
-        ({"friction": [0.1, "0.2"]}, 'friction = "0.1": expected a friction factor'),
+        ({"friction": [0.1, "0.2"]}, 'friction = "0.2": expected a friction factor'),
+        ({"friction": {"cased": 0.2}}, 'wellbore.intervals[0].kind is missing: expected "cased" or "open"'),
+        ({"friction": {"casing": 0.2}}, 'friction = {"casing": 0.2}: expected one of the kinds cased, open'),
     ],
 )
 def test_bad_input_is_refused(call: dict[str, Any], expected: str) -> None:

@@ -1,0 +1,292 @@
+"""Probable mistakes of a case: input that can be used and is probably not what the user meant, a function for each.
+
+Every bound lies beyond what wells and rigs have, so that a warning is worth reading.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import Final, NamedTuple, Protocol
+
+import numpy as np
+
+from fctd.case.friction import FrictionSet
+from fctd.case.input_warnings import InputWarning
+from fctd.case.operations import KINDS, Operation
+from fctd.case.specs import BitSpec, ComponentSpec, MudSpec, RigSpec, StringSpec, WellboreSpec
+from fctd.case.units import FASTEST, MOST_RPM, Slip, looks_like
+
+Doubts = Iterator[InputWarning]
+
+
+class Well(Protocol):
+    """What the checks read of a case."""
+
+    @property
+    def wellbore(self) -> WellboreSpec: ...
+    @property
+    def string(self) -> StringSpec: ...
+    @property
+    def mud(self) -> MudSpec: ...
+    @property
+    def rig(self) -> RigSpec: ...
+    @property
+    def bit(self) -> BitSpec: ...
+    @property
+    def operations(self) -> tuple[Operation, ...]: ...
+
+
+class Range(NamedTuple):
+    """Values that a key has in practice, as SI numbers and in words, and what others look like."""
+
+    unit: str
+    low: float
+    high: float
+    usual: str
+    slips: tuple[Slip, ...]
+
+
+DEEP: Final = 500.0  # [m]: a string this long hangs in mud, unless the case says that it does not
+# Foam and the lightest oil to mud weighted with barite or galena.
+SLIPS_OF_MUD: Final = (Slip(0.6, 2.6, " sg"), Slip(5, 22, " ppg"), Slip(37, 165, " lb/ft^3"))
+MUD: Final = Range("kg/m^3", 600, 2600, "0.6 to 2.6 sg", SLIPS_OF_MUD)
+# Composite, aluminium, titanium, steel; tungsten weights.
+PIPE: Final = Range("kg/m^3", 1200, 20_000, "1.2 to 20 g/cm^3", (Slip(1.2, 20, " g/cm^3"),))
+YOUNG: Final = Range("Pa", 10e9, 450e9, "10 to 450 GPa", (Slip(10, 450, " GPa"), Slip(10e3, 450e3, " MPa")))
+YIELD: Final = Range("Pa", 50e6, 3e9, "50 to 3000 MPa", (Slip(50, 3000, " MPa"),))
+# Below, a weight in kN or t or a torque in kN*m was written as a bare number; above, in a unit a thousand times too
+# large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.
+BIT_LOAD: Final = Range("N", 1e3, 2e6, "1 kN to 2 MN", (Slip(1, 999, " kN"),))
+BIT_TORQUE: Final = Range("N*m", 20, 200e3, "20 N*m to 200 kN*m", (Slip(0.5, 19.99, " kN*m"),))
+BLOCK: Final = Range("N", 1e3, 5e6, "1 kN to 5 MN", (Slip(10, 999, " kN"),))
+OFFSET: Final = Range("N*m", 5, 50e3, "5 N*m to 50 kN*m", (Slip(0.1, 4.99, " kN*m"),))
+ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
+NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
+UNDERREAMED: Final = 1.5  # an under-reamer opens the hole below a shoe to some 1.3 times its diameter
+LIGHT, HEAVY = 0.85, 2.5  # mass over that of the pipe body: spiral collars have 0.95, tool joints add up to 0.6
+FASTEST_HOIST, FASTEST_DRILLING, FASTEST_ROTATION = 3.0, 0.1, 300.0  # [m/s], [m/s], [rev/min]
+LEAST_EFFICIENCY: Final = 0.7  # of twelve lines over old sheaves
+FEWEST_STATIONS: Final = 5
+BELOW_TD: Final = 30.0  # [m]: the last station is some way above the bit
+FOOT: Final = 0.3048
+
+
+def warnings_of(
+    case: Well,
+    kinds: Sequence[str] = (),
+    speed: float | None = None,
+    rpm: float | None = None,
+    frictions: Sequence[FrictionSet] = (),
+) -> tuple[InputWarning, ...]:
+    """The probable mistakes of a case, and of what is asked for: kinds of operation, rates [m/s], [rev/min], friction.
+
+    Reads the survey; raises InputError where it cannot be used.
+    """
+    stations = case.wellbore.trajectory
+    # Line to connect: the survey's own warnings, once WellboreSpec has them.
+    survey: tuple[InputWarning, ...] = getattr(case.wellbore, "survey_warnings", ())
+    own = [
+        *few_stations(case.wellbore, len(stations)),
+        *shoe_below_td(case.wellbore, float(stations[-1, 0])),
+        *hole_size(case.wellbore),
+        *wider_below(case.wellbore),
+        *rough_wall(case.wellbore, frictions),
+        *no_mud(case.mud, float(stations[-1, 0])),
+        *mud_density(case.mud),
+        *materials(case.string),
+        *light_string(case.string, case.mud),
+        *bit_size(case.string),
+        *bit_load(case, {*kinds, *(operation.kind for operation in case.operations)}),
+        *rig_loads(case.rig),
+        *rates(case.operations, kinds, speed, rpm),
+    ]
+    codes = {warning.code for warning in survey}
+    return (*survey, *(warning for warning in own if warning.code not in codes))
+
+
+def few_stations(hole: WellboreSpec, stations: int) -> Doubts:
+    """A survey file with so few stations that it is an extract; stations in the case may be the corners of a plan."""
+    if hole.survey is not None and stations < FEWEST_STATIONS:
+        yield InputWarning(
+            "few_stations", "wellbore.survey", f"the survey has only {stations} stations",
+            "give every station, since the hole follows one arc between neighbours",
+        )  # fmt: skip
+
+
+def shoe_below_td(hole: WellboreSpec, td: float) -> Doubts:
+    """A casing shoe or a change of hole size below the last station [m], or an end of the hole in feet."""
+    last = len(hole.intervals) - 1
+    feet = abs(hole.intervals[-1].to_md * FOOT / td - 1) < 0.02
+    for i, interval in enumerate(hole.intervals):
+        below = interval.to_md - td
+        in_hole = below < 0 if i < last else below <= BELOW_TD or not (feet or interval.kind == "cased")
+        if not in_hole:
+            yield InputWarning(
+                "shoe_below_td", f"wellbore.intervals[{i}].to_md",
+                f"the interval ends at {interval.to_md:g} m, the survey at {td:g} m",
+                f"write '{interval.to_md:g} ft' if these are feet" if feet else "check depth and unit of both",
+            )  # fmt: skip
+
+
+def hole_size(hole: WellboreSpec) -> Doubts:
+    """A hole so wide or narrow that its diameter is probably in another unit."""
+    inches = (Slip(WIDEST, 5, " in"),)
+    for i, interval in enumerate(hole.intervals):
+        if not NARROWEST <= interval.diameter <= WIDEST:
+            yield InputWarning(
+                "hole_size", f"wellbore.intervals[{i}].diameter",
+                f"a hole of {interval.diameter:g} m" + looks_like(interval.diameter, inches),
+                "write the diameter with its unit",
+            )  # fmt: skip
+
+
+def wider_below(hole: WellboreSpec) -> Doubts:
+    """A hole that is far wider below a shoe than above it."""
+    for i, (above, here) in enumerate(zip(hole.intervals[:-1], hole.intervals[1:], strict=True), start=1):
+        if here.diameter > UNDERREAMED * above.diameter:
+            yield InputWarning(
+                "wider_below", f"wellbore.intervals[{i}].diameter",
+                f"the hole widens downwards, from {1e3 * above.diameter:g} to {1e3 * here.diameter:g} mm",
+                "list the intervals from the surface down",
+            )  # fmt: skip
+
+
+def rough_wall(hole: WellboreSpec, frictions: Sequence[FrictionSet]) -> Doubts:
+    """A friction factor beyond that of dry rock: the largest of those asked for, or without them of the case."""
+    factors = {f"wellbore.intervals[{i}].friction": interval.friction for i, interval in enumerate(hole.intervals)}
+    if frictions:
+        factors = {"friction": max(factor for one in frictions for factor in one.factors)}
+    key = max(factors, key=lambda key: factors[key])
+    if factors[key] > ROUGH:
+        yield InputWarning(
+            "friction", key,
+            f"a friction factor of {factors[key]:g}, where casing has 0.15 to 0.3 and open hole 0.2 to 0.5",
+            "check it; 30 % is written 0.3",
+        )  # fmt: skip
+
+
+def no_mud(mud: MudSpec, td: float) -> Doubts:
+    """A deep hole without mud, where the case does not say so."""
+    if td > DEEP and mud.density == 0 and "density" not in mud.model_fields_set:
+        yield InputWarning(
+            "no_mud", "mud.density", f"there is no mud, so the string hangs in air in a hole of {td:g} m",
+            'give a density such as "1200 kg/m^3", or 0 for air',
+        )  # fmt: skip
+
+
+def mud_density(mud: MudSpec) -> Doubts:
+    """A density that no mud has."""
+    yield from _outside("mud_density", "mud.density", mud.density, "a mud", MUD)
+
+
+def materials(string: StringSpec) -> Doubts:
+    """Properties that no pipe has."""
+    for i, component in enumerate(string.components):
+        key = f"string.components[{i}]"
+        yield from _outside("pipe_density", f"{key}.density", component.density, "a pipe", PIPE)
+        yield from _outside("youngs_modulus", f"{key}.youngs_modulus", component.youngs_modulus, "a modulus", YOUNG)
+        yield from _outside("yield_strength", f"{key}.yield_strength", component.yield_strength, "a strength", YIELD)
+
+
+def light_string(string: StringSpec, mud: MudSpec) -> Doubts:
+    """A linear mass that floats in the mud, or that does not go with the pipe's body."""
+    for i, part in enumerate(string.components):
+        area = 0.25 * np.pi * (part.outer_diameter**2 - part.inner_diameter**2)
+        key, mass = f"string.components[{i}].linear_mass", part.linear_mass
+        if mass is None:
+            continue
+        body, displaced = float(part.density * area), float(mud.density * area)
+        if mass < displaced:
+            text = f"{_name(part)} weighs {mass:.4g} kg/m, less than the mud in its place, {displaced:.4g} kg/m"
+            yield InputWarning("floating_string", key, text, _REMEDY_OF_MASS)
+        elif not LIGHT * body <= mass <= HEAVY * body:
+            text = f"{_name(part)} weighs {mass:.4g} kg/m, its body alone {body:.4g} kg/m"
+            yield InputWarning("linear_mass", key, text, _REMEDY_OF_MASS)
+
+
+_REMEDY_OF_MASS: Final = "write linear_mass with its unit, such as '19.5 lb/ft', and check diameters and density"
+
+
+def bit_size(string: StringSpec) -> Doubts:
+    """A bit that is smaller than the string above it, or that is not the first component."""
+    first, *others = string.components
+    bits = [_is_bit(part) for part in string.components]
+    widest = max(string.components, key=lambda part: part.contact_diameter)
+    if bits[0] and widest.contact_diameter > first.contact_diameter:
+        yield InputWarning(
+            "bit_size", "string.components[0].outer_diameter",
+            f"{_name(first)} has {1e3 * first.contact_diameter:.4g} mm, {_name(widest)} above it "
+            f"{1e3 * widest.contact_diameter:.4g} mm",
+            "check both diameters",
+        )  # fmt: skip
+    elif others and any(bits) and not bits[0]:
+        yield InputWarning(
+            "bit_not_first", f"string.components[{bits.index(True)}]",
+            f"{_name(string.components[bits.index(True)])} is above {_name(first)}",
+            "list the components from the bit up",
+        )  # fmt: skip
+
+
+def bit_load(case: Well, kinds: set[str]) -> Doubts:
+    """Drilling without weight on bit, and bit loads in a wrong unit."""
+    drilling = sorted(kind for kind in kinds if kind in KINDS and KINDS[kind].on_bottom)
+    if drilling and case.bit.weight_on_bit == 0:
+        yield InputWarning(
+            "no_bit_load", "bit.weight_on_bit", f"{' and '.join(drilling)} without weight on bit",
+            'give bit.weight_on_bit, such as "80 kN"',
+        )  # fmt: skip
+    yield from _outside("bit_load", "bit.weight_on_bit", case.bit.weight_on_bit, "a weight on bit", BIT_LOAD)
+    yield from _outside("bit_load", "bit.torque", case.bit.torque, "a bit torque", BIT_TORQUE)
+
+
+def rig_loads(rig: RigSpec) -> Doubts:
+    """Block weight and torque offset in a wrong unit, and sheaves that lose too much."""
+    yield from _outside("rig_load", "rig.block_weight", rig.block_weight, "a block weight", BLOCK)
+    yield from _outside("rig_load", "rig.torque_offset", abs(rig.torque_offset), "a torque offset", OFFSET)
+    if rig.sheave_efficiency < LEAST_EFFICIENCY:
+        yield InputWarning(
+            "sheave_efficiency", "rig.sheave_efficiency", f"an efficiency of {rig.sheave_efficiency:g}",
+            "give that of all sheaves together, which is 0.8 to 1",
+        )  # fmt: skip
+
+
+def rates(operations: Sequence[Operation], kinds: Sequence[str], speed: float | None, rpm: float | None) -> Doubts:
+    """Speeds and rotations that no rig has, of the case's operations, and of the kinds and rates asked for."""
+    for i, operation in enumerate(operations):
+        yield from _rates(f"operations[{i}].", operation.kind, operation.speed, operation.rpm)
+    moving = [kind for kind in kinds if kind in KINDS and KINDS[kind].direction]
+    if moving and speed is not None:
+        slowest = min(moving, key=lambda kind: not KINDS[kind].on_bottom)
+        yield from _rates("", slowest, speed, 0.0)
+    if rpm is not None:
+        yield from _rates("", "rotate_off_bottom", 0.0, rpm)
+
+
+def _rates(where: str, kind: str, speed: float, rpm: float) -> Doubts:
+    fastest = FASTEST_DRILLING if KINDS[kind].on_bottom else FASTEST_HOIST
+    if fastest < speed <= FASTEST:  # the case refuses a higher one
+        doing = "drilling" if KINDS[kind].on_bottom else "moving the string"
+        text = f"{doing} at {speed:g} m/s, which is {3600 * speed:.0f} m/h"
+        yield InputWarning("speed", f"{where}speed", text, "write the speed with its unit, such as '20 m/h'")
+    if FASTEST_ROTATION < rpm <= MOST_RPM:
+        text = f"{rpm:g} rev/min, where top drives turn at up to {FASTEST_ROTATION:g}"
+        yield InputWarning("rotation", f"{where}rpm", text, "check the rotation of the string")
+
+
+def _outside(code: str, key: str, value: float, what: str, usual: Range) -> Doubts:
+    """A warning for a value other than 0 outside its usual range."""
+    if value != 0 and not usual.low <= value <= usual.high:
+        guess = looks_like(value, usual.slips)
+        text = f"{what} of {value:g} {usual.unit}{guess}"
+        yield InputWarning(code, key, text, f"write it with its unit; usual is {usual.usual}")
+
+
+def _name(component: ComponentSpec) -> str:
+    return f'"{component.name}"'
+
+
+def _is_bit(component: ComponentSpec) -> bool:
+    """Whether a component is named as a bit, and not as the sub above one."""
+    name = component.name.lower()
+    return re.search(r"\bbit\b", name) is not None and "sub" not in name

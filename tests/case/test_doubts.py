@@ -1,0 +1,150 @@
+"""Probable mistakes: bounds from both sides, and no warning on the cases that we have."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from fctd.case.doubts import warnings_of
+from fctd.case.friction import FrictionSet
+from fctd.case.load import Case, load_case
+from fctd.case.operations import KINDS
+from tests.cases import make_case, pipe
+
+ROOT = Path(__file__).parents[2]
+CASES = sorted((*(ROOT / "examples").glob("*.toml"), *(ROOT / "validation" / "cases").glob("*.toml")))
+
+
+def codes(case: Case, *kinds: str, **asked: Any) -> set[str]:
+    """Codes of the warnings of a case."""
+    return {warning.code for warning in warnings_of(case, kinds, **asked)}
+
+
+def case_of(**more: Any) -> Case:
+    """The small vertical case of the tests, in mud."""
+    return make_case(**({"mud": {"density": 1200.0}} | more))
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
+def test_our_cases_are_not_doubted(path: Path, tmp_path: Path) -> None:
+    survey = tmp_path / "survey.csv"  # that of one case is public data, and not part of the project
+    survey.write_text("md_m,inc_deg,azi_deg\n" + "".join(f"{30 * k},0,0\n" for k in range(274)), encoding="utf-8")
+    changes = {"wellbore.survey": survey} if path.stem == "nlog_k05" else {}
+    assert load_case(path, changes).warnings == ()
+
+
+def test_all_cases_are_looked_at() -> None:
+    assert len(CASES) >= 9
+
+
+def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = None) -> dict[str, Any]:
+    """A hole of lower ends and diameters [m]."""
+    return {"intervals": [{"to_md": to, "diameter": size, "friction": friction, "kind": kind} for to, size in rows]}
+
+
+@pytest.mark.parametrize(
+    ("code", "right", "wrong"),
+    [
+        ("mud_density", {"mud": {"density": 600.0}}, {"mud": {"density": 599.0}}),
+        ("mud_density", {"mud": {"density": 2600.0}}, {"mud": {"density": 2601.0}}),
+        ("friction", {"wellbore": hole((1000, 0.3), friction=0.6)}, {"wellbore": hole((1000, 0.3), friction=0.61)}),
+        ("hole_size", {"wellbore": hole((1000, 1.5))}, {"wellbore": hole((1000, 1.51))}),
+        (
+            "wider_below",
+            {"wellbore": hole((500, 0.2), (1000, 0.3))},
+            {"wellbore": hole((500, 0.2), (1000, 0.301))},
+        ),
+        (
+            "shoe_below_td",
+            {"wellbore": hole((999, 0.3), (5000, 0.2))},
+            {"wellbore": hole((1000, 0.3), (5000, 0.2))},
+        ),
+        ("shoe_below_td", {"wellbore": hole((1030, 0.3), kind="cased")}, {"wellbore": hole((1031, 0.3), kind="cased")}),
+        ("shoe_below_td", {"wellbore": hole((3000, 0.3))}, {"wellbore": hole((3281, 0.3))}),  # 3281 ft are 1000 m
+        ("bit_load", {"bit": {"weight_on_bit": 1e3}}, {"bit": {"weight_on_bit": 999.0}}),
+        ("bit_load", {"bit": {"weight_on_bit": 2e6}}, {"bit": {"weight_on_bit": 2.1e6}}),
+        ("bit_load", {"bit": {"torque": 20.0}}, {"bit": {"torque": 19.0}}),
+        ("rig_load", {"rig": {"block_weight": 1e3}}, {"rig": {"block_weight": 999.0}}),
+        ("rig_load", {"rig": {"torque_offset": -5.0}}, {"rig": {"torque_offset": -4.0}}),
+        ("sheave_efficiency", {"rig": {"sheave_efficiency": 0.7}}, {"rig": {"sheave_efficiency": 0.69}}),
+        (
+            "youngs_modulus",
+            {"components": [pipe(1000, 20, youngs_modulus=10e9)]},
+            {"components": [pipe(1000, 20, youngs_modulus=9e9)]},
+        ),
+        (
+            "yield_strength",
+            {"components": [pipe(1000, 20, yield_strength=50e6)]},
+            {"components": [pipe(1000, 20, yield_strength=49e6)]},
+        ),
+        (
+            "pipe_density",
+            {"components": [pipe(1000, 20, density=1201.0)]},
+            {"components": [pipe(1000, 20, density=20_001.0)]},
+        ),
+        # The pipe's body weighs 7850 · π/4 (0.127² − 0.07²) = 69.2 kg/m, and the mud in its place 10.6 kg/m.
+        (
+            "linear_mass",
+            {"components": [pipe(1000, 20, linear_mass=0.86 * 69.23)]},
+            {"components": [pipe(1000, 20, linear_mass=0.84 * 69.23)]},
+        ),
+        (
+            "linear_mass",
+            {"components": [pipe(1000, 20, linear_mass=2.49 * 69.23)]},
+            {"components": [pipe(1000, 20, linear_mass=2.51 * 69.23)]},
+        ),
+        (
+            "floating_string",
+            {"components": [pipe(1000, 20, linear_mass=10.7)]},
+            {"components": [pipe(1000, 20, linear_mass=10.5)]},
+        ),
+        (
+            "bit_size",
+            {"components": [pipe(1, 1, name="PDC bit", outer=0.2), pipe(None, 20)]},
+            {"components": [pipe(1, 1, name="PDC bit", outer=0.12), pipe(None, 20)]},
+        ),
+        (
+            "bit_not_first",
+            {"components": [pipe(1, 1, name="motor"), pipe(2, 1, name="bit sub"), pipe(None, 20)]},
+            {"components": [pipe(900, 20), pipe(None, 1, name="bit")]},
+        ),
+    ],
+)
+def test_each_doubt_has_its_bound(code: str, right: dict[str, Any], wrong: dict[str, Any]) -> None:
+    assert code not in codes(case_of(**right))
+    assert code in codes(case_of(**wrong))
+
+
+def test_no_mud_is_told_where_the_case_does_not_say_so() -> None:
+    shallow = [[0, 0, 0], [500, 0, 0]]
+    assert codes(make_case()) == {"no_mud"}
+    assert codes(make_case(mud={"density": 0.0})) == set()
+    assert codes(make_case(shallow, [pipe(500, 10)])) == set()
+
+
+def test_drilling_needs_a_bit_load() -> None:
+    assert codes(case_of(), "trip_in") == set()
+    assert codes(case_of(), "trip_in", "drill_sliding") == {"no_bit_load"}
+    assert codes(case_of(bit={"weight_on_bit": 5e4}), *KINDS) == set()
+    drilling = {"kind": "drill_sliding", "from_md": 900.0, "to_md": 950.0, "speed": 0.01}
+    assert {warning.code for warning in case_of(operations=[drilling]).warnings} == {"no_bit_load"}
+
+
+def test_rates_and_friction_that_are_asked_for() -> None:
+    assert codes(case_of(), "trip_in", speed=3.0, rpm=300.0) == set()
+    assert codes(case_of(), "trip_in", speed=3.1) == {"speed"}
+    assert codes(case_of(), "rotate_off_bottom", rpm=301.0) == {"rotation"}
+    assert codes(case_of(bit={"weight_on_bit": 5e4}), "trip_in", "drill_sliding", speed=0.2) == {"speed"}
+    assert codes(case_of(), "rotate_off_bottom", speed=3.1) == set()  # refused
+    assert codes(case_of(), frictions=[FrictionSet(cased=0.2, open=0.7)]) == {"friction"}
+    rough = case_of(wellbore=hole((1000, 0.3), friction=0.9))
+    assert codes(rough, frictions=[FrictionSet(every=0.2)]) == set()  # the case's own factor is not used
+
+
+def test_a_survey_of_few_stations_is_doubted(tmp_path: Path) -> None:
+    survey = tmp_path / "survey.csv"
+    rows = [f"{250 * k},0,0\n" for k in range(5)]
+    for count, expected in ((4, {"few_stations"}), (5, set())):
+        survey.write_text("md_m,inc_deg,azi_deg\n" + "".join(rows[:count]), encoding="utf-8")
+        case = case_of(wellbore={"stations": None, "survey": survey, **hole((700, 0.3))}, components=[pipe(600, 9)])
+        assert codes(case) == expected

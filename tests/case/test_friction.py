@@ -1,0 +1,100 @@
+"""Friction factors by kind of interval: reading, labels, and what is refused."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.case.friction import FrictionSet, friction_sets, own_label, parse_frictions
+from fctd.case.specs import IntervalSpec
+
+
+def intervals(*rows: tuple[float, float, str | None]) -> list[IntervalSpec]:
+    """Intervals of lower end [m], factor and kind."""
+    keys = [{"to_md": to_md, "diameter": 0.2, "friction": factor, "kind": kind} for to_md, factor, kind in rows]
+    return [IntervalSpec.model_validate(row) for row in keys]
+
+
+@pytest.mark.parametrize(
+    ("texts", "labels"),
+    [
+        (["0.25"], ["0.25"]),
+        (["0.1,0.2, 0.3"], ["0.1", "0.2", "0.3"]),
+        (["cased=0.2,open=0.3"], ["cased 0.20, open 0.30"]),
+        (["open=0.3 , cased = 0.125"], ["cased 0.125, open 0.30"]),
+        (["open=0.3", "0.2", "open=0.30"], ["open 0.30", "0.2"]),
+        ([], []),
+    ],
+)
+def test_options_are_sets_each_once(texts: list[str], labels: list[str]) -> None:
+    assert [one.label for one in parse_frictions(texts, "--friction")] == labels
+
+
+@pytest.mark.parametrize("text", ["", "low", "0.1,", "cased", "cased=", "cased=0.2,cased=0.3", "cased=0.2,0.3"])
+def test_what_is_no_option_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match=r"--friction = .*expected a factor such as 0\.25, a list of them"):
+        parse_frictions([text], "--friction")
+
+
+def test_a_set_gives_the_factor_of_each_interval() -> None:
+    hole = intervals((500, 0.1, "cased"), (900, 0.15, "cased"), (1500, 0.4, "open"))
+    assert FrictionSet(every=0.2).of(hole) == (0.2, 0.2, 0.2)
+    assert FrictionSet(cased=0.2, open=0.3).of(hole) == (0.2, 0.2, 0.3)
+    assert FrictionSet(open=0.3).of(hole) == (0.1, 0.15, 0.3)  # what is not asked for stays
+    assert FrictionSet(cased=0.0).of(hole) == (0.0, 0.0, 0.4)
+
+
+@pytest.mark.parametrize(
+    ("kinds", "expected"),
+    [
+        (
+            ("cased", None),
+            'wellbore.intervals[1].kind is missing: expected "cased" or "open", since friction is given by',
+        ),
+        (("open", "open"), 'friction = {"cased": 0.2}: expected factors of kinds that the intervals have, open'),
+    ],
+)
+def test_a_kind_must_be_there(kinds: tuple[str, str | None], expected: str) -> None:
+    hole = intervals((500, 0.1, kinds[0]), (900, 0.15, kinds[1]))
+    with pytest.raises(InputError) as caught:
+        FrictionSet(cased=0.2).of(hole)
+    assert expected in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("value", "labels"),
+    [
+        (0.2, ["0.2"]),
+        (np.array([0.1, 0.2]), ["0.1", "0.2"]),
+        (np.float64(0.2), ["0.2"]),
+        ({"cased": 0.2, "open": 0.3}, ["cased 0.20, open 0.30"]),
+        ([0.2, {"open": 0.3}, FrictionSet(cased=0.1)], ["0.2", "open 0.30", "cased 0.10"]),
+    ],
+)
+def test_python_takes_numbers_and_tables(value: Any, labels: list[str]) -> None:
+    assert [one.label for one in friction_sets(value)] == labels
+
+
+@pytest.mark.parametrize("value", ["0.2", [], {}, [[0.1, 0.2]], {"casing": 0.2}, {"open": -0.1}, None, [True]])
+def test_python_refuses_others(value: Any) -> None:
+    with pytest.raises(InputError) as caught:
+        friction_sets(value)
+    assert caught.value.key == "friction"
+
+
+@pytest.mark.parametrize(
+    ("rows", "label"),
+    [
+        ([(900, 0.2, None)], "0.2"),
+        ([(500, 0.2, None), (900, 0.2, None)], "0.2"),
+        ([(1500, 0.2, None), (3000, 0.3, None)], "case's own: 0.2 down to 1500 m, 0.3 below"),
+        (
+            [(500, 0.2, None), (800, 0.2, None), (1500, 0.25, None), (3000, 0.3, None)],
+            "case's own: 0.2 down to 800 m, 0.25 down to 1500 m, 0.3 below",
+        ),
+        ([(k, 0.1 + k / 100, None) for k in range(1, 7)], "case's own: 0.11 to 0.16"),
+    ],
+)
+def test_the_label_of_the_case_as_it_stands(rows: list[tuple[float, float, str | None]], label: str) -> None:
+    assert own_label(intervals(*rows)) == label
