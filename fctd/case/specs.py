@@ -155,7 +155,8 @@ class WellboreSpec(Table):
 
 
 class ComponentSpec(Table):
-    """Pipe or a tool of one kind. One of `segments` and `segment_length` [m] sets the length of its segments.
+    """Pipe or a tool of one kind. `segments` or `segment_length` [m] sets the length of its segments; without either
+    they are short in bends and near the bit, and longer elsewhere.
 
     `outer_diameter` and `inner_diameter` are those of the pipe body; `contact_diameter` is that of tool joints or
     stabilisers, which touch the wall first. `linear_mass` (with tool joints) and the stiffnesses EA
@@ -187,12 +188,17 @@ class ComponentSpec(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        exclusive(self, "segments", "segment_length", required=True)
+        exclusive(self, "segments", "segment_length")
         if self.inner_diameter >= self.outer_diameter:
             raise InputError("a diameter below outer_diameter", key="inner_diameter")
         if self.contact_diameter < self.outer_diameter:
             raise InputError("at least outer_diameter", key="contact_diameter")
         return self
+
+    @property
+    def cut_by_default(self) -> bool:
+        """Whether neither `segments` nor `segment_length` is given."""
+        return self.segments is None and self.segment_length is None
 
 
 class StringSpec(Table):
