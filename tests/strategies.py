@@ -137,15 +137,15 @@ RULES: list[tuple[str, Any, str]] = [
     ("operations[0].speed", 0, "a speed above 0"),
     ("operations[0].speed", None, "a speed such as '0.5 m/s'"),
     ("operations[0].speed", "11 m/s", "a speed above 0 and at most 10 m/s"),
-    ("operations[0].rpm", -1, "a bare number of rev/min at least 0 and at most 1000"),
-    ("operations[1].rpm", 10001, "a bare number of rev/min above 0 and at most 10000"),
-    ("operations[0].rpm", "60 rpm", "a bare number of rev/min"),
+    ("operations[0].rpm", -1, "a rotation at least 0 and at most 10000 rpm"),
+    ("operations[1].rpm", 10001, "a rotation above 0 and at most 10000 rpm"),
+    ("operations[0].rpm", "1 Hz", "a rotation such as 60 or '60 rev/min' (units: rpm, rev/min"),
     ("operations[0].ramp_time", 0, "a time above 0"),
     ("operations[0].duration", "9 s", "of trip_in"),
-    ("operations[1].rpm", 0, "rev/min above 0"),
+    ("operations[1].rpm", 0, "a rotation above 0"),
     ("operations[1].duration", None, "a time such as"),
     ("operations[1].speed", 1, "of rotate_off_bottom"),
-    ("operations[2].rpm", None, "rev/min above 0"),
+    ("operations[2].rpm", None, "a rotation such as 60"),
 ]
 
 # Keys that do not go together and wrong items of lists: overrides, key, value shown, what is expected.

@@ -182,7 +182,8 @@ class Table(BaseModel):
             return raw  # pydantic reports the wrong type
         # `file` is accepted from a stored case, which is validated without context, and not from a case file.
         keys = [key for key in cls.model_fields if key != "file" or info.context is None]
-        written = known_keys(raw, keys, owner=f" of {raw['kind']}" if "kind" in keys else "")
+        of_a_kind = "kind" in keys and cls.model_fields["kind"].is_required()
+        written = known_keys(raw, keys, owner=f" of {raw['kind']}" if of_a_kind else "")
         for key, field in cls.model_fields.items():
             if field.is_required() and key not in written:
                 wants = [item.expected for item in field.metadata if isinstance(item, Expects)]

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Final, Self
 from pydantic import Field, ValidationError, field_validator, model_validator
 
 from fctd.case.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
+from fctd.case.friction import pick
 from fctd.case.input_file import read_text
 from fctd.case.operations import KINDS, Operation
 from fctd.case.specs import (
@@ -123,7 +124,8 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
     """The case of a TOML file, validated after the overrides; raises InputError for bad input.
 
     overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
-    file; None deletes a key. The key "friction" sets the friction of every interval.
+    file; None deletes a key. The key "friction" sets the friction of every interval, or with {"cased": 0.2,
+    "open": 0.3} that of the intervals of these kinds.
     """
     path = Path(path)
     raw: dict[str, Any] = {}
@@ -174,8 +176,13 @@ def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
     """Set or delete one dotted key of an unvalidated case."""
     if key == "friction":
         intervals = look_up(raw, "wellbore", "intervals")
-        for i in range(len(intervals) if isinstance(intervals, list) else 0):
-            set_key(raw, f"wellbore.intervals[{i}].friction", value)
+        count = len(intervals) if isinstance(intervals, list) else 0
+        picked = [value] * count
+        if isinstance(value, Mapping):
+            picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
+        for i, factor in enumerate(picked):
+            if factor is not None or not isinstance(value, Mapping):
+                set_key(raw, f"wellbore.intervals[{i}].friction", factor)
     elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
         set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
     else:

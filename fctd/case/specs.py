@@ -29,6 +29,7 @@ def _as_path(raw: object) -> object:
 
 
 FileName = Annotated[Path, BeforeValidator(_as_path)]
+IntervalKind = Literal["cased", "open"]
 if TYPE_CHECKING:
     FrictionLaw = str
 else:
@@ -38,13 +39,15 @@ else:
 class IntervalSpec(Table):
     """A section of hole of one diameter, from the end of the interval above to `to_md` [m].
 
-    The first interval begins at the surface. `friction` is the kinetic friction factor. `stiffness` or
-    `stiffness_per_length` of an interval replaces the wellbore's key of the same name.
+    The first interval begins at the surface. `friction` is the kinetic friction factor; `kind` lets
+    `--friction cased=0.2,open=0.3` set it. `stiffness` or `stiffness_per_length` of an interval replaces the
+    wellbore's key of the same name.
     """
 
     to_md: units.PositiveLength
     diameter: units.Diameter
     friction: units.Friction
+    kind: IntervalKind | None = None
     name: str | None = None
     stiffness: units.PositiveStiffness | None = None
     stiffness_per_length: units.PositiveStiffnessPerLength | None = None

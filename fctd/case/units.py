@@ -8,92 +8,129 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import cache
+from functools import cached_property
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, Annotated, Any, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final, NamedTuple
 
 from pydantic_core import CoreSchema, core_schema
 
+from fctd.case import spellings
 from fctd.case.errors import Expects, InputError
+from fctd.case.spellings import conversion as conversion  # results are converted back with it
 
 if TYPE_CHECKING:
-    from pint import UnitRegistry
     from pydantic import GetCoreSchemaHandler
-
-# Only text of this shape reaches pint: its parser evaluates arithmetic ("8 1/2 in" is 0.1 m to it,
-# "1,2 m" is 12 m, and "10**10**10 m" never returns).
-_FACTOR = r"[^\W\d_]+(?:(?:\^|\*\*)?-?[1-9]|[²³])?"
-_QUANTITY = re.compile(
-    r"\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
-    rf"\s*(?P<unit>{_FACTOR}(?:\s*[*/·]\s*{_FACTOR})*)\s*",
-)
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """A physical dimension: its name with article, its SI unit and examples for messages."""
+    """A physical dimension: its name with article, its SI unit, examples and accepted units for messages.
+
+    words : further spellings in lower case, in pint's words.  gravity : 1 where a mass stands for its weight, −1 where
+    a weight stands for its mass.  listed : whether no other units than these are read; pint takes angles for plain
+    numbers, so that it would read 1 m/m as an angle.
+    """
 
     noun: str
     unit: str
     example: str
+    units: tuple[str, ...]
+    words: Mapping[str, str] = field(default_factory=dict, hash=False)
+    gravity: int = 0
+    listed: bool = False
+
+    @property
+    def accepted(self) -> str:
+        """The accepted units, for messages."""
+        return f"units: {', '.join(self.units)}"
+
+    @cached_property
+    def spellings(self) -> dict[str, str]:
+        """The words of the accepted units and the further ones, by their spelling in lower case."""
+        own = {unit.lower(): unit for unit in self.units} if self.listed else {}
+        letters = {word.lower(): word for unit in self.units for word in re.findall(r"[^\W\d_]+", unit)}
+        return (own if self.listed else letters) | dict(self.words)
+
+    def factor(self, unit: str) -> float:
+        """How many SI units one `unit`, as people write it, is; ValueError for one that is not of this dimension."""
+        return spellings.factor(unit, self.unit, self.spellings, self.gravity, listed=self.listed)
 
 
-LENGTH: Final = Dimension("a length", "m", "'12 m' or '40 ft'")
-TIME: Final = Dimension("a time", "s", "'10 s' or '2 min'")
-SPEED: Final = Dimension("a speed", "m/s", "'0.5 m/s' or '60 ft/min'")
-FORCE: Final = Dimension("a force", "N", "'50 kN' or '12 klbf'")
-TORQUE: Final = Dimension("a torque", "N*m", "'0.5 kN*m' or '400 ft*lbf'")
-ANGLE: Final = Dimension("an angle", "rad", "'1.5 deg'")
-STRESS: Final = Dimension("a stress", "Pa", "'206.8 GPa' or '30e6 psi'")
-DENSITY: Final = Dimension("a density", "kg/m^3", "'1200 kg/m^3' or '10 ppg'")
-LINEAR_MASS: Final = Dimension("a mass per length", "kg/m", "'36.8 kg/m' or '19.5 lb/ft'")
-STIFFNESS: Final = Dimension("a stiffness", "N/m", "'1e7 N/m'")
-STIFFNESS_PER_LENGTH: Final = Dimension("a stiffness per length", "N/m^2", "'1e6 N/m/m'")
-AXIAL_STIFFNESS: Final = Dimension("an axial or shear stiffness", "N", "'1.2e9 N'")
-BENDING_STIFFNESS: Final = Dimension("a bending or torsional stiffness", "N*m^2", "'2e6 N*m^2'")
-DAMPING: Final = Dimension("a damping coefficient", "N*s/m", "'1e4 N*s/m'")
-DAMPING_PER_LENGTH: Final = Dimension("a damping coefficient per length", "N*s/m^2", "'5 N*s/m^2'")
-ROTATIONAL_DAMPING: Final = Dimension("a rotational damping per length", "N*s", "'0.1 N*s'")
+LENGTH: Final = Dimension("a length", "m", "'12 m' or '40 ft'", ("m", "cm", "mm", "km", "ft", "in"))
+TIME: Final = Dimension("a time", "s", "'10 s' or '2 min'", ("s", "ms", "min", "h"))
+SPEED: Final = Dimension(
+    "a speed", "m/s", "'0.5 m/s' or '60 ft/min'", ("m/s", "m/min", "m/h", "ft/s", "ft/min", "ft/h")
+)
+FORCE: Final = Dimension(
+    "a force", "N", "'50 kN' or '12 klbf'", ("N", "daN", "kN", "MN", "kgf", "t", "lbf", "klbf", "kip"), gravity=1
+)
+TORQUE: Final = Dimension(
+    "a torque", "N*m", "'0.5 kN*m' or '400 ft*lbf'", ("N*m", "kN*m", "daN*m", "kgf*m", "ft*lbf", "kft*lbf"), gravity=1
+)
+ANGLE: Final = Dimension(
+    "an angle", "rad", "'1.5 deg'", ("deg", "°", "rad"),
+    {"degree": "deg", "degrees": "deg", "deg.": "deg", "°": "deg", "radian": "rad", "radians": "rad"}, listed=True,
+)  # fmt: skip
+ROTATION: Final = Dimension(
+    "a rotation", "rpm", "60 or '60 rev/min'", ("rpm", "rev/min", "c/min", "rev/s", "rad/s"),
+    {"rev/min": "rpm", "c/min": "rpm", "r/min": "rpm", "rev/s": "turn/s", "deg/s": "deg/s", "°/s": "deg/s"},
+    listed=True,
+)  # fmt: skip
+STRESS: Final = Dimension("a stress", "Pa", "'206.8 GPa' or '30e6 psi'", ("Pa", "MPa", "GPa", "bar", "psi", "ksi"))
+DENSITY: Final = Dimension(
+    "a density", "kg/m^3", "'1200 kg/m^3' or '10 ppg'", ("kg/m^3", "g/cm^3", "sg", "ppg", "lb/gal", "lb/ft^3")
+)
+LINEAR_MASS: Final = Dimension(
+    "a mass per length", "kg/m", "'36.8 kg/m' or '19.5 lb/ft'", ("kg/m", "N/m", "lb/ft", "lbf/ft", "ppf"), gravity=-1
+)
+STIFFNESS: Final = Dimension("a stiffness", "N/m", "'1e7 N/m'", ("N/m", "kN/m", "MN/m", "lbf/in", "lbf/ft"))
+STIFFNESS_PER_LENGTH: Final = Dimension(
+    "a stiffness per length", "N/m^2", "'1e6 N/m/m'", ("N/m/m", "kN/m/m", "MN/m/m", "lbf/ft/ft")
+)
+AXIAL_STIFFNESS: Final = Dimension("an axial or shear stiffness", "N", "'1.2e9 N'", ("N", "kN", "MN", "lbf", "klbf"))
+BENDING_STIFFNESS: Final = Dimension(
+    "a bending or torsional stiffness", "N*m^2", "'2e6 N*m^2'", ("N*m^2", "kN*m^2", "lbf*ft^2", "lbf*in^2")
+)
+DAMPING: Final = Dimension("a damping coefficient", "N*s/m", "'1e4 N*s/m'", ("N*s/m", "kN*s/m", "lbf*s/ft"))
+DAMPING_PER_LENGTH: Final = Dimension(
+    "a damping coefficient per length", "N*s/m^2", "'5 N*s/m^2'", ("N*s/m^2", "lbf*s/ft^2")
+)
+ROTATIONAL_DAMPING: Final = Dimension("a rotational damping per length", "N*s", "'0.1 N*s'", ("N*s", "lbf*s"))
 
 
-@cache
-def _registry() -> UnitRegistry[Any]:
-    """The unit registry; built on first use, since importing pint takes half a second."""
-    from pint import UnitRegistry
+class Slip(NamedTuple):
+    """Bare numbers above `low` and up to `high` look like another unit: the number times `factor` in `unit`."""
 
-    registry: UnitRegistry[Any] = UnitRegistry()
-    registry.define("pound_per_gallon = pound / gallon = ppg")
-    registry.define("specific_gravity = 1000 kilogram / meter ** 3 = sg")
-    return registry
+    low: float
+    high: float
+    unit: str
+    factor: float = 1.0
 
 
-@cache
-def conversion(unit: str, target: str) -> float:
-    """How many `target` units one `unit` is, e.g. conversion("ft", "m") = 0.3048.
-
-    Raises ValueError for a unit that is unknown or of another dimension.
-    """
-    if unit == target:
-        return 1.0
-    registry = _registry()
-    try:
-        factor = registry.Quantity(1.0, unit).to(target).magnitude
-    except Exception as error:  # pint's parser also raises assertion and token errors
-        raise ValueError(f"{unit!r} cannot be converted to {target!r}") from error
-    return float(f"{factor:.15g}")  # pint multiplies floats: its foot is 0.30479999999999996 m
+def looks_like(number: float, slips: Iterable[Slip]) -> str:
+    """What a number in a wrong unit looks like, as " (8.5 looks like '8.5 in')"; empty for other numbers."""
+    for slip in slips:
+        if slip.low < number <= slip.high:
+            return f" ({number:g} looks like '{number * slip.factor:g}{slip.unit}')"
+    return ""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Number(Expects):
-    """Pydantic annotation for a bare number within bounds; its error message gives the bounds."""
+    """Pydantic annotation for a bare number within bounds; its error message gives the bounds.
+
+    slips : units that a bare number out of bounds may be in.
+    """
 
     noun: str = "a number"
     unit: str = ""
     above: float | None = None
     at_least: float | None = None
     at_most: float | None = None
+    slips: tuple[Slip, ...] = ()
 
     @property
     def bounded(self) -> str:
@@ -130,7 +167,8 @@ class Number(Expects):
             and (self.at_most is None or number <= self.at_most)
         )
         if not within:
-            raise InputError(self.bounded, value=value)
+            guess = "" if isinstance(value, str) else looks_like(number, self.slips)
+            raise InputError(self.bounded + guess, value=value)
         return number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -167,15 +205,19 @@ class Quantity(Number):
     def read(self, value: object) -> float:
         if not isinstance(value, str):
             return super().read(value)
-        match = _QUANTITY.fullmatch(value)
-        if match is None:
-            raise InputError(self.expected, value=value)
         try:
-            factor = conversion(match["unit"], self.dimension.unit)
-            # In decimals "102 mm" is 0.102 m; in binary floats it is 0.10200000000000001 m.
-            return float(Decimal(match["number"]) * Decimal(repr(factor)))
-        except (ValueError, ArithmeticError) as error:
+            written = spellings.split(value)
+        except InputError as error:
+            raise InputError(f"{self.noun}, written {error.expected}", value=value) from error
+        except ArithmeticError as error:
             raise InputError(self.expected, value=value) from error
+        try:
+            if written is not None:
+                # In decimals "102 mm" is 0.102 m; in binary floats it is 0.10200000000000001 m.
+                return float(written.number * Decimal(repr(self.dimension.factor(written.unit))))
+        except (ValueError, ArithmeticError):
+            pass
+        raise InputError(f"{self.expected} ({self.dimension.accepted})", value=value)
 
 
 def bare(value: object, key: str, noun: str) -> float:
@@ -188,7 +230,7 @@ def bare(value: object, key: str, noun: str) -> float:
 
 Bare = Annotated[float, Number(noun="a bare number")]
 Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SEGMENTS, whose check has a better message
-FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0)  # 20 is per cent
+FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0, slips=(Slip(5, 100, "", 0.01),))
 Friction = Annotated[float, FRICTION]
 PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
 Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
@@ -196,13 +238,14 @@ Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.
 # times as fast.  A larger number is in the wrong unit.
 FASTEST: Final = 10.0  # [m/s]
 MOST_RPM: Final = 10_000.0
-Rpm = Annotated[float, Number(noun="a bare number of rev/min", at_least=0.0, at_most=MOST_RPM)]
-PositiveRpm = Annotated[float, Number(noun="a bare number of rev/min", above=0.0, at_most=MOST_RPM)]
+Rpm = Annotated[float, Quantity(dimension=ROTATION, at_least=0.0, at_most=MOST_RPM)]
+PositiveRpm = Annotated[float, Quantity(dimension=ROTATION, above=0.0, at_most=MOST_RPM)]
 Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
 PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
-WIDEST: Final = 5.0  # [m]: no well is wider; 8.5 is in inches
-Bore = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0, at_most=WIDEST)]
-Diameter = Annotated[float, Quantity(dimension=LENGTH, above=0.0, at_most=WIDEST)]
+WIDEST: Final = 5.0  # [m]: no well is wider
+ACROSS: Final = (Slip(WIDEST, 60, " in"), Slip(60, 1500, " mm"))
+Bore = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0, at_most=WIDEST, slips=ACROSS)]
+Diameter = Annotated[float, Quantity(dimension=LENGTH, above=0.0, at_most=WIDEST, slips=ACROSS)]
 Time = Annotated[float, Quantity(dimension=TIME, at_least=0.0)]
 PositiveTime = Annotated[float, Quantity(dimension=TIME, above=0.0)]
 PositiveSpeed = Annotated[float, Quantity(dimension=SPEED, above=0.0, at_most=FASTEST)]

@@ -1,15 +1,16 @@
 """Torque-and-drag charts: the steady string of several operations at many bit depths, one row for each."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import pandas as pd
 
 from fctd.case.errors import InputError
+from fctd.case.friction import FrictionSet, friction_set, friction_sets, own_label
 from fctd.case.load import Case, naming_file
-from fctd.case.units import FRICTION, bare
+from fctd.case.units import bare
 from fctd.model.operations import rates_of_all
-from fctd.model.wellbore import build_wellbore
+from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import UNKNOWN
 from fctd.results.columns import IN_CHART, SHAPES, SHARES
 from fctd.results.notes import codes_of
@@ -18,22 +19,25 @@ from fctd.steady.equilibrium import Equilibrium, Solver
 
 # Called after every row with the number of rows done and their total.
 Progress = Callable[[int, int], None]
+FrictionChoice = float | Mapping[str, float] | FrictionSet
 
 
 def torque_drag(
     case: Case,
     operation: str | Sequence[str],
     bit_depths: Sequence[float],
-    friction: float | Sequence[float] | None = None,
+    friction: FrictionChoice | Sequence[FrictionChoice] | None = None,
     speed: float | None = None,
     rpm: float | None = None,
     progress: Progress | None = None,
 ) -> pd.DataFrame:
     """A row per operation, friction and depth.
 
-    operation : kind or kinds; bit_depths [m] : rising; friction : kinetic factor or factors for every interval
-    in turn, None for the case's own.  speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.
-    Columns: operation, friction (NaN where the case's intervals differ), bit_depth_m, the loads of
+    operation : kind or kinds; bit_depths [m] : rising; friction : None for the case's own, or what is set in turn, each
+    a kinetic factor for every interval or factors by kind, such as {"cased": 0.2, "open": 0.3}.  speed [m/s], rpm : see
+    ``equilibrium``; only for kinds that have them.
+    Columns: operation, friction (NaN where intervals differ), friction_label ("0.25", "cased 0.20, open 0.30", or the
+    case's own factors with their depths), bit_depth_m, the loads of
     ``columns.IN_CHART`` (hookload_N and so on), buckling (none, sinusoidal, helical, or unknown without loads),
     buckled_from_md_m and buckled_to_md_m (NaN where the string is not buckled), shape (of a resolved string: none,
     snaking or helix), hookload_low_N and hookload_high_N (of both shapes, NaN where they do not differ),
@@ -49,28 +53,35 @@ def torque_drag(
         if not kinds:
             raise InputError("at least one kind of operation", key="operation", value=[])
         rates = rates_of_all(case, kinds, speed, rpm)
-        factors = _factors(friction)
+        sets = None if friction is None else friction_sets(friction)
         hole = build_wellbore(case)
-        solvers = [
-            Solver(case, hole) if factor is None else Solver(with_friction(case, factor), hole.with_friction(factor))
-            for factor in factors
-        ]
-        misfits = _misfits(solvers[0], depths)
+        solvers = _solvers(case, hole, sets)
+        misfits = _misfits(solvers[0][1], depths)
         rows = []
         for kind in kinds:
-            for solver in solvers:
+            for label, solver in solvers:
                 for depth in depths:
                     misfit = misfits.get(depth)
                     point = solver.solve(kind, rates[kind], depth) if misfit is None else None
-                    rows.append(_row(solver.case, kind, depth, point, misfit))
+                    rows.append(_row(solver.case, label, kind, depth, point, misfit))
                     if progress is not None:
                         progress(len(rows), len(kinds) * len(solvers) * len(depths))
         return pd.DataFrame(rows)
 
 
-def with_friction(case: Case, factor: float) -> Case:
-    """The case with one kinetic friction factor, at least 0, in every interval."""
-    intervals = tuple(i.model_copy(update={"friction": factor}) for i in case.wellbore.intervals)
+def _solvers(case: Case, hole: Wellbore, sets: Sequence[FrictionSet] | None) -> list[tuple[str, Solver]]:
+    """A solver with its label for each set of friction factors, or for the case's own."""
+    intervals = case.wellbore.intervals
+    if sets is None:
+        return [(own_label(intervals), Solver(case, hole))]
+    return [(s.label, Solver(with_friction(case, s), hole.with_friction(np.array(s.of(intervals))))) for s in sets]
+
+
+def with_friction(case: Case, friction: FrictionChoice) -> Case:
+    """The case with one kinetic friction factor in every interval, or with factors by kind."""
+    old = case.wellbore.intervals
+    factors = friction_set(friction).of(old)
+    intervals = tuple(i.model_copy(update={"friction": factor}) for i, factor in zip(old, factors, strict=True))
     return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})
 
 
@@ -93,7 +104,9 @@ def _misfits(solver: Solver, depths: Sequence[float]) -> dict[float, str]:
     return {depth: str(error) for depth, error in found.items()}
 
 
-def _row(case: Case, kind: str, depth: float, point: Equilibrium | None, misfit: str | None) -> dict[str, object]:
+def _row(
+    case: Case, label: str, kind: str, depth: float, point: Equilibrium | None, misfit: str | None
+) -> dict[str, object]:
     """A chart row: of a solved string, or of a depth where string and hole do not fit (point is None)."""
     answer = point if point is not None and point.answered else None
     # The values of an unfinished iteration are not loads.
@@ -103,6 +116,7 @@ def _row(case: Case, kind: str, depth: float, point: Equilibrium | None, misfit:
     return {
         "operation": kind,
         "friction": own_friction(case),
+        "friction_label": label,
         "bit_depth_m": depth,
         **loads,
         **(UNKNOWN if point is None else point.buckling).columns(),
@@ -125,15 +139,3 @@ def _check_depths(bit_depths: Sequence[float]) -> list[float]:
         if not before < here < np.inf:
             raise InputError("finite bit depths, each below the one before", key="bit_depths", value=f"{here:g} m")
     return depths
-
-
-def _factors(friction: float | Sequence[float] | None) -> list[float | None]:
-    if friction is None:
-        return [None]
-    try:
-        factors = [FRICTION.parse(factor) for factor in np.atleast_1d(friction).tolist()]
-    except InputError as error:
-        raise error.at("friction") from None
-    if not factors:
-        raise InputError("at least one friction factor", key="friction", value=[])
-    return list(factors)

@@ -11,7 +11,7 @@ from tests.cases import level_case, make_case, pipe
 
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
 COLUMNS = [
-    "operation", "friction", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
+    "operation", "friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
     "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
     "reason",
@@ -76,7 +76,9 @@ def test_a_row_per_operation_friction_and_depth() -> None:
         ({"bit_depths": 500.0}, "bit_depths = 500.0: expected a list of numbers of metres"),
         ({"bit_depths": [500, "600 m"]}, 'bit_depths[1] = "600 m": expected a number of metres'),
         ({"friction": "0.2"}, 'friction = "0.2": expected a friction factor'),
-        ({"friction": [0.1, "0.2"]}, 'friction = "0.1": expected a friction factor'),
+        ({"friction": [0.1, "0.2"]}, 'friction = "0.2": expected a friction factor'),
+        ({"friction": {"cased": 0.2}}, 'wellbore.intervals[0].kind is missing: expected "cased" or "open"'),
+        ({"friction": {"casing": 0.2}}, 'friction = {"casing": 0.2}: expected the kind cased'),
     ],
 )
 def test_bad_input_is_refused(call: dict[str, Any], expected: str) -> None:
