@@ -74,8 +74,8 @@ class WellboreSpec(Table):
     """
 
     survey: FileName | None = Field(default=None, description="the name of a CSV file, relative to the case file")
-    stations: tuple[tuple[units.Bare, units.Bare, units.Bare], ...] | None = Field(
-        default=None, description="a list of [measured depth in m, inclination in deg, azimuth in deg]"
+    stations: tuple[tuple[units.MeasuredDepth, units.Bare, units.Bare], ...] | None = Field(
+        default=None, description="a list of [measured depth in m, or '40 ft', inclination in deg, azimuth in deg]"
     )
     columns: dict[StationKey, str] | None = Field(
         default=None, description='headers of the survey, such as {md = "Depth ( ft )", inc = "I_deg", azi = "A_deg"}'

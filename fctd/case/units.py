@@ -240,6 +240,7 @@ FASTEST: Final = 10.0  # [m/s]
 MOST_RPM: Final = 10_000.0
 Rpm = Annotated[float, Quantity(dimension=ROTATION, at_least=0.0, at_most=MOST_RPM)]
 PositiveRpm = Annotated[float, Quantity(dimension=ROTATION, above=0.0, at_most=MOST_RPM)]
+MeasuredDepth = Annotated[float, Quantity(dimension=LENGTH)]
 Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
 PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
 WIDEST: Final = 5.0  # [m]: no well is wider

@@ -10,6 +10,7 @@ from fctd.case.text import degrade_output
 from fctd.cli.chart import chart_command
 from fctd.cli.compile import announcing, compile_command
 from fctd.cli.equilibrium import equilibrium_command
+from fctd.cli.init import init_command
 from fctd.cli.interrupts import as_interrupts
 from fctd.cli.options import (
     BAD_INPUT,
@@ -26,6 +27,7 @@ app = typer.Typer(
     help="Fast contact torque and drag of a stiff drill string.",
 )
 
+app.command("init")(init_command)
 app.command("simulate")(simulate_command)
 app.command("equilibrium")(equilibrium_command)
 app.command("chart")(chart_command)

@@ -73,8 +73,13 @@ class DefaultLayout:
 
 def _hole(case: Case, md: Array) -> tuple[Array, Array]:
     """Radius [m] and curvature [1/m] of the hole at depths (n,) [m]."""
-    stations, intervals = case.wellbore.trajectory, case.wellbore.intervals
-    turned = np.append(0.0, np.cumsum(survey.dogleg(stations)))
-    bend = np.interp(md + 0.5 * COURSE, stations[:, 0], turned) - np.interp(md - 0.5 * COURSE, stations[:, 0], turned)
+    intervals = case.wellbore.intervals
     i = np.minimum(np.searchsorted([interval.to_md for interval in intervals], md), len(intervals) - 1)
-    return np.array([0.5 * interval.diameter for interval in intervals])[i], bend / COURSE
+    return np.array([0.5 * interval.diameter for interval in intervals])[i], mean_curvature(case.wellbore.trajectory, md)
+
+
+def mean_curvature(stations: Array, md: Array) -> Array:
+    """Mean curvature [1/m] of the ``COURSE`` about each depth (n,) [m]; stations (k, 3) [m, rad, rad]."""
+    turned = np.append(0.0, np.cumsum(survey.dogleg(stations)))
+    below, above = (np.interp(md + side * 0.5 * COURSE, stations[:, 0], turned) for side in (1, -1))
+    return np.asarray((below - above) / COURSE)
