@@ -272,7 +272,7 @@ class SolverSpec(Table):
     joint_damping: units.Time = 1e-5
     buckling: Literal["detect", "resolve"] = "detect"
 
-    @field_validator("step", mode="before")
+    @field_validator("step", mode="before", json_schema_input_type=float | str)
     @classmethod
     def _read_step(cls, raw: Any) -> Any:
         if raw in ("auto", "largest"):

@@ -22,7 +22,7 @@ from fctd.case.errors import Expects, InputError
 from fctd.case.spellings import conversion as conversion  # results are converted back with it
 
 if TYPE_CHECKING:
-    from pydantic import GetCoreSchemaHandler
+    from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 
 
 @dataclass(frozen=True)
@@ -174,6 +174,15 @@ class Number(Expects):
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_before_validator_function(self.parse, handler(source))
 
+    @property
+    def json_schema(self) -> dict[str, Any]:
+        """The accepted input as JSON Schema."""
+        bounds = {"exclusiveMinimum": self.above, "minimum": self.at_least, "maximum": self.at_most}
+        return {"type": "number"} | {name: limit for name, limit in bounds.items() if limit is not None}
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return self.json_schema | {"description": self.expected}
+
 
 @dataclass(frozen=True, kw_only=True)
 class Whole(Number):
@@ -185,6 +194,10 @@ class Whole(Number):
         if not isinstance(value, Integral):
             raise InputError(self.expected, value=value)
         return super().read(value)
+
+    @property
+    def json_schema(self) -> dict[str, Any]:
+        return super().json_schema | {"type": "integer"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -218,6 +231,10 @@ class Quantity(Number):
         except (ValueError, ArithmeticError):
             pass
         raise InputError(f"{self.expected} ({self.dimension.accepted})", value=value)
+
+    @property
+    def json_schema(self) -> dict[str, Any]:
+        return {"anyOf": [super().json_schema, {"type": "string", "pattern": "[0-9]"}]}
 
 
 def bare(value: object, key: str, noun: str) -> float:

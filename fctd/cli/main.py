@@ -8,6 +8,7 @@ import typer
 from fctd.case.errors import InputError
 from fctd.case.text import degrade_output
 from fctd.cli.chart import chart_command
+from fctd.cli.check import check_command
 from fctd.cli.compile import announcing, compile_command
 from fctd.cli.equilibrium import equilibrium_command
 from fctd.cli.init import init_command
@@ -18,6 +19,7 @@ from fctd.cli.options import (
     messages,
 )
 from fctd.cli.refine import refine_command
+from fctd.cli.schema import schema_command
 from fctd.cli.simulate import simulate_command
 
 app = typer.Typer(
@@ -28,6 +30,8 @@ app = typer.Typer(
 )
 
 app.command("init")(init_command)
+app.command("check")(check_command)
+app.command("schema")(schema_command)
 app.command("simulate")(simulate_command)
 app.command("equilibrium")(equilibrium_command)
 app.command("chart")(chart_command)
