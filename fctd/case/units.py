@@ -237,6 +237,14 @@ class Quantity(Number):
         return {"anyOf": [super().json_schema, {"type": "string", "pattern": "[0-9]"}]}
 
 
+def argument(value: object, dimension: Dimension, key: str) -> float:
+    """An argument of a call from Python, a text with its unit or a bare SI number, in SI; InputError names it."""
+    try:
+        return Quantity(dimension=dimension).read(value)
+    except InputError as error:
+        raise error.at(key) from None
+
+
 def bare(value: object, key: str, noun: str) -> float:
     """An argument of a call from Python as a float; InputError, which names it, for a text such as "2000 m"."""
     try:

@@ -8,12 +8,13 @@ from rich.table import Table
 
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, naming_file
+from fctd.case.text import printable
 from fctd.case.units import DENSITY, Quantity
+from fctd.cli.manners import Silent
 from fctd.cli.options import (
     CaseFile,
     Friction,
     Overrides,
-    Quiet,
     Strict,
     changes_of,
     finish,
@@ -34,7 +35,7 @@ def check_command(
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
     units: Units = "si",
-    quiet: Quiet = False,
+    quiet: Silent = False,
     strict: Strict = False,
 ) -> None:
     """Print what was understood of a case: path, sizes, weights, clearances, segments; and its probable mistakes."""
@@ -61,7 +62,7 @@ def warnings_of(case: Case) -> Sequence[InputWarning]:
 
 def _print(summary: Summary, units: System) -> None:
     metre, across, force = (shown(name, units) for name in ("bit_depth_m", "clearance_m", "hookload_N"))
-    screen.print(summary.case.name, style="bold")
+    screen.print(printable(summary.case.name), style="bold")
     screen.print(_facts(_path(summary, units, metre)))
     screen.print(_hole(summary.case, metre, across))
     screen.print(_string(summary, metre, across, force))
@@ -126,7 +127,7 @@ def _string(summary: Summary, metre: Shown, across: Shown, force: Shown) -> Tabl
     for part in summary.parts:
         depths = (f"{part.from_md * metre.factor:.1f}", f"{part.to_md * metre.factor:.1f}")
         weights = (f"{part.air * force.factor:.1f}", f"{part.buoyed * force.factor:.1f}")
-        table.add_row(part.name, *depths, *weights, *(f"{c * across.factor:.3g}" for c in part.clearances))
+        table.add_row(printable(part.name), *depths, *weights, *(f"{c * across.factor:.3g}" for c in part.clearances))
     return table
 
 
@@ -140,4 +141,4 @@ def _table(names: Sequence[str], numbers: Sequence[str]) -> Table:
 
 
 def _name(name: str | None, number: int) -> str:
-    return f"{number}" if name is None else f"{number}: {name}"
+    return f"{number}" if name is None else f"{number}: {printable(name)}"

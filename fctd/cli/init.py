@@ -1,7 +1,6 @@
 """``fctd init``: a commented case file to start from."""
 
 import os
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -13,15 +12,15 @@ from fctd.case.errors import InputError
 from fctd.case.specs import WellboreSpec
 from fctd.case.text import is_utf8, printable
 from fctd.case.units import LENGTH
+from fctd.cli.manners import Silent
 from fctd.cli.new_case import Plan, Quantities, UnitSystem, from_survey, from_template
-from fctd.cli.options import Quiet, check_target, screen
-from fctd.cli.templates import TEMPLATES
+from fctd.cli.options import check_target, screen
+from fctd.cli.templates import TEMPLATES, TemplateName
 from fctd.results.whole_file import whole_file
 
 Array = NDArray[np.float64]
 # A well that is steeper than this gets the string of the template ``horizontal`` [rad].
 NEARLY_HORIZONTAL = np.radians(70)
-TemplateName = StrEnum("TemplateName", {name: name for name in TEMPLATES})
 
 
 def init_command(
@@ -38,7 +37,7 @@ def init_command(
     ] = None,
     units: Annotated[UnitSystem, typer.Option("--units", help="Units of the case file.")] = "metric",
     out: Annotated[Path, typer.Option("--out", metavar="FILE", help="The case file, .toml.")] = Path("my_well.toml"),
-    quiet: Quiet = False,
+    quiet: Silent = False,
 ) -> None:
     """Write a commented case file that runs: of your survey, or of one of the templates."""
     check_target(out, "--out", (".toml",))
@@ -47,8 +46,8 @@ def init_command(
     plan = _plan(survey, template, units, out)
     with whole_file(out) as scratch:
         scratch.write_text(plan.text(), encoding="utf-8")
-    screen.print(f"Written: {printable(str(out))}, {plan.title}", soft_wrap=True)
     if not quiet:
+        screen.print(f"Written: {printable(str(out))}, {printable(plan.title)}", soft_wrap=True)
         for line in _next(plan, out):
             screen.print(line, soft_wrap=True)
 
@@ -62,7 +61,7 @@ def _plan(survey: Path | None, template: TemplateName | None, units: UnitSystem,
     if not is_utf8(path):
         raise InputError("a file whose path is UTF-8, as a case file is", key="SURVEY", value=survey)
     steep = float(stations[:, 1].max()) > NEARLY_HORIZONTAL
-    chosen = template or ("horizontal" if steep else "build-hold")
+    chosen: TemplateName = template or ("horizontal" if steep else "build-hold")
     return from_survey(TEMPLATES[chosen], name, units, path, columns, stations)
 
 

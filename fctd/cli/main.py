@@ -13,6 +13,7 @@ from fctd.cli.compile import announcing, compile_command
 from fctd.cli.equilibrium import equilibrium_command
 from fctd.cli.init import init_command
 from fctd.cli.interrupts import as_interrupts
+from fctd.cli.manners import HELP, Command, application
 from fctd.cli.options import (
     BAD_INPUT,
     INTERRUPTED,
@@ -23,20 +24,19 @@ from fctd.cli.schema import schema_command
 from fctd.cli.simulate import simulate_command
 
 app = typer.Typer(
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    help="Fast contact torque and drag of a stiff drill string.",
-)
+    no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, context_settings=HELP,
+)  # fmt: skip
 
-app.command("init")(init_command)
-app.command("check")(check_command)
-app.command("schema")(schema_command)
-app.command("simulate")(simulate_command)
-app.command("equilibrium")(equilibrium_command)
-app.command("chart")(chart_command)
-app.command("refine")(refine_command)
-app.command("compile")(compile_command)
+app.callback()(application)
+
+app.command("init", cls=Command)(init_command)
+app.command("check", cls=Command)(check_command)
+app.command("schema", cls=Command)(schema_command)
+app.command("simulate", cls=Command)(simulate_command)
+app.command("equilibrium", cls=Command)(equilibrium_command)
+app.command("chart", cls=Command)(chart_command)
+app.command("refine", cls=Command)(refine_command)
+app.command("compile", cls=Command)(compile_command)
 
 
 def main() -> None:

@@ -18,9 +18,21 @@ UnitSystem = Literal["metric", "field"]
 
 # A unit for each dimension, and the digits after the point that are written.
 UNITS: dict[UnitSystem, dict[Dimension, tuple[str, int]]] = {
-    "metric": {LENGTH: ("m", 2), DENSITY: ("kg/m^3", 0), FORCE: ("kN", 0), TORQUE: ("kN*m", 1), LINEAR_MASS: ("kg/m", 1)},
-    "field": {LENGTH: ("ft", 2), DENSITY: ("ppg", 1), FORCE: ("klbf", 0), TORQUE: ("ft*lbf", -2), LINEAR_MASS: ("lb/ft", 1)},
-}  # fmt: skip
+    "metric": {
+        LENGTH: ("m", 2),
+        DENSITY: ("kg/m^3", 0),
+        FORCE: ("kN", 0),
+        TORQUE: ("kN*m", 1),
+        LINEAR_MASS: ("kg/m", 1),
+    },
+    "field": {
+        LENGTH: ("ft", 2),
+        DENSITY: ("ppg", 1),
+        FORCE: ("klbf", 0),
+        TORQUE: ("ft*lbf", -2),
+        LINEAR_MASS: ("lb/ft", 1),
+    },
+}
 FOOT = 0.3048
 # Column of the comments.
 COMMENTS = 38
@@ -64,7 +76,9 @@ class Plan:
         yield from self.hole
         yield entry("geometry", "arcs", "the hole follows the circular arcs between stations")
         stiffness = f"{self.stiffness:.0e}".replace("e+0", "e")
-        yield entry("stiffness_per_length", f"{stiffness} N/m/m", "of the wall: the string presses less than 1 % of its")
+        yield entry(
+            "stiffness_per_length", f"{stiffness} N/m/m", "of the wall: the string presses less than 1 % of its"
+        )
         yield " " * COMMENTS + "# clearance into it"
         for kind, hole, end in (("cased", template.cased, self.shoe), ("open", template.open, self.depth)):
             yield ""
@@ -78,14 +92,18 @@ class Plan:
         for k, part in enumerate(template.string):
             yield ""
             above = "" if k else "from the bit up; segments are chosen for you"
-            yield aligned("[[string.components]]", "no length: it reaches the surface" if part.length is None else above)
+            yield aligned(
+                "[[string.components]]", "no length: it reaches the surface" if part.length is None else above
+            )
             yield from self._part(part, quantity)
         yield ""
         yield "[mud]"
         yield entry("density", quantity(DENSITY, template.mud))
         yield ""
         yield "[rig]"
-        yield entry("block_weight", quantity(FORCE, 1e3 * template.block_weight), "added to the hook load on the indicator")
+        yield entry(
+            "block_weight", quantity(FORCE, 1e3 * template.block_weight), "added to the hook load on the indicator"
+        )
         if template.weight_on_bit:
             yield ""
             yield aligned("[bit]", "while drilling")
@@ -112,7 +130,11 @@ class Plan:
             yield from (entry("kind", "rotate_off_bottom"), entry("at_md", end), entry("duration", "20 s"), "rpm = 60")
         else:
             speed = "0.3 m/s" if self.units == "metric" else "60 ft/min"
-            yield from (entry("kind", "trip_in"), entry("from_md", quantity(LENGTH, self.depth - RUN)), entry("to_md", end))
+            yield from (
+                entry("kind", "trip_in"),
+                entry("from_md", quantity(LENGTH, self.depth - RUN)),
+                entry("to_md", end),
+            )
             yield entry("speed", speed)
 
 
@@ -188,7 +210,7 @@ def sensible_shoe(stations: Array, units: UnitSystem) -> float:
 
 
 def stiff_wall(template: Template, stations: Array, shoe: float) -> float:
-    """A stiffness [N/m/m], 1, 2 or 5 times a power of ten, into which the string presses less than 1 % of its clearance.
+    """A stiffness [N/m/m], 1, 2 or 5 times a power of ten: the string presses less than 1 % of its clearance into it.
 
     The side force of a metre is tension times curvature, and weight: with the weight of the whole string, the sharpest
     bend and the heaviest component it is the largest one without friction.

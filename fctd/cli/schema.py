@@ -7,15 +7,17 @@ from typing import Annotated
 import typer
 
 from fctd.case.schema import case_schema
-from fctd.cli.options import Quiet, check_target, print_written
+from fctd.cli.manners import Silent
+from fctd.cli.options import check_target, print_written
 from fctd.results.whole_file import whole_file
 
 
 def schema_command(
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="FILE", help="A file, .json; default: the screen.", show_default=False)
+        Path | None,
+        typer.Option("--out", metavar="FILE", help="A file, .json; default: the screen.", show_default=False),
     ] = None,
-    quiet: Quiet = False,
+    quiet: Silent = False,
 ) -> None:
     """Write the JSON Schema of the case file, with which editors complete keys and mark wrong ones."""
     check_target(out, "--out", (".json",))

@@ -5,7 +5,7 @@ Pipe is named and sized in inches in both systems, as it is sold.
 """
 
 from itertools import accumulate, pairwise
-from typing import Final, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 
 class Part(NamedTuple):
@@ -61,6 +61,7 @@ class Template(NamedTuple):
 
 
 STATION: Final = 150.0
+TemplateName = Literal["build-hold", "horizontal", "s-well", "extended-reach", "casing-run"]
 
 CASING_9_5_8, HOLE_8_1_2 = "9 5/8 in casing, 47 lb/ft", "8 1/2 in hole"
 PIPE_5 = Part("5 in drill pipe, 19.5 lb/ft", "5", "4.276", "6.625", 31.1)
@@ -68,7 +69,7 @@ PIPE_5_7_8 = Part("5 7/8 in drill pipe, 23.4 lb/ft", "5.875", "5.153", "7", 39.2
 HEAVY = Part("5 in heavy-weight pipe, 49.3 lb/ft", "5", "3", "6.5", 73.4)
 COLLARS = Part("6 3/4 in drill collars", "6.75", "2.8125")
 
-TEMPLATES: Final = {
+TEMPLATES: Final[dict[TemplateName, Template]] = {
     "build-hold": Template(
         "a build-and-hold well",
         ((600, 0), (750, 45), (1650, 45)),

@@ -75,7 +75,9 @@ def _hole(case: Case, md: Array) -> tuple[Array, Array]:
     """Radius [m] and curvature [1/m] of the hole at depths (n,) [m]."""
     intervals = case.wellbore.intervals
     i = np.minimum(np.searchsorted([interval.to_md for interval in intervals], md), len(intervals) - 1)
-    return np.array([0.5 * interval.diameter for interval in intervals])[i], mean_curvature(case.wellbore.trajectory, md)
+    return np.array([0.5 * interval.diameter for interval in intervals])[i], mean_curvature(
+        case.wellbore.trajectory, md
+    )
 
 
 def mean_curvature(stations: Array, md: Array) -> Array:

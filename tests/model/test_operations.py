@@ -129,7 +129,7 @@ def test_rates_of_a_case_come_before_those_of_the_kind() -> None:
     ("kind", "rates", "message"),
     [
         ("trip_up", {}, 'operation = "trip_up": expected the kind trip_(in|out)'),
-        ("trip_in", {"speed": "1 m/s"}, 'speed = "1 m/s": expected a number of metres per second'),
+        ("trip_in", {"speed": "1 kg"}, 'speed = "1 kg": expected a speed such as'),
         ("trip_in", {"rpm": "60 rpm"}, 'rpm = "60 rpm": expected a number of revolutions per minute'),
     ],
 )

@@ -266,9 +266,9 @@ def test_rates_are_the_callers_then_the_cases_then_the_defaults() -> None:
         ({"operation": "rotate_off_bottom", "speed": 0.1}, "expected a speed of 0 for rotate_off_bottom"),
         ({"operation": "rotate_off_bottom", "rpm": 0}, "rpm = 0: expected rev/min above 0"),
         ({"operation": "drill_sliding", "rpm": 60}, "rpm = 60: expected rev/min of 0"),
-        ({"bit_depth": "1000 m"}, 'bit_depth = "1000 m": expected a number of metres'),
-        ({"bit_depth": None}, "bit_depth = null: expected a number of metres"),
-        ({"speed": "0.2 m/s"}, 'speed = "0.2 m/s": expected a number of metres per second'),
+        ({"bit_depth": "1000 kg"}, 'bit_depth = "1000 kg": expected a length such as'),
+        ({"bit_depth": None}, "bit_depth = null: expected a length such as"),
+        ({"speed": "0.2 m"}, 'speed = "0.2 m": expected a speed such as'),
         ({"rpm": "60"}, 'rpm = "60": expected a number of revolutions per minute'),
         (
             {"operation": "trip_in", "rpm": 1e5},
