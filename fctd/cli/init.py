@@ -80,7 +80,7 @@ def read_survey(path: Path) -> tuple[tuple[str, ...], Array]:
 def _next(plan: Plan, out: Path) -> list[str]:
     """Commands that the case is ready for."""
     quantity = Quantities(plan.units)
-    first, last, step = (quantity(LENGTH, share * plan.depth) for share in (0.2, 1.0, 0.1))
+    first, last, step = (quantity(LENGTH, share * plan.depth) for share in (0.5, 1.0, 0.05))
     file, units = printable(str(out)), " --units field" if plan.units == "field" else ""
     kinds = "all" if plan.template.weight_on_bit else "trip_in"
     return [

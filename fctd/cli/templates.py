@@ -110,7 +110,7 @@ TEMPLATES: Final[dict[TemplateName, Template]] = {
     ),
     "extended-reach": Template(
         "an extended-reach well",
-        ((300, 0), (1050, 72), (5250, 72)),
+        ((300, 0), (1200, 72), (5100, 72)),
         60.0,
         3600.0,
         Hole(CASING_9_5_8, "8.681", 0.20),
