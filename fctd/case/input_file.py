@@ -12,15 +12,22 @@ from fctd.case.errors import InputError
 def read_text(path: Path, largest: int) -> str:
     """The text of a UTF-8 file of at most ``largest`` MiB, with every line end as a newline.
 
-    Raises InputError for a file that is not regular or is too large, OSError for one that cannot be read, and
-    ValueError for one that is not UTF-8.
+    Raises as `read_bytes` does, and ValueError for a file that is not UTF-8.
+    """
+    return io.StringIO(read_bytes(path, largest).decode("utf-8-sig"), newline=None).read()
+
+
+def read_bytes(path: Path, largest: int) -> bytes:
+    """The content of a file of at most ``largest`` MiB.
+
+    Raises InputError for a file that is not regular or is too large, and OSError for one that cannot be read.
     """
     check_regular(path)
     with path.open("rb") as file:
         content = file.read(largest * 2**20 + 1)
     if len(content) > largest * 2**20:
         raise InputError(f"a file of at most {largest} MiB")
-    return io.StringIO(content.decode("utf-8-sig"), newline=None).read()
+    return content
 
 
 def check_regular(path: Path) -> None:

@@ -18,7 +18,12 @@ from pydantic import BeforeValidator, Field, PrivateAttr, StrictBool, Validation
 
 from fctd.case import units
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
-from fctd.case.survey_file import StationKey, check_stations, read_stations
+from fctd.case.input_warnings import InputWarning
+from fctd.case.surveys import doubts
+from fctd.case.surveys.headers import Wanted, accepted_units, unit_of
+from fctd.case.surveys.reading import read_survey
+from fctd.case.surveys.smoothing import smooth
+from fctd.case.surveys.stations import UNITS, StationKey, Survey, Written, check
 from fctd.case.text import is_utf8
 from fctd.mechanics.laws import NAMES
 
@@ -53,12 +58,32 @@ class IntervalSpec(Table):
     stiffness_per_length: units.PositiveStiffnessPerLength | None = None
 
 
+class ColumnSpec(Table):
+    """A column of a survey: its header, its unit, or both; the unit goes before one that the header names."""
+
+    header: str | None = None
+    unit: str | None = None
+
+
+def _as_column(raw: object) -> object:
+    """A header alone is written as a text."""
+    if isinstance(raw, str):
+        return {"header": raw}
+    if not isinstance(raw, Mapping | ColumnSpec):
+        raise InputError('a header in quotes or a table such as {header = "DEPTH", unit = "m"}', value=raw)
+    return raw
+
+
+Column = Annotated[ColumnSpec, BeforeValidator(_as_column, json_schema_input_type=str | ColumnSpec)]
+
+
 @dataclass
 class _Trajectory:
-    """The stations, cached, and the keys they come from; all instances are equal, so that holes compare by keys."""
+    """Stations and warnings, cached, and the keys they come from; all are equal, so that holes compare by keys."""
 
     source: object = field(default=None, compare=False)
     stations: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)), compare=False)
+    warnings: tuple[InputWarning, ...] = field(default=(), compare=False)
 
 
 class WellboreSpec(Table):
@@ -67,19 +92,29 @@ class WellboreSpec(Table):
     One of `survey` and `stations` is set; so is one of `cylinder_length` [m] and `chord_tolerance` [m],
     and one of `stiffness` [N/m per contact point] and `stiffness_per_length` [N/m/m].
 
+    `columns` and `sheet` say what a survey file does not. With `survey_smoothing` the direction of each station may
+    turn by that angle, so that rounded stations make no false dog-legs.
+
     With `geometry` "arcs" the hole follows the circular arcs between the stations. With "cylinders" it is cut into
     straight pieces of `cylinder_length`, or so short that their chords deviate from the arc by at most
     `chord_tolerance`; neighbouring cylinders overlap by `overlap` [m]. Where the diameter of the hole changes, arcs
     use `overlap` as the length of the shoe.
     """
 
-    survey: FileName | None = Field(default=None, description="the name of a CSV file, relative to the case file")
+    survey: FileName | None = Field(
+        default=None, description="the name of a file, relative to the case file: text in columns, xlsx or WITSML"
+    )
     stations: tuple[tuple[units.MeasuredDepth, units.Bare, units.Bare], ...] | None = Field(
         default=None, description="a list of [measured depth in m, or '40 ft', inclination in deg, azimuth in deg]"
     )
-    columns: dict[StationKey, str] | None = Field(
-        default=None, description='headers of the survey, such as {md = "Depth ( ft )", inc = "I_deg", azi = "A_deg"}'
+    columns: dict[StationKey, Column] | None = Field(
+        default=None,
+        description='headers of the survey, or their units: {md = {header = "DEPTH", unit = "m"}, inc = "I_deg"}',
     )
+    sheet: str | None = Field(
+        default=None, description="the sheet of a workbook, or the trajectory of a WITSML file, that has several"
+    )
+    survey_smoothing: units.Smoothing | None = None
     survey_method: Literal["average_angle", "minimum_curvature"] = "minimum_curvature"
     geometry: Literal["cylinders", "arcs"] = "cylinders"
     cylinder_length: units.PositiveLength | None = None
@@ -99,6 +134,14 @@ class WellboreSpec(Table):
     def _check_columns(cls, raw: Any) -> Any:
         return known_keys(raw, get_args(StationKey)) if isinstance(raw, Mapping) else raw
 
+    @field_validator("columns")
+    @classmethod
+    def _check_units(cls, columns: dict[StationKey, ColumnSpec] | None) -> dict[StationKey, ColumnSpec] | None:
+        for key, column in (columns or {}).items():
+            if column.unit is not None and unit_of(column.unit) not in UNITS[key]:
+                raise InputError(accepted_units(key), key=f"{key}.unit", value=column.unit)
+        return columns
+
     @field_validator("survey")
     @classmethod
     def _find_survey(cls, survey: Path | None, info: ValidationInfo) -> Path | None:
@@ -115,8 +158,9 @@ class WellboreSpec(Table):
         exclusive(self, "survey", "stations", required=True)
         exclusive(self, "cylinder_length", "chord_tolerance")
         exclusive(self, "stiffness", "stiffness_per_length")
-        if self.columns is not None and self.survey is None:
-            raise InputError("columns only beside survey", key="columns")
+        for key in ("columns", "sheet"):
+            if getattr(self, key) is not None and self.survey is None:
+                raise InputError(f"{key} only beside survey", key=key)
         if self.geometry == "arcs" and self.survey_method != "minimum_curvature":
             raise InputError("cylinders, since arcs need survey_method minimum_curvature", key="geometry")
         if self.stations is not None:
@@ -140,21 +184,44 @@ class WellboreSpec(Table):
         The survey file is read once, at the first access, so that a stored case can be read without it; copies made
         afterwards share the stations.  Raises InputError for a file that cannot be used.
         """
-        source = (self.survey, self.columns, self.stations)
-        if self._trajectory.source != source:
-            stations = self._resolve()
-            stations.flags.writeable = False
-            self._trajectory = _Trajectory(source, stations)
-        return self._trajectory.stations
+        return self._read_trajectory().stations
 
-    def _resolve(self) -> NDArray[np.float64]:
+    @property
+    def survey_warnings(self) -> tuple[InputWarning, ...]:
+        """Probable mistakes in the stations of survey file or case; read and kept as `trajectory` is."""
+        return self._read_trajectory().warnings
+
+    def _read_trajectory(self) -> _Trajectory:
+        source = (self.survey, self.columns, self.sheet, self.stations, self.survey_smoothing)
+        if self._trajectory.source != source:
+            survey, angle = self._resolve(), self.survey_smoothing
+            warnings = doubts.find(survey, smoothed=angle is not None)
+            stations = survey.stations if angle is None else smooth(survey.stations, angle)
+            stations.flags.writeable = False
+            self._trajectory = _Trajectory(source, stations, warnings)
+        return self._trajectory
+
+    def _resolve(self) -> Survey:
         if self.survey is not None:
-            return read_stations(self.survey, self.columns)
-        stations = np.array(self.stations or (), dtype=float).reshape(-1, 3)
+            columns = {key: _wanted(column) for key, column in (self.columns or {}).items()}
+            return read_survey(self.survey, columns, self.sheet)
+        values = np.array(self.stations or (), dtype=float).reshape(-1, 3)
+        place = Written(
+            values,
+            ("m", "deg", "deg"),
+            lambda row, column: (f"[{row}][{column}]", MISSING),
+            range(len(values)),
+            "wellbore.stations[{}]",
+            "wellbore.stations[{}] to [{}]",
+        )
         try:
-            return check_stations(stations, lambda row, column: (f"[{row}][{column}]", MISSING))
+            return check(place)
         except InputError as error:
             raise error.at("stations") from None
+
+
+def _wanted(column: ColumnSpec) -> Wanted:
+    return Wanted(column.header, None if column.unit is None else unit_of(column.unit))
 
 
 class ComponentSpec(Table):

@@ -9,6 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.case.surveys.directions import dogleg as dogleg
+from fctd.case.surveys.directions import tangents as tangents
+
 Array = NDArray[np.float64]
 
 
@@ -27,13 +30,6 @@ class Courses(NamedTuple):
     length: Array
 
 
-def tangents(stations: Array) -> Array:
-    """Unit vectors (n, 3) along the hole at the stations (n, 3) [m, rad, rad]."""
-    inclination, azimuth = stations[:, 1], stations[:, 2]
-    across = np.sin(inclination)
-    return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), np.cos(inclination)], axis=1)
-
-
 def interpolate_angles(stations: Array, md: Array) -> Array:
     """Stations (k, 3) at other depths md (k,) [m], inclination and unwrapped azimuth linear in measured depth."""
     return np.stack(
@@ -47,14 +43,6 @@ def average_angle(stations: Array) -> Array:
     middle = 0.5 * (stations[1:] + stations[:-1])
     steps = np.diff(stations[:, 0])[:, None] * tangents(middle)
     return np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])
-
-
-def dogleg(stations: Array) -> Array:
-    """Angle between the tangents of neighbouring stations [rad], shape (n − 1,)."""
-    t = tangents(stations)
-    # 2 asin(|Δt|/2) keeps its precision where acos(t·t) loses half of it: at small angles.
-    half = 0.5 * np.linalg.norm(np.diff(t, axis=0), axis=1)
-    return np.asarray(2 * np.arcsin(np.minimum(half, 1.0)))
 
 
 def minimum_curvature(stations: Array) -> Courses:

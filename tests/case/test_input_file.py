@@ -9,7 +9,7 @@ import pytest
 from fctd import load_case
 from fctd.case.errors import InputError
 from fctd.case.input_file import read_text
-from fctd.case.survey_file import read_stations
+from fctd.case.surveys.reading import read_survey
 
 NO_FILE = "expected a regular file (this is a pipe or a device"
 
@@ -19,7 +19,7 @@ def test_a_pipe_or_a_device_is_refused_at_once(name: str, tmp_path: Path) -> Non
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "link").symlink_to("/dev/zero")
     path = tmp_path / name
-    for read in (load_case, read_stations):
+    for read in (load_case, read_survey):
         with pytest.raises(InputError) as caught:
             read(path)
         assert str(caught.value).startswith(f"{path}: {NO_FILE}")
@@ -40,7 +40,7 @@ def test_a_survey_that_is_a_pipe_is_named(tmp_path: Path, monkeypatch: pytest.Mo
         assert f"{tmp_path}/hole.csv: {NO_FILE}" in str(caught.value)
 
 
-@pytest.mark.parametrize(("read", "limit"), [(load_case, 4), (read_stations, 32)])
+@pytest.mark.parametrize(("read", "limit"), [(load_case, 4), (read_survey, 32)])
 def test_the_limit_is_named(read: Callable[[Path], object], limit: int, tmp_path: Path) -> None:
     """Of a sparse file of a terabyte only the limit is read."""
     path = tmp_path / "large"

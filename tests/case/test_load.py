@@ -186,6 +186,31 @@ def test_survey_with_columns(case_file: Path) -> None:
     assert case.wellbore.trajectory[1] == pytest.approx([2438.4, math.radians(30), 1], rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    "overrides",
+    [
+        {"wellbore.columns": {"md": {"header": "DEPTH", "unit": "m"}}},
+        {"wellbore.columns": {"md": {"header": "depth", "unit": "metres"}, "azi": "AZIM", "inc": {"unit": "deg"}}},
+        {"wellbore.columns.md.unit": "m"},
+    ],
+)
+def test_a_survey_whose_headers_have_no_units(case_file: Path, overrides: dict[str, object]) -> None:
+    """The public survey that took six edits."""
+    (case_file.parent / "survey.csv").write_text("DEPTH,DEVI,AZIM\n0,0,0\n2000,30,90\n")
+    case = load_case(case_file, USE_SURVEY | overrides)
+    assert case.wellbore.trajectory[1] == pytest.approx([2000, math.radians(30), math.pi / 2], rel=1e-14)
+    assert Case.model_validate_json(case.model_dump_json()) == case
+
+
+def test_the_keys_of_a_survey_are_read_again(case_file: Path) -> None:
+    """Stations are kept for the keys that they were read with."""
+    (case_file.parent / "survey.csv").write_text(SURVEY)
+    hole = load_case(case_file, USE_SURVEY).wellbore
+    feet = load_case(case_file, USE_SURVEY | {"wellbore.columns.md.unit": "ft", "operations": None}).wellbore
+    assert hole.trajectory[1, 0] == 2000
+    assert hole.model_copy(update={"columns": feet.columns}).trajectory[1, 0] == pytest.approx(609.6, rel=1e-14)
+
+
 def test_a_case_holds_its_stations_but_does_not_show_them(case_file: Path) -> None:
     """Read once; no part of what is stored, compared or hashed, and not kept where the survey is another one."""
     survey = case_file.parent / "survey.csv"

@@ -66,6 +66,22 @@ def test_the_case_of_a_survey(here: Path, monkeypatch: pytest.MonkeyPatch, capsy
     assert ((np.linalg.norm(walls.offset, axis=1) - clearance) / clearance).max() < 0.01
 
 
+@pytest.mark.parametrize(("units", "unit", "metre"), [("metric", "m", 1.0), ("field", "ft", 0.3048)])
+def test_a_survey_without_a_unit_of_depth(
+    units: str,
+    unit: str,
+    metre: float,
+    here: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    (here / "s.csv").write_text("DEPTH,DEVI,AZIM\n0,0,0\n500,0,0\n1000,40,10\n1500,40,10\n")
+    assert run(monkeypatch, "init", "s.csv", "--units", units) == 0
+    assert f"the file names no unit of depth: {unit} is assumed" in capsys.readouterr().err
+    assert f'columns = {{md = {{unit = "{unit}"}}}}' in (here / "my_well.toml").read_text(encoding="utf-8")
+    assert fctd.load_case("my_well.toml").depths[1] == pytest.approx(1500 * metre, abs=0.01)
+
+
 @pytest.mark.parametrize(("steepest", "pipe"), [(60, "drill collars"), (89, "drill collars")])
 def test_the_string_follows_the_survey(
     steepest: int, pipe: str, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

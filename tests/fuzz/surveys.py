@@ -1,7 +1,10 @@
 """Survey files: sound ones of many kinds, and what exporters, spreadsheets and editors make of them."""
 
+import io
 import math
+import zipfile
 from random import Random
+from xml.sax.saxutils import escape
 
 from tests.fuzz.items import Item
 from tests.fuzz.mutants import changed_bytes
@@ -40,6 +43,8 @@ LAYOUTS: list[list[Column]] = [
     [("AZI_RAD", 2, DEGREE), ("Md_Ft", 0, FOOT), ("inc_rad", 1, DEGREE)],
     [("Measured Depth ( ft )", 0, FOOT), ("Inclination ( deg )", 1, 1), ("Azimuth Grid ( deg )", 2, 1)],
     [("depth (m)", 0, 1), ("TVD", 0, 0.9), ("inc (rad)", 1, DEGREE), ("azi_deg", 2, 1)],
+    [("No", 0, 0), ("MD [feet]", 0, FOOT), ("Incl [°]", 1, 1), ("Azim GN [°]", 2, 1)],
+    [("DEPT.M", 0, 1), ("DEVI", 1, 1), ("HAZI", 2, 1)],
 ]
 ODD_HEADERS = [
     "md",
@@ -55,6 +60,9 @@ ODD_HEADERS = [
     "m" * 9000,
     '"',
     "inc_deg\n",
+    "Azimuth",
+    "MD (km)",
+    "Depth",
 ]
 ODD_CELLS = [
     *("nan", "NaN", "inf", "-inf", "1e999", "-999.25", "-999", "9999", "", " ", "x", "-", "1,5", "1e", "0x10", "1_0"),
@@ -89,16 +97,62 @@ def survey(rng: Random) -> Item:
     rows = path(rng, spacing=rng.choice([5, 10, 30, 90]) / repeats, deepest=1500)
     table = [[header for header, _, _ in layout]]
     table += [[f"{row[k] * scale:.{digits}f}" for _, k, scale in layout] for row in rows]
-    separator, quote = ",", rng.choice(["{}", "{}", '"{}"', " {} "])
     if not sound:
         for _ in range(rng.choice([1, 1, 2, 4])):
             _spoil(rng, table)
-        separator = rng.choice([*[","] * 12, ";", "\t", "|", " ", ", ", ",,"])
-    end = rng.choice(["\n", "\n", "\r\n", "\r", "\n\n"])
-    content = end.join(separator.join(map(quote.format, row)) for row in table).encode()
+    content = rng.choice([_text, _text, _text, _text, _workbook, _witsml])(rng, table, sound)
     if not sound and rng.random() < 0.3:
         content = changed_bytes(rng, content)
     return Item(_case(rng, layout, sound).encode(), {NAME: content})
+
+
+def _text(rng: Random, table: list[list[str]], sound: bool) -> bytes:
+    """The table as an exporter, a spreadsheet or an editor writes it."""
+    separator = rng.choice([*[","] * 6, ";", "\t", "|"] if sound else [*[","] * 9, ";", "\t", "|", " ", ", ", ",,"])
+    quote = rng.choice(["{}", "{}", '"{}"', " {} "])
+    end = rng.choice(["\n", "\n", "\r\n", "\r", "\n\n"])
+    rows = [separator.join(map(quote.format, row)) for row in table]
+    if separator in ";\t" and rng.random() < 0.5:
+        rows[1:] = [row.replace(".", ",") for row in rows[1:]]
+    if rng.random() < 0.2:
+        rows[:0] = ["Well A-1", "# survey, final"]
+    encoding = rng.choice([*["utf-8"] * 5, "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "cp1252"])
+    return end.join(rows).encode(encoding, errors="replace")
+
+
+def _workbook(rng: Random, table: list[list[str]], sound: bool) -> bytes:
+    """The table as sheets of a workbook; changed bytes reach the cells, as the parts are stored as they are."""
+    import xlsxwriter
+
+    content, stored = io.BytesIO(), io.BytesIO()
+    with xlsxwriter.Workbook(content, {"in_memory": True, "strings_to_numbers": rng.random() < 0.8}) as book:
+        for _ in range(1 if sound else rng.choice([1, 1, 2])):
+            sheet = book.add_worksheet()
+            for number, row in enumerate(table[:500]):
+                sheet.write_row(number + 2, 1, [cell[:30_000].lstrip("=") for cell in row[:50]])
+    with zipfile.ZipFile(content) as parts, zipfile.ZipFile(stored, "w") as out:
+        for name in parts.namelist():
+            out.writestr(name, parts.read(name))
+    return stored.getvalue()
+
+
+def _witsml(rng: Random, table: list[list[str]], sound: bool) -> bytes:
+    """The cells of the table as a trajectory, by chance in a case that has columns for a text."""
+    tags = ["md", "incl", "azi", "tvd", "dls"]
+    units = [rng.choice(["m", "ft"]), *rng.choice([["dega", "dega"], ["rad", "rad"]]), "m", "dega/m"]
+    stations = [
+        "".join(
+            f'<{tag} uom="{unit}">{escape(cell)}</{tag}>' for tag, unit, cell in zip(tags, units, row, strict=False)
+        )
+        for row in table[1:]
+    ]
+    each = "".join(f"<trajectoryStation>{station}</trajectoryStation>" for station in stations)
+    names = "" if sound else rng.choice(["", "", "<!DOCTYPE x>", "<trajectory><trajectoryStation/></trajectory>"])
+    text = (
+        '<?xml version="1.0"?>\n<trajectorys xmlns="http://www.witsml.org/schemas/1series">'
+        f"{names}<trajectory>{each}</trajectory></trajectorys>"
+    )
+    return text.encode()
 
 
 def _spoil(rng: Random, table: list[list[str]]) -> None:
@@ -132,9 +186,9 @@ def _spoil(rng: Random, table: list[list[str]]) -> None:
 
 def _case(rng: Random, layout: list[Column], sound: bool) -> str:
     """The case that reads it, with columns where the headers are not the usual ones, or wrong ones."""
-    keys = {k: header for header, k, _ in layout if header != "TVD"}
+    keys = {k: header for header, k, _ in layout if header not in ("TVD", "No")}
     columns = {name: keys[k] for k, name in enumerate(("md", "inc", "azi"))}
-    usual = all(header.lower().startswith(f"{name}_") for name, header in columns.items())
+    usual = "TVD" not in [header for header, _, _ in layout] or rng.random() < 0.5
     if not sound and rng.random() < 0.2:
         columns[rng.choice(["md", "inc", "azi"])] = rng.choice([*ODD_HEADERS, *columns.values()])
         usual = False

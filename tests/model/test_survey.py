@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.case.survey_file import read_stations, to_radians
+from fctd.case.surveys.reading import read_survey
+from fctd.case.surveys.stations import to_radians
 from fctd.model import survey
 from validation.harness.study import data_folder
 
@@ -127,15 +128,14 @@ needs_data = pytest.mark.skipif(data_folder() is None, reason="public data folde
 @needs_data
 def test_published_reference_well() -> None:
     """North, east and vertical depth as the ISCWSA publishes them."""
-    points, table = computed("iscwsa_reference_well.csv", None)
+    points, table = computed("iscwsa_reference_well.csv")
     np.testing.assert_allclose(points, table[["tvd_m", "north_m", "east_m"]].to_numpy()[:, [1, 2, 0]], atol=0.01)
 
 
 @needs_data
 def test_published_horizontal_well() -> None:
     """Vertical depth as published; north and east are map coordinates, all true distances times one scale."""
-    columns = {"md": "Measured Depth ( ft )", "inc": "Inclination ( deg )", "azi": "Azimuth Grid ( deg )"}
-    points, table = computed("wellpathpy_well9_horizontal_reference.csv", columns)
+    points, table = computed("wellpathpy_well9_horizontal_reference.csv")
     np.testing.assert_allclose(points[:, 2], 0.3048 * table["TVD ( ft )"], atol=0.01)
     grid = table[["Northing ( m )", "Easting ( m )"]].to_numpy()
     grid = grid - grid[0]
@@ -144,10 +144,10 @@ def test_published_horizontal_well() -> None:
     np.testing.assert_allclose(scale * points[:, :2], grid, atol=0.01)
 
 
-def computed(name: str, columns: dict[str, str] | None) -> tuple[np.ndarray, pd.DataFrame]:
+def computed(name: str) -> tuple[np.ndarray, pd.DataFrame]:
     """Positions by minimum curvature, and the published table."""
     folder = data_folder()
     assert folder is not None
-    stations = read_stations(folder / "surveys" / name, columns)
+    stations = read_survey(folder / "surveys" / name).stations
     points, _ = survey.along_courses(survey.minimum_curvature(stations), stations[:, 0])
     return points, pd.read_csv(folder / "surveys" / name)

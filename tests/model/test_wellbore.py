@@ -9,7 +9,7 @@ import pytest
 
 from fctd import find_contacts
 from fctd.case.errors import InputError
-from fctd.case.survey_file import to_radians
+from fctd.case.surveys.stations import to_radians
 from fctd.mechanics import contact
 from fctd.model import survey, wellbore
 from fctd.model.wellbore import hole_frame

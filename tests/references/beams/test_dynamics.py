@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("skfem")
 
-from fctd.case.survey_file import to_radians
+from fctd.case.surveys.stations import to_radians
 from fctd.model.drillstring import Section
 from references.beams.dynamics import generalised_alpha, lower
 from references.beams.elements import Beam, Surroundings

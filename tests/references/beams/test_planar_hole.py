@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.case.survey_file import to_radians
+from fctd.case.surveys.stations import to_radians
 from fctd.model import survey
 from references.beams.planar_hole import PlanarHole
 

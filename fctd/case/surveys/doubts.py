@@ -1,0 +1,123 @@
+"""Probable mistakes in a survey that can be used: each is a warning that names rows and a remedy.
+
+The limits are chosen so that surveys as wells have them pass: `docs/well.md` lists them.  Stations that are written in
+a case are a plan, which few stations describe exactly; a few long courses are a doubt in a file only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.input_warnings import InputWarning
+from fctd.case.surveys.directions import dogleg
+from fctd.case.surveys.rounding import rounded, spinning
+from fctd.case.surveys.stations import Survey
+
+Array = NDArray[np.float64]
+Doubt = Callable[[Survey], Iterator[InputWarning]]
+
+_FEW: Final = 5  # stations
+_GAP: Final = 300.0  # [m] without a station ...
+_TURN: Final = 5.0  # ... in which the hole turns by more than this [deg]
+_STEEP: Final = 5.0  # [deg]: at a first station below surface, a hole that is not vertical above it
+_LONGEST: Final = 12_000.0  # [m]: a dozen wells are longer, which were drilled by two or three rigs
+# Surveys are taken at connections: stands of three joints are 28 to 30 m or 92 to 96 ft long.
+_STANDS: Final = {"m": (91.0, 97.0), "ft": (27.0, 30.3), "usft": (27.0, 30.3)}
+_STEPS: Final = 10  # courses, seven of ten of them as long as a stand in the other unit
+_SHARE: Final = 0.7
+
+
+def _tie_in(survey: Survey) -> Iterator[InputWarning]:
+    if not survey.tied_in:
+        return
+    bend = math.degrees(survey.stations[1, 1])
+    first = f"{survey.written.values[0, 0]:g} {survey.written.units[0]}"
+    text = f"the first station is at {first}, so a vertical station at measured depth 0 was added"
+    remedy = "give the survey a station at 0 if the hole is not vertical there"
+    if bend > _STEEP:
+        text += f", and the hole bends by {bend:.3g} deg between them"
+        remedy = "give the survey the stations from the surface down to this one"
+    yield InputWarning("tie_in", survey.rows(1, 1), text, remedy)
+
+
+def _few(survey: Survey) -> Iterator[InputWarning]:
+    count = len(survey.stations) - survey.tied_in
+    if survey.written.file and count < _FEW and np.any(survey.stations[:, 1] > 0.0):
+        yield InputWarning(
+            "few_stations",
+            survey.rows(0, -1),
+            f"a well of {count} stations has a single arc between each two",
+            "check that the file is complete, or write the stations of a plan into the case (wellbore.stations)",
+        )
+
+
+def _gap(survey: Survey) -> Iterator[InputWarning]:
+    if not survey.written.file:
+        return
+    length, turn = np.diff(survey.stations[:, 0]), np.degrees(dogleg(survey.stations))
+    length[: survey.tied_in] = 0.0
+    wide = np.flatnonzero((length > _GAP) & (turn > _TURN))
+    if len(wide):
+        worst = int(wide[np.argmax(turn[wide])])
+        more = f" (and {len(wide) - 1} more such gaps)" if len(wide) > 1 else ""
+        yield InputWarning(
+            "gap_in_curve",
+            survey.rows(worst, worst + 1),
+            f"no station for {length[worst]:.4g} m, in which the hole turns by {turn[worst]:.3g} deg{more}",
+            "check that no rows are missing; a single arc hides the dog-legs between",
+        )
+
+
+def _radians(survey: Survey) -> Iterator[InputWarning]:
+    """Inclinations up to π and azimuths up to 2π that are no whole numbers; a hole that is nearly vertical has azimuths
+    all round the compass."""
+    if survey.written.units[1:] != ("deg", "deg"):
+        return
+    angles = np.abs(survey.written.values[:, 1:])
+    fractions = np.any(angles % 1.0 != 0.0, axis=0)
+    largest = angles.max(axis=0)
+    if np.all(fractions) and np.all(largest > 0.1) and np.all(largest <= np.array([math.pi, 2 * math.pi]) + 0.001):
+        yield InputWarning(
+            "angles_look_like_radians",
+            survey.rows(0, -1),
+            f"inclinations up to {largest[0]:.4g} and azimuths up to {largest[1]:.4g} are read as degrees and look "
+            "like radians",
+            'if they are, say so in the case: columns = {inc = {unit = "rad"}, azi = {unit = "rad"}}',
+        )
+
+
+def _depth_unit(survey: Survey) -> Iterator[InputWarning]:
+    written, unit = survey.written, survey.written.units[0]
+    depths = written.values[:, 0]
+    steps = np.diff(depths)
+    low, high = _STANDS[unit]
+    near = steps[(steps > low) & (steps < high)]
+    # Steps of one length are those of a plan or of an interpolation.
+    stands = len(steps) >= _STEPS and len(near) >= _SHARE * len(steps) and float(np.std(near)) > 0.02
+    other, word = ("ft", "feet") if unit == "m" else ("m", "metres")
+    if stands:
+        text = f"most stations are {np.median(steps):.3g} {unit} apart, which is a stand in {word}"
+    elif unit == "m" and depths[-1] > _LONGEST:
+        text = f"the well is {depths[-1] / 1e3:.3g} km long, which looks like a depth in feet"
+    else:
+        return
+    yield InputWarning(
+        f"depths_look_like_{word}",
+        survey.rows(0, -1),
+        text,
+        f'if the depths are in {word}, say so in the case: columns = {{md = {{unit = "{other}"}}}}',
+    )
+
+
+_DOUBTS: Final[tuple[Doubt, ...]] = (_tie_in, _few, _gap, _radians, _depth_unit)
+
+
+def find(survey: Survey, *, smoothed: bool = False) -> tuple[InputWarning, ...]:
+    """The warnings about a survey; about rounding only where the case does not smooth it."""
+    doubts = _DOUBTS if smoothed else (*_DOUBTS, spinning, rounded)
+    return tuple(warning for doubt in doubts for warning in doubt(survey))

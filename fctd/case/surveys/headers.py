@@ -1,0 +1,230 @@
+"""The columns of a survey: which header names which quantity, and in which unit.
+
+A header names a quantity by the words of the field, in any case and order, with a unit in brackets, after an
+underscore, after a blank or in the row below: "md_m", "Measured Depth (ft)", "Azimuth Grid [°]", "DEPT.M".
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final, get_args
+
+from fctd.case.errors import InputError, show
+from fctd.case.surveys.stations import UNITS, StationKey
+
+Row = tuple[int, list[str]]
+"""Number of a row in its file, and its cells."""
+
+KEYS: Final[tuple[StationKey, ...]] = get_args(StationKey)
+TITLES: Final = 100  # rows that may stand above the headers
+COMMENT: Final = "#"
+_REFERRED: Final = re.compile("(m|ft)(?:md|rkb|kb|rt|brt)")
+_LONGEST: Final = 60  # characters of a header
+_LETTER: Final = re.compile(r"[^\W\d_]")
+
+# A header names a quantity if all its words are names or additions of that quantity and one of them is a name.
+_NAMES: Final[dict[StationKey, frozenset[str]]] = {
+    "md": frozenset({"md", "depth", "dept", "measureddepth", "ahd", "dmea"}),
+    "inc": frozenset({"inc", "incl", "inclin", "inclination", "devi", "dev", "deviation", "drift"}),
+    "azi": frozenset({"az", "azi", "azim", "azimuth", "hazi"}),
+}
+_HOLE: Final = frozenset({"angle", "hole", "well", "wellbore", "borehole", "survey"})
+_NORTH: Final = frozenset({"grid", "true", "magnetic", "mag", "north", "gn", "tn", "mn", "corrected"})
+_REFERENCE: Final = frozenset({"rkb", "kb", "rt", "rte", "brt"})
+_ADDITIONS: Final[dict[StationKey, frozenset[str]]] = {
+    "md": frozenset({"measured", "meas", "along", "hole", "survey", "station"}) | _REFERENCE,
+    "inc": _HOLE,
+    "azi": _HOLE | _NORTH,
+}
+# "Depth" alone may be the vertical depth where another column says that it is the measured one.
+_PLAIN_DEPTH: Final = frozenset({"depth", "dept", "dmea", "hole", "survey", "station"}) | _REFERENCE
+
+_WORDS_OF: Final[dict[str, tuple[str, ...]]] = {
+    "m": ("m", "meter", "meters", "metre", "metres", "mtr"),
+    "ft": ("ft", "foot", "feet"),
+    "usft": ("usft", "ftus"),
+    "deg": ("deg", "degs", "dega", "degree", "degrees"),
+    "rad": ("rad", "radian", "radians"),
+}
+# These are no units of a survey: they are known so that a message can say so.
+_OTHERS: Final = ("km", "cm", "mm", "in", "inch", "inches", "yd", "gon", "gons", "grad", "grads", "gradians")
+_UNIT_WORDS: Final = {word: unit for unit, words in _WORDS_OF.items() for word in words} | {w: w for w in _OTHERS}
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What the case says about a column: its header and its unit, each may be absent."""
+
+    header: str | None = None
+    unit: str | None = None
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a survey: its index among the cells, its header and the unit that the header names."""
+
+    place: int
+    header: str
+    unit: str | None
+
+
+def unit_of(text: str) -> str | None:
+    """The unit that a text names, such as "ft" for "Feet", "( ft )" or "ftRKB"; None for another text."""
+    words = _words(text)
+    units = [unit for unit in map(_as_unit, words) if unit is not None]
+    return units[0] if len(units) == 1 and all(_as_unit(word) or word in _ADDITIONS["md"] for word in words) else None
+
+
+def find_header(rows: Sequence[Row], columns: Mapping[StationKey, Wanted]) -> tuple[int, int]:
+    """Index of the row of headers among the first rows, and how many of the three quantities it names.
+
+    A comment may hold the headers where no other row does.
+    """
+    best, top = (-1, True), 0
+    for index, (_, cells) in enumerate(rows[:TITLES]):
+        rank = _score(_uncommented(cells), columns), not is_comment(cells)
+        if rank > best:
+            best, top = rank, index
+        if best == (len(KEYS), True):
+            break
+    return top, best[0]
+
+
+def find_columns(row: Row, columns: Mapping[StationKey, Wanted]) -> list[Column]:
+    """The columns of measured depth, inclination and azimuth in a row of headers; InputError if one is not there."""
+    number, cells = row
+    cells = _uncommented(cells)
+    return [_find(key, number, cells, columns.get(key, Wanted())) for key in KEYS]
+
+
+def units(row: Row, found: Sequence[Column], below: Row | None, columns: Mapping[StationKey, Wanted]) -> list[str]:
+    """The unit of each column: the one that the case says, else that of the header, else of the row below it.
+
+    Angles without a unit are in degrees.  Raises InputError for a depth without one, and for other units.
+    """
+    return [
+        _unit(key, row, column, below, columns.get(key, Wanted()).unit) for key, column in zip(KEYS, found, strict=True)
+    ]
+
+
+def is_units(row: Row, found: Sequence[Column]) -> bool:
+    """Whether a row below the headers holds units: of the three cells one or more is a unit and none is a number."""
+    cells = [cell_of(row, column) for column in found]
+    return any(map(unit_of, cells)) and not any(re.search(r"\d", cell) for cell in cells)
+
+
+def is_comment(cells: Sequence[str]) -> bool:
+    """Whether a row is a comment."""
+    return bool(cells) and cells[0].startswith(COMMENT)
+
+
+def cell_of(row: Row, column: Column) -> str:
+    """The text of a row in a column, "" where the row is shorter."""
+    return row[1][column.place] if column.place < len(row[1]) else ""
+
+
+def _uncommented(cells: list[str]) -> list[str]:
+    if not is_comment(cells):
+        return cells
+    first, *others = cells
+    return [first.lstrip(COMMENT).strip(), *others]
+
+
+def _words(text: str) -> list[str]:
+    """Lower-case words of a header; the dots of "M.D." are dropped, and a degree sign is a word."""
+    text = re.sub(r"\b([a-z])\.([a-z])\b", r"\1\2", text.casefold())
+    return re.findall(r"[^\W_]+", re.sub("[°º˚]", " deg ", text))
+
+
+def _as_unit(word: str) -> str | None:
+    """The unit of a word; "mMD" and "ftRKB" are units with the reference of the depth."""
+    referred = _REFERRED.fullmatch(word)
+    return _UNIT_WORDS.get(referred[1] if referred else word)
+
+
+def _named_unit(header: str) -> str | None:
+    """The last unit in a header; a header that is nothing but "M" is a name."""
+    found = [_as_unit(word) for word in _words(header)]
+    units = [unit for unit in found if unit is not None]
+    return units[-1] if units and (len(units) < len(found) or re.search(r"[(\[]", header)) else None
+
+
+def _normal(header: str) -> str:
+    return " ".join(header.casefold().split())
+
+
+def _candidates(key: StationKey, cells: Sequence[str], wanted: Wanted) -> list[Column]:
+    """The columns that may be meant."""
+    if wanted.header is not None:
+        places = [k for k, cell in enumerate(cells) if _normal(cell) == _normal(wanted.header)]
+        return [Column(k, cells[k], _named_unit(cells[k])) for k in places]
+    found, explicit = [], []
+    for place, cell in enumerate(cells):
+        if len(cell) > _LONGEST or not _LETTER.search(cell):  # a sentence, or a number
+            continue
+        words = {word for word in _words(cell) if _as_unit(word) is None}
+        if words & _NAMES[key] and words <= _NAMES[key] | _ADDITIONS[key]:
+            column = Column(place, cell, _named_unit(cell))
+            found.append(column)
+            if key == "md" and not words <= _PLAIN_DEPTH:
+                explicit.append(column)
+    fitting = [column for column in explicit or found if column.unit is None or column.unit in UNITS[key]]
+    return fitting or explicit or found
+
+
+def _score(cells: Sequence[str], columns: Mapping[StationKey, Wanted]) -> int:
+    return sum(bool(_candidates(key, cells, columns.get(key, Wanted()))) for key in KEYS)
+
+
+def _find(key: StationKey, number: int, cells: Sequence[str], wanted: Wanted) -> Column:
+    found = _candidates(key, cells, wanted)
+    if len(found) == 1:
+        return found[0]
+    others = ", ".join(map(show, cells))
+    if found and wanted.header is None:
+        names = " or ".join(f"{{header = {show(column.header)}}}" for column in found)
+        raise InputError(
+            f"one column of this quantity, or a choice in the case: columns.{key} = {names}",
+            key=f"row {number}, columns of {key}",
+            value=[column.header for column in found],
+        )
+    if found:
+        raise InputError(f"a header that occurs once among {others}", key=f"columns.{key}", value=wanted.header)
+    if wanted.header is not None:
+        raise InputError(f"one of the headers {others}", key=f"columns.{key}", value=wanted.header)
+    examples = " or ".join(f"{key}_{unit}" for unit in list(UNITS[key])[:2])
+    raise InputError(f"it among the headers {others}, or another header named in columns", key=f"column {examples}")
+
+
+def _unit(key: StationKey, row: Row, column: Column, below: Row | None, said: str | None) -> str:
+    """The unit of one column, checked."""
+    if said is not None:
+        return said
+    accepted = accepted_units(key)
+    place, text = f"row {row[0]}", column.header
+    unit = column.unit
+    if below is not None and cell_of(below, column):
+        stated = unit_of(cell_of(below, column))
+        if stated is None or (unit is not None and stated != unit):
+            expected = f"a unit of {accepted}" if unit is None else f"{unit}, as the header says"
+            raise InputError(expected, key=f"row {below[0]}, {column.header}", value=cell_of(below, column))
+        unit, place, text = stated, f"row {below[0]}, {column.header}", cell_of(below, column)
+    if unit is None and key != "md":
+        return "deg"
+    if unit is None:
+        raise InputError(
+            f'a header with its unit, such as "{text} (m)", or the unit in the case: '
+            f'columns = {{md = {{header = {show(text)}, unit = "m"}}}} (or "ft")',
+            key=place,
+            value=text,
+        )
+    if unit not in UNITS[key]:
+        raise InputError(f"a unit of {accepted}", key=place, value=text)
+    return unit
+
+
+def accepted_units(key: StationKey) -> str:
+    """The units of a quantity in words."""
+    return " or ".join(list(UNITS[key])[:2])
