@@ -39,9 +39,8 @@ COMMENTS = 38
 # The shoe is where the hole has this share of its greatest inclination, between these shares of its depth, on a round
 # depth: casing is set below the build.
 LANDED, SHALLOWEST_SHOE, DEEPEST_SHOE = 0.95, 0.4, 0.7
-# The wall is this much stiffer than one into which the side force of the whole string's weight presses 1 % of the
-# clearance: friction adds to the tension, and the ends of bends press harder than their middles.
-FIRMNESS = 2.0
+# The default damping of a contact point is for a softer wall: on a stiff one a long string would not come to rest.
+DAMPING = "1e5 N*s/m"
 
 
 @dataclass(frozen=True)
@@ -109,6 +108,9 @@ class Plan:
             yield aligned("[bit]", "while drilling")
             yield entry("weight_on_bit", quantity(FORCE, 1e3 * template.weight_on_bit))
             yield entry("torque", quantity(TORQUE, 1e3 * template.bit_torque))
+        yield ""
+        yield "[contact]"
+        yield entry("damping", DAMPING, "so that the string comes to rest on the stiff wall")
         yield ""
         yield aligned("[[operations]]", "for fctd simulate; charts ask for their operations")
         yield from self._operation(quantity)
@@ -226,7 +228,7 @@ def stiff_wall(template: Template, stations: Array, shoe: float) -> float:
         above, weight, heaviest = above - length, weight + buoyed * length, max(heaviest, buoyed)
         clearance = min(clearance, 0.5 * 0.0254 * (narrowest - float(part.contact or part.outer)))
     sharpest = float(mean_curvature(stations, np.linspace(0.0, depth, 2000)).max())
-    needed = FIRMNESS * (weight * sharpest + heaviest) / (0.01 * clearance)
+    needed = (weight * sharpest + heaviest) / (0.01 * clearance)
     power = 10.0 ** np.floor(np.log10(needed))
     return float(next(m * power for m in (1, 2, 5, 10) if m * power >= needed))
 
