@@ -114,15 +114,15 @@ def steady_rates(
     own = next((o for o in case.operations if o.kind == kind), None)
     own_speed, own_rpm = (of.default_speed, of.default_rpm) if own is None else (own.speed, own.rpm)
     speed, rpm = own_speed if speed is None else speed, own_rpm if rpm is None else rpm
-    speed, rpm = argument(speed, SPEED, "speed"), argument(rpm, ROTATION, "rpm")
-    if not (0 < speed <= FASTEST if of.direction else speed == 0):
+    feed, turns = argument(speed, SPEED, "speed"), argument(rpm, ROTATION, "rpm")
+    if not (0 < feed <= FASTEST if of.direction else feed == 0):
         wanted = f"above 0 and at most {FASTEST:g} m/s" if of.direction else "of 0"
         raise InputError(f"a speed {wanted} for {kind}", key="speed", value=speed)
-    if not (0 <= rpm <= MOST_RPM and (rpm > 0 if of.turns else of.may_turn or rpm == 0)):
+    if not (0 <= turns <= MOST_RPM and (turns > 0 if of.turns else of.may_turn or turns == 0)):
         wanted = "above 0" if of.turns else "at least 0" if of.may_turn else "of 0"
         wanted += f" and at most {MOST_RPM:g}" if of.may_turn else ""
         raise InputError(f"rev/min {wanted} for {kind}", key="rpm", value=rpm)
-    return SteadyRates(of.direction * speed, rad_per_s(rpm))
+    return SteadyRates(of.direction * feed, rad_per_s(turns))
 
 
 def rates_of_all(

@@ -269,7 +269,7 @@ def test_rates_are_the_callers_then_the_cases_then_the_defaults() -> None:
         ({"bit_depth": "1000 kg"}, 'bit_depth = "1000 kg": expected a length such as'),
         ({"bit_depth": None}, "bit_depth = null: expected a length such as"),
         ({"speed": "0.2 m"}, 'speed = "0.2 m": expected a speed such as'),
-        ({"rpm": "60"}, 'rpm = "60": expected a number of revolutions per minute'),
+        ({"rpm": "60 kg"}, 'rpm = "60 kg": expected a rotation such as'),
         (
             {"operation": "trip_in", "rpm": 1e5},
             "rpm = 100000.0: expected rev/min at least 0 and at most 10000 for trip_in",
