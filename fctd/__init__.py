@@ -3,7 +3,7 @@
     case = fctd.load_case("well.toml")
     result = fctd.simulate(case)
     for record in fctd.Simulation(case): print(record["hookload_N"])
-    point = fctd.equilibrium(case, operation="trip_out", bit_depth=2450)
+    point = fctd.equilibrium(case, operation="trip_out", bit_depth="8000 ft")
     chart = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
     finer = fctd.refine(case, tolerance=0.01).case
 
@@ -40,3 +40,8 @@ __all__ = [
     "simulate",
     "torque_drag",
 ]
+
+
+def __dir__() -> list[str]:
+    """The public names."""
+    return sorted(__all__)

@@ -97,7 +97,6 @@ RULES: list[tuple[str, Any, str]] = [
     ("string.components[0].segments", 0, "a whole number at least 1"),
     ("string.components[0].segments", 2.5, "a whole number"),
     ("string.components[0].segments", True, "a whole number"),
-    ("string.components[0].segments", None, "or segment_length"),
     ("string.components[0].segment_length", "9 m", "segments or segment_length, not both"),
     ("string.components[0].inner_diameter", "158 mm", "a diameter below outer_diameter"),
     ("string.components[0].inner_diameter", -1, "at least 0"),

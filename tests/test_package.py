@@ -82,3 +82,7 @@ def test_no_name_hides_a_module() -> None:
             module = importlib.import_module(found.name)
             parent, _, name = found.name.rpartition(".")
             assert getattr(sys.modules[parent], name) is module, found.name
+
+
+def test_the_package_lists_its_public_names() -> None:
+    assert dir(fctd) == sorted(fctd.__all__)

@@ -67,7 +67,6 @@ UNDERREAMED: Final = 1.5  # an under-reamer opens the hole below a shoe to some 
 LIGHT, HEAVY = 0.85, 2.5  # mass over that of the pipe body: spiral collars have 0.95, tool joints add up to 0.6
 FASTEST_HOIST, FASTEST_DRILLING, FASTEST_ROTATION = 3.0, 0.1, 300.0  # [m/s], [m/s], [rev/min]
 LEAST_EFFICIENCY: Final = 0.7  # of twelve lines over old sheaves
-FEWEST_STATIONS: Final = 5
 BELOW_TD: Final = 30.0  # [m]: the last station is some way above the bit
 FOOT: Final = 0.3048
 
@@ -84,10 +83,8 @@ def warnings_of(
     Reads the survey; raises InputError where it cannot be used.
     """
     stations = case.wellbore.trajectory
-    # Line to connect: the survey's own warnings, once WellboreSpec has them.
-    survey: tuple[InputWarning, ...] = getattr(case.wellbore, "survey_warnings", ())
-    own = [
-        *few_stations(case.wellbore, len(stations)),
+    return (
+        *case.wellbore.survey_warnings,
         *shoe_below_td(case.wellbore, float(stations[-1, 0])),
         *hole_size(case.wellbore),
         *wider_below(case.wellbore),
@@ -100,18 +97,7 @@ def warnings_of(
         *bit_load(case, {*kinds, *(operation.kind for operation in case.operations)}),
         *rig_loads(case.rig),
         *rates(case.operations, kinds, speed, rpm),
-    ]
-    codes = {warning.code for warning in survey}
-    return (*survey, *(warning for warning in own if warning.code not in codes))
-
-
-def few_stations(hole: WellboreSpec, stations: int) -> Doubts:
-    """A survey file with so few stations that it is an extract; stations in the case may be the corners of a plan."""
-    if hole.survey is not None and stations < FEWEST_STATIONS:
-        yield InputWarning(
-            "few_stations", "wellbore.survey", f"the survey has only {stations} stations",
-            "give every station, since the hole follows one arc between neighbours",
-        )  # fmt: skip
+    )
 
 
 def shoe_below_td(hole: WellboreSpec, td: float) -> Doubts:

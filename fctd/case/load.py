@@ -50,6 +50,11 @@ class Case(Table):
     operations: tuple[Annotated[Operation, Field(discriminator="kind")], ...] = ()
     file: FileName | None = None
 
+    def __repr__(self) -> str:
+        return f"Case({self.name!r})" if self.file is None else f"Case({self.name!r}, file={str(self.file)!r})"
+
+    __str__ = __repr__
+
     @field_validator("operations", mode="before")
     @classmethod
     def _fill_in_starts(cls, raw: Any) -> Any:

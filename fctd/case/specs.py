@@ -104,8 +104,8 @@ class WellboreSpec(Table):
     survey: FileName | None = Field(
         default=None, description="the name of a file, relative to the case file: text in columns, xlsx or WITSML"
     )
-    stations: tuple[tuple[units.Bare, units.Bare, units.Bare], ...] | None = Field(
-        default=None, description="a list of [measured depth in m, inclination in deg, azimuth in deg]"
+    stations: tuple[tuple[units.MeasuredDepth, units.Bare, units.Bare], ...] | None = Field(
+        default=None, description="a list of [measured depth in m, or '40 ft', inclination in deg, azimuth in deg]"
     )
     columns: dict[StationKey, Column] | None = Field(
         default=None,
@@ -225,7 +225,8 @@ def _wanted(column: ColumnSpec) -> Wanted:
 
 
 class ComponentSpec(Table):
-    """Pipe or a tool of one kind. One of `segments` and `segment_length` [m] sets the length of its segments.
+    """Pipe or a tool of one kind. `segments` or `segment_length` [m] sets the length of its segments; without either
+    they are short in bends and near the bit, and longer elsewhere.
 
     `outer_diameter` and `inner_diameter` are those of the pipe body; `contact_diameter` is that of tool joints or
     stabilisers, which touch the wall first. `linear_mass` (with tool joints) and the stiffnesses EA
@@ -257,12 +258,17 @@ class ComponentSpec(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        exclusive(self, "segments", "segment_length", required=True)
+        exclusive(self, "segments", "segment_length")
         if self.inner_diameter >= self.outer_diameter:
             raise InputError("a diameter below outer_diameter", key="inner_diameter")
         if self.contact_diameter < self.outer_diameter:
             raise InputError("at least outer_diameter", key="contact_diameter")
         return self
+
+    @property
+    def cut_by_default(self) -> bool:
+        """Whether neither `segments` nor `segment_length` is given."""
+        return self.segments is None and self.segment_length is None
 
 
 class StringSpec(Table):
@@ -333,7 +339,7 @@ class SolverSpec(Table):
     joint_damping: units.Time = 1e-5
     buckling: Literal["detect", "resolve"] = "detect"
 
-    @field_validator("step", mode="before")
+    @field_validator("step", mode="before", json_schema_input_type=float | str)
     @classmethod
     def _read_step(cls, raw: Any) -> Any:
         if raw in ("auto", "largest"):

@@ -22,7 +22,7 @@ from fctd.case.errors import Expects, InputError
 from fctd.case.spellings import conversion as conversion  # results are converted back with it
 
 if TYPE_CHECKING:
-    from pydantic import GetCoreSchemaHandler
+    from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 
 
 @dataclass(frozen=True)
@@ -175,6 +175,15 @@ class Number(Expects):
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_before_validator_function(self.parse, handler(source))
 
+    @property
+    def json_schema(self) -> dict[str, Any]:
+        """The accepted input as JSON Schema."""
+        bounds = {"exclusiveMinimum": self.above, "minimum": self.at_least, "maximum": self.at_most}
+        return {"type": "number"} | {name: limit for name, limit in bounds.items() if limit is not None}
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return self.json_schema | {"description": self.expected}
+
 
 @dataclass(frozen=True, kw_only=True)
 class Whole(Number):
@@ -186,6 +195,10 @@ class Whole(Number):
         if not isinstance(value, Integral):
             raise InputError(self.expected, value=value)
         return super().read(value)
+
+    @property
+    def json_schema(self) -> dict[str, Any]:
+        return super().json_schema | {"type": "integer"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -220,6 +233,18 @@ class Quantity(Number):
             pass
         raise InputError(f"{self.expected} ({self.dimension.accepted})", value=value)
 
+    @property
+    def json_schema(self) -> dict[str, Any]:
+        return {"anyOf": [super().json_schema, {"type": "string", "pattern": "[0-9]"}]}
+
+
+def argument(value: object, dimension: Dimension, key: str) -> float:
+    """An argument of a call from Python, a text with its unit or a bare SI number, in SI; InputError names it."""
+    try:
+        return Quantity(dimension=dimension).read(value)
+    except InputError as error:
+        raise error.at(key) from None
+
 
 def bare(value: object, key: str, noun: str) -> float:
     """An argument of a call from Python as a float; InputError, which names it, for a text such as "2000 m"."""
@@ -241,6 +266,7 @@ FASTEST: Final = 10.0  # [m/s]
 MOST_RPM: Final = 10_000.0
 Rpm = Annotated[float, Quantity(dimension=ROTATION, at_least=0.0, at_most=MOST_RPM)]
 PositiveRpm = Annotated[float, Quantity(dimension=ROTATION, above=0.0, at_most=MOST_RPM)]
+MeasuredDepth = Annotated[float, Quantity(dimension=LENGTH)]
 Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
 PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
 WIDEST: Final = 5.0  # [m]: no well is wider

@@ -45,6 +45,7 @@ from fctd.cli.steady import (
     in_units,
     metadata_of,
     plots_for,
+    print_segments,
     read_drive,
 )
 from fctd.model.operations import rates_of_all
@@ -120,6 +121,8 @@ def chart_command(
 
         chart = torque_drag(case, kinds, bit_depths, factors or None, **drive, progress=show)
 
+    # The last depth at which string and hole fit.
+    last = float(chart.loc[chart["status"] != SteadyStatus.NOT_POSSIBLE, "bit_depth_m"].max())
     written = []
     try:  # as above
         if out is not None:
@@ -131,12 +134,11 @@ def chart_command(
         if plots is not None and plot_profile is not None:
             one = with_friction(case, factors[0]) if factors else case
             solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
-            # At the last depth at which string and hole fit.
-            last = chart.loc[chart["status"] != SteadyStatus.NOT_POSSIBLE, "bit_depth_m"].max()
-            points = [solver.solve(kind, rates[kind], float(last)) for kind in kinds]
+            points = [solver.solve(kind, rates[kind], last) for kind in kinds]
             written += plots.save(plots.profile_figure(points, units, told), plot_profile)
     finally:
         _print_chart(chart, case.name, units)
+        print_segments(case, last, units)
     print_written(written)
     acceptable = all(SteadyStatus(status).acceptable for status in chart["status"])
     finish(acceptable, meanings_of(chart["notes"]), strict)

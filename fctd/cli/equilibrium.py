@@ -19,6 +19,7 @@ from fctd.cli.options import (
     CaseFile,
     Friction,
     Overrides,
+    Quiet,
     Strict,
     changes_of,
     check_target,
@@ -44,6 +45,7 @@ from fctd.cli.steady import (
     in_units,
     metadata_of,
     plots_for,
+    print_segments,
     read_drive,
 )
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
@@ -67,6 +69,7 @@ def equilibrium_command(
     out: Annotated[Path | None, file_option("--out", "Profile of the string, .csv or .parquet.")] = None,
     plot: Annotated[Path | None, file_option("--plot", "Picture of the profile, .png or .svg.")] = None,
     units: Units = "si",
+    quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
     """Solve the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
@@ -97,6 +100,7 @@ def equilibrium_command(
             written += plots.save(plots.profile_figure([point], units, told), plot)
     finally:
         _print_point(point, units)
+        print_segments(case, depth, units)
     lacking = not point.answered and (out is not None or plot is not None)
     if lacking:
         messages.print("Nothing is written: no equilibrium was found, so there is no profile.")

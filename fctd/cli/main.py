@@ -8,9 +8,12 @@ import typer
 from fctd.case.errors import InputError
 from fctd.case.text import degrade_output
 from fctd.cli.chart import chart_command
+from fctd.cli.check import check_command
 from fctd.cli.compile import announcing, compile_command
 from fctd.cli.equilibrium import equilibrium_command
+from fctd.cli.init import init_command
 from fctd.cli.interrupts import as_interrupts
+from fctd.cli.manners import HELP, Command, application
 from fctd.cli.options import (
     BAD_INPUT,
     INTERRUPTED,
@@ -18,20 +21,23 @@ from fctd.cli.options import (
 )
 from fctd.cli.refine import refine_command
 from fctd.cli.refusals import naming_options
+from fctd.cli.schema import schema_command
 from fctd.cli.simulate import simulate_command
 
 app = typer.Typer(
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    help="Fast contact torque and drag of a stiff drill string.",
-)
+    no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, context_settings=HELP,
+)  # fmt: skip
 
-app.command("simulate")(naming_options(simulate_command))
-app.command("equilibrium")(naming_options(equilibrium_command))
-app.command("chart")(naming_options(chart_command, {"bit_depth": "--depths"}))
-app.command("refine")(naming_options(refine_command, {"bit_depth": "--bit-depth"}))
-app.command("compile")(compile_command)
+app.callback()(application)
+
+app.command("init", cls=Command)(init_command)
+app.command("check", cls=Command)(naming_options(check_command))
+app.command("schema", cls=Command)(schema_command)
+app.command("simulate", cls=Command)(naming_options(simulate_command))
+app.command("equilibrium", cls=Command)(naming_options(equilibrium_command))
+app.command("chart", cls=Command)(naming_options(chart_command, {"bit_depth": "--depths"}))
+app.command("refine", cls=Command)(naming_options(refine_command, {"bit_depth": "--bit-depth"}))
+app.command("compile", cls=Command)(compile_command)
 
 
 def main() -> None:

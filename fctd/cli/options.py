@@ -101,9 +101,8 @@ def tell(case: Case, warnings: Sequence[InputWarning], *, strict: bool, units: S
     Returns their texts, for pictures.
     """
     told = [reworded(str(warning), units) for warning in warnings]
-    for warning, text in zip(warnings, told, strict=True):
-        file = case.wellbore.survey if warning.key.startswith("row") else case.file
-        messages.print(f"warning: {printable(str(file))}: {text}", soft_wrap=True)
+    for text in told:
+        messages.print(f"warning: {printable(str(case.file))}: {text}", soft_wrap=True)
     if strict and warnings:
         codes = ", ".join(sorted({warning.code for warning in warnings}))
         messages.print(f"strict: warnings are errors ({codes}); nothing is computed", soft_wrap=True)

@@ -13,10 +13,12 @@ from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.units import ROTATION, SPEED
-from fctd.cli.options import check_target, read_quantity
+from fctd.cli.options import check_target, read_quantity, screen
+from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
+from fctd.model.summary import segments_in_words
 from fctd.results.tables import versions
-from fctd.results.unit_systems import System, in_field_units
+from fctd.results.unit_systems import System, in_field_units, shown
 
 TABLES, PICTURES = (".csv", ".parquet"), (".png", ".svg")
 
@@ -83,6 +85,14 @@ def plots_for(targets: Mapping[str, Path | None]) -> ModuleType | None:
         expected = f"the package {error.name} for pictures (pip install matplotlib, or the extra fctd[plot])"
         raise InputError(expected, key=key, value=path) from None
     return plots
+
+
+def print_segments(case: Case, bit_depth: float, units: System) -> None:
+    """Print number and lengths of the segments where the program has chosen them; bit_depth [m]."""
+    if any(part.cut_by_default for part in case.string.components):
+        metre = shown("bit_depth_m", units)
+        line = segments_in_words(case, lay_out(case, bit_depth), metre.factor, metre.label)
+        screen.print(line, soft_wrap=True)
 
 
 def in_units(units: System, table: pd.DataFrame) -> pd.DataFrame:

@@ -12,6 +12,7 @@ from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY, PerMetre, set_long_segment
+from fctd.model.default_layout import DefaultLayout
 from fctd.model.wellbore import RADIUS, TO_MD, Wellbore
 
 Array = NDArray[np.float64]
@@ -166,7 +167,8 @@ class String:
 def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> String:
     """Segments of the string that is in the hole with the bit at ``bit_depth`` [m].
 
-    Components are laid from the bit up until the depth is reached; the topmost piece takes the remainder.
+    Components are laid from the bit up until the depth is reached; the topmost piece takes the remainder.  A component
+    without ``segments`` and ``segment_length`` has those of ``DefaultLayout``.
     deepest : greatest bit depth [m] of the run; pipe is fed to reach it, which needs a long segment at the top.
     Raises InputError when the string is too short, a long segment does not fit, or more than the topmost
     component would have to be fed.
@@ -183,9 +185,17 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     lengths: list[float] = []
     owner: list[int] = []
     taken: list[float] = []
+    by_default = None
+    if any(part.cut_by_default for part in components):
+        by_default = DefaultLayout(case, bit_depth, deepest)
     for k, part in enumerate(components):
         take = remaining if part.length is None else min(part.length, remaining)
-        pieces = _divide(part, take)
+        if by_default is not None and part.cut_by_default:
+            start = bit_depth - case.string.top_md - remaining
+            _check_segments(by_default.count(start, start + take))
+            pieces = by_default.lengths(start, start + take)
+        else:
+            pieces = _divide(part, take)
         lengths += pieces
         owner += [k] * len(pieces)
         taken.append(take)
@@ -261,7 +271,7 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
     """Segments of ``take`` metres of a component from the bit up; remainder (0.5–1.5 nominal) on top."""
     whole = take if part.length is None else part.length
     nominal = whole / part.segments if part.segments is not None else part.segment_length
-    assert nominal is not None  # ComponentSpec requires one of the two
+    assert nominal is not None  # ``lay_out`` cuts a component that has neither
     _check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
     if abs(take - whole) < 1e-9:
         count = max(round(whole / nominal), 1)

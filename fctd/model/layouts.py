@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.model import survey
+from fctd.model.default_layout import DefaultLayout
 from fctd.model.drillstring import section_of
 
 Array = NDArray[np.float64]
@@ -61,15 +62,16 @@ def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Componen
     pieces: list[ComponentSpec] = []
     start, total = 0.0, bit_depth - case.string.top_md
     above_bit, shortest = bit_depth - md[::-1], needed[::-1]
+    by_default = DefaultLayout(case, bit_depth).at(above_bit)
     for part in case.string.components:
         end = total if part.length is None else min(start + part.length, total)
-        own = _nominal(part, end - start)
+        own = by_default if part.cut_by_default else np.full(len(above_bit), _nominal(part, end - start))
         inside = (above_bit >= start) & (above_bit <= end)
-        least = float(shortest[inside].min(initial=own))
-        if start >= total or is_long(part) or least >= own:
+        if start >= total or is_long(part) or (shortest[inside] >= own[inside]).all():
             pieces.append(part)
         else:
-            unit = own / np.ceil(own / least - 1e-9)
+            longest = float(own[inside].max())
+            unit = longest / np.ceil(longest / float(np.minimum(shortest, own)[inside].min()) - 1e-9)
             factor = np.minimum(np.minimum(shortest, own) / unit, LONGEST)
             pieces += _grade(part, _walk(start, end, unit, above_bit, factor))
         start = end
@@ -121,8 +123,12 @@ def segments_in_hole(case: Case, bit_depth: float) -> int:
         take = remaining if part.length is None else min(part.length, remaining)
         if take <= 0:
             break
-        nominal = part.segment_length or (take if part.length is None else part.length) / (part.segments or 1)
-        count += max(take / nominal, 1)
+        if part.cut_by_default:
+            start = bit_depth - case.string.top_md - remaining
+            count += DefaultLayout(case, bit_depth).count(start, start + take)
+        else:
+            nominal = part.segment_length or (take if part.length is None else part.length) / (part.segments or 1)
+            count += max(take / nominal, 1)
         remaining -= take
     return round(count)
 
@@ -131,7 +137,7 @@ def _nominal(part: ComponentSpec, in_hole: float) -> float:
     """Length of a component's segments [m]."""
     if part.segment_length is not None:
         return part.segment_length
-    assert part.segments is not None  # ComponentSpec requires one of the two
+    assert part.segments is not None  # the caller has taken out those that are cut by default
     return (in_hole if part.length is None else part.length) / part.segments
 
 

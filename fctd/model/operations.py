@@ -8,7 +8,7 @@ import numpy as np
 from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case
 from fctd.case.operations import KINDS, Operation, RotateOffBottom
-from fctd.case.units import FASTEST, MOST_RPM, bare
+from fctd.case.units import FASTEST, MOST_RPM, ROTATION, SPEED, argument
 from fctd.mechanics.topdrive import Motion
 
 # Shortest operation [s]; a shorter one would end before the first step, with no load to record.
@@ -100,11 +100,13 @@ MOVING = frozenset(name for name, kind in KINDS.items() if kind.direction)
 TURNING = frozenset(name for name, kind in KINDS.items() if kind.may_turn)
 
 
-def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float | None = None) -> SteadyRates:
+def steady_rates(
+    case: Case, kind: str, speed: float | str | None = None, rpm: float | str | None = None
+) -> SteadyRates:
     """Rates of an operation: as given, else those of the case's first operation of that kind, else the kind's defaults.
 
-    speed [m/s] and rpm are not negative; the kind sets the direction.  Raises InputError for an unknown kind,
-    for rates that are not of its kind and for rates beyond ``units.FASTEST`` and ``units.MOST_RPM``.
+    speed [m/s] and rpm, or texts with units, are not negative; the kind sets the direction.  Raises InputError for an
+    unknown kind, for rates that are not of its kind and for rates beyond ``units.FASTEST`` and ``units.MOST_RPM``.
     """
     if kind not in KINDS:
         raise InputError(nearest(kind, KINDS, "kind"), key="operation", value=kind)
@@ -112,20 +114,19 @@ def steady_rates(case: Case, kind: str, speed: float | None = None, rpm: float |
     own = next((o for o in case.operations if o.kind == kind), None)
     own_speed, own_rpm = (of.default_speed, of.default_rpm) if own is None else (own.speed, own.rpm)
     speed, rpm = own_speed if speed is None else speed, own_rpm if rpm is None else rpm
-    bare(speed, "speed", "a number of metres per second")
-    bare(rpm, "rpm", "a number of revolutions per minute")
-    if not (0 < speed <= FASTEST if of.direction else speed == 0):
+    feed, turns = argument(speed, SPEED, "speed"), argument(rpm, ROTATION, "rpm")
+    if not (0 < feed <= FASTEST if of.direction else feed == 0):
         wanted = f"above 0 and at most {FASTEST:g} m/s" if of.direction else "of 0"
         raise InputError(f"a speed {wanted} for {kind}", key="speed", value=speed)
-    if not (0 <= rpm <= MOST_RPM and (rpm > 0 if of.turns else of.may_turn or rpm == 0)):
+    if not (0 <= turns <= MOST_RPM and (turns > 0 if of.turns else of.may_turn or turns == 0)):
         wanted = "above 0" if of.turns else "at least 0" if of.may_turn else "of 0"
         wanted += f" and at most {MOST_RPM:g}" if of.may_turn else ""
         raise InputError(f"rev/min {wanted} for {kind}", key="rpm", value=rpm)
-    return SteadyRates(of.direction * speed, rad_per_s(rpm))
+    return SteadyRates(of.direction * feed, rad_per_s(turns))
 
 
 def rates_of_all(
-    case: Case, kinds: Sequence[str], speed: float | None = None, rpm: float | None = None
+    case: Case, kinds: Sequence[str], speed: float | str | None = None, rpm: float | str | None = None
 ) -> dict[str, SteadyRates]:
     """Rates of several operations: a given speed applies to the kinds that move, a given rpm to those that may rotate.
 

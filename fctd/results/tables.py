@@ -23,6 +23,7 @@ from fctd.case.errors import InputError
 from fctd.case.input_file import check_regular
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
+from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, as_metadata, from_metadata
 from fctd.results.status import RunStatus
 from fctd.results.whole_file import check_file, left_overs, whole_file
@@ -53,6 +54,21 @@ class SimulationResult:
     notes: tuple[Note, ...] = ()
     warnings: tuple[InputWarning, ...] = ()
     identity: str = field(default_factory=lambda: uuid4().hex)
+
+    def __repr__(self) -> str:
+        return f"SimulationResult({self.case.name!r}: {self.status}, {len(self.history)} records{self._end})"
+
+    def _repr_html_(self) -> str:
+        loads = {load.name: float(self.history[load.name].iloc[-1]) for load in MAIN} if len(self.history) else {}
+        rows = {"status": str(self.status), "records": str(len(self.history)), **load_rows(loads)}
+        return html_table(f"{self.case.name}{self._end}", rows)
+
+    @property
+    def _end(self) -> str:
+        if self.history.empty:
+            return ""
+        last = self.history.iloc[-1]
+        return f", {last['operation']} at {last['bit_depth_m']:.1f} m"
 
     def save(self, folder: Path, csv: bool = False) -> list[Path]:
         """Write history, profile and energy tables as the results in ``folder``; returns the files written.

@@ -4,6 +4,7 @@ The string slides or turns at constant rates while its shape stands still; the f
 (tangent.py).  Newton's method starts from the guess of a soft string (first_guess.py, continuation.py).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -12,13 +13,15 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.case.load import Case, check_bit_depth, naming_file
-from fctd.case.units import bare
+from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String, check_fit, lay_out
 from fctd.model.operations import SteadyRates, sensors, steady_rates
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along, pipe_of
+from fctd.results.columns import IN_CHART, Column
+from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
@@ -86,6 +89,17 @@ class Equilibrium:
     hookload_high: float = float("nan")
     slack_off_spent_at: float = float("nan")
     locked_up_at: float = float("nan")
+
+    def __repr__(self) -> str:
+        loads = ", ".join(f"{label} {value}" for label, value in self._load_rows(MAIN).items())
+        return f"Equilibrium({self.operation}, bit at {self.bit_depth:g} m: {self.status}, {loads})"
+
+    def _repr_html_(self) -> str:
+        title = f"{self.case.name}: {self.operation}, bit at {self.bit_depth:g} m"
+        return html_table(title, {"status": str(self.status), **self._load_rows(IN_CHART)})
+
+    def _load_rows(self, of: Sequence[Column]) -> dict[str, str]:
+        return load_rows({load.name: load.value(self) if self.answered else float("nan") for load in of})
 
     @property
     def answered(self) -> bool:
@@ -347,14 +361,18 @@ def _end_of(problem: Problem, path: Climb) -> str:
 
 
 def equilibrium(
-    case: Case, operation: str, bit_depth: float, speed: float | None = None, rpm: float | None = None
+    case: Case,
+    operation: str,
+    bit_depth: float | str,
+    speed: float | str | None = None,
+    rpm: float | str | None = None,
 ) -> Equilibrium:
-    """The steady string of an operation with the bit at ``bit_depth`` [m].
+    """The steady string of an operation with the bit at ``bit_depth`` [m], or a text such as "8000 ft".
 
-    operation : a kind of operation.  speed [m/s], rpm : by default those of the case's operation of that kind, else
-    the kind's defaults.  Weight on bit and bit torque are the case's.  Raises InputError for input that cannot be
-    used; ``status`` says whether a balance was found.
+    operation : a kind of operation.  speed [m/s] or a text with its unit, rpm : by default those of the case's
+    operation of that kind, else the kind's defaults.  Weight on bit and bit torque are the case's.  Raises InputError
+    for input that cannot be used; ``status`` says whether a balance was found.
     """
     with naming_file(case):
-        depth = bare(bit_depth, "bit_depth", "a number of metres")
+        depth = argument(bit_depth, LENGTH, "bit_depth")
         return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm), depth)

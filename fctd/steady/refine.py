@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
-from fctd.case.units import bare
+from fctd.case.units import LENGTH, argument, bare
 from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import layouts
 from fctd.model.drillstring import lay_out
@@ -88,11 +88,11 @@ def refine(
     case: Case,
     tolerance: float = 0.01,
     operation: str | Sequence[str] | None = None,
-    bit_depth: float | None = None,
+    bit_depth: float | str | None = None,
     graded: bool = False,
     most: int = 5000,
-    speed: float | None = None,
-    rpm: float | None = None,
+    speed: float | str | None = None,
+    rpm: float | str | None = None,
     progress: Progress | None = None,
 ) -> Refinement:
     """Cut the string of a case finer until hook load and torque are within ``tolerance`` (0.01 is 1 %).
@@ -381,10 +381,10 @@ def _kinds(case: Case, operation: str | Sequence[str] | None) -> list[str]:
     return kinds
 
 
-def _depth(case: Case, kind: str, bit_depth: float | None) -> float:
+def _depth(case: Case, kind: str, bit_depth: float | str | None) -> float:
     """The given bit depth, else the end of the case's first operation of that kind, else of its first operation."""
     if bit_depth is not None:
-        return bare(bit_depth, "bit_depth", "a number of metres")
+        return argument(bit_depth, LENGTH, "bit_depth")
     if not case.operations:
         raise InputError("a bit depth, as the case has no operation", key="bit_depth")
     return next((o for o in case.operations if o.kind == kind), case.operations[0]).end_md

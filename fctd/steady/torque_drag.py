@@ -8,7 +8,7 @@ import pandas as pd
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, friction_set, friction_sets, own_label
 from fctd.case.load import Case, naming_file
-from fctd.case.units import bare
+from fctd.case.units import LENGTH, argument
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import UNKNOWN
@@ -25,17 +25,17 @@ FrictionChoice = float | Mapping[str, float] | FrictionSet
 def torque_drag(
     case: Case,
     operation: str | Sequence[str],
-    bit_depths: Sequence[float],
+    bit_depths: Sequence[float | str],
     friction: FrictionChoice | Sequence[FrictionChoice] | None = None,
-    speed: float | None = None,
-    rpm: float | None = None,
+    speed: float | str | None = None,
+    rpm: float | str | None = None,
     progress: Progress | None = None,
 ) -> pd.DataFrame:
     """A row per operation, friction and depth.
 
-    operation : kind or kinds; bit_depths [m] : rising; friction : None for the case's own, or what is set in turn, each
-    a kinetic factor for every interval or factors by kind, such as {"cased": 0.2, "open": 0.3}.  speed [m/s], rpm : see
-    ``equilibrium``; only for kinds that have them.
+    operation : kind or kinds; bit_depths [m], or texts with units : rising; friction : None for the case's own, or what
+    is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2, "open": 0.3}.
+    speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.
     Columns: operation, friction (NaN where intervals differ), friction_label ("0.25", "cased 0.20, open 0.30", or the
     case's own factors with their depths), bit_depth_m, the loads of
     ``columns.IN_CHART`` (hookload_N and so on), buckling (none, sinusoidal, helical, or unknown without loads),
@@ -129,10 +129,10 @@ def _row(
     }
 
 
-def _check_depths(bit_depths: Sequence[float]) -> list[float]:
+def _check_depths(bit_depths: Sequence[float | str]) -> list[float]:
     if np.ndim(bit_depths) != 1:
         raise InputError("a list of numbers of metres", key="bit_depths", value=bit_depths)
-    depths = [bare(depth, f"bit_depths[{k}]", "a number of metres") for k, depth in enumerate(bit_depths)]
+    depths = [argument(depth, LENGTH, f"bit_depths[{k}]") for k, depth in enumerate(bit_depths)]
     if not depths:
         raise InputError("at least one bit depth", key="bit_depths", value=[])
     for before, here in zip([-np.inf, *depths], depths, strict=False):

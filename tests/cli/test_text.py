@@ -31,6 +31,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "equilibrium": ("equilibrium", *STEADY),
     "chart": ("chart", *CHART),
     "refine": ("refine", "--operation", "trip_out", "--tolerance", "50%"),
+    "check": ("check",),
 }
 
 

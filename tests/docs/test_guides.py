@@ -45,13 +45,14 @@ def blocks(document: Path, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", document.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
 
 
-def commands(document: Path) -> list[str]:
+def commands(document: Path, language: str = "sh") -> list[str]:
     """The commands of a document, one line each."""
-    lines = "".join(blocks(document, "sh")).replace("\\\n", " ").splitlines()
+    lines = "".join(blocks(document, language)).replace("\\\n", " ").splitlines()
     return [" ".join(line.partition(" # ")[0].split()) for line in lines]
 
 
 COMMANDS = [(document, command) for document in DOCUMENTS for command in commands(document)]
+IN_ORDER = [document for document in DOCUMENTS if "```console\n" in document.read_text(encoding="utf-8")]
 RUN = [(document, command) for document, command in COMMANDS if not command.startswith(tuple(NOT_RUN))]
 
 
@@ -100,6 +101,20 @@ def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatc
         main.run(PROGRAMS[program])
     for target in re.findall(r"--(?:out|plot|plot-profile) (\S+)", command):
         assert (checkout / target).exists()
+
+
+@pytest.mark.parametrize("document", IN_ORDER, ids=name)
+def test_commands_run_one_after_the_other(document: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As they stand, in an empty folder with a survey."""
+    pytest.importorskip("matplotlib")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "survey.csv").write_text((ROOT / "examples" / "my_survey.csv").read_text())
+    for command in commands(document, "console"):
+        program, *arguments = shlex.split(command)
+        monkeypatch.setattr(sys, "argv", ["fctd", *arguments])
+        with exit_code_0():
+            main.run(PROGRAMS[program.removeprefix(".venv/bin/")])
+    assert {"survey.csv", "my.toml", "chart.csv", "chart.png"} < {path.name for path in tmp_path.iterdir()}
 
 
 def test_what_is_not_run_is_named_and_is_there() -> None:

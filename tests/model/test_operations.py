@@ -123,14 +123,15 @@ def test_rates_of_a_case_come_before_those_of_the_kind() -> None:
     assert steady_rates(case, "trip_out") == (-0.3, 0.0)
     assert steady_rates(case, "trip_in", speed=0.2) == (0.2, pytest.approx(TURN / 3))
     assert steady_rates(case, "trip_in", rpm=60) == (0.4, pytest.approx(TURN))
+    assert steady_rates(case, "trip_in", speed="12 m/min", rpm="1 rev/s") == pytest.approx((0.2, TURN))
 
 
 @pytest.mark.parametrize(
     ("kind", "rates", "message"),
     [
         ("trip_up", {}, 'operation = "trip_up": expected the kind trip_(in|out)'),
-        ("trip_in", {"speed": "1 m/s"}, 'speed = "1 m/s": expected a number of metres per second'),
-        ("trip_in", {"rpm": "60 rpm"}, 'rpm = "60 rpm": expected a number of revolutions per minute'),
+        ("trip_in", {"speed": "1 kg"}, 'speed = "1 kg": expected a speed such as .*'),
+        ("trip_in", {"rpm": "60 kg"}, 'rpm = "60 kg": expected a rotation such as .*'),
     ],
 )
 def test_what_is_no_kind_or_no_rate(kind: str, rates: dict[str, Any], message: str) -> None:

@@ -220,7 +220,7 @@ def test_a_turning_string_without_friction_has_no_torque_error() -> None:
         ({"bit_depth": None}, "bit_depth is missing: expected a bit depth, as the case has no operation"),
         ({"bit_depth": 1301.0}, 'bit_depth = "1301 m": expected a depth below'),
         ({"speed": -1.0}, "speed = -1.0"),
-        ({"bit_depth": "1300 m"}, 'bit_depth = "1300 m": expected a number of metres'),
+        ({"bit_depth": "1300 kg"}, 'bit_depth = "1300 kg": expected a length such as'),
         ({"tolerance": "1%"}, 'tolerance = "1%": expected a share above 0 and below 1, such as 0.01'),
         ({"most": "many"}, 'most = "many": expected a number of segments'),
     ],

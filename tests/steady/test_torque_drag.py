@@ -95,7 +95,7 @@ def test_friction_by_kind_of_interval() -> None:
         ({"speed": -1.0}, "speed = -1.0: expected a speed above 0"),
         ({"bit_depths": "500 m"}, 'bit_depths = "500 m": expected a list of numbers of metres'),
         ({"bit_depths": 500.0}, "bit_depths = 500.0: expected a list of numbers of metres"),
-        ({"bit_depths": [500, "600 m"]}, 'bit_depths[1] = "600 m": expected a number of metres'),
+        ({"bit_depths": [500, "600 kg"]}, 'bit_depths[1] = "600 kg": expected a length such as'),
         ({"friction": "0.2"}, 'friction = "0.2": expected a friction factor'),
         ({"friction": [0.1, "0.2"]}, 'friction = "0.2": expected a friction factor'),
         ({"friction": {"cased": 0.2}}, 'wellbore.intervals[0].kind is missing: expected "cased" or "open"'),

@@ -1,0 +1,18 @@
+"""The case file as JSON Schema, for editors that complete and check TOML."""
+
+from typing import Any, Final
+
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+
+DIALECT: Final = "https://json-schema.org/draft/2020-12/schema"
+
+
+def case_schema() -> dict[str, Any]:
+    """JSON Schema of a case file.  Rules across keys are not in it; `load_case` checks them."""
+    schema = Case.model_json_schema()
+    del schema["properties"]["file"]  # of stored cases alone
+    for kind in KINDS.values():  # from the second operation on its start may be left out
+        required = schema["$defs"][kind.__name__]["required"]
+        required.remove(kind.start_key)
+    return {"$schema": DIALECT, "title": "Case of FCTD"} | {k: v for k, v in schema.items() if k != "title"}

@@ -1,0 +1,49 @@
+"""What all commands have in common: ``-h``, ``-o``, ``--version``, and messages about options left out or repeated."""
+
+from importlib.metadata import version
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperCommand, TyperOption
+
+HELP = {"help_option_names": ["-h", "--help"]}
+# ``--quiet`` of commands that compute nothing.
+Silent = Annotated[bool, typer.Option("--quiet", help="Print warnings and errors alone.")]
+
+
+class Command(TyperCommand):
+    """A command whose ``--out`` is also ``-o``; it says what a missing option accepts, and takes no option twice."""
+
+    def __init__(self, *given: Any, **settings: Any) -> None:
+        super().__init__(*given, **settings)
+        for option in self._options():
+            if "--out" in option.opts:
+                option.opts.insert(0, "-o")
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Parse the options after a check of their number; ends the command with exit code 2 where it is wrong."""
+        given, _, order = self.make_parser(ctx).parse_args(args=list(args))
+        for option in self._options():
+            name = max(option.opts, key=len)
+            if order.count(option) > 1 and not option.multiple:
+                ctx.fail(f"{name} is given {'twice' if order.count(option) == 2 else f'{order.count(option)} times'}.")
+            if option.required and option.name not in given and "help" not in given:
+                ctx.fail(f"Missing option '{name}'. {option.help}")
+        return super().parse_args(ctx, args)
+
+    def _options(self) -> list[TyperOption]:
+        return [option for option in self.params if isinstance(option, TyperOption)]
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"fctd {version('fctd')}")
+        raise typer.Exit
+
+
+def application(
+    show_version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """Fast contact torque and drag of a stiff drill string."""

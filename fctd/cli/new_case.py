@@ -1,0 +1,236 @@
+"""A case file to start from, as text: a template's string in its own well or in that of a survey."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
+from fctd.cli.templates import Part, Template
+from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.default_layout import mean_curvature
+
+Array = NDArray[np.float64]
+UnitSystem = Literal["metric", "field"]
+
+# A unit for each dimension, and the digits after the point that are written.
+UNITS: dict[UnitSystem, dict[Dimension, tuple[str, int]]] = {
+    "metric": {
+        LENGTH: ("m", 2),
+        DENSITY: ("kg/m^3", 0),
+        FORCE: ("kN", 0),
+        TORQUE: ("kN*m", 1),
+        LINEAR_MASS: ("kg/m", 1),
+    },
+    "field": {
+        LENGTH: ("ft", 2),
+        DENSITY: ("ppg", 1),
+        FORCE: ("klbf", 0),
+        TORQUE: ("ft*lbf", -2),
+        LINEAR_MASS: ("lb/ft", 1),
+    },
+}
+FOOT = 0.3048
+# Column of the comments.
+COMMENTS = 38
+# The shoe is where the hole has this share of its greatest inclination, between these shares of its depth, on a round
+# depth: casing is set below the build.
+LANDED, SHALLOWEST_SHOE, DEEPEST_SHOE = 0.95, 0.4, 0.7
+# The default damping of a contact point is for a softer wall: on a stiff one a long string would not come to rest.
+DAMPING = "1e5 N*s/m"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a case file is made of.
+
+    name, title : of the case, and what it is; hole : lines of TOML with survey or stations; shoe, depth [m] : casing
+    shoe and end of the hole; shoe_comment : why it is there; stiffness [N/m/m] : of the wall.
+    """
+
+    name: str
+    title: str
+    template: Template
+    units: UnitSystem
+    hole: tuple[str, ...]
+    shoe: float
+    depth: float
+    shoe_comment: str
+    stiffness: float
+
+    def text(self) -> str:
+        """The case file."""
+        return "\n".join(self._lines()) + "\n"
+
+    def _lines(self) -> Iterator[str]:
+        quantity, template = Quantities(self.units), self.template
+        yield f"# {self.title[0].upper()}{self.title[1:]}: change what differs in yours."
+        yield '# A quantity is a text with its unit ("8.5 in", "1250 kg/m^3"), or a bare number in SI.'
+        yield f"name = {json.dumps(self.name, ensure_ascii=False)}"
+        yield ""
+        yield "[wellbore]"
+        yield from self.hole
+        yield entry("geometry", "arcs", "the hole follows the circular arcs between stations")
+        stiffness = f"{self.stiffness:.0e}".replace("e+0", "e")
+        yield entry(
+            "stiffness_per_length", f"{stiffness} N/m/m", "of the wall: the string presses less than 1 % of its"
+        )
+        yield " " * COMMENTS + "# clearance into it"
+        for kind, hole, end in (("cased", template.cased, self.shoe), ("open", template.open, self.depth)):
+            yield ""
+            comment = "from the surface down" if kind == "cased" else ""
+            yield aligned("[[wellbore.intervals]]", comment)
+            yield entry("name", hole.name)
+            yield entry("kind", kind)
+            yield entry("to_md", quantity(LENGTH, end), self.shoe_comment if kind == "cased" else "the end of the hole")
+            yield entry("diameter", f"{hole.diameter} in", "inside the casing" if kind == "cased" else "")
+            yield aligned(f"friction = {hole.friction:.2f}", "")
+        for k, part in enumerate(template.string):
+            yield ""
+            above = "" if k else "from the bit up; segments are chosen for you"
+            yield aligned(
+                "[[string.components]]", "no length: it reaches the surface" if part.length is None else above
+            )
+            yield from self._part(part, quantity)
+        yield ""
+        yield "[mud]"
+        yield entry("density", quantity(DENSITY, template.mud))
+        yield ""
+        yield "[rig]"
+        yield entry(
+            "block_weight", quantity(FORCE, 1e3 * template.block_weight), "added to the hook load on the indicator"
+        )
+        if template.weight_on_bit:
+            yield ""
+            yield aligned("[bit]", "while drilling")
+            yield entry("weight_on_bit", quantity(FORCE, 1e3 * template.weight_on_bit))
+            yield entry("torque", quantity(TORQUE, 1e3 * template.bit_torque))
+        yield ""
+        yield "[contact]"
+        yield entry("damping", DAMPING, "so that the string comes to rest on the stiff wall")
+        yield ""
+        yield aligned("[[operations]]", "for fctd simulate; charts ask for their operations")
+        yield from self._operation(quantity)
+
+    def _part(self, part: Part, quantity: "Quantities") -> Iterator[str]:
+        yield entry("name", part.name)
+        if part.length is not None:
+            yield entry("length", quantity(LENGTH, part.length or self.depth - self.shoe))
+        yield entry("outer_diameter", f"{part.outer} in")
+        yield entry("inner_diameter", f"{part.inner} in")
+        if part.contact is not None:
+            yield entry("contact_diameter", f"{part.contact} in", "of the joints, which touch first")
+        if part.mass is not None:
+            yield entry("linear_mass", quantity(LINEAR_MASS, part.mass), "with joints")
+
+    def _operation(self, quantity: "Quantities") -> Iterator[str]:
+        end = quantity(LENGTH, self.depth)
+        if self.template.weight_on_bit:
+            yield from (entry("kind", "rotate_off_bottom"), entry("at_md", end), entry("duration", "20 s"), "rpm = 60")
+        else:
+            speed = "0.3 m/s" if self.units == "metric" else "60 ft/min"
+            yield from (
+                entry("kind", "trip_in"),
+                entry("from_md", quantity(LENGTH, self.depth - RUN)),
+                entry("to_md", end),
+            )
+            yield entry("speed", speed)
+
+
+# Distance of a trip [m].
+RUN = 15.24
+
+
+class Quantities:
+    """Writes SI values with the units of a system, rounded to digits that a person would write."""
+
+    def __init__(self, units: UnitSystem) -> None:
+        self.units = UNITS[units]
+
+    def __call__(self, dimension: Dimension, value: float) -> str:
+        unit, digits = self.units[dimension]
+        number = value / Quantity(dimension=dimension).parse(f"1 {unit}")
+        if dimension is LENGTH:  # a depth must not be rounded beyond the end of the survey
+            number = np.floor(number * 10**digits + 1e-6) / 10**digits
+        return f"{round(float(number), digits):.10g} {unit}"
+
+
+def entry(key: str, value: str, comment: str = "") -> str:
+    """A line of TOML with a text."""
+    return aligned(f"{key} = {json.dumps(value, ensure_ascii=False)}", comment)
+
+
+def aligned(line: str, comment: str) -> str:
+    """A line with its comment in the column of comments."""
+    return f"{line:<{COMMENTS - 1}} # {comment}" if comment else line
+
+
+def from_template(template: Template, name: str, units: UnitSystem) -> Plan:
+    """The template's own well."""
+    # Every metre is written as 3 ft.
+    scale = 1.0 if units == "metric" else 3 * FOOT
+    stations = np.array(template.stations) * [scale, 1.0, 1.0]
+    quantity = Quantities(units)
+    md = [json.dumps(quantity(LENGTH, depth)) if units == "field" else f"{depth:g}" for depth in stations[:, 0]]
+    rows = [f"    [{at}, {inc:g}, {azi:g}]," for at, (_, inc, azi) in zip(md, stations, strict=True)]
+    unit = "ft" if units == "field" else "m"
+    hole = [aligned("stations = [", f"measured depth [{unit}], inclination and azimuth [deg]"), *rows, "]"]
+    scaled = template._replace(
+        string=tuple(part._replace(length=part.length and part.length * scale) for part in template.string)
+    )
+    shoe, depth = scale * template.shoe, float(stations[-1, 0])
+    stiffness = stiff_wall(scaled, np.radians(stations) * [180 / np.pi, 1.0, 1.0], shoe)
+    return Plan(name, template.title, scaled, units, tuple(hole), shoe, depth, "the casing shoe", stiffness)
+
+
+def from_survey(
+    template: Template, name: str, units: UnitSystem, path: str, columns: tuple[str, ...], stations: Array
+) -> Plan:
+    """The template's string in the well of a survey.
+
+    path : as the case writes it; columns : lines of TOML about its columns; stations (n, 3) [m, rad, rad].
+    """
+    hole = (entry("survey", path), *columns)
+    shoe, depth = sensible_shoe(stations, units), float(stations[-1, 0])
+    comment = "an assumed casing shoe, below the build: put yours"
+    title = f"the well of {path} with the string of {template.title}"
+    return Plan(name, title, template, units, hole, shoe, depth, comment, stiff_wall(template, stations, shoe))
+
+
+def sensible_shoe(stations: Array, units: UnitSystem) -> float:
+    """A round depth [m] at which casing may be set: where the build ends, in the middle part of the hole."""
+    depth, inclination = float(stations[-1, 0]), stations[:, 1]
+    landed = float(stations[np.argmax(inclination >= LANDED * inclination.max()), 0])
+    unit = 10.0 if units == "metric" else 50 * FOOT
+    first, last = np.ceil(SHALLOWEST_SHOE * depth / unit), np.floor(DEEPEST_SHOE * depth / unit)
+    if last < max(first, 1):  # a hole too short for round depths
+        return SHALLOWEST_SHOE * depth
+    return float(np.clip(round(landed / unit), first, last) * unit)
+
+
+def stiff_wall(template: Template, stations: Array, shoe: float) -> float:
+    """A stiffness [N/m/m], 1, 2 or 5 times a power of ten: the string presses less than 1 % of its clearance into it.
+
+    The side force of a metre is tension times curvature, and weight: with the weight of the whole string, the sharpest
+    bend and the heaviest component it is the largest one without friction.
+    """
+    depth = float(stations[-1, 0])
+    above, weight, heaviest, clearance = depth, 0.0, 0.0, np.inf
+    narrowest = min(float(template.cased.diameter), float(template.open.diameter))
+    for part in template.string:
+        length = above if part.length is None else min(part.length or depth - shoe, above)
+        outer, inner = (0.0254 * float(size) for size in (part.outer, part.inner))
+        mass = part.mass if part.mass is not None else STEEL * np.pi / 4 * (outer**2 - inner**2)
+        buoyed = mass * GRAVITY * (1 - template.mud / STEEL)
+        above, weight, heaviest = above - length, weight + buoyed * length, max(heaviest, buoyed)
+        clearance = min(clearance, 0.5 * 0.0254 * (narrowest - float(part.contact or part.outer)))
+    sharpest = float(mean_curvature(stations, np.linspace(0.0, depth, 2000)).max())
+    needed = (weight * sharpest + heaviest) / (0.01 * clearance)
+    power = 10.0 ** np.floor(np.log10(needed))
+    return float(next(m * power for m in (1, 2, 5, 10) if m * power >= needed))
+
+
+STEEL = 7850.0  # kg/m^3

@@ -1,0 +1,131 @@
+"""Wells to start from: path, casing, string and loads of each, in round numbers.
+
+Depths and lengths are in metres; in field units every metre is written as 3 ft, so that the numbers stay round.
+Pipe is named and sized in inches in both systems, as it is sold.
+"""
+
+from itertools import accumulate, pairwise
+from typing import Final, Literal, NamedTuple
+
+
+class Part(NamedTuple):
+    """A component: diameters [in], mass with its joints [kg/m], None for that of the plain pipe; length [m].
+
+    length : None for the last one, which reaches the surface, and 0 for one as long as the hole below the shoe.
+    """
+
+    name: str
+    outer: str
+    inner: str
+    contact: str | None = None
+    mass: float | None = None
+    length: float | None = None
+
+
+class Hole(NamedTuple):
+    """A section of hole: name, diameter [in], friction factor."""
+
+    name: str
+    diameter: str
+    friction: float
+
+
+class Template(NamedTuple):
+    """A well: title; courses (length [m], inclination at the end [deg]); azimuth [deg]; depth of the shoe [m].
+
+    weight_on_bit [kN], bit_torque [kN m] : 0 for a string that does not drill.
+    """
+
+    title: str
+    courses: tuple[tuple[float, float], ...]
+    azimuth: float
+    shoe: float
+    cased: Hole
+    open: Hole
+    string: tuple[Part, ...]
+    mud: float = 1250.0
+    block_weight: float = 250.0
+    weight_on_bit: float = 0.0
+    bit_torque: float = 0.0
+
+    @property
+    def stations(self) -> list[tuple[float, float, float]]:
+        """Measured depth [m], inclination and azimuth [deg]: the ends of the courses, and every 150 m in bends."""
+        ends = list(accumulate(self.courses, lambda at, course: (at[0] + course[0], course[1]), initial=(0.0, 0.0)))
+        found = []
+        for (md, inclination), (to_md, to) in pairwise(ends):
+            count = 1 if inclination == to else max(round((to_md - md) / STATION), 1)
+            steps = [k / count for k in range(count)]
+            found += [(md + s * (to_md - md), inclination + s * (to - inclination), self.azimuth) for s in steps]
+        return [*found, (*ends[-1], self.azimuth)]
+
+
+STATION: Final = 150.0
+TemplateName = Literal["build-hold", "horizontal", "s-well", "extended-reach", "casing-run"]
+
+CASING_9_5_8, HOLE_8_1_2 = "9 5/8 in casing, 47 lb/ft", "8 1/2 in hole"
+PIPE_5 = Part("5 in drill pipe, 19.5 lb/ft", "5", "4.276", "6.625", 31.1)
+PIPE_5_7_8 = Part("5 7/8 in drill pipe, 23.4 lb/ft", "5.875", "5.153", "7", 39.2)
+HEAVY = Part("5 in heavy-weight pipe, 49.3 lb/ft", "5", "3", "6.5", 73.4)
+COLLARS = Part("6 3/4 in drill collars", "6.75", "2.8125")
+
+TEMPLATES: Final[dict[TemplateName, Template]] = {
+    "build-hold": Template(
+        "a build-and-hold well",
+        ((600, 0), (750, 45), (1650, 45)),
+        45.0,
+        1500.0,
+        Hole(CASING_9_5_8, "8.681", 0.20),
+        Hole(HOLE_8_1_2, "8.5", 0.30),
+        (COLLARS._replace(length=120.0), HEAVY._replace(length=150.0), PIPE_5),
+        weight_on_bit=80.0,
+        bit_torque=4.0,
+    ),
+    "horizontal": Template(
+        "a horizontal well",
+        ((1500, 0), (900, 90), (1200, 90)),
+        90.0,
+        2400.0,
+        Hole(CASING_9_5_8, "8.681", 0.20),
+        Hole(HOLE_8_1_2, "8.5", 0.30),
+        (
+            COLLARS._replace(length=30.0),
+            PIPE_5._replace(length=0.0),
+            HEAVY._replace(length=600.0),
+            PIPE_5,
+        ),
+        weight_on_bit=60.0,
+        bit_torque=4.0,
+    ),
+    "s-well": Template(
+        "an S-shaped well",
+        ((600, 0), (600, 30), (900, 30), (600, 6), (900, 6)),
+        30.0,
+        1500.0,
+        Hole(CASING_9_5_8, "8.681", 0.20),
+        Hole(HOLE_8_1_2, "8.5", 0.30),
+        (COLLARS._replace(length=150.0), HEAVY._replace(length=150.0), PIPE_5),
+        weight_on_bit=80.0,
+        bit_torque=4.0,
+    ),
+    "extended-reach": Template(
+        "an extended-reach well",
+        ((300, 0), (1200, 72), (5100, 72)),
+        60.0,
+        3600.0,
+        Hole(CASING_9_5_8, "8.681", 0.20),
+        Hole(HOLE_8_1_2, "8.5", 0.25),
+        (COLLARS._replace(length=30.0), HEAVY._replace(length=90.0), PIPE_5_7_8),
+        weight_on_bit=60.0,
+        bit_torque=4.0,
+    ),
+    "casing-run": Template(
+        "9 5/8 in casing run into a build-and-hold well",
+        ((600, 0), (900, 45), (1200, 45)),
+        45.0,
+        900.0,
+        Hole("13 3/8 in casing, 68 lb/ft", "12.415", 0.25),
+        Hole("12 1/4 in hole", "12.25", 0.35),
+        (Part("9 5/8 in casing, 47 lb/ft, with couplings", "9.625", "8.681", "10.625", 70.0),),
+    ),
+}

@@ -1,0 +1,87 @@
+"""Segment lengths of components that give none: short in bends and near the bit, longer elsewhere.
+
+A segment's chord misses a bend of curvature κ by κh²/8.  It is kept within the clearance, so that a segment that
+touches the outer side of a bend with both ends stays clear of the inner side.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.load import Case
+from fctd.model import survey
+
+Array = NDArray[np.float64]
+
+# Longest segment, and the segment at the bit [m].  Between them, and beside bends, lengths grow by this share of the
+# distance: the bending moment of a bend fades within a wave of the string, about 20 m.
+LONGEST, AT_BIT, GROWTH = 30.0, 10.0, 0.25
+# The curvature is a mean over this length, as a dog-leg severity is: two close stations are no bend [m].
+COURSE = 30.0
+# A stabiliser's clearance does not rule the length of its neighbours [m].
+LEAST_CLEARANCE = 0.005
+# Distance of the samples along the string [m].
+SAMPLE = 5.0
+
+
+class DefaultLayout:
+    """The largest segment lengths along a string whose bit is at a depth [m], or moves from there to ``deepest`` [m].
+
+    A string that moves keeps its segments: every part of it has the length that the sharpest place on its way needs.
+    """
+
+    def __init__(self, case: Case, bit_depth: float, deepest: float | None = None) -> None:
+        in_hole = bit_depth - case.string.top_md
+        samples = max(int(np.ceil(in_hole / SAMPLE)), 2) + 1
+        self.above_bit, apart = np.linspace(0.0, in_hole, samples, retstep=True)
+        deepest = bit_depth if deepest is None else max(deepest, bit_depth)
+        way = int(np.ceil((deepest - bit_depth) / apart))
+        # From the deepest place upwards: row i has the places of sample i, from the end of the trip to its beginning.
+        md = deepest - apart * np.arange(samples + way)
+        hole, bend = (np.lib.stride_tricks.sliding_window_view(a, way + 1) for a in _hole(case, md))
+        clearance = np.maximum(hole - self._contact_radius(case)[:, None], LEAST_CLEARANCE)
+        limit = np.minimum(np.sqrt(8 * clearance / np.maximum(bend, 1e-12)).min(axis=1), LONGEST)
+        limit[0] = min(limit[0], AT_BIT)
+        grown = GROWTH * self.above_bit
+        limit = np.minimum.accumulate(limit - grown) + grown
+        self.limit = np.minimum.accumulate((limit + grown)[::-1])[::-1] - grown
+        self._count = np.append(0.0, np.cumsum(0.5 * apart * (1 / self.limit[1:] + 1 / self.limit[:-1])))
+
+    def _contact_radius(self, case: Case) -> Array:
+        """Contact radius [m] at the samples."""
+        parts = case.string.components
+        ends = np.cumsum([np.inf if part.length is None else part.length for part in parts])
+        k = np.minimum(np.searchsorted(ends, self.above_bit), len(parts) - 1)
+        return np.array([0.5 * part.contact_diameter for part in parts])[k]
+
+    def at(self, above_bit: Array) -> Array:
+        """The largest length [m] of segments at distances above the bit (n,) [m]."""
+        return np.interp(above_bit, self.above_bit, self.limit)
+
+    def count(self, start: float, end: float) -> int:
+        """Number of segments between two distances above the bit [m]."""
+        first, last = np.interp([start, end], self.above_bit, self._count)
+        return max(int(np.ceil(last - first - 1e-9)), 1)
+
+    def lengths(self, start: float, end: float) -> list[float]:
+        """Segments from one distance above the bit to another [m], from the lower end upwards."""
+        first, last = np.interp([start, end], self.above_bit, self._count)
+        shares = np.linspace(first, last, self.count(start, end) + 1)[1:-1]
+        ends = np.concatenate([[start], np.interp(shares, self._count, self.above_bit), [end]])
+        lengths: list[float] = np.diff(ends).tolist()
+        return lengths
+
+
+def _hole(case: Case, md: Array) -> tuple[Array, Array]:
+    """Radius [m] and curvature [1/m] of the hole at depths (n,) [m]."""
+    intervals = case.wellbore.intervals
+    i = np.minimum(np.searchsorted([interval.to_md for interval in intervals], md), len(intervals) - 1)
+    return np.array([0.5 * interval.diameter for interval in intervals])[i], mean_curvature(
+        case.wellbore.trajectory, md
+    )
+
+
+def mean_curvature(stations: Array, md: Array) -> Array:
+    """Mean curvature [1/m] of the ``COURSE`` about each depth (n,) [m]; stations (k, 3) [m, rad, rad]."""
+    turned = np.append(0.0, np.cumsum(survey.dogleg(stations)))
+    below, above = (np.interp(md + side * 0.5 * COURSE, stations[:, 0], turned) for side in (1, -1))
+    return np.asarray((below - above) / COURSE)

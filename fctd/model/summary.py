@@ -1,0 +1,125 @@
+"""What a case says, in numbers to compare with a well plan: path, string in the hole, clearances, segments."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.load import Case
+from fctd.mechanics.topdrive import GRAVITY
+from fctd.model import survey
+from fctd.model.drillstring import String, check_fit, lay_out, section_of
+from fctd.model.wellbore import build_wellbore
+
+Array = NDArray[np.float64]
+
+
+class Path(NamedTuple):
+    """The path of a hole: stations; depth (measured), vertical_depth, departure from the wellhead [m].
+
+    inclination, its depth inclination_at; dogleg [rad/m], the greatest of a course, and its ends [m].
+    """
+
+    stations: int
+    depth: float
+    vertical_depth: float
+    departure: float
+    inclination: float
+    inclination_at: float
+    dogleg: float
+    dogleg_from: float
+    dogleg_to: float
+
+
+class Part(NamedTuple):
+    """A component in the hole: from_md (upper end), to_md [m]; mass [kg/m]; air, buoyed : weight [N].
+
+    clearances (intervals,) [m] : from the wall to its widest part, all around; negative where it is too wide.
+    """
+
+    name: str
+    from_md: float
+    to_md: float
+    mass: float
+    air: float
+    buoyed: float
+    clearances: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Summary:
+    """A case with the bit as deep as hole and string allow: path; bit_depth [m]; parts from the top to the bit.
+
+    air, buoyed : weight of the string [N].
+    """
+
+    case: Case
+    path: Path
+    bit_depth: float
+    parts: tuple[Part, ...]
+
+    @property
+    def air(self) -> float:
+        """Weight of the string in air [N]."""
+        return sum(part.air for part in self.parts)
+
+    @property
+    def buoyed(self) -> float:
+        """Weight of the string in mud [N]."""
+        return sum(part.buoyed for part in self.parts)
+
+    @property
+    def buoyancy_factor(self) -> float:
+        """Weight in mud over weight in air; 1 − ρ/ρ_steel where all of the string is of one density."""
+        return self.buoyed / self.air
+
+    def string(self) -> String:
+        """The string with its segments; raises InputError where it does not fit the hole."""
+        hole, string = build_wellbore(self.case), lay_out(self.case, self.bit_depth)
+        check_fit(self.case, string, hole, self.bit_depth)
+        return string
+
+
+def summarise(case: Case) -> Summary:
+    """The summary of a case; raises InputError for a survey or a hole that cannot be used."""
+    top, depth = case.depths
+    reach = top + sum(part.length if part.length is not None else np.inf for part in case.string.components)
+    bit_depth = min(depth, reach)
+    return Summary(case, _path(case, depth), bit_depth, tuple(_parts(case, bit_depth)))
+
+
+def segments_in_words(case: Case, string: String, metre: float = 1.0, label: str = "m") -> str:
+    """Number and lengths of segments in a line; metre : what a metre is in the unit of the label."""
+    shortest, longest = metre * string.length.min(), metre * string.length.max()
+    span = f"{longest:.3g}" if np.isclose(shortest, longest, rtol=1e-3) else f"{shortest:.3g} to {longest:.3g}"
+    chosen = any(part.cut_by_default for part in case.string.components)
+    why = ", by default short in bends and near the bit" if chosen else ""
+    return f"{string.segments} segments of {span} {label} with the bit at {metre * string.bit_depth:.1f} {label}{why}"
+
+
+def _path(case: Case, depth: float) -> Path:
+    stations = case.wellbore.trajectory
+    (north, east, down) = build_wellbore(case).at(np.array([depth]))[0][0]
+    steepest = int(np.argmax(stations[:, 1]))
+    rate = survey.dogleg(stations) / np.diff(stations[:, 0])
+    k = int(np.argmax(rate))
+    return Path(
+        len(stations), depth, float(down), float(np.hypot(north, east)), float(stations[steepest, 1]),
+        float(stations[steepest, 0]), float(rate[k]), float(stations[k, 0]), float(stations[k + 1, 0]),
+    )  # fmt: skip
+
+
+def _parts(case: Case, bit_depth: float) -> list[Part]:
+    """Components in the hole from the top down."""
+    below, found = bit_depth, []
+    for part in case.string.components:
+        length = min(part.length if part.length is not None else np.inf, below - case.string.top_md)
+        if length <= 0:
+            break
+        section = section_of(part, case.mud.density)
+        clearances = tuple(0.5 * (i.diameter - part.contact_diameter) for i in case.wellbore.intervals)
+        air, buoyed = section.mass * GRAVITY * length, section.weight * length
+        found.append(Part(part.name, below - length, below, section.mass, air, buoyed, clearances))
+        below -= length
+    return found[::-1]

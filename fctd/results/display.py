@@ -1,0 +1,28 @@
+"""Results as notebooks show them: a small table."""
+
+from collections.abc import Mapping
+
+import pandas as pd
+
+from fctd.results.columns import COLUMNS, LOADS
+from fctd.results.unit_systems import shown
+
+# Loads that say most: hook load and surface torque.
+MAIN = LOADS[:2]
+
+
+def html_table(title: str, rows: Mapping[str, str]) -> str:
+    """A table of names and values below a title, as HTML; texts are escaped."""
+    table = pd.DataFrame({title: list(rows.values())}, index=list(rows)).to_html()
+    return table.replace(' style="text-align: right;"', ' style="text-align: left;"')
+
+
+def load_rows(loads: Mapping[str, float]) -> dict[str, str]:
+    """Labels of columns and their values with units, "hook load": "957.9 kN"; a dash for NaN."""
+    rows = {}
+    for name, value in loads.items():
+        unit = shown(name, "si")
+        rows[COLUMNS[name].label] = (
+            "–" if pd.isna(value) else f"{value * unit.factor:z.{COLUMNS[name].digits}f} {unit.label}"
+        )
+    return rows

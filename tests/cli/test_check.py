@@ -1,0 +1,121 @@
+"""``fctd check``: numbers of the case as understood, in both unit systems; what does not fit; warnings."""
+
+from pathlib import Path
+
+import pytest
+
+from fctd.case.input_warnings import InputWarning
+from fctd.cli import check
+from tests.cli.test_main import run
+
+# A quarter circle of 286.48 m radius after 300 m: 90° in 450 m, 6°/30 m; 150 m horizontal.
+CASE = """
+name = "quarter"
+[wellbore]
+stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]
+geometry = "arcs"
+[[wellbore.intervals]]
+name = "casing"
+kind = "cased"
+to_md = "600 m"
+diameter = "8.681 in"
+friction = 0.2
+[[wellbore.intervals]]
+to_md = "900 m"
+diameter = "8.5 in"
+friction = 0.3
+[[string.components]]
+name = "collars"
+length = "100 m"
+outer_diameter = "6.5 in"
+inner_diameter = "3 in"
+[[string.components]]
+name = "pipe"
+outer_diameter = "5 in"
+inner_diameter = "4.276 in"
+linear_mass = "30 kg/m"
+[mud]
+density = "785 kg/m^3"
+"""
+
+
+@pytest.fixture
+def case_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("COLUMNS", "120")
+    path = tmp_path / "quarter.toml"
+    path.write_text(CASE)
+    return path
+
+
+def printed(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], *more: str) -> str:
+    """What ``fctd check`` prints, every run of blanks as one."""
+    assert run(monkeypatch, "check", case_file, *more) == 0
+    return " ".join(capsys.readouterr().out.split())
+
+
+def test_the_numbers(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """By hand: 300 m + radius deep, radius + 150 m away; 24 t of pipe and 13 t of collars, mud of a tenth of steel."""
+    text = printed(case_file, monkeypatch, capsys)
+    for line in (
+        "total depth, measured 900.0 m (4 stations)",
+        "true vertical depth 586.5 m",
+        "departure 436.5 m",
+        "greatest inclination 90.0 ° at 750 m",
+        "greatest dog-leg 6.00 °/30 m from 300 to 750 m",
+        "1: casing cased 0.0 600.0 220.5 0.2",
+        "2 – 600.0 900.0 215.9 0.3",
+        "pipe 0.0 800.0 235.4 211.8 46.7 44.5",
+        "collars 800.0 900.0 129.7 116.7 27.7 25.4",
+        "buoyancy factor 0.900",
+        "string in air 365.1 kN",
+        "string in mud 328.6 kN",
+        "m with the bit at 900.0 m, by default short in bends and near the bit",
+    ):
+        assert line in text
+
+
+def test_field_units(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    text = printed(case_file, monkeypatch, capsys, "--units", "field")
+    for line in (
+        "total depth, measured 2952.8 ft",
+        "greatest dog-leg 6.10 °/100 ft from 984 to 2461 ft",  # 6°/30 m
+        "1: casing cased 0.0 1968.5 8.681 0.2",
+        "mud density 6.551 ppg",
+        "string in air 82.1 klbf",
+    ):
+        assert line in text
+
+
+def test_options_change_the_case(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    changes = (
+        "--friction",
+        "0.4",
+        "--set",
+        "string.components[1].segments=5",
+        "--set",
+        "string.components[0].segments=2",
+    )
+    text = printed(case_file, monkeypatch, capsys, *changes)
+    assert "220.5 0.4" in text
+    assert "7 segments of 50 to 160 m with the bit at 900.0 m" in text
+    assert "by default" not in text
+
+
+def test_what_does_not_fit_is_refused_below_the_tables(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, "check", case_file, "--set", "string.components[0].contact_diameter=8.6 in") == 2
+    out, err = capsys.readouterr()
+    assert err.startswith(f'{case_file}: string.components[0].contact_diameter = "218.4 mm"')
+    assert "-1.27" in out
+
+
+def test_warnings(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    warning = InputWarning("no_mud", "mud.density", "the hole is empty", "give the mud's density")
+    monkeypatch.setattr(check, "warnings_of", lambda case: [warning])
+    assert run(monkeypatch, "check", case_file, "--quiet") == 0
+    out, err = capsys.readouterr()
+    assert (out, err) == ("", "warning: mud.density: the hole is empty: give the mud's density\n")
+    assert run(monkeypatch, "check", case_file, "--quiet", "--strict") == 1

@@ -1,0 +1,126 @@
+"""``fctd init``: a case that the other commands take, of a template or of a survey; refusals."""
+
+import re
+import shlex
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import fctd
+from fctd.cli.templates import TEMPLATES
+from tests.cli.test_main import run
+
+SURVEY = "md_ft,inc_deg,azi_deg\n" + "".join(f"{100 * k},{min(max(k - 10, 0), 60)},{40 + k % 3}\n" for k in range(101))
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def advised(printed: str) -> list[list[str]]:
+    """The commands that ``init`` names."""
+    return [shlex.split(command) for command in re.findall(r"^(?:Next:)? +fctd (.*)$", printed, re.MULTILINE)]
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_every_template_is_written(name: str, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert run(monkeypatch, "init", "--template", name, "--units", "field", "-o", "my.toml") == 0
+    case = fctd.load_case("my.toml")
+    assert case.name == "my"
+    assert all(part.cut_by_default for part in case.string.components)
+
+
+@pytest.mark.parametrize("units", ["metric", "field"])
+def test_the_commands_that_it_names_run(
+    units: str, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """All but ``simulate``, whose 20 s take too long for a fast test."""
+    assert run(monkeypatch, "init", "--units", units) == 0
+    commands = advised(capsys.readouterr().out)
+    assert [command[0] for command in commands] == ["check", "chart", "equilibrium", "simulate"]
+    for command in commands[:3]:
+        assert run(monkeypatch, *command) == 0
+    assert "segments of" in capsys.readouterr().out
+    assert (here / "chart.csv").exists()
+
+
+def test_the_case_of_a_survey(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    (here / "surveys").mkdir()
+    (here / "surveys" / "well ü.csv").write_text(SURVEY)
+    assert run(monkeypatch, "init", here / "surveys" / "well ü.csv", "--units", "field", "-o", "case/ü.toml") == 0
+    raw = tomllib.loads((here / "case" / "ü.toml").read_text(encoding="utf-8"))
+    assert raw["wellbore"]["survey"] == "../surveys/well ü.csv"
+    case = fctd.load_case("case/ü.toml")
+    assert case.wellbore.trajectory[-1, 0] == pytest.approx(10_000 * 0.3048)
+    # The build ends at 7000 ft; 95 % of 60° are reached at 6700 ft.
+    assert raw["wellbore"]["intervals"][0]["to_md"] == "6700 ft"
+    assert "assumed casing shoe" in (here / "case" / "ü.toml").read_text(encoding="utf-8")
+    point = fctd.equilibrium(case, "trip_out", "9000 ft")
+    assert point.status == "converged"
+    walls = point._shape.walls
+    clearance = walls.radius - point._shape.radius
+    assert ((np.linalg.norm(walls.offset, axis=1) - clearance) / clearance).max() < 0.01
+
+
+@pytest.mark.parametrize(("units", "unit", "metre"), [("metric", "m", 1.0), ("field", "ft", 0.3048)])
+def test_a_survey_without_a_unit_of_depth(
+    units: str,
+    unit: str,
+    metre: float,
+    here: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    (here / "s.csv").write_text("DEPTH,DEVI,AZIM\n0,0,0\n500,0,0\n1000,40,10\n1500,40,10\n")
+    assert run(monkeypatch, "init", "s.csv", "--units", units) == 0
+    assert f"the file names no unit of depth: {unit} is assumed" in capsys.readouterr().err
+    assert f'columns = {{md = {{unit = "{unit}"}}}}' in (here / "my_well.toml").read_text(encoding="utf-8")
+    assert fctd.load_case("my_well.toml").depths[1] == pytest.approx(1500 * metre, abs=0.01)
+
+
+@pytest.mark.parametrize(("steepest", "pipe"), [(60, "drill collars"), (89, "drill collars")])
+def test_the_string_follows_the_survey(
+    steepest: int, pipe: str, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (here / "s.csv").write_text(f"md_m,inc_deg,azi_deg\n0,0,0\n500,0,0\n1000,{steepest},0\n1500,{steepest},0\n")
+    assert run(monkeypatch, "init", "s.csv") == 0
+    assert ("a horizontal well" in capsys.readouterr().out) == (steepest > 70)
+    assert pipe in fctd.load_case("my_well.toml").string.components[0].name
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["nowhere.csv"], 'SURVEY = "nowhere.csv": expected a survey file that exists'),
+        (["bad.csv"], "bad.csv: row 3, inc_deg = "),
+        (["--out", "my.yaml"], '--out = "my.yaml": expected a file name that ends in .toml'),
+        (["--out", "there.toml"], '--out = "there.toml": expected a file that does not exist yet'),
+        (["--out", "there.toml/my.toml"], '--out = "there.toml/my.toml": expected '),
+        (["--template", "j-well"], "'j-well' is not one of 'build-hold', 'horizontal'"),
+        (["--units", "si"], "'si' is not one of 'metric', 'field'"),
+    ],
+)
+def test_refused(
+    arguments: list[str],
+    message: str,
+    here: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    (here / "there.toml").write_text("mine")
+    (here / "bad.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n100,x,0\n")
+    monkeypatch.setenv("COLUMNS", "200")
+    assert run(monkeypatch, "init", *arguments) == 2
+    assert message in " ".join(capsys.readouterr().err.split())
+    assert (here / "there.toml").read_text() == "mine"
+    assert not (here / "my_well.toml").exists()
+
+
+def test_quiet(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, "init", "--quiet") == 0
+    assert capsys.readouterr().out == ""
+    assert (here / "my_well.toml").exists()

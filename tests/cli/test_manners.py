@@ -1,0 +1,80 @@
+"""What all commands have in common: help, version, quiet, options left out or repeated."""
+
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+import typer
+
+from fctd.cli.main import app
+from tests.cli.test_main import CASE, run
+
+COMMANDS = sorted(str(command.name) for command in app.registered_commands)
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "200")
+    Path("small.toml").write_text(CASE)
+
+
+def test_the_version(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, "--version") == 0
+    assert capsys.readouterr().out == f"fctd {version('fctd')}\n"
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_short_options(command: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, command, "-h") == 0
+    text = capsys.readouterr().out
+    assert "--quiet" in text
+    assert ("--out" in text) == ("-o " in text)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "parts"),
+    [
+        (["chart", "small.toml", "--depths", "1:2:1"], ["'--operation'", "trip_in, trip_out", "or all"]),
+        (["chart", "small.toml", "--operation", "all"], ["'--depths'", "1750:2450:10"]),
+        (["equilibrium", "small.toml", "--operation", "trip_in"], ["'--bit-depth'", "'2450 m'"]),
+        (["equilibrium", "small.toml", "--bit-depth", "700"], ["'--operation'", "rotate_off_bottom"]),
+    ],
+)
+def test_a_missing_option_says_what_it_accepts(
+    arguments: list[str], parts: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, *arguments) == 2
+    error = capsys.readouterr().err
+    assert "Missing option" in error
+    assert all(part in error for part in parts)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--speed", "0.1", "--speed", "0.2"], "--speed is given twice."),
+        (["--bit-depth", "1", "--bit-depth=2", "--bit-depth", "3"], "--bit-depth is given 3 times."),
+        (["-o", "a.csv", "--out", "b.csv"], "--out is given twice."),
+        (["--resolve-buckling", "--no-resolve-buckling"], "--resolve-buckling is given twice."),
+    ],
+)
+def test_a_single_option_is_given_once(
+    options: list[str], message: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    needed = ["--operation", "trip_in"] + ["--bit-depth", "700"] * ("--bit-depth" not in options)
+    assert run(monkeypatch, "equilibrium", "small.toml", *needed, *options) == 2
+    error = capsys.readouterr().err
+    assert message.replace("--resolve-buckling is", "resolve-buckling is") in error
+
+
+def test_options_that_may_be_repeated(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    changes = ["--set", "wellbore.overlap=0.1 m", "--set", "wellbore.intervals[0].friction=0.4"]
+    assert run(monkeypatch, "check", "small.toml", *changes) == 0
+    assert "0.4" in capsys.readouterr().out
+
+
+def test_help_needs_no_options(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, "chart", "--help", "--speed", "1") == 0
+    assert "Usage" in capsys.readouterr().out
+    assert isinstance(app, typer.Typer)

@@ -1,0 +1,148 @@
+"""A new case's text: it runs as it stands, in both unit systems, with little penetration and segments fine enough."""
+
+import tomllib
+from functools import cache
+
+import numpy as np
+import pytest
+
+from fctd import Case
+from fctd.case.units import DENSITY, FORCE, LENGTH
+from fctd.cli.new_case import Plan, Quantities, UnitSystem, entry, from_survey, from_template, sensible_shoe, stiff_wall
+from fctd.cli.templates import TEMPLATES, TemplateName
+from fctd.model import layouts
+from fctd.model.operations import rates_of_all
+from fctd.results.status import SteadyStatus
+from fctd.steady.equilibrium import Solver
+from fctd.steady.refine import relative_difference
+
+EACH = pytest.mark.parametrize("name", TEMPLATES)
+BOTH = pytest.mark.parametrize("units", ["metric", "field"])
+
+
+@cache
+def plan_of(name: TemplateName, units: UnitSystem) -> Plan:
+    return from_template(TEMPLATES[name], "new", units)
+
+
+@cache
+def case_of(name: TemplateName, units: UnitSystem = "metric") -> Case:
+    return Case.model_validate(tomllib.loads(plan_of(name, units).text()))
+
+
+def kinds_of(case: Case) -> list[str]:
+    return ["trip_in", "trip_out", "rotate_off_bottom"] + ["drill_sliding"] * (case.bit.weight_on_bit > 0)
+
+
+@EACH
+@BOTH
+def test_the_text_is_the_template(name: TemplateName, units: UnitSystem) -> None:
+    case, template = case_of(name, units), TEMPLATES[name]
+    scale = 1.0 if units == "metric" else 3 * 0.3048
+    assert case.wellbore.geometry == "arcs"
+    assert case.depths == (0.0, pytest.approx(scale * template.stations[-1][0], abs=0.01))
+    assert np.degrees(case.wellbore.trajectory[:, 1]) == pytest.approx([inc for _, inc, _ in template.stations])
+    assert [i.kind for i in case.wellbore.intervals] == ["cased", "open"]
+    assert [part.outer_diameter for part in case.string.components] == pytest.approx(
+        [0.0254 * float(part.outer) for part in template.string]
+    )
+    assert case.mud.density == pytest.approx(template.mud, rel=5e-3)  # two or three digits are written
+    assert case.rig.block_weight == pytest.approx(1e3 * template.block_weight, rel=1e-2)
+    assert case.bit.weight_on_bit == pytest.approx(1e3 * template.weight_on_bit, rel=4e-2)
+    case.check_depths()
+
+
+@EACH
+def test_every_comment_starts_in_one_column(name: TemplateName) -> None:
+    lines = plan_of(name, "metric").text().splitlines()
+    assert {line.index(" #") + 1 for line in lines if " #" in line and not line.startswith("#")} <= {38}
+    assert max(map(len, lines)) <= 110
+
+
+@EACH
+@pytest.mark.parametrize("share", [0.6, 1.0])
+def test_no_contact_is_deeper_in_the_wall_than_a_hundredth_of_the_clearance(name: TemplateName, share: float) -> None:
+    case = case_of(name)
+    solver, kinds = Solver(case), kinds_of(case)
+    rates = rates_of_all(case, kinds)
+    for kind in kinds:
+        point = solver.solve(kind, rates[kind], share * case.depths[1])
+        assert point.status is SteadyStatus.CONVERGED, kind
+        assert point.notes == ()
+        walls, radius = point._shape.walls, point._shape.radius
+        clearance = walls.radius - radius
+        penetration = np.linalg.norm(walls.offset, axis=1) - clearance
+        assert 0 < (penetration / clearance).max() < 0.01
+
+
+@EACH
+def test_the_segments_are_fine_enough(name: TemplateName) -> None:
+    """Hook load and torque against segments of 5 m, which are within 0.05 % of segments of 2.5 m."""
+    case = case_of(name)
+    fine = layouts.with_components(case, layouts.uniform(case, case.depths[1], 5.0))
+    kinds = kinds_of(case)[:3]
+    rates = rates_of_all(case, kinds)
+    for kind in kinds:
+        point, exact = (Solver(c).solve(kind, rates[kind], c.depths[1]) for c in (case, fine))
+        hookload, torque = relative_difference(point, exact, rates[kind].spin)
+        assert hookload < 0.002, kind
+        assert torque < 0.01, kind
+
+
+def test_a_softer_wall_would_be_penetrated_further() -> None:
+    case = case_of("build-hold")
+    soft = case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"stiffness_per_length": 2e6})})
+    point = Solver(soft).solve("trip_out", rates_of_all(soft, ["trip_out"])["trip_out"], soft.depths[1])
+    clearance = point._shape.walls.radius - point._shape.radius
+    assert ((np.linalg.norm(point._shape.walls.offset, axis=1) - clearance) / clearance).max() > 0.01
+
+
+def test_the_wall_of_a_hanging_string_by_hand() -> None:
+    """Straight hole: the weight of a metre of pipe over a hundredth of its clearance, rounded up to 1, 2 or 5."""
+    template = TEMPLATES["casing-run"]
+    straight = np.array([[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0]])
+    weight = 70.0 * 9.81 * (1 - template.mud / 7850)
+    clearance = 0.5 * 0.0254 * (12.25 - 10.625)
+    needed = weight / (0.01 * clearance)
+    assert needed == pytest.approx(2.8e6, rel=0.02)
+    assert stiff_wall(template, straight, 500.0) == 5e6
+
+
+@pytest.mark.parametrize(
+    ("stations", "shoe"),
+    [
+        ([(0, 0), (500, 0), (1230, 60), (3000, 60)], 1230.0),  # where the build ends
+        ([(0, 0), (500, 0), (800, 60), (3000, 60)], 1200.0),  # not above 40 %
+        ([(0, 0), (500, 0), (2800, 60), (3000, 60)], 2100.0),  # not below 70 %
+        ([(0, 0), (2000, 0)], 800.0),  # vertical
+        ([(0, 0), (8, 3)], 3.2),  # too short for a round depth
+    ],
+)
+def test_the_shoe_of_a_survey(stations: list[tuple[float, float]], shoe: float) -> None:
+    array = np.array([(md, np.radians(inc), 0.0) for md, inc in stations])
+    assert sensible_shoe(array, "metric") == pytest.approx(shoe)
+    assert (sensible_shoe(array, "field") / 0.3048) % 50 == pytest.approx(0, abs=1e-6) or stations[-1][0] < 50
+
+
+@BOTH
+def test_a_depth_is_never_below_the_end_of_the_survey(units: UnitSystem) -> None:
+    end = 1234.5678
+    stations = np.array([[0.0, 0.0, 0.0], [600.0, 0.5, 0.0], [end, 0.5, 0.0]])
+    plan = from_survey(TEMPLATES["build-hold"], "of a survey", units, "s.csv", (), stations)
+    case = tomllib.loads(plan.text())
+    assert case["wellbore"]["survey"] == "s.csv"
+    to_md = Quantities(units)(LENGTH, end)
+    assert case["wellbore"]["intervals"][1]["to_md"] == to_md
+    number, unit = to_md.split()
+    assert end - 0.01 < float(number) * (1.0 if unit == "m" else 0.3048) <= end
+
+
+def test_quantities_are_rounded_as_a_person_would() -> None:
+    assert Quantities("field")(FORCE, 250e3) == "56 klbf"
+    assert Quantities("field")(DENSITY, 1250.0) == "10.4 ppg"
+    assert Quantities("metric")(LENGTH, 1500.0) == "1500 m"
+
+
+def test_texts_are_quoted() -> None:
+    line = entry("name", 'a "b" \\ ü', "c")
+    assert tomllib.loads(line) == {"name": 'a "b" \\ ü'}

@@ -1,0 +1,42 @@
+"""Results in notebooks and at the prompt: short, with units, escaped."""
+
+import numpy as np
+
+from fctd import equilibrium, simulate
+from fctd.results.display import html_table, load_rows
+from tests.cases import make_case
+
+
+def test_loads_have_labels_and_units() -> None:
+    assert load_rows({"hookload_N": 803_000.0, "surface_torque_N_m": float("nan")}) == {
+        "hook load": "803.0 kN",
+        "surface torque": "–",
+    }
+
+
+def test_texts_are_escaped() -> None:
+    table = html_table("a <b> & c", {"<i>": "1 < 2"})
+    assert "a &lt;b&gt; &amp; c" in table
+    assert "<th>&lt;i&gt;</th>" in table
+    assert "1 &lt; 2" in table
+
+
+def test_an_equilibrium() -> None:
+    point = equilibrium(make_case(), "trip_out", 900)
+    assert repr(point).startswith("Equilibrium(trip_out, bit at 900 m: converged, hook load ")
+    assert len(repr(point)) < 120
+    assert "weight indicator" in point._repr_html_()
+    assert "–" in repr(point.without_loads())
+
+
+def test_a_simulation() -> None:
+    rotate = {"kind": "rotate_off_bottom", "at_md": 900, "duration": 2.0, "rpm": 60.0, "ramp_time": 1.0}
+    result = simulate(make_case(operations=[rotate]))
+    assert repr(result) == "SimulationResult('test': completed, 2 records, rotate_off_bottom at 900.0 m)"
+    hookload = float(result.history["hookload_N"].iloc[-1])
+    assert f"{hookload / 1e3:.1f} kN" in result._repr_html_()
+    assert np.isfinite(hookload)
+
+
+def test_a_case() -> None:
+    assert repr(make_case()) == str(make_case()) == "Case('test')"
