@@ -220,7 +220,8 @@ def _with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: i
     title_text = f"<b>{_plain(title)}</b>{small}"
     figure.update_layout(
         title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 12}},
-        height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 30, "b": 110}, template="plotly_white",
+        height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 30, "b": 110},
+        template="plotly_white",
         legend={"orientation": "h", "y": 0, "yref": "container", "yanchor": "bottom"}, hovermode="closest",
     )  # fmt: skip
     return figure

@@ -30,6 +30,7 @@ LEAST: Final = {"effective_tension_N": 0.01, "torque_N_m": 2e-3, "bending_moment
 LEAST_STRESS = 1e6  # [Pa]
 LEFT, BETWEEN, RIGHT, HEIGHT, BELOW = 0.72, 0.17, 0.15, 5.6, 0.72
 NARROW, WIDE = 0.85, 1.38  # of the first panel and the others [in]
+MARGIN = 0.04  # beside a limit, of the span of an axis
 MARKS = 8  # about as many markers on a line
 SHOE: dict[str, Any] = {"color": QUIET, "linewidth": 0.9, "linestyle": (0, (1, 2)), "zorder": 1.1}
 
@@ -73,7 +74,7 @@ def profile_figure(
             # Few ticks, so that labels of neighbouring axes do not touch.
             ax.set_xlabel(",\n".join(label_of(column, units, force)), fontsize=8.5)
             ax.xaxis.set_major_locator(MaxNLocator(3))
-            _scale(ax, column, answers, units)
+            _scale(ax, column, answers, near, units)
             ax.tick_params(axis="y", labelleft=ax is panels[0])
         tension = panels[TRACKS.index("effective_tension_N")]
         for mode, (md, limit) in near.items():
@@ -89,7 +90,7 @@ def _track(ax: Axes, point: Equilibrium, column: str, units: System, force: Side
     md, value = values_of(point, column, units, force)
     if alone:
         for first, last, mode in stretches(profile):
-            ax.axhspan(md[first], md[last], facecolor=BUCKLED[mode], edgecolor="none", zorder=0.1)
+            ax.axhspan(md[first], md[last], facecolor=BUCKLED[mode], edgecolor="none", alpha=0.6, zorder=0.1)
     if column == "contact_force_N":
         edges = np.concatenate((md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]))
         bars: dict[str, Any] = {"fill": True, "baseline": 0} if alone else {"baseline": None}
@@ -111,8 +112,8 @@ def _track(ax: Axes, point: Equilibrium, column: str, units: System, force: Side
     ax.plot(value, md, color=colour, marker=marker, markevery=max(len(md) // MARKS, 1), markersize=4, linewidth=1.2)
 
 
-def _scale(ax: Axes, column: str, answers: Sequence[Equilibrium], units: System) -> None:
-    """Widen an axis that would show noise of the solver only."""
+def _scale(ax: Axes, column: str, answers: Sequence[Equilibrium], near: dict[str, Track], units: System) -> None:
+    """Widen an axis that would show noise of the solver only, and that of tension to the buckling limits near it."""
     if not answers:
         return
     largest = max(float(point.profile["effective_tension_N"].abs().max()) for point in answers)
@@ -120,7 +121,8 @@ def _scale(ax: Axes, column: str, answers: Sequence[Equilibrium], units: System)
     least *= shown(column, units).factor
     low, high = ax.get_xlim()
     if column == "effective_tension_N":
-        low, high = min(low, 0.0), max(high, 0.0)
+        limits = [float(np.nanmax(limit.value)) - MARGIN * (high - low) for limit in near.values()]
+        low, high = min(low, 0.0, *limits), max(high, 0.0)
     if column == "contact_force_N":
         low = 0.0
     if high - low < least:

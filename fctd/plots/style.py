@@ -13,6 +13,7 @@ from matplotlib.legend import Legend
 from matplotlib.typing import RcKeyType
 
 from fctd.case.text import printable
+from fctd.plots.labels import width_of
 from fctd.plots.palette import DARK, QUIET
 from fctd.results.whole_file import whole_file
 
@@ -47,7 +48,7 @@ TITLE, SMALL = 10.5, 7.5  # sizes of type [pt]
 LINE = 1.35  # height of a line of small type, in its size
 SMALL_WIDTH = 0.56  # of a character of small type on average, in its size
 MARGIN = 0.1  # beside everything [in]
-LEGEND_LINE, LEGEND_COLUMN = 0.19, 2.35  # of a legend's entry [in]
+LEGEND_LINE, LEGEND_HANDLE = 0.19, 0.52  # height of a legend's entry, width of what stands beside its text [in]
 
 # Files are the same byte for byte: these formats would hold the time.
 _UNDATED: dict[str, dict[str, Any]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
@@ -76,7 +77,8 @@ class Sheet:
             for k, line in enumerate(lines)
             for part in wrap(printable(line), fitting, break_on_hyphens=False)
         ]
-        columns = max(int((width - 2 * MARGIN) / LEGEND_COLUMN), 1)
+        widest = max((width_of(str(handle.get_label())) for handle in handles), default=0.0) / POINTS
+        columns = max(int((width - 2 * MARGIN) / (widest + LEGEND_HANDLE)), 1)
         rows = -(-len(handles) // columns)
         step = SMALL * LINE / POINTS
         self.top = MARGIN + 1.5 * TITLE / POINTS + step * len(small) + 0.08

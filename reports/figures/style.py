@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fctd import plots
 from fctd.plots import palette
-from fctd.plots.style import DASHES
+from fctd.plots import style as plot_style
 
 WIDTH_IN = 7.2  # the page's column
 
@@ -36,8 +36,9 @@ RC: dict[RcKeyType, Any] = plots.RC | {
     "savefig.dpi": 160,
 }
 
-# The engine's palette; a dash and a marker for each colour.
-COLOURS, QUIET, SHADE = list(palette.PALETTE.values()), palette.QUIET, palette.SHADE
+# The engine's palette and dashes; a dash and a marker for each colour.
+COLOURS, DASHES = list(palette.PALETTE.values()), plot_style.DASHES
+QUIET, SHADE = palette.QUIET, palette.SHADE
 MARKERS = ["o", "s", "^", "D", "v", "P"]
 # A friction law looks the same in every figure.
 LAWS = {"paper": 0, "coulomb": 1, "karnopp": 2}
