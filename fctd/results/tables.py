@@ -174,8 +174,8 @@ def _metadata(path: Path) -> dict[bytes, bytes]:
 def write_table(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> list[Path]:
     """Write a table as CSV, Parquet or Excel's workbook, whichever the suffix says; returns the files written.
 
-    Parquet and workbook carry the metadata themselves; beside a CSV, which any reader must find a plain table, it goes into
-    a JSON file of its own: ``chart.csv.json``.  Raises InputError where a file cannot be written.
+    Parquet and workbook carry the metadata themselves; beside a CSV, which any reader must find a plain table, it goes
+    into a JSON file of its own: ``chart.csv.json``.  Raises InputError where a file cannot be written.
     """
     files = table_files(path)
     with whole_file(path) as scratch:

@@ -23,7 +23,7 @@ def written(tmp_path: Path, text: str) -> Path:
     "headers",
     [
         "depth_ft,operation,hookload_klbf,hookload_low_klbf,hookload_high_klbf,torque_kft_lbf,remark",
-        "Bit depth (ft),Operation,Hook load (klbf),Hook load low [klbf],HOOKLOAD HIGH (klbf),Surface torque (kft*lbf),x",
+        "Bit depth (ft),Operation,Hook load (klbf),Hook load low [klbf],HOOKLOAD HIGH (klbf),Torque (kft*lbf),x",
         "MD [ft],kind,string load (klbf),string_load_low_klbf,string load high (klbf),surface_torque_kft_lbf,y",
     ],
 )
