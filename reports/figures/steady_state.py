@@ -13,7 +13,7 @@ def chart(tables: Tables) -> Canvas:
     canvas = style.chart(tables["chart"])
     for operation, rows in tables["compared"].groupby("operation"):
         colour, _ = LOOKS[str(operation)]
-        for ax, column in zip(canvas.axes, COLUMNS, strict=True):
+        for ax, column in zip(canvas.axes[:2], COLUMNS, strict=True):
             ax.plot(rows[column], rows["bit_depth_m"], "+", color=colour, markersize=12, markeredgewidth=1.5)
     return canvas
 

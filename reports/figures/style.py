@@ -109,10 +109,8 @@ def around_zero(values: "pd.DataFrame | pd.Series[float]") -> tuple[float, float
 
 
 def chart(table: pd.DataFrame) -> Figure:
-    """A torque-and-drag chart as ``fctd chart --plot`` draws it, as wide as the page's column."""
-    canvas = plots.chart_figure(table, "si")
-    canvas.set_size_inches(WIDTH_IN, 5.6)
-    return canvas
+    """A torque-and-drag chart as ``fctd chart --plot`` draws it; the page scales it to its column."""
+    return plots.chart_figure(table, "si")
 
 
 def plain_log_ticks(axis: Axis) -> None:
