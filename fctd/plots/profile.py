@@ -123,6 +123,8 @@ def _scale(ax: Axes, column: str, answers: Sequence[Equilibrium], near: dict[str
     if column == "effective_tension_N":
         limits = [float(np.nanmax(limit.value)) - MARGIN * (high - low) for limit in near.values()]
         low, high = min(low, 0.0, *limits), max(high, 0.0)
+    if column == "torque_N_m":
+        low, high = min(low, 0.0), max(high, 0.0)
     if column == "contact_force_N":
         low = 0.0
     if high - low < least:

@@ -34,10 +34,11 @@ def states() -> pd.DataFrame:
     table = chart(
         list(KINDS), [0.2], {"not_possible": "trip_out", "max_iterations": "trip_in", "unstable": "back_ream"}
     )
-    table = pd.concat([table[table["operation"] != "drill_sliding"], locked_chart().assign(friction=0.2)])
+    parts = [table[table["operation"] != "drill_sliding"], locked_chart().assign(friction=0.2)]
+    table = pd.concat(parts, ignore_index=True)
     at = (table["operation"] == "trip_in") & (table["bit_depth_m"] > 1700)
     table.loc[at, "hookload_low_N"], table.loc[at, "hookload_high_N"] = table["hookload_N"] - 2e4, table["hookload_N"]
-    return table.reset_index(drop=True)
+    return table
 
 
 def charts() -> dict[str, tuple[pd.DataFrame, dict[str, Any]]]:
