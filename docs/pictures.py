@@ -42,7 +42,7 @@ def chart() -> Figure:
     """The broomstick and torque of the paper's well."""
     case = fctd.load_case(PAPER)
     kinds = ["trip_in", "rotate_off_bottom", "trip_out"]
-    return plots.chart_figure(fctd.torque_drag(case, kinds, range(1750, 2451, 25)), "si", case.name)
+    return plots.chart_figure(fctd.torque_drag(case, kinds, range(1750, 2451, 25)), "si", case)
 
 
 PICTURES: dict[str, Callable[[], Figure]] = {"overview": overview, "chart": chart}

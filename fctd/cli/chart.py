@@ -15,6 +15,7 @@ from rich.table import Table
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
+from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.case.units import LENGTH
@@ -24,7 +25,6 @@ from fctd.cli.options import (
     Quiet,
     Strict,
     changes_of,
-    check_target,
     finish,
     messages,
     print_written,
@@ -34,29 +34,43 @@ from fctd.cli.options import (
     screen,
     tell,
 )
+from fctd.cli.pictures import (
+    PICTURE_HELP,
+    ShownLoad,
+    ShownSideForce,
+    check_pictures,
+    draw_chart,
+    draw_profiles,
+)
 from fctd.cli.steady import (
     KIND_HELP,
-    TABLES,
     ResolveBuckling,
     Rpm,
     Speed,
     Units,
+    check_table,
     file_option,
     in_units,
     metadata_of,
-    plots_for,
     print_segments,
     read_drive,
 )
 from fctd.model.operations import rates_of_all
+from fctd.plots.facts import shoes_of
 from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
+from fctd.results.measured import read_measured
 from fctd.results.notes import MEANINGS, meanings_of
+from fctd.results.series import series_of
 from fctd.results.status import SteadyStatus
 from fctd.results.tables import write_table
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Solver
 from fctd.steady.torque_drag import torque_drag, with_friction
 
+DEPTHS_HELP = (
+    "Bit depths, 1750:2450:10 in m, with --units field in ft, '5000 ft:8000 ft:30 ft' or shoe:td:50; the last is "
+    "always among them."
+)
 MOST_DEPTHS = 10_000  # more is a slip in the step
 SCREEN_ROWS = 36
 # Columns of a chart on the screen.
@@ -70,11 +84,7 @@ def chart_command(
     ],
     depths: Annotated[
         str,
-        typer.Option(
-            "--depths",
-            metavar="FROM:TO:STEP",
-            help="Bit depths, 1750:2450:10 in m, with --units field in ft, or '5000 ft:8000 ft:30 ft'.",
-        ),
+        typer.Option("--depths", metavar="FROM:TO:STEP", help=DEPTHS_HELP),
     ],
     frictions: Annotated[
         list[str],
@@ -89,23 +99,32 @@ def chart_command(
     rpm: Rpm = None,
     resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
-    out: Annotated[Path | None, file_option("--out", "The chart, a row for every string, .csv or .parquet.")] = None,
-    plot: Annotated[Path | None, file_option("--plot", "Hook load and torque against depth, .png or .svg.")] = None,
+    out: Annotated[
+        Path | None, file_option("--out", "The chart, a row for every string, .csv, .parquet or .xlsx.")
+    ] = None,
+    plot: Annotated[Path | None, file_option("--plot", f"Load and torque against depth, {PICTURE_HELP}.")] = None,
     plot_profile: Annotated[
         Path | None,
-        file_option("--plot-profile", "Profiles at the last possible depth, first friction factor, .png or .svg."),
+        file_option("--plot-profile", f"Profiles at the last possible depth, first friction, {PICTURE_HELP}."),
+    ] = None,
+    load: ShownLoad = "string",
+    side_force: ShownSideForce = "length",
+    measured: Annotated[
+        Path | None,
+        file_option("--measured", "Measured rows to draw, .csv with bit_depth_m, operation, hookload_kN, …"),
     ] = None,
     units: Units = "si",
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
     """Compute a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
-    check_target(out, "--out", TABLES)
-    plots = plots_for({"--plot": plot, "--plot-profile": plot_profile})
+    check_table(out)
+    check_pictures({"--plot": plot, "--plot-profile": plot_profile})
     case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key)
-    bit_depths = read_depths(depths, units)
+    bit_depths = read_depths(depths, case, units)
+    points_measured = None if measured is None else _measured(measured, case, plot)
     kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
     factors = parse_frictions(frictions, "--friction")
     drive = read_drive(speed, rpm, units)
@@ -128,14 +147,15 @@ def chart_command(
         if out is not None:
             metadata = metadata_of(case, units, kinds, drive, warnings) | {"notes": meanings_of(chart["notes"])}
             written += write_table(in_units(units, chart), out, metadata)
-        if plots is not None and plot is not None:
-            figure = plots.chart_figure(chart, units, case.name, case.rig.block_weight, told)
-            written += plots.save(figure, plot)
-        if plots is not None and plot_profile is not None:
+        if plot is not None:
+            shown_rates = rates_of_all(case, kinds, **drive)
+            options = {"load": load, "rates": shown_rates, "measured": points_measured, "warnings": told}
+            written += draw_chart(plot, chart, units=units, case=case, **options)
+        if plot_profile is not None:
             one = with_friction(case, factors[0]) if factors else case
             solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
             points = [solver.solve(kind, rates[kind], last) for kind in kinds]
-            written += plots.save(plots.profile_figure(points, units, told), plot_profile)
+            written += draw_profiles(plot_profile, points, units=units, force=side_force, warnings=told)
     finally:
         _print_chart(chart, case.name, units)
         print_segments(case, last, units)
@@ -144,19 +164,44 @@ def chart_command(
     finish(acceptable, meanings_of(chart["notes"]), strict)
 
 
-def read_depths(text: str, units: System = "si") -> list[float]:
-    """Bit depths [m] of FROM:TO:STEP, with TO where it lies on the grid; bare numbers are in the system's unit."""
+def read_depths(text: str, case: Case, units: System = "si") -> list[float]:
+    """Bit depths [m] of FROM:TO:STEP, TO included; ``shoe`` is the last casing shoe, ``td`` the end of the hole.
+
+    Bare numbers are in the system's unit.
+    """
     parts = text.split(":")
     if len(parts) != 3:
-        raise InputError("FROM:TO:STEP, such as 1750:2450:10 or '5000 ft:8000 ft:30 ft'", key="--depths", value=text)
-    first, last, step = (read_quantity(part, LENGTH, "--depths", units) for part in parts)
+        raise InputError(
+            "FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft' or shoe:td:50", key="--depths", value=text
+        )
+    first, last = (_depth(part.strip(), case, text, units) for part in parts[:2])
+    step = read_quantity(parts[2], LENGTH, "--depths", units)
     if not (first <= last and step > 0):
         raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key="--depths", value=text)
     steps = (last - first) / step
     if steps >= MOST_DEPTHS:
         raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)
-    # Rounding errors must neither drop the last depth nor give 1750.3000000000002 in a table.
-    return [round(first + k * step, 6) for k in range(int(np.floor(steps + 1e-6)) + 1)]
+    # Rounding errors must neither double the last depth nor give 1750.3000000000002 in a table.
+    return [*(round(first + k * step, 6) for k in range(int(np.ceil(steps - 1e-6)))), round(last, 6)]
+
+
+def _depth(text: str, case: Case, depths: str, units: System) -> float:
+    """A depth [m], or the one that a word stands for."""
+    if text == "td":
+        return case.depths[1]
+    if text == "shoe":
+        shoes = shoes_of(case)
+        if not shoes:
+            raise InputError("a depth, as the case has one interval and no shoe", key="--depths", value=depths)
+        return shoes[-1]
+    return read_quantity(text, LENGTH, "--depths", units)
+
+
+def _measured(path: Path, case: Case, plot: Path | None) -> pd.DataFrame:
+    """Measured rows, which only a picture shows."""
+    if plot is None:
+        raise InputError("--plot beside it, the picture to draw them in", key="--measured", value=path)
+    return read_measured(path, case)
 
 
 def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
@@ -172,9 +217,9 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     if buckled:
         table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
     table.add_column("status", overflow="fold")
-    series = list(chart.groupby(["operation", "friction_label"], sort=False))
+    series = series_of(chart, units)
     each = max(SCREEN_ROWS // len(series), 1)
-    for (operation, friction), rows in series:
+    for operation, friction, rows in series:
         # Evenly spread rows, always with the deepest one.
         picked = np.unique(np.linspace(len(rows) - 1, 0, min(each, len(rows))).round().astype(int))
         for k, row in enumerate(rows.iloc[picked].to_dict("records")):
@@ -184,13 +229,13 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
             ]
             if buckled:
                 values.append(_buckled(row, units_of[DEPTH.name].factor))
-            names = ("", "") if k else (str(operation), reworded(str(friction), units))
+            names = ("", "") if k else (operation, friction)
             table.add_row(*names, *values, row["status"])
     screen.print(table)
     counts = ", ".join(f"{count} {status}" for status, count in chart["status"].value_counts().items())
     screen.print(f"{len(chart)} rows: {counts}", soft_wrap=True)
     depth = units_of["bit_depth_m"]
-    for (operation, friction), rows in series:
+    for operation, friction, rows in series:
         for line in _exceptions(rows, depth.factor, depth.label):
             messages.print(reworded(f"{operation}, friction {friction}: {line}", units), soft_wrap=True)
 

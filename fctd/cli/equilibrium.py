@@ -22,7 +22,6 @@ from fctd.cli.options import (
     Quiet,
     Strict,
     changes_of,
-    check_target,
     finish,
     messages,
     print_notes,
@@ -34,17 +33,17 @@ from fctd.cli.options import (
     screen,
     tell,
 )
+from fctd.cli.pictures import PICTURE_HELP, ShownSideForce, check_pictures, draw_profiles
 from fctd.cli.steady import (
     KIND_HELP,
-    TABLES,
     ResolveBuckling,
     Rpm,
     Speed,
     Units,
+    check_table,
     file_option,
     in_units,
     metadata_of,
-    plots_for,
     print_segments,
     read_drive,
 )
@@ -66,15 +65,16 @@ def equilibrium_command(
     resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
-    out: Annotated[Path | None, file_option("--out", "Profile of the string, .csv or .parquet.")] = None,
-    plot: Annotated[Path | None, file_option("--plot", "Picture of the profile, .png or .svg.")] = None,
+    out: Annotated[Path | None, file_option("--out", "Profile of the string, .csv, .parquet or .xlsx.")] = None,
+    plot: Annotated[Path | None, file_option("--plot", f"Picture of the profile, {PICTURE_HELP}.")] = None,
+    side_force: ShownSideForce = "length",
     units: Units = "si",
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
     """Solve the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
-    check_target(out, "--out", TABLES)
-    plots = plots_for({"--plot": plot})
+    check_table(out)
+    check_pictures({"--plot": plot})
     if len(operations) > 1:
         raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
     (operation,) = operations
@@ -96,8 +96,8 @@ def equilibrium_command(
             metadata |= {"buckling": str(point.buckling), "shape": point.shape}
             metadata |= _found(point) | {"notes": as_metadata(point.notes)}
             written += write_table(in_units(units, point.profile), out, metadata)
-        if point.answered and plots is not None:
-            written += plots.save(plots.profile_figure([point], units, told), plot)
+        if point.answered and plot is not None:
+            written += draw_profiles(plot, [point], units=units, force=side_force, warnings=told)
     finally:
         _print_point(point, units)
         print_segments(case, depth, units)

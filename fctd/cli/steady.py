@@ -2,25 +2,24 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import Annotated, Any
 
 import pandas as pd
 import typer
 
-from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.units import ROTATION, SPEED
 from fctd.cli.options import check_target, read_quantity, screen
+from fctd.cli.pictures import check_package
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import segments_in_words
 from fctd.results.tables import versions
 from fctd.results.unit_systems import System, in_field_units, shown
 
-TABLES, PICTURES = (".csv", ".parquet"), (".png", ".svg")
+TABLES = (".csv", ".parquet", ".xlsx")
 
 
 def _defaults(rate: str) -> str:
@@ -69,22 +68,11 @@ def read_drive(speed: str | None, rpm: str | None, units: System = "si") -> dict
     }
 
 
-def plots_for(targets: Mapping[str, Path | None]) -> ModuleType | None:
-    """The module of pictures, which needs the optional matplotlib; None where no picture is asked for."""
-    wanted = {key: path for key, path in targets.items() if path is not None}
-    for key, path in wanted.items():
-        check_target(path, key, PICTURES)
-    if len({path.resolve() for path in wanted.values()}) < len(wanted):
-        raise InputError("a file of its own for each picture", key=key, value=path)
-    if not wanted:
-        return None
-    try:
-        from fctd import plots
-    except ModuleNotFoundError as error:
-        key, path = next(iter(wanted.items()))
-        expected = f"the package {error.name} for pictures (pip install matplotlib, or the extra fctd[plot])"
-        raise InputError(expected, key=key, value=path) from None
-    return plots
+def check_table(path: Path | None) -> None:
+    """Raise InputError for ``--out`` where no table can be written there."""
+    check_target(path, "--out", TABLES)
+    if path is not None and path.suffix.lower() == ".xlsx":
+        check_package(path, "--out")
 
 
 def print_segments(case: Case, bit_depth: float, units: System) -> None:

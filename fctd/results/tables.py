@@ -5,12 +5,12 @@ import os
 import platform
 import subprocess
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 from uuid import uuid4
 
 import numba
@@ -192,17 +192,14 @@ def _metadata(path: Path) -> dict[bytes, bytes]:
 
 
 def write_table(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> list[Path]:
-    """Write a table as CSV or Parquet, whichever the suffix says; returns the files written.
+    """Write a table as CSV, Parquet or Excel's workbook, whichever the suffix says; returns the files written.
 
-    Parquet carries the metadata itself; beside a CSV, which any reader must find a plain table, it goes into
-    a JSON file of its own: ``chart.csv.json``.  Raises InputError where a file cannot be written.
+    Parquet and workbook carry the metadata themselves; beside a CSV, which any reader must find a plain table, it goes
+    into a JSON file of its own: ``chart.csv.json``.  Raises InputError where a file cannot be written.
     """
     files = table_files(path)
     with whole_file(path) as scratch:
-        if len(files) == 1:
-            _to_parquet(frame, scratch, metadata)
-        else:
-            _to_csv(frame, scratch)
+        _WRITERS[path.suffix.lower()](frame, scratch, metadata)
     for beside in files[1:]:
         with whole_file(beside) as scratch:
             scratch.write_text(json.dumps(metadata, indent=1), encoding="utf-8")
@@ -214,7 +211,7 @@ def table_files(path: Path) -> list[Path]:
     return [path, path.with_name(path.name + ".json")] if path.suffix.lower() == ".csv" else [path]
 
 
-def _to_csv(frame: pd.DataFrame, path: Path) -> None:
+def _to_csv(frame: pd.DataFrame, path: Path, _: Mapping[str, Any] | None = None) -> None:
     """Write a table with one row of headers."""
     frame.to_csv(path, index=False)
 
@@ -227,6 +224,27 @@ def _to_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) ->
         kept[key.encode()] = (value if isinstance(value, str) else json.dumps(value)).encode()
     with path.open("wb") as sink:  # pyarrow opens only names in UTF-8
         pq.write_table(table.replace_schema_metadata(kept), sink)
+
+
+def _to_workbook(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
+    """Write a table as the first sheet of a workbook and its metadata as the second; needs xlsxwriter."""
+    about = pd.DataFrame(
+        [(key, value if isinstance(value, str) else json.dumps(value)) for key, value in metadata.items()],
+        columns=["key", "value"],
+    )
+    # A text is a text, also where it looks like a formula or an address.
+    texts = {"strings_to_formulas": False, "strings_to_urls": False}
+    with pd.ExcelWriter(path, engine="xlsxwriter", engine_kwargs={"options": texts}) as book:
+        for name, table in (("table", frame), ("about", about)):
+            table.to_excel(book, sheet_name=name, index=False, freeze_panes=(1, 0))
+            book.sheets[name].autofit()
+
+
+_WRITERS: Final[dict[str, Callable[[pd.DataFrame, Path, Mapping[str, Any]], None]]] = {
+    ".csv": _to_csv,
+    ".parquet": _to_parquet,
+    ".xlsx": _to_workbook,
+}
 
 
 def versions() -> dict[str, str]:

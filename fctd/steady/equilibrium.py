@@ -17,6 +17,7 @@ from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String, check_fit, lay_out
+from fctd.model.frames import steady_offsets
 from fctd.model.operations import SteadyRates, sensors, steady_rates
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along, pipe_of
@@ -120,6 +121,16 @@ class Equilibrium:
         shape, mud = self._shape, self.case.mud.density
         points = shape.contacts[:, PLACE]
         return profile_table(shape.hole, shape.string, mud, shape.top, points, shape.walls, shape.loads)
+
+    @property
+    def offsets(self) -> Array:
+        """Offsets of the profile's rows to the high side and to the right (n + 1, 2) [m], for pictures.
+
+        They do not jump where the hole begins to build: see ``steady_offsets``.
+        """
+        profile = self.profile
+        md, high, right = (profile[name].to_numpy(float) for name in ("md_m", "offset_high_m", "offset_right_m"))
+        return steady_offsets(md, self._shape.hole.at(md)[1], high, right)
 
     @property
     def buckling(self) -> Buckling:

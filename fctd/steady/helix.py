@@ -9,7 +9,7 @@ Logan 1962), and comes to rest from there.
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.model.wellbore import hole_frame
+from fctd.model.frames import carried_frame
 from fctd.results.buckling import SINUSOIDAL_LIMIT
 from fctd.steady.first_guess import MD, OFFSET, TENSION, TORQUE
 from fctd.steady.problem import Problem, Share
@@ -52,7 +52,7 @@ class Helix:
         found = problem.reactions(share)
         walls = problem.walls(found.contacts)
         self.turns, self.beyond = turns, beyond
-        low, right = _transported(problem.hole.at(walls.md)[1])
+        low, right = carried_frame(problem.hole.at(walls.md)[1])
         offset = walls.offset.copy()
         # From the lower end of each stretch upwards, beginning where the string lies.
         angle = np.arctan2((offset * right).sum(axis=1), (offset * low).sum(axis=1))
@@ -77,21 +77,7 @@ class Helix:
             return False
         problem = self.problem
         walls = problem.walls(problem.reactions().contacts)
-        low, right = _transported(problem.hole.at(walls.md)[1])
+        low, right = carried_frame(problem.hole.at(walls.md)[1])
         angle = np.unwrap(np.arctan2((walls.offset * right).sum(axis=1), (walls.offset * low).sum(axis=1)))
         both = self.beyond[1:] & self.beyond[:-1]
         return bool(abs(np.diff(angle)[both].sum()) / (2 * np.pi) > STILL * self.turns)
-
-
-def _transported(direction: Array) -> tuple[Array, Array]:
-    """Two directions across the hole (n, 3) along it, without a turn about it; near the bit the first is the low side.
-
-    High side and right have no meaning in vertical hole, and jump where it begins to build.
-    """
-    high, _ = hole_frame(direction[-1:])
-    first = np.empty_like(direction)
-    first[-1] = -high[0]
-    for j in range(len(direction) - 2, -1, -1):
-        here = first[j + 1] - (first[j + 1] @ direction[j]) * direction[j]
-        first[j] = here / np.linalg.norm(here)
-    return first, np.cross(first, direction)

@@ -61,8 +61,12 @@ def torque_drag(
         for kind in kinds:
             for label, solver in solvers:
                 for depth in depths:
-                    misfit = misfits.get(depth)
-                    point = solver.solve(kind, rates[kind], depth) if misfit is None else None
+                    point, misfit = None, misfits.get(depth)
+                    if misfit is None:
+                        try:
+                            point = solver.solve(kind, rates[kind], depth)
+                        except InputError as error:  # as of a resolved string with too many segments
+                            misfit = str(error)
                     rows.append(_row(solver.case, label, kind, depth, point, misfit))
                     if progress is not None:
                         progress(len(rows), len(kinds) * len(solvers) * len(depths))

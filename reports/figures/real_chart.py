@@ -15,7 +15,7 @@ FIGURES = [
     Figure(
         "chart",
         "A real survey of 8,161 m with an assumed string and friction factor 0.2: hook load (left) and surface "
-        "torque (right) of all operations. Open marks around a point, if any, are rows that locked up or are unstable.",
+        "torque (right) of all operations. Open markers, if any, are rows that are not converged; the strip says why.",
         chart,
     )
 ]

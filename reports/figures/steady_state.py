@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure as Canvas
 
-from fctd import plots
+from fctd.plots.palette import LOOKS
 from reports.figures import Figure, Tables, style
 
 COLUMNS = ("hookload_stepped_kN", "torque_stepped_kN_m")
@@ -12,8 +12,8 @@ def chart(tables: Tables) -> Canvas:
     """Hook load and torque against bit depth, lines from the solver, plus signs from the stepper."""
     canvas = style.chart(tables["chart"])
     for operation, rows in tables["compared"].groupby("operation"):
-        colour, _ = plots.LOOKS[str(operation)]
-        for ax, column in zip(canvas.axes, COLUMNS, strict=True):
+        colour, _ = LOOKS[str(operation)]
+        for ax, column in zip(canvas.axes[:2], COLUMNS, strict=True):
             ax.plot(rows[column], rows["bit_depth_m"], "+", color=colour, markersize=12, markeredgewidth=1.5)
     return canvas
 

@@ -13,6 +13,8 @@ from matplotlib.typing import RcKeyType
 from numpy.typing import NDArray
 
 from fctd import plots
+from fctd.plots import palette
+from fctd.plots import style as plot_style
 
 WIDTH_IN = 7.2  # the page's column
 
@@ -35,7 +37,8 @@ RC: dict[RcKeyType, Any] = plots.RC | {
 }
 
 # The engine's palette and dashes; a dash and a marker for each colour.
-COLOURS, DASHES, QUIET, SHADE = list(plots.PALETTE.values()), plots.DASHES, plots.QUIET, plots.SHADE
+COLOURS, DASHES = list(palette.PALETTE.values()), plot_style.DASHES
+QUIET, SHADE = palette.QUIET, palette.SHADE
 MARKERS = ["o", "s", "^", "D", "v", "P"]
 # A friction law looks the same in every figure.
 LAWS = {"paper": 0, "coulomb": 1, "karnopp": 2}
@@ -106,10 +109,8 @@ def around_zero(values: "pd.DataFrame | pd.Series[float]") -> tuple[float, float
 
 
 def chart(table: pd.DataFrame) -> Figure:
-    """A torque-and-drag chart as ``fctd chart --plot`` draws it, as wide as the page's column."""
-    canvas = plots.chart_figure(table, "si")
-    canvas.set_size_inches(WIDTH_IN, 5.6)
-    return canvas
+    """A torque-and-drag chart as ``fctd chart --plot`` draws it; the page scales it to its column."""
+    return plots.chart_figure(table, "si")
 
 
 def plain_log_ticks(axis: Axis) -> None:

@@ -17,6 +17,7 @@ from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
 from fctd.cli.chart import MOST_DEPTHS, read_depths
 from tests.cli.test_main import run
+from tests.plots.made import well
 
 CASE = """
 name = "tiny"
@@ -35,6 +36,7 @@ segment_length = "40 m"
 [mud]
 density = 0
 """
+SHOD = well()
 CHART_COLUMNS = [
     "operation", "friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
@@ -368,6 +370,9 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
         ("chart", {"--depths": "500:800:0"}, ["--depths", "500:800:0", "STEP above 0"]),
         ("chart", {"--depths": "500:800:-10"}, ["--depths", "-10", "a length"]),
         ("chart", {"--depths": "500:800"}, ["--depths", "500:800", "FROM:TO:STEP"]),
+        ("chart", {"--depths": "shoe:td:100"}, ["--depths", "shoe:td:100", "one interval and no shoe"]),
+        ("chart", {"--depths": "500:bottom:100"}, ["--depths", "bottom", "a length"]),
+        ("chart", {"--depths": "500:800:td"}, ["--depths", "td", "a length"]),
         ("chart", {"--depths": "500:800 kg:10"}, ["--depths", "800 kg", "a length"]),
         ("chart", {"--depths": "500:nan:10"}, ["--depths", "nan", "a length"]),
         ("chart", {"--depths": "500:800:1e-9"}, ["--depths", "1e-9", "at most 10000 depths"]),
@@ -375,8 +380,12 @@ POINT = {"--operation": "trip_in", "--bit-depth": "800 m", "--out": "profile.csv
         ("chart", {"--operation": "rotate_off_bottom", "--speed": "1"}, ["--speed = 1.0", "of 0 for rotate_off"]),
         ("chart", {"--speed": "3 kg"}, ["--speed", "3 kg", "a speed"]),
         ("chart", {"--rpm": "-5"}, ["--rpm", "-5", "a rotation"]),
-        ("chart", {"--out": "chart.xlsx"}, ["--out", "chart.xlsx", ".csv or .parquet"]),
-        ("chart", {"--plot": "chart.pdf"}, ["--plot", "chart.pdf", ".png or .svg"]),
+        ("chart", {"--out": "chart.xls"}, ["--out", "chart.xls", ".csv or .parquet or .xlsx"]),
+        ("chart", {"--plot": "chart.gif"}, ["--plot", "chart.gif", ".png or .svg or .pdf or .html"]),
+        ("chart", {"--load": "hook"}, ["--load", "hook", "indicator"]),
+        ("chart", {"--side-force": "stand"}, ["--side-force", "stand", "joint"]),
+        ("chart", {"--measured": "rows.csv"}, ["--measured", "rows.csv", "--plot beside it"]),
+        ("chart", {"--measured": "rows.csv", "--plot": "a.png"}, ["rows.csv", "can be read"]),
         ("chart", {"--plot-profile": "chart"}, ["--plot-profile", ".png or .svg"]),
         ("chart", {"--out": "tiny.toml/chart.csv"}, ["--out", "tiny.toml/chart.csv", "can be written"]),
         ("chart", {"--plot": "tiny.toml/chart.png"}, ["--plot", "tiny.toml/chart.png", "can be written"]),
@@ -438,20 +447,28 @@ def test_rates_go_to_the_operations_that_have_them(
 
 
 @given(
-    first=st.integers(1, 50_000), step=st.integers(1, 400), count=st.integers(0, 300), short=st.integers(0, 399),
+    first=st.integers(1, 50_000), step=st.integers(1, 400), count=st.integers(0, 300), beyond=st.integers(0, 399),
     unit=st.sampled_from([("", 1.0), (" m", 1.0), (" ft", FOOT), (" cm", 0.01)]),
 )  # fmt: skip
 def test_depths_rise_from_first_to_last_in_equal_steps(
-    first: int, step: int, count: int, short: int, unit: tuple[str, float]
+    first: int, step: int, count: int, beyond: int, unit: tuple[str, float]
 ) -> None:
+    """The last step may be shorter: the end is always in."""
     name, metres = unit
-    last = first + count * step + short % step
-    depths = read_depths(f"{first}{name}:{last}{name}:{step}{name}")
-    expected = metres * (first + step * np.arange(count + 1))
+    last = first + count * step + beyond % step
+    depths = read_depths(f"{first}{name}:{last}{name}:{step}{name}", SHOD)
+    expected = metres * np.unique(np.append(first + step * np.arange(count + 1), last))
     np.testing.assert_allclose(depths, expected, rtol=0, atol=1e-6)
 
 
 def test_the_grid_has_a_limit() -> None:
-    assert len(read_depths(f"1:{MOST_DEPTHS}:1")) == MOST_DEPTHS
+    assert len(read_depths(f"1:{MOST_DEPTHS}:1", SHOD)) == MOST_DEPTHS
     with pytest.raises(InputError):
-        read_depths(f"1:{MOST_DEPTHS + 1}:1")
+        read_depths(f"1:{MOST_DEPTHS + 1}:1", SHOD)
+
+
+def test_words_stand_for_the_shoe_and_the_end_of_the_hole() -> None:
+    """A shoe at 1,500 m in a hole of 2,000 m."""
+    assert read_depths("shoe:td:200", SHOD) == [1500, 1700, 1900, 2000]
+    assert read_depths("1400: shoe :100", SHOD) == [1400, 1500]
+    assert read_depths("td:td:1", SHOD) == [2000]

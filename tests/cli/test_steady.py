@@ -7,7 +7,6 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-import fctd
 from tests.cli.test_chart import CASE, CHART, POINT, settings
 from tests.cli.test_main import run
 
@@ -113,16 +112,40 @@ def test_a_target_that_cannot_be_written_is_refused_before(
     assert f"expected {expected}" in message
 
 
-def test_without_matplotlib_a_picture_is_refused_before_computing(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.delitem(sys.modules, "fctd.plots", raising=False)
-    monkeypatch.delattr(fctd, "plots", raising=False)
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
+@pytest.mark.parametrize(
+    ("option", "file", "package", "extra"),
+    [
+        ("--plot", "chart.png", "matplotlib", "fctd[plot]"),
+        ("--plot", "chart.html", "plotly", "fctd[html]"),
+        ("--out", "table.xlsx", "xlsxwriter", "fctd[excel]"),
+    ],
+)
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+def test_without_its_package_a_file_is_refused_before_computing(
+    option: str, file: str, package: str, extra: str, command: str, case_file: Path, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.setitem(sys.modules, package, None)
     out = tmp_path / "chart.csv"
-    options = CHART | {"--out": str(out), "--plot": str(tmp_path / "chart.png")}
-    assert run(monkeypatch, "chart", case_file, *(part for pair in options.items() for part in pair)) == 2
+    options = (CHART if command == "chart" else POINT) | {"--out": str(out), option: str(tmp_path / file)}
+    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 2
     message = capsys.readouterr().err
-    assert "matplotlib" in message
-    assert "fctd[plot]" in message
-    assert not out.exists()
+    assert package in message
+    assert extra in message
+    assert not list(tmp_path.glob("chart*"))
+
+
+@pytest.mark.parametrize("command", ["chart", "equilibrium"])
+def test_a_workbook_has_the_table_and_its_origin(
+    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("xlsxwriter")
+    calamine = pytest.importorskip("python_calamine")
+    out = tmp_path / "table.xlsx"
+    options = (CHART if command == "chart" else POINT) | {"--out": str(out), "--units": "field"}
+    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 0
+    book = calamine.CalamineWorkbook.from_path(out)
+    headers, *rows = book.get_sheet_by_name("table").to_python()
+    assert {"chart": "hookload_klbf", "equilibrium": "effective_tension_klbf"}[command] in headers
+    assert len(rows) > 1
+    assert dict(book.get_sheet_by_name("about").to_python())["units"] == "field"

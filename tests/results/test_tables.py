@@ -71,6 +71,21 @@ def test_the_suffix_says_what_a_table_is_written_as(name: str, tmp_path: Path) -
     assert (kept[b"rpm"], kept[b"operation"]) == (b"[60, 90]", b"trip_in")
 
 
+def test_a_workbook_has_a_sheet_of_the_table_and_one_of_its_origin(tmp_path: Path) -> None:
+    """Numbers are numbers, a missing one is an empty cell, and a text that looks like a formula is a text."""
+    pytest.importorskip("xlsxwriter")
+    calamine = pytest.importorskip("python_calamine")
+    path = tmp_path / "chart.XLSX"
+    table = pd.DataFrame({"hookload_N": [1.5, float("nan")], "reason": ["=1+1", "https://localhost"]})
+    assert write_table(table, path, {"rpm": [60, 90], "operation": "trip_in"}) == [path]
+    book = calamine.CalamineWorkbook.from_path(path)
+    assert book.get_sheet_by_name("table").to_python() == [
+        ["hookload_N", "reason"], [1.5, "=1+1"], ["", "https://localhost"],
+    ]  # fmt: skip
+    about = dict(book.get_sheet_by_name("about").to_python())
+    assert about == {"key": "value", "rpm": "[60, 90]", "operation": "trip_in"}
+
+
 def test_the_rows_of_a_part_of_a_table_have_no_numbers_of_their_own(tmp_path: Path) -> None:
     write_table(TABLE[1:], tmp_path / "part.parquet", {})
     assert pq.read_schema(tmp_path / "part.parquet").names == list(TABLE.columns)

@@ -6,7 +6,7 @@ import pytest
 from fctd.model.drillstring import section_of
 from fctd.steady.climb import creep_of
 from fctd.steady.continuation import CONVERGED
-from fctd.steady.helix import LOWER_ENERGY, Helix, _transported
+from fctd.steady.helix import LOWER_ENERGY, Helix
 from fctd.steady.problem import FULL, Share
 from fctd.steady.tangent import JOINT_BENDING, NORMAL_FORCE
 from tests.steady.buckled import HOLE, level_case, problem_of
@@ -41,16 +41,3 @@ def test_no_helix_is_laid_where_snaking_has_the_lower_energy(times: float) -> No
     assert not helix.prepare(FULL)
     assert helix.turns == 0
     assert not helix.stands()
-
-
-def test_directions_are_carried_along_the_hole_without_a_turn() -> None:
-    """Across the hole, of unit length, and steady through vertical, where the high side jumps."""
-    angle = np.linspace(-0.5, 1.2, 200)
-    direction = np.column_stack([np.sin(angle), np.zeros(200), np.cos(angle)])
-    first, second = _transported(direction)
-    assert np.abs((first * direction).sum(axis=1)).max() < 1e-12
-    assert np.linalg.norm(first, axis=1) == pytest.approx(1)
-    assert second == pytest.approx(np.cross(first, direction))
-    assert np.abs(np.diff(first, axis=0)).max() < 0.02
-    # In a planar hole the low side at the bit stays in the plane.
-    assert np.abs(first[:, 1]).max() < 1e-12

@@ -19,6 +19,7 @@ def _chart() -> pd.DataFrame:
                 "bit_depth_m": depth,
                 "hookload_N": (200 + 20 * k) * depth,
                 "surface_torque_N_m": 3 * depth * (k > 1),
+                "total_contact_force_N": 30 * depth,
                 "hookload_low_N": np.nan,
                 "hookload_high_N": np.nan,
                 "buckling": ["none"] * (len(depth) - 1) + ["helical"],

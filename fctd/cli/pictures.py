@@ -1,0 +1,71 @@
+"""Pictures of the steady commands: the suffix of a file says whether it is a picture or a page."""
+
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Annotated, Any
+
+import pandas as pd
+import typer
+
+from fctd.case.errors import InputError
+from fctd.cli.options import check_target
+from fctd.plots.loads import Load
+from fctd.plots.tracks import SideForce
+from fctd.steady.equilibrium import Equilibrium
+
+PAGE = ".html"
+PICTURES = (".png", ".svg", ".pdf", PAGE)
+PICTURE_HELP = ".png, .svg, .pdf, or .html with values under the pointer"
+# Package and extra by suffix; matplotlib for the others.
+_NEEDS = {PAGE: ("plotly", "html"), ".xlsx": ("xlsxwriter", "excel")}
+
+ShownLoad = Annotated[
+    Load,
+    typer.Option("--load", help="In the picture: hook load of the string, or the weight indicator's reading."),
+]
+ShownSideForce = Annotated[
+    SideForce,
+    typer.Option("--side-force", help="In pictures of profiles: per length, or per joint of 30 ft."),
+]
+
+
+def check_package(path: Path | None, key: str) -> None:
+    """Raise InputError where the optional package is missing that writes a file of this suffix."""
+    if path is None:
+        return
+    package, extra = _NEEDS.get(path.suffix.lower(), ("matplotlib", "plot"))
+    try:
+        import_module(package)
+    except ModuleNotFoundError as error:
+        expected = f"the package {error.name} for {path.suffix} (pip install {package}, or the extra fctd[{extra}])"
+        raise InputError(expected, key=key, value=path) from None
+
+
+def check_pictures(targets: Mapping[str, Path | None]) -> None:
+    """Raise InputError for a picture that cannot be written, before anything is computed."""
+    wanted = {key: path for key, path in targets.items() if path is not None}
+    for key, path in wanted.items():
+        check_target(path, key, PICTURES)
+    if len({path.resolve() for path in wanted.values()}) < len(wanted):
+        raise InputError("a file of its own for each picture", key=key, value=path)
+    for key, path in wanted.items():
+        check_package(path, key)
+
+
+def draw_chart(path: Path, chart: pd.DataFrame, **options: Any) -> list[Path]:
+    """Write a chart; options : of ``chart_figure``.  Returns the files."""
+    from fctd import plots
+
+    if path.suffix.lower() == PAGE:
+        return plots.save_page(plots.chart_page(chart, **options), path)
+    return plots.save(plots.chart_figure(chart, **options), path)
+
+
+def draw_profiles(path: Path, points: Sequence[Equilibrium], **options: Any) -> list[Path]:
+    """Write profiles; options : of ``profile_figure``.  Returns the files."""
+    from fctd import plots
+
+    if path.suffix.lower() == PAGE:
+        return plots.save_page(plots.profile_page(points, **options), path)
+    return plots.save(plots.profile_figure(points, **options), path)

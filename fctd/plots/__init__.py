@@ -1,0 +1,33 @@
+"""Pictures and pages of steady strings: the torque-and-drag chart, and the profile of a string from top to bit.
+
+Pictures need matplotlib (the package's extra ``plot``), pages plotly (``html``); each is imported where it is asked
+for, and nothing else of the package needs them.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fctd.plots.chart import chart_figure
+    from fctd.plots.page import chart_page, profile_page, save_page
+    from fctd.plots.profile import profile_figure
+    from fctd.plots.style import RC, save
+
+__all__ = ["RC", "chart_figure", "chart_page", "profile_figure", "profile_page", "save", "save_page"]
+
+_HOMES = {
+    "RC": "style",
+    "chart_figure": "chart",
+    "chart_page": "page",
+    "profile_figure": "profile",
+    "profile_page": "page",
+    "save": "style",
+    "save_page": "page",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """A public name, from the module that has it."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)

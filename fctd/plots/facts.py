@@ -1,0 +1,94 @@
+"""What a picture says beside its curves: title, mud, loads at the bit, rates, block, warnings, notes, casing shoes."""
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import pandas as pd
+
+from fctd.case.friction import own_label
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.case.units import conversion
+from fctd.model.operations import SteadyRates, rad_per_s, rates_of_all
+from fctd.results.notes import meanings_of, worst
+from fctd.results.series import frictions_of, in_words, series_of
+from fctd.results.unit_systems import System, reworded, shown
+from fctd.steady.equilibrium import Equilibrium
+
+# Units of pictures for quantities that no table has: SI unit, metric unit, field unit.
+_DENSITY: Final = ("kg/m^3", "kg/m^3", "ppg")
+_SPEED: Final = ("m/s", "m/s", "ft/min")
+
+
+def facts_of(
+    case: Case, kinds: Sequence[str], units: System, rates: Mapping[str, SteadyRates] | None = None
+) -> list[str]:
+    """Facts of a case, a clause each; rates : of the operations, the case's own or the defaults where None."""
+    rates = rates_of_all(case, kinds) if rates is None else rates
+    mud = _in(case.mud.density, _DENSITY, units) if case.mud.density else "none (air)"
+    facts = [f"mud {mud}"]
+    if any(KINDS[kind].on_bottom for kind in kinds):
+        facts += [f"weight on bit {_load(case.bit.weight_on_bit, 'weight_on_bit_N', units)}"]
+        if case.bit.torque:
+            facts += [f"bit torque {_load(case.bit.torque, 'torque_N_m', units)}"]
+    if case.rig.block_weight:
+        facts += [f"block {_load(case.rig.block_weight, 'block_weight_N', units)}"]
+    for kind in kinds:
+        speed, rpm = abs(rates[kind].speed), rates[kind].spin / rad_per_s(1.0)
+        parts = [_in(speed, _SPEED, units)] if speed else []
+        parts += [f"{rpm:.3g} rev/min"] if rpm else []
+        facts += [f"{KINDS[kind].label} {' and '.join(parts)}"]
+    return facts
+
+
+def shoes_of(case: Case) -> list[float]:
+    """Depths [m] of the casing shoes: the ends of cased intervals (of all, without kinds) above the end of the hole."""
+    bottom, intervals = case.depths[1], case.wellbore.intervals
+    kinds = {interval.kind for interval in intervals}
+    cased = [interval for interval in intervals if kinds == {None} or interval.kind == "cased"]
+    return [interval.to_md for interval in cased if interval.to_md < bottom]
+
+
+def heading_of_chart(
+    chart: pd.DataFrame,
+    units: System,
+    case: Case | None,
+    rates: Mapping[str, SteadyRates] | None,
+    warnings: Sequence[str],
+) -> tuple[str, list[str]]:
+    """Title of a chart, and the lines below it, the first of facts."""
+    series = series_of(chart, units)
+    kinds, frictions = list(dict.fromkeys(one.operation for one in series)), frictions_of(series)
+    words = [] if case is None else [case.name]
+    words += [KINDS[kinds[0]].label] if len(kinds) == 1 else []
+    words += [in_words(frictions[0])] if len(frictions) == 1 else []
+    facts = "" if case is None else "; ".join(facts_of(case, kinds, units, rates))
+    notes = [f"note {code}: {found['headline']}" for code, found in meanings_of(chart.get("notes", ())).items()]
+    return "; ".join(words), [facts, *_told(warnings), *notes]
+
+
+def heading_of_profile(points: Sequence[Equilibrium], units: System, warnings: Sequence[str]) -> tuple[str, list[str]]:
+    """Title of profiles, and the lines below it, the first of facts."""
+    case, depth = points[0].case, shown("bit_depth_m", units)
+    friction = reworded(own_label(case.wellbore.intervals), units)
+    words = [case.name, f"bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}", in_words(friction)]
+    facts = "; ".join(facts_of(case, [point.operation for point in points], units))
+    found = worst(note for point in points if point.answered for note in point.notes)
+    return "; ".join(words), [facts, *_told(warnings), *(f"note {note.code}: {note.text}" for note in found)]
+
+
+def _told(warnings: Sequence[str]) -> list[str]:
+    """Warnings as lines below a title."""
+    return [f"warning {text}" for text in warnings]
+
+
+def _in(value: float, unit_of: tuple[str, str, str], units: System) -> str:
+    """An SI value with its unit."""
+    si, metric, field = unit_of
+    unit = field if units == "field" else metric
+    return f"{value * conversion(si, unit):.4g} {unit}".replace("^3", "³")
+
+
+def _load(value: float, column: str, units: System) -> str:
+    factor, label = shown(column, units)
+    return f"{value * factor:.3g} {label}"

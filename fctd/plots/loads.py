@@ -1,0 +1,141 @@
+"""Which load a chart shows, and how far its axes reach; for pictures and pages."""
+
+from collections.abc import Sequence
+from typing import Final, Literal, NamedTuple
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.model.operations import sensors
+from fctd.results.measured import measured_column
+from fctd.results.series import Series, frictions_of, in_words
+from fctd.results.status import SteadyStatus
+from fctd.results.unit_systems import System, shown
+
+Array = NDArray[np.float64]
+Load = Literal["string", "indicator"]
+
+LOAD_COLUMNS: Final[dict[Load, str]] = {"string": "hookload_N", "indicator": "weight_indicator_N"}
+NAMES: Final = {
+    "hookload_N": "hook load (string)",
+    "weight_indicator_N": "weight indicator (string and block)",
+    "surface_torque_N_m": "surface torque",
+}
+TORQUE: Final = "surface_torque_N_m"
+MOST_CURVES = 6  # that can be told apart in one panel
+# Axes show pushes up to this share of the span of the other loads.
+BESIDE = 0.25
+AIR = 0.05  # of the span of an axis, beyond the loads
+# Least span of an axis as a share of the largest load, and of torques as a lever [m] times the largest of hook loads
+# and contact forces: friction has ten times this lever, and less is the torque of a string that slides.
+LEAST_SHARE, LEVER = 0.01, 2e-3
+
+
+class Limits(NamedTuple):
+    """Ends of an axis, and those beyond which loads of locked-up strings are cut, in the units of the axis."""
+
+    low: float
+    high: float
+    cut: bool
+
+
+def groups_of(series: list[Series]) -> list[tuple[str, list[Series]]]:
+    """The series in groups of at most ``MOST_CURVES``, with a heading each; a lone group has none.
+
+    A group has one set of friction factors or one operation, whichever gives fewer groups.
+    """
+    if len(series) <= MOST_CURVES:
+        return [("", series)]
+    by_friction = [(in_words(name), [s for s in series if s.friction == name]) for name in frictions_of(series)]
+    by_operation = []
+    for kind in dict.fromkeys(s.operation for s in series):
+        same, label = [s for s in series if s.operation == kind], KINDS[kind].label
+        for k in range(0, len(same), MOST_CURVES):
+            part = same[k : k + MOST_CURVES]
+            words = label if len(same) <= MOST_CURVES else f"{label}, μ {part[0].friction} to {part[-1].friction}"
+            by_operation.append((words, part))
+    return by_operation if len(by_operation) < len(by_friction) else by_friction
+
+
+def block_of(case: Case | None) -> float:
+    """Weight of the block [N]; 0 without a case."""
+    return 0.0 if case is None else case.rig.block_weight
+
+
+def as_load(case: Case | None, kind: str, hookload: Array, load: Load) -> Array:
+    """Hook loads [N] of an operation as the load that is shown."""
+    if load == "string":
+        return hookload
+    if case is None:
+        return np.full_like(hookload, np.nan)
+    return np.array([sensors(case, kind, float(value), 0.0)[0] for value in hookload])
+
+
+def spent_at(case: Case | None, load: Load) -> float:
+    """The load [N] at which slack-off is spent: nothing but the block pulls the string down."""
+    return -block_of(case) if load == "string" else 0.0
+
+
+def limits_of_load(
+    chart: pd.DataFrame, case: Case | None, load: Load, units: System, measured: pd.DataFrame | None
+) -> Limits:
+    """Limits of the axis of hook loads; the pushes of locked-up strings do not set them."""
+    column = LOAD_COLUMNS[load]
+    locked = _locked(chart)
+    visible = [chart.loc[~locked, column].to_numpy(float), *_measured(measured, column)]
+    for kind, rows in chart[~locked].groupby("operation"):
+        ends = rows[["hookload_low_N", "hookload_high_N"]].to_numpy(float).ravel()
+        visible.append(as_load(case, str(kind), ends[np.isfinite(ends)], load))
+    if locked.any():
+        visible.append(np.array([spent_at(case, load)]))
+        # A chart of nothing but pushes shows the least of them.
+        finite = np.concatenate(visible)
+        if np.ptp(finite[np.isfinite(finite)]) == 0 and chart[column].notna().any():
+            visible.append(np.array([chart[column].max()]))
+    largest = max(_largest(chart, ["hookload_N"]), block_of(case) if load == "indicator" else 0.0)
+    return _span(visible, LEAST_SHARE * largest, shown(column, units).factor, cut=bool(locked.any()))
+
+
+def limits_of_torque(chart: pd.DataFrame, units: System, measured: pd.DataFrame | None) -> Limits:
+    """Limits of the axis of torques, from 0: noise of the solver and strings that lock up do not set them."""
+    locked = _locked(chart)
+    visible = [np.zeros(1), chart.loc[~locked, TORQUE].to_numpy(float), *_measured(measured, TORQUE)]
+    least = LEVER * _largest(chart, ["hookload_N", "total_contact_force_N"])
+    return _span(visible, least, shown(TORQUE, units).factor, cut=bool(locked.any()))
+
+
+def _locked(chart: pd.DataFrame) -> "pd.Series[bool]":
+    return chart["status"] == SteadyStatus.LOCKED_UP
+
+
+def _largest(chart: pd.DataFrame, columns: list[str]) -> float:
+    """Largest of the loads of rows that are not locked up [N]; of all rows where every row is."""
+    rows = chart if _locked(chart).all() else chart[~_locked(chart)]
+    loads = rows[columns].abs().to_numpy(float)
+    return float(np.max(loads, where=np.isfinite(loads), initial=0.0))
+
+
+def _measured(measured: pd.DataFrame | None, column: str) -> list[Array]:
+    if measured is None:
+        return []
+    return [measured[name].to_numpy(float) for name in measured_columns(column)]
+
+
+def measured_columns(column: str) -> tuple[str, str, str]:
+    """Columns of measured rows for a column of a chart: value, low and high end of its range."""
+    return column, measured_column(column, "low"), measured_column(column, "high")
+
+
+def _span(visible: Sequence[Array], least: float, factor: float, *, cut: bool) -> Limits:
+    """Limits that show all values [SI], at least ``least`` apart, with more room to the left where loads are cut."""
+    values = np.concatenate(visible)
+    values = values[np.isfinite(values)]
+    low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
+    # Where there are no loads, the axis spans 1.
+    lacking = max((least or 1.0 / factor) - (high - low), 0.0) / 2
+    low, high = low - lacking, high + lacking
+    span = high - low
+    return Limits((low - (BESIDE if cut else AIR) * span) * factor, (high + AIR * span) * factor, cut)

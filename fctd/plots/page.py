@@ -1,0 +1,250 @@
+"""Pages of steady strings that show values under the pointer: one file of HTML that needs no network.
+
+Needs plotly, which the package installs as its extra ``html``.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from html import escape
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import pandas as pd
+import plotly.graph_objects as go
+from numpy.typing import NDArray
+from plotly.subplots import make_subplots
+
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.case.text import printable
+from fctd.model.operations import SteadyRates
+from fctd.plots.facts import heading_of_chart, heading_of_profile, shoes_of
+from fctd.plots.loads import (
+    LOAD_COLUMNS,
+    NAMES,
+    TORQUE,
+    Load,
+    groups_of,
+    limits_of_load,
+    limits_of_torque,
+    measured_columns,
+    spent_at,
+)
+from fctd.plots.palette import BUCKLED, EDGE, LOOKS, MEASURED, QUIET, SHADE
+from fctd.plots.tracks import TRACKS, SideForce, label_of, limits_near, values_of
+from fctd.results.columns import COLUMNS, DEPTH
+from fctd.results.series import Series, frictions_of, series_of
+from fctd.results.status import SteadyStatus
+from fctd.results.unit_systems import System, shown
+from fctd.results.whole_file import whole_file
+from fctd.steady.equilibrium import Equilibrium
+
+# Plotly's names of the markers and dashes of pictures.
+SYMBOLS: Final = {
+    "^": "triangle-up", "o": "circle", "v": "triangle-down", "D": "diamond", "s": "square", "P": "cross",
+}  # fmt: skip
+DASHES: Final = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
+PANEL: Final = 560  # height of a row of panels [px]
+LINE: Final = 18  # height of a line of the heading [px]
+
+
+def save_page(figure: go.Figure, path: Path) -> list[Path]:
+    """Write a page; returns the file.  Raises InputError where it cannot be written."""
+    with whole_file(path) as scratch:
+        # A name of its own for the drawing would differ from run to run.
+        text = figure.to_html(include_plotlyjs=True, div_id="fctd", config={"displaylogo": False})
+        scratch.write_text(text, encoding="utf-8")
+    return [path]
+
+
+def chart_page(
+    chart: pd.DataFrame,
+    units: System = "si",
+    case: Case | None = None,
+    *,
+    load: Load = "string",
+    rates: Mapping[str, SteadyRates] | None = None,
+    measured: pd.DataFrame | None = None,
+    warnings: Sequence[str] = (),
+) -> go.Figure:
+    """The chart of ``chart_figure`` as a page, with the same arguments; the pointer shows each row with its reason."""
+    groups = groups_of(series_of(chart, units))
+    limits = limits_of_load(chart, case, load, units, measured), limits_of_torque(chart, units, measured)
+    columns = LOAD_COLUMNS[load], TORQUE
+    titles = [words for name, _ in groups for words in (name, "")]
+    figure = make_subplots(
+        rows=len(groups), cols=2, shared_yaxes=True, column_widths=[0.58, 0.42], horizontal_spacing=0.04,
+        vertical_spacing=min(0.12, 0.3 / len(groups)), subplot_titles=titles if len(groups) > 1 else None,
+    )  # fmt: skip
+    named: set[str] = set()
+    for row, (_, group) in enumerate(groups, start=1):
+        for col, (column, limit) in enumerate(zip(columns, limits, strict=True), start=1):
+            place = {"row": row, "col": col}
+            frictions = frictions_of(group)
+            for one in group:
+                dash = DASHES[frictions.index(one.friction) % len(DASHES)]
+                for trace in _curve(one, column, dash, units, limit.low, named):
+                    figure.add_trace(trace, **place)
+            if measured is not None:
+                for kind in dict.fromkeys(one.operation for one in group):
+                    figure.add_trace(_measured(measured, kind, column, units, named), **place)
+            label = f"{NAMES[column]}, {shown(column, units).label}"
+            figure.update_xaxes(title_text=label, range=[limit.low, limit.high], **place)
+            for shoe in [] if case is None else shoes_of(case):
+                if chart["bit_depth_m"].min() <= shoe <= chart["bit_depth_m"].max():
+                    at = shoe * shown(DEPTH.name, units).factor
+                    words = {"annotation_text": f"shoe {at:.0f} {shown(DEPTH.name, units).label}"} if col == 2 else {}
+                    figure.add_hline(at, line={"color": QUIET, "dash": "dot", "width": 1}, **words, **place)
+        if limits[0].cut:
+            spent = spent_at(case, load) * shown(columns[0], units).factor
+            figure.add_vrect(
+                limits[0].low, spent, fillcolor=SHADE, line_width=0, layer="below", row=row, col=1,
+                annotation_text="slack-off is spent", annotation_position="top left",
+            )  # fmt: skip
+        figure.update_yaxes(
+            title_text=f"{DEPTH.label}, {shown(DEPTH.name, units).label}", autorange="reversed", row=row, col=1
+        )
+        figure.update_yaxes(autorange="reversed", row=row, col=2)
+    title, lines = heading_of_chart(chart, units, case, rates, warnings)
+    return _with_heading(figure, title, lines, PANEL * len(groups))
+
+
+def profile_page(
+    points: Sequence[Equilibrium], units: System = "si", *, force: SideForce = "length", warnings: Sequence[str] = ()
+) -> go.Figure:
+    """The profiles of ``profile_figure`` as a page, with the same arguments."""
+    answers = [point for point in points if point.answered]
+    figure = make_subplots(rows=1, cols=len(TRACKS), shared_yaxes=True, horizontal_spacing=0.012)
+    for col, column in enumerate(TRACKS, start=1):
+        place = {"row": 1, "col": col}
+        name, unit = label_of(column, units, force)
+        for point in answers:
+            colour, _ = LOOKS[point.operation]
+            md, value = values_of(point, column, units, force)
+            label = KINDS[point.operation].label
+            if COLUMNS[column].across and point is answers[0]:
+                clearance = point.profile["clearance_m"].to_numpy(float) * shown(column, units).factor
+                for side in (-clearance, clearance):
+                    figure.add_trace(_line(side, md, "clearance", EDGE, "dot", legend=False), **place)
+            figure.add_trace(
+                go.Scatter(
+                    x=value, y=md, name=label, legendgroup=label, showlegend=col == 1,
+                    mode="lines", line={"color": colour, "width": 1.6}, customdata=point.profile["buckling"],
+                    hovertemplate=f"%{{y:.1f}}: %{{x:.4g}} {unit}, buckling %{{customdata}}<extra>{label}</extra>",
+                ),
+                **place,
+            )  # fmt: skip
+            figure.add_trace(_buckled(value, md, point.profile["buckling"]), **place)
+        if column == "effective_tension_N" and answers:
+            for mode, (md, limit) in limits_near(answers, units).items():
+                dash = "dash" if mode == "sinusoidal" else "dot"
+                figure.add_trace(_line(limit, md, f"{mode} limit", QUIET, dash, legend=True), **place)
+        figure.update_xaxes(title_text=f"{name}, {unit}", title_font_size=11, **place)
+        figure.update_yaxes(autorange="reversed", **place)
+    figure.update_yaxes(title_text=f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}", row=1, col=1)
+    title, lines = heading_of_profile(points, units, warnings)
+    return _with_heading(figure, title, lines, PANEL + 100)
+
+
+def _curve(one: Series, column: str, dash: str, units: System, edge: float, named: set[str]) -> Iterator[go.Scatter]:
+    """The line of a series, the marks of its buckled rows, and those of rows without loads."""
+    rows, (colour, marker) = one.rows, LOOKS[one.operation]
+    factor, unit = shown(column, units)
+    depth = rows["bit_depth_m"].to_numpy(float) * shown(DEPTH.name, units).factor
+    value = rows[column].to_numpy(float) * factor
+    name = f"{KINDS[one.operation].label}, μ {one.friction}"
+    status = rows["status"].to_numpy(str)
+    texts = [
+        f"{status}; buckling {mode}" + ("" if reason == "none" else f"<br>{_wrapped(reason)}")
+        for status, mode, reason in zip(status, rows["buckling"], rows["reason"], strict=True)
+    ]
+    symbols = [SYMBOLS[marker] + ("" if s == SteadyStatus.CONVERGED else "-open") for s in status]
+    yield _buckled(value, depth, rows["buckling"])
+    yield go.Scatter(
+        x=value, y=depth, name=name, legendgroup=name, showlegend=_new(name, named), mode="lines+markers",
+        line={"color": colour, "dash": dash, "width": 2}, text=texts,
+        marker={"symbol": symbols, "size": 8},
+        hovertemplate=f"%{{y:.1f}}: %{{x:.4g}} {unit}<br>%{{text}}<extra>{name}</extra>",
+    )  # fmt: skip
+    lost = np.isnan(value)
+    if lost.any():
+        found = np.flatnonzero(~lost)
+        stuck = status == SteadyStatus.LOCKED_UP
+        between = np.interp(depth, depth[found], value[found]) if len(found) else np.zeros(len(depth))
+        label = "no loads"
+        yield go.Scatter(
+            x=np.where(stuck, edge, between)[lost], y=depth[lost], name=label, legendgroup=label,
+            showlegend=_new(label, named), mode="markers", text=[texts[k] for k in np.flatnonzero(lost)],
+            marker={"symbol": "x-thin", "size": 9, "line": {"color": colour, "width": 2}},
+            hovertemplate=f"%{{y:.1f}}: %{{text}}<extra>{name}</extra>",
+        )  # fmt: skip
+
+
+def _measured(measured: pd.DataFrame, kind: str, column: str, units: System, named: set[str]) -> go.Scatter:
+    """Measured points of an operation, with their ranges."""
+    rows, factor = measured[measured["operation"] == kind], shown(column, units).factor
+    value, low, high = (rows[name].to_numpy(float) * factor for name in measured_columns(column))
+    middle = np.where(np.isnan(value), 0.5 * (low + high), value)
+    label, unit = "measured, with range", shown(column, units).label
+    look = {"symbol": SYMBOLS[LOOKS[kind][1]], "size": 10, "color": MEASURED, "line": {"color": "black", "width": 1.5}}
+    return go.Scatter(
+        x=middle, y=rows["bit_depth_m"] * shown(DEPTH.name, units).factor, name=label, legendgroup=label,
+        showlegend=_new(label, named), mode="markers",
+        marker=look,
+        error_x={"array": high - middle, "arrayminus": middle - low, "color": "black"},
+        hovertemplate=f"%{{y:.1f}}: %{{x:.4g}} {unit}<extra>measured, {KINDS[kind].label}</extra>",
+    )  # fmt: skip
+
+
+def _buckled(value: NDArray[np.float64], depth: NDArray[np.float64], modes: "pd.Series[str]") -> go.Scatter:
+    """Grey discs below the buckled rows of a line."""
+    at = modes.isin(list(BUCKLED)).to_numpy(bool)
+    return go.Scatter(
+        x=value[at], y=depth[at], mode="markers", hoverinfo="skip", showlegend=False,
+        marker={"size": 13, "color": [BUCKLED[mode] for mode in modes[at]], "line": {"color": EDGE, "width": 1}},
+    )  # fmt: skip
+
+
+def _line(
+    value: NDArray[np.float64], depth: NDArray[np.float64], name: str, colour: str, dash: str, *, legend: bool
+) -> go.Scatter:
+    look = {"color": colour, "dash": dash, "width": 1.2}
+    return go.Scatter(x=value, y=depth, name=name, mode="lines", line=look, hoverinfo="skip", showlegend=legend)
+
+
+def _with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: int) -> go.Figure:
+    """The figure with its title, the lines below it, and the legend below the panels."""
+    top = 50 + LINE * (len(lines) + 1)
+    small = "".join(f"<br><span style='font-size:12px;font-weight:normal'>{_wrapped(line)}</span>" for line in lines)
+    extra = sum(_wrapped(line).count("<br>") for line in lines) * LINE
+    title_text = f"<b>{_plain(title)}</b>{small}"
+    figure.update_layout(
+        title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 12}},
+        height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 30, "b": 110},
+        template="plotly_white",
+        legend={"orientation": "h", "y": 0, "yref": "container", "yanchor": "bottom"}, hovermode="closest",
+    )  # fmt: skip
+    return figure
+
+
+def _new(name: str, named: set[str]) -> bool:
+    """Whether a name is not in the legend yet; it is from now on."""
+    new = name not in named
+    named.add(name)
+    return new
+
+
+def _plain(text: str) -> str:
+    """A text from outside as the page shows it: neither tags nor formulas."""
+    return escape(printable(text)).replace("$", "&#36;")
+
+
+def _wrapped(text: str, width: int = 150) -> str:
+    """A plain text in lines of about ``width`` characters."""
+    lines, room = [""], width
+    for word in text.split(" "):
+        if len(word) + 1 > room and lines[-1]:
+            lines, room = [*lines, ""], width
+        lines[-1] += f" {word}" if lines[-1] else word
+        room -= len(word) + 1
+    return "<br>".join(map(_plain, lines))

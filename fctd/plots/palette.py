@@ -1,0 +1,27 @@
+"""Colours of all pictures and pages, and the marker of each operation."""
+
+from typing import Final
+
+# Okabe and Ito's palette, which colour-blind readers can distinguish; neighbours also differ in lightness.
+PALETTE: Final = {
+    "blue": "#0072B2",
+    "vermilion": "#D55E00",
+    "black": "#000000",
+    "sky": "#56B4E9",
+    "green": "#009E73",
+    "purple": "#CC79A7",
+}
+QUIET, DARK, SHADE = "#6e6e6e", "#303030", "#e4e4e4"
+# An operation has a colour and, for print in grey, a marker.
+LOOKS: Final = {
+    "trip_out": (PALETTE["vermilion"], "^"),
+    "rotate_off_bottom": (PALETTE["black"], "o"),
+    "trip_in": (PALETTE["blue"], "v"),
+    "back_ream": (PALETTE["purple"], "D"),
+    "drill_rotating": (PALETTE["green"], "s"),
+    "drill_sliding": (PALETTE["sky"], "P"),
+}
+# Greys of a buckled string by mode, and of their edges; light enough for a curve of any colour on them.
+BUCKLED: Final = {"sinusoidal": "#f0f0f0", "helical": "#c6c6c6"}
+EDGE = "#8a8a8a"
+MEASURED = "#ffe04d"  # of the faces of measured points

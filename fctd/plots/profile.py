@@ -1,0 +1,150 @@
+"""Profiles of strings from the top to the bit, side by side on one depth axis."""
+
+from collections.abc import Sequence
+from typing import Any, Final
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from fctd.case.operations import KINDS
+from fctd.plots.facts import heading_of_profile, shoes_of
+from fctd.plots.palette import BUCKLED, EDGE, LOOKS, QUIET, SHADE
+from fctd.plots.style import LOST, RC, Sheet
+from fctd.plots.tracks import TRACKS, SideForce, Track, label_of, limits_near, stretches, values_of
+from fctd.results.columns import COLUMNS
+from fctd.results.unit_systems import System, shown
+from fctd.steady.equilibrium import Equilibrium
+
+Array = NDArray[np.float64]
+
+LIMITS: Final[dict[str, Any]] = {"sinusoidal": (0, (4, 2)), "helical": (0, (1, 1.2))}
+# Least span of an axis, as a share of the largest tension for forces and times this lever [m] for moments.
+LEAST: Final = {"effective_tension_N": 0.01, "torque_N_m": 2e-3, "bending_moment_N_m": 1e-3}
+LEAST_STRESS = 1e6  # [Pa]
+LEFT, BETWEEN, RIGHT, HEIGHT, BELOW = 0.72, 0.17, 0.15, 5.6, 0.72
+NARROW, WIDE = 0.85, 1.38  # of the first panel and the others [in]
+MARGIN = 0.04  # beside a limit, of the span of an axis
+MARKS = 8  # about as many markers on a line
+SHOE: dict[str, Any] = {"color": QUIET, "linewidth": 0.9, "linestyle": (0, (1, 2)), "zorder": 1.1}
+
+
+def profile_figure(
+    points: Sequence[Equilibrium],
+    units: System = "si",
+    *,
+    force: SideForce = "length",
+    warnings: Sequence[str] = (),
+) -> Figure:
+    """Strings from the top to the bit, each operation a line.
+
+    Inclination; tension, with the buckling limits that come near it; torque; side force per length of string, or per
+    joint; bending moment; von Mises stress; and the offset of the string from the axis, within the clearance (shaded).
+    Where one string is drawn, grey shows over all depths where it is buckled, else its line of tension does.  A string
+    without loads is only named in the legend.  warnings : lines below the title, before the notes.
+    """
+    answers = [point for point in points if point.answered]
+    case = points[0].case
+    with mpl.rc_context(RC):
+        depth = shown("bit_depth_m", units)
+        title, lines = heading_of_profile(points, units, warnings)
+        near = limits_near(answers, units) if answers else {}
+        modes = [mode for mode in BUCKLED if any((point.profile["buckling"] == mode).any() for point in answers)]
+        shoes = [shoe * depth.factor for shoe in shoes_of(case) if shoe < points[0].bit_depth]
+        width = LEFT + NARROW + (len(TRACKS) - 1) * (WIDE + BETWEEN) + RIGHT
+        handles = _handles(points, near, modes, shoes)
+        sheet = Sheet(width, HEIGHT + BELOW + 0.05, title, lines, handles)
+        panels: list[Axes] = []
+        left = LEFT
+        for column in TRACKS:
+            wide = NARROW if column == TRACKS[0] else WIDE
+            panels.append(sheet.axes(left, 0.05, wide, HEIGHT, **({"sharey": panels[0]} if panels else {})))
+            left += wide + BETWEEN
+        for ax, column in zip(panels, TRACKS, strict=True):
+            for point in answers:
+                _track(ax, point, column, units, force, alone=len(answers) == 1)
+            for shoe in shoes:
+                ax.axhline(shoe, **SHOE)
+            # Few ticks, so that labels of neighbouring axes do not touch.
+            ax.set_xlabel(",\n".join(label_of(column, units, force)), fontsize=8.5)
+            ax.xaxis.set_major_locator(MaxNLocator(3))
+            _scale(ax, column, answers, near, units)
+            ax.tick_params(axis="y", labelleft=ax is panels[0])
+        tension = panels[TRACKS.index("effective_tension_N")]
+        for mode, (md, limit) in near.items():
+            tension.plot(limit, md, color=QUIET, linestyle=LIMITS[mode], linewidth=1.2)
+        panels[0].set_ylabel(f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}")
+        panels[0].set_ylim(points[0].bit_depth * depth.factor * 1.01, -0.005 * points[0].bit_depth * depth.factor)
+        return sheet.figure
+
+
+def _track(ax: Axes, point: Equilibrium, column: str, units: System, force: SideForce, *, alone: bool) -> None:
+    """Draw one quantity of one string."""
+    profile, (colour, marker) = point.profile, LOOKS[point.operation]
+    md, value = values_of(point, column, units, force)
+    if alone:
+        for first, last, mode in stretches(profile):
+            ax.axhspan(md[first], md[last], facecolor=BUCKLED[mode], edgecolor="none", alpha=0.6, zorder=0.1)
+    if column == "contact_force_N":
+        edges = np.concatenate((md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]))
+        bars: dict[str, Any] = {"fill": True, "baseline": 0} if alone else {"baseline": None}
+        ax.stairs(value, edges, orientation="horizontal", color=colour, linewidth=1.1, **bars)
+        if not alone:
+            marks = slice(None, None, max(len(md) // MARKS, 1))
+            ax.plot(value[marks], md[marks], color=colour, marker=marker, linestyle="none", markersize=4)
+        return
+    if COLUMNS[column].across:
+        clearance = profile["clearance_m"].to_numpy(float) * shown(column, units).factor
+        ax.fill_betweenx(md, -clearance, clearance, color=SHADE, linewidth=0, zorder=0.2)
+    if column == "effective_tension_N" and not alone:
+        for mode, grey in BUCKLED.items():
+            at = (profile["buckling"] == mode).to_numpy()
+            if at.any():
+                for thick, tone, order in ((7.5, EDGE, 1.2), (6.0, grey, 1.3)):
+                    band: dict[str, Any] = {"linewidth": thick, "color": tone, "zorder": order}
+                    ax.plot(np.where(at, value, np.nan), md, solid_capstyle="round", **band)
+    ax.plot(value, md, color=colour, marker=marker, markevery=max(len(md) // MARKS, 1), markersize=4, linewidth=1.2)
+
+
+def _scale(ax: Axes, column: str, answers: Sequence[Equilibrium], near: dict[str, Track], units: System) -> None:
+    """Widen an axis that would show noise of the solver only, and that of tension to the buckling limits near it."""
+    if not answers:
+        return
+    largest = max(float(point.profile["effective_tension_N"].abs().max()) for point in answers)
+    least = LEAST_STRESS if column == "von_mises_Pa" else LEAST.get(column, 0.0) * largest
+    least *= shown(column, units).factor
+    low, high = ax.get_xlim()
+    if column == "effective_tension_N":
+        limits = [float(np.nanmax(limit.value)) - MARGIN * (high - low) for limit in near.values()]
+        low, high = min(low, 0.0, *limits), max(high, 0.0)
+    if column == "torque_N_m":
+        low, high = min(low, 0.0), max(high, 0.0)
+    if column == "contact_force_N":
+        low = 0.0
+    if high - low < least:
+        low, high = 0.5 * (low + high - least), 0.5 * (low + high + least)
+    ax.set_xlim(low, high)
+
+
+def _handles(
+    points: Sequence[Equilibrium], near: dict[str, Track], modes: list[str], shoes: list[float]
+) -> list[Artist]:
+    handles: list[Artist] = []
+    for point in points:
+        name, (colour, marker) = KINDS[point.operation].label, LOOKS[point.operation]
+        if not point.answered:
+            handles.append(Line2D([], [], **LOST, label=f"{name}: no answer ({point.status})"))
+        else:
+            label = name if point.status == "converged" else f"{name} ({point.status})"
+            handles.append(Line2D([], [], color=colour, marker=marker, markersize=4.5, label=label))
+    handles += [Patch(facecolor=BUCKLED[mode], edgecolor=EDGE, label=f"{mode} buckling") for mode in modes]
+    handles += [Line2D([], [], color=QUIET, linestyle=LIMITS[mode], label=f"{mode} limit") for mode in near]
+    handles += [Patch(facecolor=SHADE, label="clearance")]
+    handles += [Line2D([], [], **SHOE, label="casing shoe")] if shoes else []
+    return handles

@@ -1,0 +1,86 @@
+"""The strip beside a chart: a lane for each series that says over depth how its string is buckled, and its status."""
+
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from fctd.plots.palette import BUCKLED, DARK
+from fctd.plots.style import LOST
+from fctd.results.series import Series
+from fctd.results.status import SteadyStatus
+
+LANE = 0.21  # width of a lane [in]
+# Hatches by status; a row that no push moves is black, one without an answer empty with a cross.
+HATCHES: dict[str, str] = {"converged": "", "locked_up": "/////", "under_resolved": ".....", "unstable": "xxxxx"}
+STUCK = "#000000"
+NAMES = {
+    "locked_up": "slack-off is spent (locked up)",
+    "under_resolved": "under-resolved: segments too long",
+    "unstable": "unstable",
+}
+
+
+def has_states(series: list[Series]) -> bool:
+    """Whether any row is buckled, or has another status than converged."""
+    return any(
+        bool((s.rows["status"] != SteadyStatus.CONVERGED).any() or s.rows["buckling"].isin(list(BUCKLED)).any())
+        for s in series
+    )
+
+
+def draw_strip(ax: Axes, series: list[Series], depth: float) -> None:
+    """A lane for each series, numbered from 1, down the axes; depth : factor from m to the units of the axis."""
+    for k, one in enumerate(series, start=1):
+        at = one.rows["bit_depth_m"].to_numpy(float) * depth
+        edges = np.concatenate((at[:1], 0.5 * (at[1:] + at[:-1]), at[-1:]))
+        states = zip(one.rows["buckling"], one.rows["status"], one.rows["hookload_N"].notna(), strict=True)
+        row = 0
+        for (mode, status, loaded), run in groupby(states):
+            first, row = row, row + len(list(run))
+            top, height = edges[first], edges[row] - edges[first]
+            ax.bar(k, height, 0.78, top, **_look(str(mode), str(status), loaded), edgecolor=DARK, linewidth=0.6)
+            if not loaded and status != SteadyStatus.LOCKED_UP:
+                crosses: dict[str, Any] = LOST | {"markersize": 5, "markeredgewidth": 1.4}
+                ax.plot(np.full(row - first, k), at[first:row], **crosses)
+    ax.set_xlim(0.5, len(series) + 0.5)
+    ax.set_xticks(range(1, len(series) + 1))
+    ax.tick_params(axis="x", length=0, labelsize=8)
+    ax.tick_params(axis="y", left=False, labelleft=False)
+    ax.grid(False)
+    for spine in ax.spines.values():
+        spine.set_visible(False)
+    ax.set_xlabel("state", labelpad=3)
+
+
+def state_handles(series: list[Series]) -> list[Artist]:
+    """Entries of the legend for the states that occur."""
+    modes = {str(mode) for one in series for mode in one.rows["buckling"]}
+    loaded = {str(s) for one in series for s in one.rows.loc[one.rows["hookload_N"].notna(), "status"]}
+    lost = {str(s): None for one in series for s in one.rows.loc[one.rows["hookload_N"].isna(), "status"]}
+    handles: list[Artist] = [
+        Patch(facecolor=grey, edgecolor=DARK, linewidth=0.6, label=f"{mode} buckling")
+        for mode, grey in BUCKLED.items()
+        if mode in modes
+    ]
+    handles += [
+        Patch(**_look("none", status, loaded=True), edgecolor=DARK, linewidth=0.6, label=name)
+        for status, name in NAMES.items()
+        if status in loaded
+    ]
+    if SteadyStatus.LOCKED_UP in lost:
+        handles.append(Patch(facecolor=STUCK, label="no push suffices (locked up)"))
+    lost.pop(SteadyStatus.LOCKED_UP, None)
+    if lost:
+        handles.append(Line2D([], [], **LOST, label=f"no answer: {', '.join(lost)}"))
+    return handles
+
+
+def _look(mode: str, status: str, loaded: bool) -> dict[str, Any]:
+    if not loaded:
+        return {"facecolor": STUCK if status == SteadyStatus.LOCKED_UP else "white"}
+    return {"facecolor": BUCKLED.get(mode, "white"), "hatch": HATCHES[status]}

@@ -1,0 +1,114 @@
+"""What all pictures share: colours, markers, the sheet with its heading, and the files."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from textwrap import wrap
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.legend import Legend
+from matplotlib.typing import RcKeyType
+
+from fctd.case.text import printable
+from fctd.plots.labels import width_of
+from fctd.plots.palette import DARK, QUIET
+from fctd.results.whole_file import whole_file
+
+RC: dict[RcKeyType, Any] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.8,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.formatter.useoffset": False,
+    "grid.color": "#e3e3e3",
+    "grid.linewidth": 0.6,
+    "hatch.linewidth": 0.7,
+    "legend.frameon": False,
+    "lines.linewidth": 1.5,
+    "lines.markersize": 5,
+    "savefig.dpi": 150,
+    # The same numbers give the same file, byte for byte.
+    "svg.hashsalt": "fctd",
+}
+# A friction factor has a dash.
+DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (9, 3))]
+LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": QUIET}
+POINTS = 72.0  # in an inch
+TITLE, SMALL = 10.5, 7.5  # sizes of type [pt]
+LINE = 1.35  # height of a line of small type, in its size
+SMALL_WIDTH = 0.56  # of a character of small type on average, in its size
+MARGIN = 0.1  # beside everything [in]
+LEGEND_LINE, LEGEND_HANDLE = 0.19, 0.52  # height of a legend's entry, width of what stands beside its text [in]
+
+# Files are the same byte for byte: these formats would hold the time.
+_UNDATED: dict[str, dict[str, Any]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+
+
+def save(figure: Figure, path: Path) -> list[Path]:
+    """Write a figure in the format of its suffix; returns the file.  Raises InputError where it cannot be written."""
+    with mpl.rc_context(RC), whole_file(path) as scratch:
+        figure.savefig(scratch, metadata=_UNDATED.get(path.suffix.lower()))
+    return [path]
+
+
+class Sheet:
+    """A figure laid out in inches from its upper left corner: heading, panels, legend.
+
+    width [in]; panels : height of what stands between heading and legend [in]; the heading is a title with lines below
+    it, the first of facts, the others in grey.  A case's name is not parsed as a formula.
+    """
+
+    def __init__(
+        self, width: float, panels: float, title: str, lines: Sequence[str], handles: Sequence[Artist]
+    ) -> None:
+        fitting = int((width - 2 * MARGIN) * POINTS / (SMALL * SMALL_WIDTH))
+        small = [
+            (part, QUIET if k else DARK)
+            for k, line in enumerate(lines)
+            for part in wrap(printable(line), fitting, break_on_hyphens=False)
+        ]
+        widest = max((width_of(str(handle.get_label())) for handle in handles), default=0.0) / POINTS
+        columns = max(int((width - 2 * MARGIN) / (widest + LEGEND_HANDLE)), 1)
+        rows = -(-len(handles) // columns)
+        step = SMALL * LINE / POINTS
+        self.top = MARGIN + 1.5 * TITLE / POINTS + step * len(small) + 0.08
+        self.width, self.height = width, self.top + panels + rows * LEGEND_LINE + (0.16 if rows else 0.0)
+        self.figure = Figure(figsize=(self.width, self.height))
+        self.figure.suptitle(
+            printable(title), x=MARGIN / width, y=1 - MARGIN / self.height, ha="left", va="top", fontsize=TITLE,
+            fontweight="bold", parse_math=False,
+        )  # fmt: skip
+        down = MARGIN + 1.5 * TITLE / POINTS
+        for line, colour in small:
+            place = (MARGIN / width, 1 - down / self.height)
+            self.figure.text(*place, line, fontsize=SMALL, color=colour, va="top", parse_math=False)
+            down += step
+        if handles:
+            self.legend(handles, columns)
+
+    def axes(self, left: float, top: float, width: float, height: float, **shared: Any) -> Axes:
+        """Axes at a place [in]; top : below the heading."""
+        low = self.height - self.top - top - height
+        place = (left / self.width, low / self.height, width / self.width, height / self.height)
+        return self.figure.add_axes(place, **shared)
+
+    def legend(self, handles: Sequence[Artist], columns: int) -> Legend:
+        """The legend below the panels; entries read from left to right."""
+        rows = -(-len(handles) // columns)
+        # matplotlib fills columns first.
+        ordered = [handles[row * columns + column] for column in range(columns) for row in range(rows)
+                   if row * columns + column < len(handles)]  # fmt: skip
+        return self.figure.legend(
+            handles=ordered, ncols=columns, loc="lower left", bbox_to_anchor=(MARGIN / self.width, 0.04 / self.height),
+            fontsize=8, borderaxespad=0, handlelength=2.6, columnspacing=1.4, labelspacing=0.45,
+        )  # fmt: skip

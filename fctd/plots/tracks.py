@@ -1,0 +1,105 @@
+"""The quantities of a profile in the units of its panels; for pictures and pages."""
+
+from collections.abc import Sequence
+from typing import Final, Literal, NamedTuple
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fctd.case.units import conversion
+from fctd.plots.palette import BUCKLED
+from fctd.results.columns import COLUMNS
+from fctd.results.unit_systems import Shown, System, shown
+from fctd.steady.equilibrium import Equilibrium
+
+Array = NDArray[np.float64]
+
+SideForce = Literal["length", "joint"]
+
+# The panels, by column of the profile.
+TRACKS: Final = (
+    "inclination_deg",
+    "effective_tension_N",
+    "torque_N_m",
+    "contact_force_N",
+    "bending_moment_N_m",
+    "von_mises_Pa",
+    "offset_high_m",
+    "offset_right_m",
+)
+# A buckling limit is shown where it comes as near to the loads as this share of their span.
+NEAR: Final = 0.6
+MODES: Final = ("sinusoidal", "helical")
+JOINT: Final = 9.144  # [m], the 30 ft to which side forces on tool joints and casing are given
+
+
+class Track(NamedTuple):
+    """A quantity of a string in the units of its panel, by measured depth (n,)."""
+
+    md: Array
+    value: Array
+
+
+def side_force(profile: pd.DataFrame, force: SideForce) -> Array:
+    """Side force per length [N/m] or per joint of 30 ft [N] of each row of a profile.
+
+    The force of a contact point belongs to the string half way to its neighbours.
+    """
+    md = profile["md_m"].to_numpy(float)
+    edges = np.concatenate((md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]))
+    per_length = profile["contact_force_N"].to_numpy(float) / np.diff(edges)
+    return per_length * (JOINT if force == "joint" else 1.0)
+
+
+def side_force_unit(units: System, force: SideForce) -> Shown:
+    """How to show a side force."""
+    if force == "length":
+        metric, field = ("kN/m", "kN/m"), ("lbf/ft", "lbf/ft")
+    else:
+        metric, field = ("kN", "kN per 9.14 m"), ("lbf", "lbf per 30 ft")
+    unit, label = field if units == "field" else metric
+    return Shown(conversion("N/m" if force == "length" else "N", unit), label)
+
+
+def label_of(column: str, units: System, force: SideForce) -> tuple[str, str]:
+    """Name and unit of a panel."""
+    if column == "contact_force_N":
+        return f"side force per {force}", side_force_unit(units, force).label
+    return COLUMNS[column].label, shown(column, units).label
+
+
+def values_of(point: Equilibrium, column: str, units: System, force: SideForce) -> Track:
+    """A quantity of a string in the units of its panel."""
+    profile = point.profile
+    md = profile["md_m"].to_numpy(float) * shown("md_m", units).factor
+    if column == "contact_force_N":
+        return Track(md, side_force(profile, force) * side_force_unit(units, force).factor)
+    if COLUMNS[column].across:
+        high, right = point.offsets.T
+        return Track(md, (high if column == "offset_high_m" else right) * shown(column, units).factor)
+    return Track(md, profile[column].to_numpy(float) * shown(column, units).factor)
+
+
+def stretches(profile: pd.DataFrame) -> list[tuple[int, int, str]]:
+    """First and last row, and mode, of every run of rows that are buckled alike."""
+    mode = profile["buckling"].to_numpy(str)
+    starts = np.flatnonzero(np.append(True, mode[1:] != mode[:-1]))
+    ends = np.append(starts[1:], len(mode)) - 1
+    return [(int(a), int(b), str(mode[a])) for a, b in zip(starts, ends, strict=True) if mode[a] in BUCKLED]
+
+
+def limits_near(answers: Sequence[Equilibrium], units: System) -> dict[str, Track]:
+    """The buckling limits of the first string that come near the loads, compression to the left, with their depths."""
+    factor = shown("effective_tension_N", units).factor
+    loads = np.concatenate([point.profile["effective_tension_N"].to_numpy(float) for point in answers]) * factor
+    reach = loads.min() - NEAR * max(float(np.ptp(loads)), 1e-9)
+    profile = answers[0].profile
+    md = profile["md_m"].to_numpy(float) * shown("md_m", units).factor
+    near = {}
+    for mode in MODES:
+        limit = -profile[f"{mode}_limit_N"].replace(np.inf, np.nan).to_numpy(float) * factor
+        limit = np.where(limit >= reach, limit, np.nan)
+        if np.isfinite(limit).any():
+            near[mode] = Track(md, limit)
+    return near

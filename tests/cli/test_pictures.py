@@ -1,0 +1,36 @@
+"""Pictures and pages of the steady commands, by the suffix of their file."""
+
+from pathlib import Path
+
+import pytest
+
+from fctd.cli.pictures import PICTURES
+from tests.cli.test_chart import CASE
+from tests.cli.test_main import run
+
+START = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF", ".html": b"<!doctype html>"}
+
+
+@pytest.fixture
+def case_file(tmp_path: Path) -> Path:
+    path = tmp_path / "tiny.toml"
+    path.write_text(CASE)
+    return path
+
+
+@pytest.mark.parametrize("suffix", PICTURES)
+def test_a_picture_is_as_its_suffix_says(
+    suffix: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for package in ("matplotlib", "plotly"):
+        pytest.importorskip(package)
+    rows = tmp_path / "rows.csv"
+    rows.write_text("depth_m,operation,hookload_kN\n550,trip_in,100\n")
+    chart, profile = tmp_path / f"chart{suffix}", tmp_path / f"profile{suffix.upper()}"
+    code = run(
+        monkeypatch, "chart", case_file, "--operation", "trip_in", "--depths", "500:td:300", "--load", "indicator",
+        "--side-force", "joint", "--measured", rows, "--plot", chart, "--plot-profile", profile, "--quiet",
+    )  # fmt: skip
+    assert code == 0
+    for path in (chart, profile):
+        assert path.read_bytes().startswith(START[suffix])

@@ -1,0 +1,42 @@
+"""What a picture says beside its curves."""
+
+import numpy as np
+
+from fctd.model.operations import SteadyRates
+from fctd.plots.facts import facts_of, heading_of_chart, heading_of_profile, shoes_of
+from tests.plots.made import chart, points, well
+
+CASE = well(bit={"weight_on_bit": 8e4, "torque": 4e3}, rig={"block_weight": 3e4}, mud={"density": 1200.0})
+
+
+def test_facts_in_both_unit_systems() -> None:
+    """1200 kg/m³ are 10.01 ppg, 80 kN are 17.98 klbf, 30 kN 6.744 klbf (NIST SP 811)."""
+    rates = {"drill_rotating": SteadyRates(0.003, 4 * np.pi), "trip_out": SteadyRates(-0.5, 0.0)}
+    assert facts_of(CASE, list(rates), "si", rates) == [
+        "mud 1200 kg/m³", "weight on bit 80 kN", "bit torque 4 kN·m", "block 30 kN",
+        "drilling, rotating 0.003 m/s and 120 rev/min", "picking up 0.5 m/s",
+    ]  # fmt: skip
+    field = facts_of(CASE, list(rates), "field", rates)
+    assert field[:2] == ["mud 10.01 ppg", "weight on bit 18 klbf"]
+    assert field[-1] == "picking up 98.43 ft/min"
+
+
+def test_loads_at_the_bit_are_those_of_drilling() -> None:
+    assert not [fact for fact in facts_of(CASE, ["trip_in"], "si") if "bit" in fact]
+    assert facts_of(well(), ["trip_in"], "si")[0] == "mud none (air)"
+
+
+def test_shoes_end_intervals_above_the_end_of_the_hole() -> None:
+    assert shoes_of(CASE) == [1500.0]
+
+
+def test_titles_name_what_all_curves_share() -> None:
+    assert (
+        heading_of_chart(chart(["trip_in"], [0.2]), "si", CASE, None, ())[0]
+        == "test; slacking off; friction factor 0.2"
+    )
+    title, lines = heading_of_chart(chart(["trip_in", "trip_out"], [0.2, 0.3]), "si", None, None, ["w"])
+    assert (title, lines) == ("", ["", "w"])
+    title, lines = heading_of_profile(points(), "field", ["w"])
+    assert title.startswith("test; bit at 2887 ft; friction factor")
+    assert lines[1] == "w"

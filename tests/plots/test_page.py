@@ -1,0 +1,80 @@
+"""Pages: whole, without a network, with the values of the table, and with texts from outside as they stand."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+pytest.importorskip("plotly")
+
+from fctd import plots
+from fctd.case.operations import KINDS
+from fctd.plots.tracks import TRACKS
+from tests.plots.made import chart, locked_chart, points, well
+
+CASE = well(rig={"block_weight": 3e4}).model_copy(update={"name": "<b>$x$"})
+
+
+def test_a_page_is_one_file_that_needs_no_network(tmp_path: Path) -> None:
+    figure = plots.chart_page(chart(["trip_in"], [0.2]), "si", CASE)
+    first, second = tmp_path / "a.html", tmp_path / "b.html"
+    for path in (first, second):
+        assert plots.save_page(figure, path) == [path]
+    text = first.read_text(encoding="utf-8")
+    assert text.lstrip().startswith("<!doctype html>")
+    assert not re.search(r"<(?:script|link|img)[^>]+(?:src|href)=", text)
+    assert "Plotly.newPlot" in text
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_a_curve_has_the_values_and_reasons_of_its_rows() -> None:
+    table = chart(["trip_in", "trip_out"], [0.2], {"diverged": "trip_in"})
+    table.loc[table["status"] == "diverged", "reason"] = "deep in the wall <script>"
+    figure = plots.chart_page(table, "si", CASE)
+    (left, _) = (trace for trace in figure.data if trace.name == "slacking off, μ 0.2")
+    rows = table[table["operation"] == "trip_in"]
+    np.testing.assert_allclose(left.x, rows["hookload_N"] / 1e3)
+    np.testing.assert_allclose(left.y, rows["bit_depth_m"])
+    lost = next(trace for trace in figure.data if trace.name == "no loads")
+    assert list(lost.y) == list(rows.loc[rows["hookload_N"].isna(), "bit_depth_m"])
+    assert "deep in the wall &lt;script&gt;" in lost.text[0]
+    assert "&lt;b&gt;&#36;x&#36;" in figure.layout.title.text
+
+
+def test_panels_are_those_of_the_picture() -> None:
+    figure = plots.chart_page(chart(list(KINDS), [0.2, 0.3]), "field", CASE, load="indicator")
+    titles = [axis.title.text for axis in figure.select_xaxes()]
+    assert titles == ["weight indicator (string and block), klbf", "surface torque, kft·lbf"] * 2
+    names = [trace.name for trace in figure.data if trace.showlegend]
+    assert len(names) == len(set(names)) == 12
+
+
+def test_pushes_do_not_set_the_axis_of_a_page() -> None:
+    figure = plots.chart_page(locked_chart(), "si", CASE)
+    low, high = next(iter(figure.select_xaxes())).range
+    assert -100 < low < -30 < 120 < high
+    assert "slack-off is spent" in {note.text for note in figure.layout.annotations}
+    lost = next(trace for trace in figure.data if trace.name == "no loads")
+    assert set(lost.x) == {low}
+
+
+def test_measured_points_have_their_ranges() -> None:
+    values = {"hookload_N": 3e5, "hookload_low_N": 2e5, "hookload_high_N": 5e5}
+    measured = pd.DataFrame(
+        {"operation": ["trip_in"], "bit_depth_m": [1500.0]}
+        | {name: [value] for name, value in values.items()}
+        | {f"surface_torque{end}_N_m": [np.nan] for end in ("", "_low", "_high")}
+    )
+    figure = plots.chart_page(chart(["trip_in"], [0.2]), measured=measured)
+    point = next(trace for trace in figure.data if trace.name == "measured, with range")
+    assert (list(point.x), list(point.error_x.array), list(point.error_x.arrayminus)) == ([300.0], [200.0], [100.0])
+
+
+def test_a_profile_has_a_panel_for_every_quantity() -> None:
+    figure = plots.profile_page(points(), "si", warnings=["a warning"])
+    assert len(list(figure.select_xaxes())) == len(TRACKS)
+    drawn = {trace.name for trace in figure.data if trace.showlegend}
+    assert {KINDS[point.operation].label for point in points() if point.answered} <= drawn
+    assert "a warning" in figure.layout.title.text

@@ -1,0 +1,41 @@
+"""The sheet and the files of pictures."""
+
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("matplotlib")
+
+from matplotlib.lines import Line2D
+
+from fctd import plots
+from fctd.plots.style import Sheet
+from tests.plots.made import chart, legend_of, texts_that_overlap
+
+
+def test_files_are_as_their_suffix_says_and_the_same_each_time(tmp_path: Path) -> None:
+    figure = plots.chart_figure(chart(["trip_in"], [0.2]))
+    for suffix, start in ((".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")):
+        first, second = tmp_path / f"a{suffix}", tmp_path / "new" / f"b{suffix}"
+        for path in (first, second):
+            assert plots.save(figure, path) == [path]
+        assert first.read_bytes().startswith(start)
+        assert first.read_bytes() == second.read_bytes()
+
+
+def test_long_lines_of_the_heading_are_wrapped() -> None:
+    sheet = Sheet(6.0, 2.0, "title", ["fact " * 60, "a note"], [])
+    sheet.axes(1, 0.3, 4, 1)
+    assert len(sheet.figure.texts) > 4
+    assert texts_that_overlap(sheet.figure) == []
+
+
+def test_entries_of_the_legend_read_from_left_to_right() -> None:
+    names = [f"entry {k}" for k in range(5)]
+    sheet = Sheet(6.0, 1.0, "title", [""], [Line2D([], [], label=name) for name in names])
+    sheet.figure.draw_without_rendering()
+    (legend,) = sheet.figure.legends
+    places = {text.get_text(): text.get_window_extent() for text in legend.get_texts()}
+    read = sorted(places, key=lambda name: (-round(places[name].y0), places[name].x0))
+    assert read == names
+    assert set(legend_of(sheet.figure)) == set(names)
