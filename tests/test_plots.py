@@ -76,7 +76,7 @@ def lines(ax: Axes, **look: Any) -> list[Line2D]:
 def texts_that_overlap(figure: Figure) -> list[tuple[str, str]]:
     """Pairs of visible texts of which one covers part of the other."""
     renderer = FigureCanvasAgg(figure).get_renderer()
-    figure.draw(renderer)
+    figure.draw_without_rendering()
     shown = [*([figure._suptitle] if figure._suptitle else []), *figure.findobj(Annotation)]
     for ax in figure.axes:
         shown += [ax.xaxis.label, ax.yaxis.label, ax.title, ax.xaxis.get_offset_text()]
