@@ -24,11 +24,18 @@ def copy(tmp_path: Path) -> Path:
     return root
 
 
+FOLDER = """
+import numba
+from fctd.mechanics import dynamics
+print(dynamics.advance.stats.cache_path)
+"""
+
+
 def cache_folder(root: Path, **environment: str) -> str:
     """Where the package in ``root`` keeps compiled code, numba having been imported first."""
     clean = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
     done = subprocess.run(
-        [sys.executable, "-c", "import numba; from fctd.mechanics import dynamics; print(dynamics.advance.stats.cache_path)"],
+        [sys.executable, "-c", FOLDER],
         cwd=root, env={**clean, "PYTHONPATH": str(root), **environment}, capture_output=True, text=True, check=True,
     )  # fmt: skip
     return done.stdout.strip()
