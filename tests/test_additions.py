@@ -46,13 +46,16 @@ def add_line(file: Path, after: str, line: str) -> None:
 
 
 COMMANDS = """
-import contextlib, json, sys
+import json, sys
 from fctd.cli.main import main
 
 for arguments in json.loads(sys.argv[1]):
     sys.argv = ["fctd", *arguments]
-    with contextlib.suppress(SystemExit):
+    try:
         main()
+    except SystemExit as end:
+        if end.code:
+            raise
     print("\\f", end="")
 """
 
