@@ -5,8 +5,8 @@ from random import Random
 
 from tests.fuzz.items import Item
 from tests.fuzz.mutants import changed_bytes
-from tests.fuzz.paths import path
 from tests.strategies import toml
+from validation.parts.random_paths import path
 
 NAME = "survey.csv"
 CASE = """name = "survey"
