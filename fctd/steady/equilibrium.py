@@ -229,7 +229,7 @@ class Solver:
         if added.settled:
             says = wound.message and problem.added.any()
             return replace(wound, message=f"{wound.message}; {ANALYTIC}") if says else wound
-        pushed = wound.status == SteadyStatus.LOCKED_UP
+        pushed = -wound.hookload > self.case.rig.block_weight
         status = SteadyStatus.LOCKED_UP if pushed or added.endless else SteadyStatus.UNSTABLE
         end = f"the push exceeds {BEYOND:g} times the string's weight" if added.endless else "no steady shape was found"
         spent = "slack-off is spent, and " if pushed else ""
