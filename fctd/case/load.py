@@ -78,6 +78,13 @@ class Case(Table):
         lightest = min(component.density for component in self.string.components)
         if self.mud.density >= lightest:
             raise InputError(f"a density below the string's, {lightest:g} kg/m^3", key="mud.density")
+        if self.contact.helical_force == "analytic" and self.solver.buckling == "resolve":
+            raise InputError(
+                '"none" with solver.buckling = "resolve", whose segments bend into the helix (or solver.buckling = '
+                '"detect")',
+                key="contact.helical_force",
+                value="analytic",
+            )
         return self
 
     @property

@@ -22,8 +22,9 @@ from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
-from fctd.steady.climb import LOW, Climb, climb
+from fctd.steady.climb import BEYOND, LOW, Climb, climb
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
+from fctd.steady.helical_force import add_helical_force
 from fctd.steady.post_buckling import resolve
 from fctd.steady.problem import Pose, Problem, Workspace
 from fctd.steady.tangent import (
@@ -51,6 +52,7 @@ ATTEMPTS = (
 LARGEST_TURN = 0.1  # [rad] per step
 # Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
 APART = 0.01
+ANALYTIC = "the wall force of the helix is the analytic one, r F²/4EI"
 
 
 @dataclass(frozen=True)
@@ -187,6 +189,15 @@ class Solver:
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
         problem = self.problem(operation, rates, bit_depth)
+        point = self.settle(problem)
+        # Of an unstable balance the solver's pose may be another.
+        buckled = point.answered and point.status != SteadyStatus.UNSTABLE and point.buckling.mode == "helical"
+        if buckled and not point.buckling.resolved and self.case.contact.helical_force == "analytic":
+            return self.with_helical_force(problem, point)
+        return point
+
+    def settle(self, problem: Problem) -> Equilibrium:
+        """The string of a problem as its segments can lie, or resolved where the case says so."""
         code, iterations, negative = balance(problem)
         point = self.answer(problem, code, iterations, negative)
         if self.geometry == state.OPEN:
@@ -206,6 +217,23 @@ class Solver:
             message = f"the string would leave this balance, and {followed.message}"
             return replace(point, status=followed.status, message=message, iterations=path.iterations)
         return point
+
+    def with_helical_force(self, problem: Problem, point: Equilibrium) -> Equilibrium:
+        """The string with the wall force of a helix where its segments cannot bend into one.
+
+        point : without that force, in the pose of the problem.
+        """
+        allowed = problem.allowed
+        added = add_helical_force(problem, Pace(*ATTEMPTS[0], LARGEST_TURN, allowed, allowed))
+        wound = self.answer(problem, CONVERGED, point.iterations + added.iterations, 0)
+        if added.settled:
+            says = wound.message and problem.added.any()
+            return replace(wound, message=f"{wound.message}; {ANALYTIC}") if says else wound
+        pushed = -wound.hookload > self.case.rig.block_weight
+        status = SteadyStatus.LOCKED_UP if pushed or added.endless else SteadyStatus.UNSTABLE
+        end = f"the push exceeds {BEYOND:g} times the string's weight" if added.endless else "no steady shape was found"
+        spent = "slack-off is spent, and " if pushed else ""
+        return replace(wound.without_loads(), status=status, message=f"{spent}{end}; {ANALYTIC}")
 
     def resolve(self, problem: Problem, iterations: int) -> Equilibrium:
         """The buckled string of a problem on segments that can bend as it does, in the shape of the lower energy."""

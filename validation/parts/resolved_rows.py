@@ -7,6 +7,7 @@ import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium
 from references.buckling import helix, mitchell
+from validation.harness.study import Check
 from validation.parts.buckled_pipe import BELOW_SURFACE, BUCKLING, MUD, OPERATION, PIPE, SECTION, Rig, turns_of, wave_of
 
 JOINT = 9.0  # [m]: a joint of drill pipe, which cannot bend as the waves do
@@ -103,6 +104,25 @@ def horizontal_well(segment: float, mode: str, friction: float = WELL_FRICTION) 
             "solver": {"buckling": mode},
         }
     )
+
+
+def checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
+    """Rows of the level pipe against their laws, and in the full run those of the well against each other."""
+    rows = tables["rows"]
+    found = [
+        Check(f"row of {ratio:g} times the onset", abs(off), 3.0, "at_most", "%", "Mitchell's equation, rF²/4EI")
+        for ratio, off in zip(rows["times_onset"], rows["off_percent"], strict=True)
+    ]
+    if "well" in tables:
+        row, well = tables["pushed_row"].iloc[0], tables["well"]
+        off = float(well["off_percent_of_weight"].abs().iloc[-1])
+        halved = float(well["off_percent_of_weight"].abs().iloc[-3])
+        found += [
+            Check("row of the helix that slides, push", abs(row["off_percent"]), 3.0, "at_most", "%", "reciprocal law"),
+            Check("well, resolved against the finest segments", off, 1.0, "at_most", "%", "of the string's weight"),
+            Check("well, finest segments doubled", halved, 1.0, "at_most", "%", "of the string's weight"),
+        ]
+    return found
 
 
 def _amplitude(force: float, half_wave: float) -> float:
