@@ -22,7 +22,7 @@ from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
-from fctd.steady.climb import BEYOND, LOW, Climb, climb
+from fctd.steady.climb import BEYOND, LOW, SOUND, Climb, climb, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.post_buckling import resolve
@@ -62,8 +62,9 @@ class Equilibrium:
     status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
     message : details.
     shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
-    [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction at
-    which the hook load is −block weight and at which no push suffices, NaN where they were not found.
+    [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
+    weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
+    NaN where they were not found.
     bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
     sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
@@ -208,6 +209,7 @@ class Solver:
         if unsolved:
             problem.at_axis = 1
             path = climb(problem)
+            lock_up(problem, path)
             path.iterations += iterations
             followed = self.follow(problem, path)
             if point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE):
@@ -238,7 +240,7 @@ class Solver:
     def resolve(self, problem: Problem, iterations: int) -> Equilibrium:
         """The buckled string of a problem on segments that can bend as it does, in the shape of the lower energy."""
         problem.at_axis = 1
-        coarse = climb(problem)
+        coarse = climb(problem, most=SOUND)
         coarse.iterations += iterations
 
         def lay(case: Case) -> Problem:
@@ -321,9 +323,11 @@ class Solver:
                 SteadyStatus.MAX_ITERATIONS,
                 f"forces are out of balance by {imbalance:.3g} N: the string may have no steady shape",
             )
+        coarse = self.geometry != state.OPEN and not shape.buckling.resolved
         if pushed:
-            return SteadyStatus.LOCKED_UP, SteadyStatus.LOCKED_UP.message
-        if self.geometry != state.OPEN and not shape.buckling.resolved:
+            text = SteadyStatus.LOCKED_UP.message
+            return SteadyStatus.LOCKED_UP, f"{text}; {shape.buckling.shortfall}" if coarse else text
+        if coarse:
             return SteadyStatus.UNDER_RESOLVED, shape.buckling.shortfall
         if negative:
             modes = f"{negative} mode{'s' * (negative > 1)}"
@@ -358,17 +362,17 @@ def balance(problem: Problem) -> tuple[int, int, int]:
 
 def _end_of(problem: Problem, path: Climb) -> str:
     """What ends a path, in words; empty where nothing does."""
+    least = 0.0 if path.of_weight else LOW
     ends = (
-        ("slack-off is spent at" if path.spent_at > LOW else "slack-off is spent below", path.spent_at),
+        (f"slack-off is spent {'at' if path.spent_at > least else 'below'}", path.spent_at),
         ("the string is locked up at", path.locked_at),
         ("no steady shape was found beyond", path.ends_at),
-        ("no steady shape was found beyond", path.weight_ends_at),
     )
     parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
     if not parts:
         return ""
-    text = f"{parts} of the {'friction' if np.isnan(path.weight_ends_at) else 'weight on bit'}"
-    if not path.rolls or not np.isfinite([path.ends_at, path.weight_ends_at]).any():
+    text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
+    if not path.rolls or np.isnan(path.ends_at):
         return text
     cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
     return f"{text}: {cause} rolls the buckled string round the hole" if cause else text

@@ -117,7 +117,7 @@ def test_a_helix_that_no_push_moves_is_locked_up() -> None:
     point = fctd.equilibrium(analytic(case), "drill_sliding", length)
     assert point.status == SteadyStatus.LOCKED_UP
     assert not point.answered
-    assert point.message.startswith("slack-off is spent, and the push exceeds 3 times the string's weight; ")
+    assert point.message.startswith("slack-off is spent, and the push exceeds 10 times the string's weight; ")
 
 
 @pytest.mark.parametrize(("times_onset", "segment"), [(1.2, 20.0), (1.5, 0.75)])

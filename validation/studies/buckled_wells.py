@@ -21,7 +21,8 @@ from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts import random_wells
-from validation.parts.resolved_rows import DEPTH, OPERATION, WEIGHT, horizontal_well
+from validation.parts.buckled_pipe import OPERATION
+from validation.parts.resolved_rows import DEPTH, WEIGHT, horizontal_well
 
 FRICTIONS = (0.2, 0.3, 0.4, 0.5)
 WEIGHTS = (0.0, 100e3, 200e3, 300e3)  # on bit [N]
@@ -110,7 +111,8 @@ def statuses(context: Context) -> tuple[pd.DataFrame, list[tuple[Case, str, floa
 
 def resolved_rows(context: Context, picked: list[tuple[Case, str, float]]) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Rows with their buckling resolved, and those that lock up on both sides of their limit."""
-    rows, limits = [], []
+    rows: list[dict[str, Any]] = []
+    limits: list[dict[str, Any]] = []
     for case, kind, depth in context.progress(picked, "resolved rows"):
         fine = resolving(case)
         point = solve(fine, kind, depth)
