@@ -22,6 +22,8 @@ reproduce: $(STAMP)
 	@status=0; $(BIN)/python -m validation --reproduce $(FLAGS) || status=$$?; \
 	if [ $$status -le 1 ]; then $(BIN)/python -m reports || status=1; fi; exit $$status
 
+# Without compiled files, each process would compile the tests and the suite anew.
+test: export PYTHONDONTWRITEBYTECODE :=
 test: $(STAMP)
 	$(BIN)/python -m pytest --numprocesses=2 --dist=worksteal
 

@@ -1,4 +1,4 @@
-"""Two small functions and where their compiled code is kept."""
+"""Compiled code that outlives a test: that of the engine's inner functions, and of two small ones."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -6,6 +6,14 @@ from typing import Any
 
 from fctd.mechanics import jit
 from fctd.mechanics.compile_cache import Store
+
+
+def kept(function: Any) -> Any:
+    """An inner function of the engine for calls from Python, with its code kept on disk as that of an entry is.
+
+    Inner functions are compiled into the entries that call them, so that Python would compile them in every run.
+    """
+    return jit.entry(getattr(function, "py_func", function))  # a plain function has none (NUMBA_DISABLE_JIT)
 
 
 def twice(x):

@@ -1,7 +1,15 @@
 """Settings of every test."""
 
+import gc
+
 import hypothesis
 
 # The first call of a compiled function takes seconds, and CI must fail the same way twice.
 hypothesis.settings.register_profile("fctd", deadline=None, derandomize=True)
 hypothesis.settings.load_profile("fctd")
+
+
+def pytest_collection_finish() -> None:
+    """What was imported stays: the garbage collector need not go through it again and again."""
+    gc.collect()
+    gc.freeze()

@@ -121,6 +121,7 @@ RULES: list[tuple[str, Any, str]] = [
     ("rig.sheave_efficiency", 1.1, "an efficiency above 0 and at most 1"),
     ("rig.torque_offset", "3 N", "a torque such as '0.5 kN*m'"),
     ("contact.friction_law", "stick", "'coulomb' or 'paper'"),
+    ("contact.helical_force", "full", "'none' or 'analytic'"),
     ("contact.damping", -1, "a damping coefficient at least 0"),
     ("solver.step", 0, '"auto", "largest" or a time'),
     ("solver.step", "fast", '"auto", "largest" or a time such as'),
@@ -154,6 +155,12 @@ RULES: list[tuple[str, Any, str]] = [
 # Keys that do not go together and wrong items of lists: overrides, key, value shown, what is expected.
 COMBINED: list[tuple[dict[str, Any], str, Any, str]] = [
     ({"operations": [3]}, "operations[0]", 3, "a table of keys and values"),
+    (
+        {"contact.helical_force": "analytic", "solver.buckling": "resolve"},
+        "contact.helical_force",
+        "analytic",
+        '"none" with solver.buckling = "resolve", whose segments',
+    ),
     ({"wellbore.stations": None}, "wellbore.survey", MISSING, "survey or stations"),
     ({"wellbore.columns": {"m": "D"}}, "wellbore.columns.m", "D", "the key md"),
     ({"wellbore.columns": {"md": 1}}, "wellbore.columns.md", 1, "a header in quotes or a table"),

@@ -1,5 +1,6 @@
 """In a copy of the package, one line adds a result column, and one file and one line add a friction law."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -44,14 +45,30 @@ def add_line(file: Path, after: str, line: str) -> None:
     file.write_text("\n".join(lines) + "\n")
 
 
-def fctd(copy: Path, cache: Path, *arguments: str) -> str:
-    """The output of the copy's command."""
+COMMANDS = """
+import json, sys
+from fctd.cli.main import main
+
+for arguments in json.loads(sys.argv[1]):
+    sys.argv = ["fctd", *arguments]
+    try:
+        main()
+    except SystemExit as end:
+        if end.code:
+            raise
+    print("\\f", end="")
+"""
+
+
+def fctd(copy: Path, cache: Path, *commands: list[str]) -> list[str]:
+    """The outputs of the copy's commands, one after the other in one process."""
     environment = os.environ | {"PYTHONPATH": str(copy), "NUMBA_CACHE_DIR": str(cache), "COLUMNS": "160"}
     done = subprocess.run(
-        [sys.executable, "-m", "fctd", *arguments], cwd=copy, env=environment, capture_output=True, text=True
+        [sys.executable, "-c", COMMANDS, json.dumps(commands)],
+        cwd=copy, env=environment, capture_output=True, text=True,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
-    return done.stdout
+    return done.stdout.split("\f")[:-1]
 
 
 def test_a_result_column_is_one_line(copy: Path) -> None:
@@ -62,16 +79,15 @@ def test_a_result_column_is_one_line(copy: Path) -> None:
         '    Column("spare_N", "spare pull", 2, "spare", of=lambda point: 1e6 - point.hookload),',
     )
     assert STORE.folder is not None
-    chart = ("chart", "well.toml", "--operation", "trip_out", "--depths", "500:800:300", "--units", "field")
-    screen = fctd(copy, STORE.folder, *chart, "--out", "chart.csv")
+    steady = ["well.toml", "--operation", "trip_out"]
+    chart = ["chart", *steady, "--depths", "500:800:300", "--units", "field", "--out", "chart.csv"]
+    screen, point = fctd(copy, STORE.folder, chart, ["equilibrium", *steady, "--bit-depth", "800"])
     table = pd.read_csv(copy / "chart.csv")
     spare = 1e3 / 4.4482216152605 - table["hookload_klbf"]
     assert table["spare_klbf"].to_numpy() == pytest.approx(spare.to_numpy())
     assert "spare" in screen
     assert all(f"{value:.2f}" in screen for value in spare)
-    assert "spare pull" in fctd(
-        copy, STORE.folder, "equilibrium", "well.toml", "--operation", "trip_out", "--bit-depth", "800"
-    )
+    assert "spare pull" in point
 
 
 VISCOUS = '''"""Law ``viscous``: a drag along the axis and a couple about it that grow with the speed at the wall."""

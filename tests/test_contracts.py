@@ -37,8 +37,8 @@ FORBIDDEN = [
 ]
 
 
-def broken(root: Path) -> set[str]:
-    """Names of the contracts that the sources under ``root`` break."""
+def broken(root: Path) -> dict[str, str]:
+    """The contracts that the sources under ``root`` break, by name: what is printed of each."""
     done = subprocess.run(
         [Path(sys.executable).with_name("lint-imports"), "--no-cache", "--no-logo"],
         cwd=root, capture_output=True, text=True,
@@ -46,7 +46,10 @@ def broken(root: Path) -> set[str]:
     found = dict(re.findall(r"^(.+) (KEPT|BROKEN)$", done.stdout, re.MULTILINE))
     assert found.keys() == {contract["name"] for contract in CONTRACTS}, done.stdout + done.stderr
     assert done.returncode == ("BROKEN" in found.values())
-    return {name for name, state in found.items() if state == "BROKEN"}
+    _, _, told = done.stdout.partition("Broken contracts")
+    named = [name for name, state in found.items() if state == "BROKEN"]
+    parts = re.split(rf"^({'|'.join(map(re.escape, named))})\n-+$", told, flags=re.MULTILINE) if named else []
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
 
 
 @pytest.fixture(scope="module")
@@ -63,18 +66,34 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_every_contract_is_kept(copy: Path) -> None:
-    assert broken(copy) == set()
+    assert broken(copy) == {}
 
 
-@pytest.mark.parametrize(("contract", "file", "module"), FORBIDDEN)
-def test_a_forbidden_import_breaks_its_contract(copy: Path, contract: str, file: str, module: str) -> None:
-    path = copy / file
-    text = path.read_text()
-    path.write_text(f"{text}\nimport {module}\n")
+def rank(index: int) -> int:
+    """How many earlier imports the same contract forbids."""
+    return [contract for contract, _, _ in FORBIDDEN[:index]].count(FORBIDDEN[index][0])
+
+
+RANKS = [rank(index) for index in range(len(FORBIDDEN))]
+
+
+@pytest.mark.parametrize("wanted", sorted(set(RANKS)))
+def test_a_forbidden_import_breaks_its_contract(copy: Path, wanted: int) -> None:
+    """One import for each contract at a time; the contract names it."""
+    added = [entry for entry, found in zip(FORBIDDEN, RANKS, strict=True) if found == wanted]
+    texts = {copy / file: (copy / file).read_text() for _, file, _ in added}
     try:
-        assert contract in broken(copy)
+        for _, file, module in added:
+            with (copy / file).open("a") as source:
+                source.write(f"\nimport {module}\n")
+        told = broken(copy)
     finally:
-        path.write_text(text)
+        for path, text in texts.items():
+            path.write_text(text)
+    for contract, file, module in added:
+        importer = file.removesuffix(".py").replace("/", ".")
+        within = f".{importer.rpartition('.')[2]} -> .{module.rpartition('.')[2]} ("  # how cycles in a room are told
+        assert f"{importer} -> {module} (" in told[contract] or within in told[contract], told[contract]
 
 
 def test_every_contract_has_an_import_that_it_forbids() -> None:

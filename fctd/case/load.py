@@ -88,6 +88,13 @@ class Case(Table):
         if self.mud.density >= lightest:
             of = f"string.components[{densities.index(lightest)}].density"
             raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key="mud.density")
+        if self.contact.helical_force == "analytic" and self.solver.buckling == "resolve":
+            raise InputError(
+                '"none" with solver.buckling = "resolve", whose segments bend into the helix (or solver.buckling = '
+                '"detect")',
+                key="contact.helical_force",
+                value="analytic",
+            )
         return self
 
     @property

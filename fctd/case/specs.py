@@ -316,11 +316,16 @@ class BitSpec(Table):
 
 
 class ContactSpec(Table):
-    """Friction law, and damping of a contact point [N*s/m]; with `enabled` false there is no wall."""
+    """Friction law, and damping of a contact point [N*s/m]; with `enabled` false there is no wall.
+
+    Where a steady string is beyond the helical limit, on segments too long for a helix, `helical_force` "analytic"
+    brings its wall force to that of the helix, r F²/4EI a metre, and the friction with it.
+    """
 
     enabled: StrictBool = True
     friction_law: FrictionLaw = "coulomb"
     damping: units.Damping = 1e4
+    helical_force: Literal["none", "analytic"] = "none"
 
 
 class SolverSpec(Table):

@@ -61,8 +61,9 @@ def compile_all() -> None:
     case = Case.model_validate(SMALL)
     simulate(case)
     equilibrium(case, operation="trip_out", bit_depth=90.0)
-    buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}, "solver": {"buckling": "resolve"}})
-    equilibrium(buckled, operation="drill_sliding", bit_depth=90.0)
+    for table in ({"solver": {"buckling": "resolve"}}, {"contact": {"helical_force": "analytic"}}):
+        buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}} | table)
+        equilibrium(buckled, operation="drill_sliding", bit_depth=90.0)
 
 
 @contextmanager

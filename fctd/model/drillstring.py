@@ -148,6 +148,16 @@ class String:
         below = np.append(np.where(self._short, 0.0, own)[1:], 0.0)
         return np.asarray(np.where(self.mid_contact(), own, np.maximum(own, below)))
 
+    def tributary(self) -> Array:
+        """Length (n,) of pipe whose wall force the contact points bear [m].
+
+        Half of each neighbouring segment, none of a long one; a contact in the middle has the length of its segment.
+        """
+        above = self.length.copy()
+        if self.long_segment:
+            above[0] = 0.0
+        return np.asarray(np.where(self.mid_contact(), self.length, 0.5 * (above + np.append(self.length[1:], 0.0))))
+
     def joints(self, name: str) -> Array:
         """Stiffness (n,) of the joints for a section stiffness per length (Eqs 17–19): half segments in series.
 
@@ -333,11 +343,7 @@ def fill(S: Array, string: String, case: Case) -> PerMetre:
     row(S, state.ARM_CONTACT, n)[:] = np.where(middle, 0.0, 0.5 * length)
     row(S, state.RADIUS, n)[:] = string.contact_radius()
     per_metre = case.wellbore.stiffness_per_length is not None
-    below = np.append(length[1:], 0.0)
-    # Half of each neighbouring segment, none of a long one; a contact at mid-segment has the length of its segment.
-    above = np.where(np.arange(n) == 0, 0.0, length) if string.long_segment else length
-    tributary = np.where(middle, length, 0.5 * (above + below))
-    row(S, state.TRIBUTARY, n)[:] = tributary if per_metre else 1.0
+    row(S, state.TRIBUTARY, n)[:] = string.tributary() if per_metre else 1.0
     for target, per_length in (
         (state.MUD_AXIAL, mud.axial_damping),
         (state.MUD_LATERAL, mud.lateral_damping),

@@ -137,8 +137,12 @@ def _check_cost(case: Case, segments: int, step: float, duration: float) -> None
 
 
 def _check_dynamic(case: Case) -> None:
-    """Raise InputError for what only the steady solver supports: a bit on bottom, a bent housing."""
+    """Raise InputError for what only the steady solver supports: a bit on bottom, a bent housing, a helix's force."""
     steady = "(fctd equilibrium and fctd chart support it)"
+    if case.contact.helical_force != "none":
+        raise InputError(
+            f'"none" in a simulation {steady}', key="contact.helical_force", value=case.contact.helical_force
+        )
     for i, operation in enumerate(case.operations):
         if operation.on_bottom:
             raise InputError(

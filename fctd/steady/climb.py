@@ -26,9 +26,12 @@ START_ITERATIONS, STEP_ITERATIONS = 1500, 400
 # A string that rolls round the hole is not worth smaller steps than this.  It rolls where so much of the motion of its
 # points in a few iterations goes one way round.
 ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
-# A push of so many weights of the string is beyond any rig; the climb ends, and the loads that no push overcomes are
-# extrapolated from 1/push → 0.
-BEYOND = 3.0
+# Lock-up is where 1/push, extrapolated by a line through two balances, is 0.  It is known where the extrapolations of
+# two steps differ by less than ``AGREEING`` of it, or where the push is beyond any rig's, ``BEYOND`` weights.  Where no
+# shape is found before, the last one is taken from a push of one weight on.
+AGREEING, BEYOND = 0.01, 10.0
+# From a push of so many weights on, a step goes so far towards lock-up as it is extrapolated there.
+PUSHED, TOWARDS = 0.25, 0.6
 # The compression for which segments are cut is that of a push of at most this share of the weight beyond the block's:
 # lock-up hangs little on the segments (0.2 % for segments twice as long), and their number grows with the push.
 SOUND = 0.05
@@ -37,9 +40,9 @@ FARTHEST = 5.0
 
 
 class Step(NamedTuple):
-    """A balance on the way: share of the friction, hook load [N]."""
+    """A balance on the way: share of the friction or of the weight on bit, hook load [N]."""
 
-    friction: float
+    share: float
     hookload: float
 
 
@@ -52,23 +55,25 @@ class Balance(NamedTuple):
 
 @dataclass
 class Climb:
-    """A path in friction at full weight on bit.
+    """A path in weight on bit at little friction, then in friction.
 
-    steps : balances from less to more; pose : at full loads, None where the path ends before; sound : the last balance
-    up to there in which the string is hardly pushed (``SOUND``); iterations : all.
-    spent_at : share of the friction at which the hook load is −block weight; locked_at : at which no push suffices;
-    NaN where the path does not get there.  ends_at, weight_ends_at : share of the friction, or before it of the weight
-    on bit, at which a path ends that found no shape, else NaN; rolls : whether the string then goes round the hole.
+    balances : from less to more; steps : those of the last part, in friction unless ``of_weight``.
+    pose : at full loads, None where the path ends before; sound : the last balance up to there in which the string is
+    hardly pushed (``SOUND``), or has not all of its weight on bit; iterations : all.
+    spent_at : share of the loads at which the hook load is −block weight; locked_at : at which no push suffices; NaN
+    where the path does not get there.  ends_at : share at which a path ends that found no shape, else NaN; rolls :
+    whether the string then goes round the hole.
     """
 
+    balances: list[Balance] = field(default_factory=list)
     steps: list[Step] = field(default_factory=list)
+    of_weight: bool = False
     pose: Pose | None = None
     sound: Balance | None = None
     iterations: int = 0
     spent_at: float = float("nan")
     locked_at: float = float("nan")
     ends_at: float = float("nan")
-    weight_ends_at: float = float("nan")
     rolls: bool = False
 
 
@@ -93,66 +98,118 @@ def come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, 
     return code, done
 
 
-def climb(problem: Problem, prepare: Callable[[Share], object] | None = None) -> Climb:
-    """Follow the string from small loads to those of the operation, and, where it must be pushed, to lock-up.
+def climb(
+    problem: Problem, prepare: Callable[[Share], object] | None = None, path: Climb | None = None, most: float = BEYOND
+) -> Climb:
+    """Follow the string to the loads of the operation, or as far as it goes.
 
     prepare : called before each step with the loads of the last balance; may change the pose from which it starts.
+    path : a path to go on from its last balance; by default a new one from small loads.  most : weights of the string
+    with which it may be pushed beyond the block's.
     """
-    path = Climb()
-    weight = 0.0 if problem.weight_on_bit > 0 else 1.0
-    problem.lay_guess(Share(LOW, weight))
-    code, path.iterations = come_to_rest(problem, START_ITERATIONS, Share(LOW, weight))
-    if code != CONVERGED:
-        path.ends_at = 0.0
-        return path
-    if weight == 1:
-        _record(problem, path, LOW)
-    elif not _rise(problem, path, lambda s: Share(LOW, s), weight, 1.0, prepare):
-        path.weight_ends_at = path.sound.share.weight if path.sound is not None else 0.0
-        return path
-    if not _rise(problem, path, lambda s: Share(s, 1.0), LOW, 1.0, prepare):
-        _close(problem, path)
-        return path
-    path.pose = problem.copy_pose()
-    if path.steps[-1].hookload < -problem.case.rig.block_weight:
-        _rise(problem, path, lambda s: Share(s, 1.0), 1.0, FARTHEST, prepare)
-        problem.put_pose(path.pose)
+    path = _begin(problem) if path is None else path
+    if path.balances and path.pose is None:
+        problem.put_pose(path.balances[-1].pose)
+        if _rise(problem, path, 1.0, prepare, most):
+            path.pose = path.balances[-1].pose
     _close(problem, path)
     return path
 
 
-def _rise(
-    problem: Problem, path: Climb, loads: Callable[[float], Share], share: float, end: float,
-    prepare: Callable[[Share], object] | None,
-) -> bool:  # fmt: skip
-    """Raise a share of the loads to its end; returns whether the string can follow.
+def lock_up(problem: Problem, path: Climb, prepare: Callable[[Share], object] | None = None) -> None:
+    """Follow a string that is pushed at the loads of the operation to those that no push overcomes."""
+    if path.pose is not None and _push(problem, path) > 0:
+        problem.put_pose(path.pose)
+        _rise(problem, path, FARTHEST, prepare, BEYOND)
+        _close(problem, path)
 
-    Balances at full weight are recorded.
-    """
-    step = FIRST
-    while share < end * (1 - 1e-12):
+
+def keep(problem: Problem, path: Climb, share: Share) -> None:
+    """Add the string in its pose, in balance with some loads, to a path."""
+    balance, of_weight = Balance(problem.copy_pose(), share), share.weight < 1
+    if path.of_weight != of_weight:
+        path.steps.clear()
+    path.of_weight = of_weight
+    path.balances.append(balance)
+    path.steps.append(Step(share.weight if of_weight else share.friction, problem.reactions(share).hookload))
+    if of_weight or (share.friction <= 1 and _push(problem, path) < SOUND * problem.weight):
+        path.sound = balance
+
+
+def _begin(problem: Problem) -> Climb:
+    """A path with its first balance, at the least loads; without one, where none is found."""
+    path, share = Climb(), Share(LOW, 0.0 if problem.weight_on_bit > 0 else 1.0)
+    problem.lay_guess(share)
+    code, path.iterations = come_to_rest(problem, START_ITERATIONS, share)
+    if code == CONVERGED:
+        keep(problem, path, share)
+    return path
+
+
+def _rise(
+    problem: Problem, path: Climb, end: float, prepare: Callable[[Share], object] | None, most: float
+) -> bool:  # fmt: skip
+    """Raise the weight on bit to its end, then the friction to a share of it; returns whether the string gets there."""
+    step, share = FIRST, path.balances[-1].share
+    while share.weight < 1 or share.friction < end * (1 - 1e-12):
+        if share.weight == 1 and (_push(problem, path) > most * problem.weight or _is_locked(problem, path)):
+            return False
         kept = problem.copy_pose()
-        aim = min(share + step, end)
+        aim = _next(problem, path, step, end)
         if prepare is not None:
-            prepare(loads(share))
-        code, done = come_to_rest(problem, STEP_ITERATIONS, loads(aim))
+            prepare(share)
+        code, done = come_to_rest(problem, STEP_ITERATIONS, aim)
         path.iterations += done
         if code != CONVERGED:
             step *= 0.5
-            path.rolls = step < ROLLING_STEP and _rolls(problem, loads(aim))
+            path.rolls = step < ROLLING_STEP and _rolls(problem, aim)
             problem.put_pose(kept)
             if path.rolls or step < SMALLEST:
                 return False
             continue
         share = aim
-        if loads(share).weight < 1.0:
-            path.sound = Balance(problem.copy_pose(), loads(share))
-        else:
-            _record(problem, path, loads(share).friction)
-            if -path.steps[-1].hookload > BEYOND * problem.weight:
-                return False
+        keep(problem, path, share)
         step = min(step * (LONGER if done < FEW else SHORTER if done > MANY else 1.0), LARGEST)
     return True
+
+
+def _next(problem: Problem, path: Climb, step: float, end: float) -> Share:
+    """The loads of the next balance."""
+    friction, weight = path.balances[-1].share
+    if weight < 1:
+        return Share(friction, min(weight + step, 1.0))
+    if _push(problem, path) > PUSHED * problem.weight and len(path.steps) > 1:
+        step = min(step, TOWARDS * (_extrapolated(path.steps) - friction))
+    return Share(min(friction + step, end), 1.0)
+
+
+def _push(problem: Problem, path: Climb) -> float:
+    """Push at the top beyond the block's weight in the last balance [N]."""
+    return -path.steps[-1].hookload - problem.case.rig.block_weight
+
+
+def _is_locked(problem: Problem, path: Climb) -> bool:
+    """Whether lock-up is known, and the string is followed far enough for it."""
+    locked = _locked_at(problem, path)
+    return locked < 1 or (np.isfinite(locked) and path.steps[-1].share >= 1)
+
+
+def _locked_at(problem: Problem, path: Climb) -> float:
+    """Share of the loads at which no push suffices, NaN where it is not known."""
+    steps = path.steps
+    if len(steps) < 3 or _push(problem, path) < PUSHED * problem.weight:
+        return float("nan")
+    before, now = _extrapolated(steps[:-1]), _extrapolated(steps)
+    known = abs(now - before) < AGREEING * now or _push(problem, path) > BEYOND * problem.weight
+    return now if known and np.isfinite(now) else float("nan")
+
+
+def _extrapolated(steps: list[Step]) -> float:
+    """Share at which 1/push, by a line through the last two steps, is 0; infinite where the push does not grow."""
+    (before, pull), (now, pulled) = steps[-2:]
+    if not pulled < pull < 0:
+        return float("inf")
+    return now + (now - before) * pull / (pulled - pull)
 
 
 def _rolls(problem: Problem, share: Share) -> bool:
@@ -165,26 +222,17 @@ def _rolls(problem: Problem, share: Share) -> bool:
     return bool(abs(swept.sum()) > ONE_WAY * np.abs(swept).sum())
 
 
-def _record(problem: Problem, path: Climb, friction: float) -> None:
-    share = Share(friction, 1.0)
-    path.steps.append(Step(friction, problem.reactions(share).hookload))
-    if friction <= 1 and -path.steps[-1].hookload < problem.case.rig.block_weight + SOUND * problem.weight:
-        path.sound = Balance(problem.copy_pose(), share)
-
-
 def _close(problem: Problem, path: Climb) -> None:
     """Find where slack-off is spent and where the path ends."""
-    friction = np.array([step.friction for step in path.steps])
+    share = np.array([step.share for step in path.steps])
     left = np.array([step.hookload for step in path.steps]) + problem.case.rig.block_weight
     if len(left) > 1 and left[0] > 0 > left[-1]:
-        roots = PchipInterpolator(friction, left).roots(extrapolate=False)
-        path.spent_at = float(roots[0])
+        path.spent_at = float(PchipInterpolator(share, left).roots(extrapolate=False)[0])
     elif len(left) and left[0] <= 0:
-        path.spent_at = float(friction[0])
-    if path.pose is not None and friction[-1] <= 1.0:
-        return
-    push = 1 / -left[-3:]
-    if len(push) == 3 and (push > 0).all() and -left[-1] > problem.weight and push[1] > push[2]:
-        path.locked_at = float(friction[-1] + (friction[-1] - friction[-2]) * push[2] / (push[1] - push[2]))
-    elif path.pose is None:
-        path.ends_at = float(friction[-1])
+        path.spent_at = float(share[0])
+    path.locked_at = _locked_at(problem, path) if len(share) else float("nan")
+    path.ends_at = float("nan")
+    if np.isnan(path.locked_at) and len(share) > 1 and _push(problem, path) > problem.weight:
+        path.locked_at = _extrapolated(path.steps)
+    elif path.pose is None and np.isnan(path.locked_at):
+        path.ends_at = float(share[-1]) if len(share) else 0.0

@@ -26,8 +26,9 @@ from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
-from fctd.steady.climb import LOW, Climb, climb
+from fctd.steady.climb import BEYOND, LOW, SOUND, Climb, climb, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
+from fctd.steady.helical_force import add_helical_force
 from fctd.steady.post_buckling import resolve
 from fctd.steady.problem import Pose, Problem, Workspace
 from fctd.steady.tangent import (
@@ -55,6 +56,7 @@ ATTEMPTS = (
 LARGEST_TURN = 0.1  # [rad] per step
 # Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
 APART = 0.01
+ANALYTIC = "the wall force of the helix is the analytic one, r F²/4EI"
 
 
 @dataclass(frozen=True)
@@ -64,8 +66,9 @@ class Equilibrium:
     status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
     message : details.
     shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
-    [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction at
-    which the hook load is −block weight and at which no push suffices, NaN where they were not found.
+    [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
+    weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
+    NaN where they were not found.
     bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
     sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
@@ -212,6 +215,15 @@ class Solver:
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
         problem = self.problem(operation, rates, bit_depth)
+        point = self.settle(problem)
+        # Of an unstable balance the solver's pose may be another.
+        buckled = point.answered and point.status != SteadyStatus.UNSTABLE and point.buckling.mode == "helical"
+        if buckled and not point.buckling.resolved and self.case.contact.helical_force == "analytic":
+            return self.with_helical_force(problem, point)
+        return point
+
+    def settle(self, problem: Problem) -> Equilibrium:
+        """The string of a problem as its segments can lie, or resolved where the case says so."""
         code, iterations, negative = balance(problem)
         point = self.answer(problem, code, iterations, negative)
         if self.geometry == state.OPEN:
@@ -222,6 +234,7 @@ class Solver:
         if unsolved:
             problem.at_axis = 1
             path = climb(problem)
+            lock_up(problem, path)
             path.iterations += iterations
             followed = self.follow(problem, path)
             if point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE):
@@ -232,10 +245,27 @@ class Solver:
             return replace(point, status=followed.status, message=message, iterations=path.iterations)
         return point
 
+    def with_helical_force(self, problem: Problem, point: Equilibrium) -> Equilibrium:
+        """The string with the wall force of a helix where its segments cannot bend into one.
+
+        point : without that force, in the pose of the problem.
+        """
+        allowed = problem.allowed
+        added = add_helical_force(problem, Pace(*ATTEMPTS[0], LARGEST_TURN, allowed, allowed))
+        wound = self.answer(problem, CONVERGED, point.iterations + added.iterations, 0)
+        if added.settled:
+            says = wound.message and problem.added.any()
+            return replace(wound, message=f"{wound.message}; {ANALYTIC}") if says else wound
+        pushed = -wound.hookload > self.case.rig.block_weight
+        status = SteadyStatus.LOCKED_UP if pushed or added.endless else SteadyStatus.UNSTABLE
+        end = f"the push exceeds {BEYOND:g} times the string's weight" if added.endless else "no steady shape was found"
+        spent = "slack-off is spent, and " if pushed else ""
+        return replace(wound.without_loads(), status=status, message=f"{spent}{end}; {ANALYTIC}")
+
     def resolve(self, problem: Problem, iterations: int) -> Equilibrium:
         """The buckled string of a problem on segments that can bend as it does, in the shape of the lower energy."""
         problem.at_axis = 1
-        coarse = climb(problem)
+        coarse = climb(problem, most=SOUND)
         coarse.iterations += iterations
 
         def lay(case: Case) -> Problem:
@@ -318,9 +348,11 @@ class Solver:
                 SteadyStatus.MAX_ITERATIONS,
                 f"forces are out of balance by {imbalance:.3g} N: the string may have no steady shape",
             )
+        coarse = self.geometry != state.OPEN and not shape.buckling.resolved
         if pushed:
-            return SteadyStatus.LOCKED_UP, SteadyStatus.LOCKED_UP.message
-        if self.geometry != state.OPEN and not shape.buckling.resolved:
+            text = SteadyStatus.LOCKED_UP.message
+            return SteadyStatus.LOCKED_UP, f"{text}; {shape.buckling.shortfall}" if coarse else text
+        if coarse:
             return SteadyStatus.UNDER_RESOLVED, shape.buckling.shortfall
         if negative:
             modes = f"{negative} mode{'s' * (negative > 1)}"
@@ -355,17 +387,17 @@ def balance(problem: Problem) -> tuple[int, int, int]:
 
 def _end_of(problem: Problem, path: Climb) -> str:
     """What ends a path, in words; empty where nothing does."""
+    least = 0.0 if path.of_weight else LOW
     ends = (
-        ("slack-off is spent at" if path.spent_at > LOW else "slack-off is spent below", path.spent_at),
+        (f"slack-off is spent {'at' if path.spent_at > least else 'below'}", path.spent_at),
         ("the string is locked up at", path.locked_at),
         ("no steady shape was found beyond", path.ends_at),
-        ("no steady shape was found beyond", path.weight_ends_at),
     )
     parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
     if not parts:
         return ""
-    text = f"{parts} of the {'friction' if np.isnan(path.weight_ends_at) else 'weight on bit'}"
-    if not path.rolls or not np.isfinite([path.ends_at, path.weight_ends_at]).any():
+    text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
+    if not path.rolls or np.isnan(path.ends_at):
         return text
     cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
     return f"{text}: {cause} rolls the buckled string round the hole" if cause else text

@@ -15,7 +15,7 @@ from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.model.drillstring import lay_out
 from fctd.results.buckling import IN_HALF_WAVE, MODE, NEITHER, SINUSOIDAL_LIMIT
-from fctd.steady.climb import LOW, Climb, climb, come_to_rest
+from fctd.steady.climb import LOW, SOUND, Climb, climb, come_to_rest, keep, lock_up
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.helix import Helix
 from fctd.steady.problem import FULL, Compressed, Problem, Share
@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 # segments, which are short from this share of the limit on and so many half waves beyond.  With the factor a half wave
 # has 10 segments, and the amplitude of snaking an error below 3 %.
 MORE, ADDED, NEARLY, BEYOND = 1.6, 0.02, 0.75, 2
+# A string that is pushed buckles farther before it locks up: two segments in a half wave of three weights more.
+LOCKING, IN_LOCKING = 3.0, 2
 # Times that the string is laid out, and the helix laid at full loads.
 LAYOUTS, WINDINGS = 3, 4
 WINDING_ITERATIONS = 800
@@ -54,38 +56,61 @@ def resolve(case: Case, coarse: Climb, problem: Problem, lay: Callable[[Case], P
         if np.array_equal(lay_out(finer, bit_depth).length, problem.string.length):
             break
         problem = lay(finer)
-        path = climb(problem)
+        path = climb(problem, most=SOUND)
         total += path.iterations
         if _is_resolved(problem, path):
             break
     path.iterations = total
-    return Resolved(problem, path, _wind(problem, path))
+    climb(problem, path=path)
+    wound = _wind(problem, path)
+    if wound is None:
+        lock_up(problem, path)
+        return Resolved(problem, path, None)
+    # Of the shape that is not the answer only the hook load at the loads of the operation is of use.
+    helix, path_of_helix = wound
+    lock_up(problem, path_of_helix, helix.prepare)
+    return Resolved(problem, path, path_of_helix)
 
 
-def _wind(problem: Problem, snaking: Climb) -> Climb | None:
-    """The path of the helix, or None without one."""
-    helix = Helix(problem)
-    if snaking.pose is not None and not snaking.spent_at <= 1:
-        problem.put_pose(snaking.pose)
-        path = Climb(iterations=snaking.iterations)
-        for _ in range(WINDINGS):
-            if not helix.prepare(FULL):
-                if path.pose is not None and helix.stands():
-                    return path
-                break
-            code, done = come_to_rest(problem, WINDING_ITERATIONS, FULL)
-            path.iterations += done
-            if code != CONVERGED:
-                break
-            path.pose = problem.copy_pose()
-        if helix.turns == 0:
-            return None
-        helix = Helix(problem)
-    path = climb(problem, helix.prepare)
-    path.iterations += snaking.iterations
-    if helix.turns == 0 or (path.pose is not None and not helix.stands()):
+def _wind(problem: Problem, snaking: Climb) -> tuple[Helix, Climb] | None:
+    """The helix and its path to the loads of the operation, or None without one.
+
+    It is laid into the last balance in which the string is hardly pushed, or, where it does not come to rest there,
+    wherever it is due on the way from small loads.
+    """
+    if snaking.sound is None:
         return None
-    return path
+    for start in (snaking.sound, snaking.balances[0]):
+        helix, path = Helix(problem), Climb(iterations=snaking.iterations)
+        for balance in snaking.balances:
+            if balance.share <= start.share:
+                problem.put_pose(balance.pose)
+                keep(problem, path, balance.share)
+        if not _lay(problem, helix, path):
+            continue
+        climb(problem, helix.prepare, path)
+        if helix.turns > 0 and (path.pose is None or helix.stands()):
+            return helix, path
+    return None
+
+
+def _lay(problem: Problem, helix: Helix, path: Climb) -> bool:
+    """Lay the helix at the end of a path; returns whether the string comes to rest."""
+    share = path.balances[-1].share
+    for _ in range(WINDINGS):
+        if not helix.prepare(share):
+            break
+        code, done = come_to_rest(problem, WINDING_ITERATIONS, share)
+        path.iterations += done
+        if code != CONVERGED:
+            return False
+    if helix.turns > 0:
+        path.balances.pop()
+        path.steps.pop()
+        keep(problem, path, share)
+    if share == FULL:
+        path.pose = path.balances[-1].pose
+    return helix.turns == 0 or helix.stands()
 
 
 def _is_resolved(problem: Problem, path: Climb) -> bool:
@@ -101,6 +126,8 @@ def _needed(problem: Problem, path: Climb) -> tuple[Array, Array]:
     fine = (here.rows[:, MODE] != NEITHER) | (here.compression > NEARLY * here.rows[:, SINUSOIDAL_LIMIT])
     half_wave = _half_wave(here.EI, MORE * here.compression + ADDED * problem.weight)
     length = np.where(fine, half_wave / IN_HALF_WAVE, np.inf)
+    if path.spent_at <= 1:
+        length = np.minimum(length, _half_wave(here.EI, here.compression + LOCKING * problem.weight) / IN_LOCKING)
     for k in np.flatnonzero(np.diff(fine, prepend=False, append=False)):
         at = min(int(k), len(fine) - 1)
         beside = np.abs(here.md - here.md[at]) < BEYOND * half_wave[at]

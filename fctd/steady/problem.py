@@ -27,6 +27,7 @@ from fctd.steady.tangent import (
     JOINT_COLUMNS,
     JOINT_TENSION,
     JOINT_TORQUE,
+    NORMAL_FORCE,
     PLACE,
     POSE,
     QUATERNION,
@@ -104,7 +105,8 @@ class Problem:
     """What the solver's iterations work on; the pose is in the workspace and changes in place.
 
     string, hole; weight : of the string and on the bit [N]; allowed : largest imbalance of a body when converged [N];
-    at_axis : see ``tangent.Steady``.
+    at_axis : see ``tangent.Steady``; added (n, 3) : wall force beside that of the wall's springs, in the columns of
+    contact loads (helical_force.py).
     """
 
     def __init__(
@@ -126,6 +128,7 @@ class Problem:
         self.kinks = np.zeros((self.n + 2, 4))
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
+        self.added = np.zeros((self.n, 3))
 
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
@@ -201,6 +204,7 @@ class Problem:
         assemble(*args, w.R, w.D, w.A, w.U)
         joints, contacts = np.zeros((n + 1, JOINT_COLUMNS)), np.zeros((n + 1, CONTACT_COLUMNS))
         read_loads(*args, joints, contacts)
+        contacts[1:, NORMAL_FORCE:] += self.added
         # Half of a long segment is lumped at the top: the top drive carries its weight and mud load.
         half = 0.5 * string.length[0] if string.long_segment else 0.0
         rates, pipe = self.rates, self.pipe

@@ -395,4 +395,6 @@ def _check(case: Case, tolerance: float, most: int, depth: float) -> None:
         raise InputError("a share above 0 and below 1, such as 0.01", key="tolerance", value=tolerance)
     if not FIRST <= bare(most, "most", "a number of segments") <= MAX_SEGMENTS:
         raise InputError(f"{FIRST} to {MAX_SEGMENTS} segments", key="most", value=most)
+    if case.contact.helical_force != "none":
+        raise InputError('"none" in a refinement', key="contact.helical_force", value=case.contact.helical_force)
     check_bit_depth(depth, *case.depths, "bit_depth", f"{depth:g} m")

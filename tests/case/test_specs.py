@@ -23,6 +23,7 @@ def test_defaults(case_file: Path) -> None:
     assert (case.mud.density, case.mud.lateral_damping) == (0.0, 0.0)
     assert (case.rig.block_weight, case.rig.sheave_efficiency, case.rig.torque_offset) == (0.0, 1.0, 0.0)
     assert (case.contact.friction_law, case.contact.damping) == ("coulomb", 1e4)
+    assert case.contact.helical_force == "none"
     assert (case.solver.step, case.solver.joint_damping) == ("auto", 1e-5)
     assert (case.record.interval, case.record.profile_at) == (1.0, ())
 

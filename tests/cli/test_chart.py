@@ -1,9 +1,9 @@
 """The steady commands as a user meets them: tables, units, statuses, messages, exit codes."""
 
 import json
-import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -88,48 +88,33 @@ def settings(*changes: str) -> list[str]:
     return [part for change in changes for part in ("--set", change)]
 
 
-COUNT_READS = """
-import sys
-
-survey, *arguments = sys.argv[1:]
-reads = 0
-
-def count(event, what):
-    global reads
-    reads += event == "open" and what[0] == survey
-
-sys.addaudithook(count)
-import fctd
-from fctd.cli.main import main
-
-case = fctd.load_case(arguments[1])
-fctd.torque_drag(case, ["trip_in", "trip_out", "rotate_off_bottom"], [600, 700], [0.1, 0.3])
-fctd.equilibrium(case, "trip_in", 700)
-print("reads", reads, file=sys.stderr)
-reads = 0
-try:
-    sys.argv = ["fctd", *arguments]
-    main()
-finally:
-    print("reads", reads, file=sys.stderr)
-"""
-
-
-def test_a_chart_reads_its_survey_once(tmp_path: Path) -> None:
+def test_a_chart_reads_its_survey_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever the number of operations and friction factors, and with pictures and tables."""
+    pytest.importorskip("matplotlib")
     survey, case_file = tmp_path / "survey.csv", tmp_path / "tiny.toml"
     survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n100,0,0\n550,90,0\n900,90,0\n")
     stations = "stations = [[0, 0, 0], [100, 0, 0], [550, 90, 0], [900, 90, 0]]"
     case_file.write_text(CASE.replace(stations, 'survey = "survey.csv"'))
-    kinds = [word for kind in ("trip_in", "trip_out", "rotate_off_bottom") for word in ("--operation", kind)]
-    done = subprocess.run(
-        [sys.executable, "-c", COUNT_READS, str(survey), "chart", str(case_file), *kinds, "--depths", "600:700:50",
-         "--friction", "0.1", "--friction", "0.3", "--out", str(tmp_path / "chart.csv"),
-         "--plot-profile", str(tmp_path / "profile.svg"), "--quiet"],
-        capture_output=True, text=True, check=False,
+    reads, listening = 0, True
+
+    def count(event: str, arguments: tuple[Any, ...]) -> None:  # stays in the process, and ends with this test
+        nonlocal reads
+        reads += listening and event == "open" and arguments[0] == str(survey)
+
+    sys.addaudithook(count)
+    kinds = ["trip_in", "trip_out", "rotate_off_bottom"]
+    case = fctd.load_case(case_file)
+    fctd.torque_drag(case, kinds, [600, 700], [0.1, 0.3])
+    fctd.equilibrium(case, "trip_in", 700)
+    assert reads == 1
+    code = run(
+        monkeypatch, "chart", case_file, *(word for kind in kinds for word in ("--operation", kind)),
+        "--depths", "600:700:50", "--friction", "0.1", "--friction", "0.3", "--out", tmp_path / "chart.csv",
+        "--plot-profile", tmp_path / "profile.svg", "--quiet",
     )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    assert [line for line in done.stderr.splitlines() if line.startswith("reads")] == ["reads 1", "reads 1"]
+    assert code == 0
+    assert reads == 2
+    listening = False
     assert (tmp_path / "profile.svg").is_file()
 
 

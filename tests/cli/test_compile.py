@@ -5,10 +5,12 @@ import sys
 import warnings
 from io import StringIO
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
 
+from fctd.cli import compile as command
 from fctd.cli.compile import announcing, compile_into, listening
 from fctd.mechanics.compile_cache import CompileCacheWarning, Store
 from tests.compiled import hits, store_of_one, thrice, twice
@@ -52,14 +54,18 @@ def test_compile_reaches_every_function_with_every_signature() -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_the_command_says_what_it_compiled_and_where(store: Store, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_says_what_it_compiled_and_where(
+    store: Store, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     def compile_one() -> None:
         hits(store, thrice, 4.5)
 
-    compile_into(store, compile_one)
+    with monkeypatch.context() as patched:
+        patched.setattr(command, "time", SimpleNamespace(perf_counter=iter([10.0, 12.6]).__next__))
+        compile_into(store, compile_one)
     seen = capsys.readouterr()
     assert "thrice" in seen.err
-    assert "Compiled: 1 functions in 0 s, kept in" in seen.out
+    assert "Compiled: 1 functions in 3 s, kept in" in seen.out
     compile_into(store, compile_one)
     assert "Compiled: nothing to do, kept in" in capsys.readouterr().out
 

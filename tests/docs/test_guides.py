@@ -30,6 +30,8 @@ NOT_RUN = {
 }
 # Programs of .venv/bin that run in this process.
 PROGRAMS = {"fctd": main.app, "python -m references": references.app}
+# A window in which an engine's string of the guide is settled already, as that of its Python block is.
+SHORT_WINDOW = "--start 5 --duration 1.5"
 # What a Python block prints.
 PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],
@@ -62,10 +64,12 @@ def name(value: Path | str) -> str:
 
 
 def shorter(command: str) -> str:
-    """A chart with its first and last depth alone; every other command as it is."""
-    return re.sub(
+    """A chart with its first and last depth alone, and other methods and engines with less time and fewer segments."""
+    command = re.sub(
         r"(--depths )([\d.]+):([\d.]+):[\d.]+", lambda m: f"{m[1]}{m[2]}:{m[3]}:{float(m[3]) - float(m[2])}", command
     )
+    command = command.replace('duration="2 s"', 'duration="0.2 s"').replace("--start 10 --duration 3", SHORT_WINDOW)
+    return f"{command} --set string.components[0].segments=30" if "curved_chain.toml" in command else command
 
 
 @pytest.fixture

@@ -8,8 +8,8 @@ from xml.sax.saxutils import escape
 
 from tests.fuzz.items import Item
 from tests.fuzz.mutants import changed_bytes
-from tests.fuzz.paths import path
 from tests.strategies import toml
+from validation.parts.random_paths import path
 
 NAME = "survey.csv"
 CASE = """name = "survey"

@@ -8,6 +8,9 @@ from fctd.mechanics import contact, state
 from fctd.model.wellbore import Wellbore
 from tests.bodies import AXIS, PLACE, TO_WALL, Array, put
 from tests.cases import make_case
+from tests.compiled import kept
+
+arc_direction, cylinder_direction = kept(contact.arc_direction), kept(contact.cylinder_direction)
 
 BEND = [[0, 0, 0], [300, 0, 0], [600, 60, 40], [1000, 95, 130]]
 SHOE = [
@@ -83,7 +86,7 @@ def test_the_direction_of_an_arc_is_the_tangent_of_its_circle() -> None:
         angle = md / RADIUS
         x, z = RADIUS - (RADIUS + x_off) * np.cos(angle), (RADIUS + x_off) * np.sin(angle)
         i = int(hole.owners(np.array([[x, y_off, z]]))[0])
-        found = contact.arc_direction(hole.pieces, i, x, y_off, z)
+        found = arc_direction(hole.pieces, i, x, y_off, z)
         np.testing.assert_allclose(found, [np.sin(angle), 0, np.cos(angle)], atol=1e-12)
 
 
@@ -93,7 +96,7 @@ def test_the_direction_of_an_arc_is_that_of_the_survey_beside_its_axis_too() -> 
     md = rng.uniform(0, 1000, 50)
     points, expected = hole.off_axis(md, rng.uniform(0, 2 * np.pi, 50), rng.uniform(0, 0.1, 50)), hole.at(md)[1]
     for i, point, direction in zip(hole.owners(points), points, expected, strict=True):
-        np.testing.assert_allclose(contact.arc_direction(hole.pieces, i, *point), direction, atol=1e-10)
+        np.testing.assert_allclose(arc_direction(hole.pieces, i, *point), direction, atol=1e-10)
 
 
 def test_the_direction_of_cylinders_turns_evenly_in_their_overlap() -> None:
@@ -107,5 +110,5 @@ def test_the_direction_of_cylinders_turns_evenly_in_their_overlap() -> None:
     for share in (-5.0, -1e-6, 0.25, 0.5, 1.0):
         x, y, z = start + (length - shared * (1 - share)) * here
         blend = here + max(share, 0.0) * (following - here)
-        found = contact.cylinder_direction(hole.pieces, i, x, y, z)
+        found = cylinder_direction(hole.pieces, i, x, y, z)
         np.testing.assert_allclose(found, blend / np.linalg.norm(blend), atol=1e-12)

@@ -31,6 +31,11 @@ from tests.bodies import (
     set_body,
 )
 from tests.cases import make_case, pipe, rotation
+from tests.compiled import kept
+
+push_freely, move_bodies = kept(dynamics.push_freely), kept(dynamics.move_bodies)
+read_top_drive = kept(topdrive.read_top_drive)
+strain_energy, joint_twist = kept(joints.strain_energy), kept(joints.joint_twist)
 
 FREE = state.Laws(state.OPEN, CODES["coulomb"], 1.0, 0.0, 0.0, 0.0)
 STILL = topdrive.Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
@@ -119,7 +124,7 @@ def test_loads_weight_and_mud_on_one_body() -> None:
     left = free / (1 + dt * settling + dt * np.array([drag_across, drag_across, drag_along]) / 400)
     left_spin = free_spin / (1 + dt * settling + dt * np.array([0, 0, drag_about / 1.5]))
 
-    dynamics.push_freely(S, state.LANES, FREE._replace(settling=settling), dt)
+    push_freely(S, state.LANES, FREE._replace(settling=settling), dt)
     np.testing.assert_allclose(at(S, 1, VELOCITY), turned.apply(left), rtol=1e-12)
     np.testing.assert_allclose(at(S, 1, SPIN), left_spin, rtol=1e-12)
     lost = 400 * (free - left) @ left + 1.5 * (free_spin[2] - left_spin[2]) * left_spin[2]
@@ -135,7 +140,7 @@ def test_mud_losses_are_those_of_its_dampers_at_the_velocity_after() -> None:
     put(S, 1, (state.MUD_LATERAL, state.MUD_AXIAL, state.MUD_SPIN), [60.0, 25.0, 0.8])
     put(S, 1, VELOCITY, [0.3, -0.8, 1.7])
     put(S, 1, SPIN, [0.02, -0.03, 6.0])
-    dynamics.push_freely(S, state.LANES, FREE, dt)
+    push_freely(S, state.LANES, FREE, dt)
     x, y, z = at(S, 1, VELOCITY)
     a, b, c = at(S, 1, SPIN)
     assert S[state.LOST_MUD + 1] == pytest.approx(dt * (60 * (x * x + y * y) + 25 * z * z + 0.8 * c * c), rel=1e-12)
@@ -150,7 +155,7 @@ def test_a_moving_body_keeps_its_axis_and_global_spin_up_to_date() -> None:
     place(S, 1, turned, [1.0, 2.0, 3.0])
     put(S, 1, VELOCITY, [0.3, -0.8, 1.7])
     put(S, 1, SPIN, [0.2, -0.3, 6.0])
-    dynamics.move_bodies(S, state.LANES, dt)
+    move_bodies(S, state.LANES, dt)
     np.testing.assert_allclose(at(S, 1, PLACE), [1.003, 1.992, 3.017], rtol=1e-14)
     after = Rotation.from_quat(at(S, 1, QUATERNION), scalar_first=True)
     np.testing.assert_allclose(at(S, 1, AXIS), after.apply([0, 0, 1]), atol=1e-14)
@@ -186,7 +191,7 @@ def swinging_chain(step: float, time: float = 0.4) -> tuple[np.ndarray, float]:
         kinetic = 50 * sum((rows[r] ** 2).sum() for r in (state.VX, state.VY, state.VZ))
         kinetic += 450 * sum((rows[r] ** 2).sum() for r in (state.WX, state.WY))
         kinetic += 0.15 * (rows[state.WZ] ** 2).sum()
-        strain = sum(joints.strain_energy(S, j) for j in range(1, n + 1))
+        strain = sum(strain_energy(S, j) for j in range(1, n + 1))
         return float(kinetic + strain - 980 * state.row(S, state.Z, n).sum())
 
     before = energy()
@@ -275,8 +280,8 @@ def test_turns_at_the_top_are_counted(sign: int) -> None:
     S, top = state.new_state(1), np.zeros(topdrive.TOP_SIZE)
     for twist in np.arange(0.0, 20.0, 0.5):
         S[state.QW + 1], S[state.QZ + 1] = math.cos(twist / 2), sign * math.sin(twist / 2)
-        topdrive.read_top_drive(S, top, NO_PIPE, 0.0, 0.0, 1e-3)
-        assert joints.joint_twist(S, 1) == pytest.approx(sign * twist, abs=1e-5)
+        read_top_drive(S, top, NO_PIPE, 0.0, 0.0, 1e-3)
+        assert joint_twist(S, 1) == pytest.approx(sign * twist, abs=1e-5)
         assert abs(sign * twist - S[state.TURNS + 1]) <= math.pi
 
 

@@ -10,6 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from fctd.mechanics import joints, state
 from tests.bodies import FORCE, GLOBAL_SPIN, ON_LOWER, ON_UPPER, PLACE, VELOCITY, at, place, put
+from tests.compiled import kept
+
+update_joint_loads, strain_energy = kept(joints.update_joint_loads), kept(joints.strain_energy)
 
 STIFFNESS = {state.K_AXIAL: 4e7, state.K_SHEAR: 9e6, state.K_BEND: 4e4, state.K_TWIST: 3e4}
 ABOVE, BELOW = 5.0, 4.0  # from the centres of the upper and of the lower body to their joint [m]
@@ -40,7 +43,7 @@ def pair(upper: Rotation, lower: Rotation, gap: np.ndarray) -> np.ndarray:
 
 def loads(S: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Force on the lower body, moments about the centres of the upper and of the lower body."""
-    joints.update_joint_loads(S, 2, 0.0, 1.0)
+    update_joint_loads(S, 2, 0.0, 1.0)
     return (
         at(S, 2, FORCE),
         at(S, 2, ON_UPPER),
@@ -63,7 +66,7 @@ def test_loads_are_minus_the_gradient_of_the_strain_energy(bend: tuple, gap: tup
         T = S.copy()
         place(T, 1, Rotation.from_rotvec(turn_upper) * upper, np.zeros(3))
         place(T, 2, Rotation.from_rotvec(turn_lower) * lower, at(S, 2, PLACE) + move)
-        return float(joints.strain_energy(T, 2))
+        return float(strain_energy(T, 2))
 
     h = 1e-6
     for which, load in enumerate((force, on_upper, on_lower)):
@@ -135,12 +138,12 @@ def test_damping_acts_on_relative_motion_only(bend, gap, drift, turn, other) -> 
         position = at(S, j, PLACE)
         put(S, j, VELOCITY, np.array(drift) + np.cross(turn, position))
         put(S, j, GLOBAL_SPIN, turn)
-    joints.update_joint_loads(S, 2, 1e-3, 1.0)
+    update_joint_loads(S, 2, 1e-3, 1.0)
     for rows, spring in zip((FORCE, ON_UPPER, ON_LOWER), springs, strict=True):
         np.testing.assert_allclose(at(S, 2, rows), spring, atol=1e-7 * (1 + np.abs(spring).max()))
     lost = S[state.LOST_JOINT + 2]
     put(S, 2, GLOBAL_SPIN, np.array(turn) + other)
-    joints.update_joint_loads(S, 2, 1e-3, 1.0)
+    update_joint_loads(S, 2, 1e-3, 1.0)
     assert S[state.LOST_JOINT + 2] >= lost - 1e-12
 
 
@@ -149,7 +152,7 @@ def test_a_bit_that_turned_once_has_no_load_from_the_inert_column_below(short_of
     S = state.new_state(1)
     half = math.pi - short_of_a_turn
     S[state.QW + 1], S[state.QZ + 1] = math.cos(half), math.sin(half)
-    joints.update_joint_loads(S, state.LANES, 1e-4, 1e-3)
+    update_joint_loads(S, state.LANES, 1e-4, 1e-3)
     loads = at(S, 2, (*FORCE, *ON_UPPER, *ON_LOWER))
     np.testing.assert_array_equal(loads, 0.0)
 
@@ -166,7 +169,7 @@ def test_each_damper_is_its_stiffness_by_the_damping_time(motion: str, rows: tup
         put(S, 2, VELOCITY, np.cross(0.3 * way, BELOW * upper.apply([0, 0, 1])))
     put(S, 2, rows, 0.3 * way)
     time, dt = 1e-3, 0.5
-    joints.update_joint_loads(S, 2, time, dt)
+    update_joint_loads(S, 2, time, dt)
     drag = -time * damper * 0.3 * way
     if rows == VELOCITY:
         np.testing.assert_allclose(at(S, 2, FORCE), drag, atol=1e-6)
@@ -187,7 +190,7 @@ def test_the_energy_lost_is_the_work_of_the_dampers_on_both_bodies(bend, gap, dr
     for j, (velocity, rate) in zip((1, 2), motions, strict=True):
         put(S, j, VELOCITY, velocity)
         put(S, j, GLOBAL_SPIN, rate)
-    joints.update_joint_loads(S, 2, 1e-3, 1.0)
+    update_joint_loads(S, 2, 1e-3, 1.0)
     force, on_upper, on_lower = (at(S, 2, r) - s for r, s in zip((FORCE, ON_UPPER, ON_LOWER), springs, strict=True))
     (v1, w1), (v2, w2) = motions
     power = force @ (v2 - v1) + on_upper @ w1 + on_lower @ w2
@@ -203,7 +206,7 @@ def test_tension_and_torque_are_summed_over_the_steps(bend: tuple, gap: tuple) -
     upper, lower, d = a_pair(bend, gap)
     S, dt = pair(upper, lower, d), 0.25
     for _ in range(2):
-        joints.update_joint_loads(S, 2, 0.0, dt)
+        update_joint_loads(S, 2, 0.0, dt)
     sum_of_axes = upper.apply([0, 0, 1]) + lower.apply([0, 0, 1])
     pull = -at(S, 2, FORCE) @ sum_of_axes / np.linalg.norm(sum_of_axes)
     assert S[state.SUM_TENSION + 2] == pytest.approx(2 * dt * pull, rel=1e-9, abs=1e-6)

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from fctd.mechanics.jit import kernel
+from fctd.mechanics.jit import entry
 from fctd.mechanics.laws import CODES, LAWS, NAMES, steady_load
 
 LIMIT, RADIUS = 10.0, 0.05  # μN [N], contact radius [m]
 
 
-@kernel
+@entry
 def chosen(code, speed, spin):
     """Steady load of a string along z that touches the wall on its x side, in a hole along z."""
     return steady_load(code, speed, spin, LIMIT, RADIUS, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)

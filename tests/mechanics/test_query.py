@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from numba import njit
 
 from fctd import build_wellbore
 from fctd.mechanics.contact import arc_owner, arc_wall, cylinder_owner, cylinder_wall
+from fctd.mechanics.jit import entry
 from fctd.mechanics.query import TOGETHER, WALL_COLUMNS
 from fctd.mechanics.state import ARCS
 from fctd.model.wellbore import Wellbore
@@ -15,7 +15,7 @@ BEND = [[0, 0, 0], [300, 0, 0], [600, 60, 40], [1000, 95, 130]]
 SHOE = [{"to_md": 500, "diameter": 0.3, "friction": 0.2}, {"to_md": 1000, "diameter": 0.2, "friction": 0.3}]
 
 
-@njit(error_model="numpy")
+@entry
 def from_table(C, geometry, points, owner, out):
     """Stages 2 and 3 as they are written, for one point after the other."""
     for j in range(len(points)):

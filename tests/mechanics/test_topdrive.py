@@ -21,6 +21,15 @@ from tests.bodies import (
     place,
     put,
 )
+from tests.compiled import kept
+
+ramp = kept(topdrive.ramp)
+set_long_segment = kept(topdrive.set_long_segment)
+long_segment_energy = kept(topdrive.long_segment_energy)
+spring_tension = kept(topdrive.spring_tension)
+planned_speeds = kept(topdrive.planned_speeds)
+read_top_drive = kept(topdrive.read_top_drive)
+move_top_drive = kept(topdrive.move_top_drive)
 
 PIPE = PerMetre(
     mass=30.0, weight=250.0, axial_inertia=0.1, EA=8e8, GJ=3e6, EI=4e6, shear=1.5e8,
@@ -36,14 +45,14 @@ def hung(length: float, stretch: float = 0.0, twist: float = 0.0) -> tuple[Array
     top[topdrive.TOP_LENGTH] = length
     place(S, 0, TILT, [0.0, 0.0, 0.0])
     place(S, 1, TILT * Rotation.from_rotvec([0, 0, twist]), (length + stretch) * AXIAL)
-    topdrive.set_long_segment(S, length, PIPE)
+    set_long_segment(S, length, PIPE)
     return S, top
 
 
 def test_a_ramp_leads_smoothly_from_one_speed_to_the_other() -> None:
     """A cubic step: no slope at either end, symmetric about the middle, constant before and after."""
     at_time = np.linspace(-1.0, 5.0, 601)
-    found = np.array([topdrive.ramp(t, 0.0, 4.0, 2.0, -6.0) for t in at_time])
+    found = np.array([ramp(t, 0.0, 4.0, 2.0, -6.0) for t in at_time])
     assert np.all(found[at_time <= 0] == 2.0)
     assert np.all(found[at_time >= 4] == -6.0)
     inside = (at_time > 0) & (at_time < 4)
@@ -51,14 +60,14 @@ def test_a_ramp_leads_smoothly_from_one_speed_to_the_other() -> None:
     slope = np.gradient(found, at_time)
     assert np.abs(slope).max() == pytest.approx(1.5 * 8 / 4, rel=1e-3)  # of the cubic step, at its middle
     assert np.abs(np.diff(slope)).max() < 0.05  # no jump of slope at either end
-    late = topdrive.ramp(7.0, 6.0, 4.0, 0.0, 1.0)
-    assert late == pytest.approx(topdrive.ramp(1.0, 0.0, 4.0, 0.0, 1.0))
+    late = ramp(7.0, 6.0, 4.0, 0.0, 1.0)
+    assert late == pytest.approx(ramp(1.0, 0.0, 4.0, 0.0, 1.0))
 
 
 def test_the_planned_speeds_are_those_in_the_middle_of_the_step() -> None:
     top = np.zeros(topdrive.TOP_SIZE)
     top[topdrive.TOP_TIME] = 12.0
-    feed, rate = topdrive.planned_speeds(top, Motion(10.0, 5.0, 0.0, 0.4, 3.0, 3.0), 1.0)
+    feed, rate = planned_speeds(top, Motion(10.0, 5.0, 0.0, 0.4, 3.0, 3.0), 1.0)
     assert feed == pytest.approx(0.2)  # the middle of the ramp
     assert rate == 3.0
 
@@ -90,13 +99,13 @@ def test_energy_of_the_long_segment() -> None:
     kinetic = 0.5 * 180 * (0.3**2 + 0.5**2 + 1.1**2) + 0.5 * 8640 * (0.02**2 + 0.03**2) + 0.5 * 0.6 * 5**2
     strain = 0.5 * 8e8 / length * stretch**2 + 0.5 * 3e6 / length * twist**2
     height = (length + stretch) * AXIAL[2]
-    assert topdrive.long_segment_energy(S) == pytest.approx(kinetic - 1500 * height + strain, rel=1e-9)
+    assert long_segment_energy(S) == pytest.approx(kinetic - 1500 * height + strain, rel=1e-9)
 
 
 @pytest.mark.parametrize("stretch", [2e-3, -1e-3])
 def test_the_spring_pulls_by_its_stretch(stretch: float) -> None:
     S, _ = hung(12.0, stretch, twist=0.3)
-    assert topdrive.spring_tension(S) == pytest.approx(8e8 / 12 * stretch, rel=1e-9)
+    assert spring_tension(S) == pytest.approx(8e8 / 12 * stretch, rel=1e-9)
 
 
 def test_readings_and_ledger_of_a_turning_top_drive() -> None:
@@ -106,7 +115,7 @@ def test_readings_and_ledger_of_a_turning_top_drive() -> None:
     put(S, 1, FORCE, -7000 * AXIAL + 40 * across)
     put(S, 1, ON_UPPER, -900 * AXIAL + 30 * across)
     dt, angle = 0.01, 0.05
-    topdrive.read_top_drive(S, top, PIPE, 0.0, angle, dt)
+    read_top_drive(S, top, PIPE, 0.0, angle, dt)
     assert top[topdrive.SUM_HOOKLOAD] == pytest.approx(dt * (7000 + 250 * 6))
     mud = 0.7 * 6 * angle  # impulse of the mud's torque on the half that turns with the clamp [N m s]
     assert top[topdrive.SUM_TOP_TORQUE] == pytest.approx(dt * 900 + mud)
@@ -124,7 +133,7 @@ def test_readings_and_ledger_of_a_top_drive_that_feeds(fed: float) -> None:
     S, top = hung(length, stretch)
     put(S, 1, FORCE, -tension * AXIAL)
     before = S.copy()
-    topdrive.read_top_drive(S, top, PIPE, fed, 0.0, dt)
+    read_top_drive(S, top, PIPE, fed, 0.0, dt)
     drag = 2.0 * 6 * fed
     assert top[topdrive.SUM_HOOKLOAD] == pytest.approx(dt * (tension + 1500) - drag)
     raised = (tension + 1500) * fed * (1 + tension / 8e8)
@@ -145,7 +154,7 @@ def test_readings_and_ledger_of_a_top_drive_that_feeds(fed: float) -> None:
     T, damped = before.copy(), np.zeros(topdrive.TOP_SIZE)
     damped[topdrive.TOP_LENGTH] = length
     put(T, 1, FORCE, -(tension + 500) * AXIAL)
-    topdrive.read_top_drive(T, damped, PIPE, fed, 0.0, dt)
+    read_top_drive(T, damped, PIPE, fed, 0.0, dt)
     more = 500 * fed * (1 + (2 * tension + 500 + 1500) / 8e8)  # of the work of raising the stretched pipe
     assert damped[topdrive.TOP_WORK] == pytest.approx(top[topdrive.TOP_WORK] - more, rel=1e-9)
     assert damped[topdrive.FED_ENERGY] - top[topdrive.FED_ENERGY] == pytest.approx(more - 500 * fed, abs=1e-9)
@@ -155,7 +164,7 @@ def test_readings_and_ledger_of_a_top_drive_that_feeds(fed: float) -> None:
 def test_the_top_drive_moves(feed: float) -> None:
     """Clock, length and pipe by the step; its quaternion by the angle; the pipe in the clamp moves along its axis."""
     S, top = hung(12.0)
-    topdrive.move_top_drive(S, top, PIPE, feed, 6.0, 0.01)
+    move_top_drive(S, top, PIPE, feed, 6.0, 0.01)
     assert top[topdrive.TOP_TIME] == pytest.approx(0.01)
     assert top[topdrive.TOP_LENGTH] == pytest.approx(12 + 0.01 * feed)
     assert S[state.ARM_TOP + 1] == pytest.approx(12 + 0.01 * feed)
@@ -176,7 +185,7 @@ def test_a_turn_moves_out_of_the_quaternions_beyond_half_a_turn_of_twist(side: i
         w, x, y, z = q = at(S, 0, QUATERNION)
         c, s = math.cos(half), math.sin(half)
         put(S, 1, QUATERNION, [w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s])
-        topdrive.read_top_drive(S, top, PIPE, 0.0, 0.0, 0.01)
+        read_top_drive(S, top, PIPE, 0.0, 0.0, 0.01)
         assert S[state.TURNS + 1] == pytest.approx(side * turns * 2 * math.pi)
         sign = -1 if turns else 1
         np.testing.assert_allclose(at(S, 0, QUATERNION), sign * q)

@@ -25,10 +25,10 @@ def test_names_make_distinct_files():
 
 
 @pytest.mark.parametrize(("study", "figure"), ALL, ids=[f"{study}-{figure.name}" for study, figure in ALL])
-def test_figure_draws(study, figure, tmp_path):
+def test_figure_draws(study, figure):
     with mpl.rc_context(style.RC):
         canvas = figure.draw(synthetic.STUDIES[study]())
-        canvas.savefig(tmp_path / "figure.svg")
+        canvas.draw_without_rendering()
     assert figure.caption.endswith(".")
     for ax in canvas.axes:
         assert ax.get_lines() or ax.patches, "an axes without data"

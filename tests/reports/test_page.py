@@ -152,7 +152,7 @@ def test_result_that_cannot_be_read_leaves_the_page(render, claims, tmp_path):
      ("checks", [{"name": "error", "kind": 3, "recorded": None}])],
 )  # fmt: skip
 def test_a_verdict_of_another_shape_cannot_be_read(key, value, render, tmp_path):
-    render(finished("overlap"))
+    store.write(*finished("overlap"), tmp_path / "results")
     path = tmp_path / "results" / "overlap" / "verdict.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {key: value}))
     html, problems = render(studies=["overlap"])

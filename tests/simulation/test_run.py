@@ -258,6 +258,10 @@ def test_a_string_settles_against_its_own_weight_and_length() -> None:
             {"components": [pipe(100, 4), pipe(900, 9, bend=0.02)], "operations": [rotation(1000, 1)]},
             r"string\.components\[1\]\.bend = \"0\.02 rad\": expected no bend",
         ),
+        (
+            {"contact": {"helical_force": "analytic"}, "operations": [rotation(1000, 1)]},
+            r'contact\.helical_force = "analytic": expected "none" in a simulation \(fctd equilibrium',
+        ),
     ],
 )
 def test_input_that_only_the_steady_solver_supports_is_refused(sections: dict[str, Any], message: str) -> None:

@@ -7,6 +7,7 @@ from scipy.spatial.transform import Rotation
 from fctd.mechanics import state
 from fctd.mechanics.laws import CODES
 from fctd.model.drillstring import fill, lay_out
+from fctd.steady import continuation
 from fctd.steady.continuation import (
     CONVERGED,
     MAX_ITERATIONS,
@@ -14,9 +15,7 @@ from fctd.steady.continuation import (
     UNSOUND,
     Pace,
     add_pseudo_mass,
-    allowed_share,
     converge,
-    imbalance,
     take_step,
 )
 from fctd.steady.equilibrium import Solver
@@ -24,6 +23,9 @@ from fctd.steady.first_guess import guess
 from fctd.steady.problem import Workspace
 from fctd.steady.tangent import Steady
 from tests.cases import make_case, pipe
+from tests.compiled import kept
+
+allowed_share, imbalance = kept(continuation.allowed_share), kept(continuation.imbalance)
 
 SEGMENTS = 6
 # Steps of any size and a pseudo-time that soon leaves them to Newton's method alone.

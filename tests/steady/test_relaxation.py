@@ -4,12 +4,17 @@ import numpy as np
 import pytest
 
 from fctd.mechanics import state
+from fctd.steady import relaxation
 from fctd.steady.climb import creep_of
 from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS, NOT_FINITE
 from fctd.steady.problem import Problem
-from fctd.steady.relaxation import CLEARANCE, PLACES, find_arcs, find_places, largest_move, move
+from fctd.steady.relaxation import CLEARANCE, PLACES
 from fctd.steady.tangent import FORCE
+from tests.compiled import kept
 from tests.steady.buckled import level_case, problem_of
+
+find_arcs, find_places = kept(relaxation.find_arcs), kept(relaxation.find_places)
+largest_move, move = kept(relaxation.largest_move), kept(relaxation.move)
 
 
 @pytest.fixture

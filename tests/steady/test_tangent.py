@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.mechanics import dynamics, state
+from fctd.mechanics import dynamics, joints, state
 from fctd.mechanics.contact import update_walls
-from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.rotations import turned
 from fctd.mechanics.state import LANES, Laws
@@ -18,8 +17,10 @@ from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from fctd.steady.tangent import QUATERNION, SPIN, Steady, assemble
 from tests.cases import make_case, pipe
+from tests.compiled import kept
 
 Array = NDArray[np.float64]
+update_joint_loads, update_velocities = kept(joints.update_joint_loads), kept(dynamics.update_velocities)
 BUILD = [[0, 0, 30], [200, 0, 30], [500, 60, 60], [800, 85, 100]]
 
 
@@ -139,7 +140,7 @@ def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, ge
     before = S.copy()
     update_joint_loads(S, packed, 0.0, dt)
     update_walls(S, w.owner, n, packed, solver.hole.pieces, solver.geometry)
-    dynamics.update_velocities(S, packed, laws, dt)
+    update_velocities(S, packed, laws, dt)
     weight = float(state.row(S, state.WEIGHT, n).sum())
     for velocity in (state.VX, state.VY, state.VZ):
         change = state.row(S, velocity, n) - state.row(before, velocity, n)

@@ -59,8 +59,14 @@ def register(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, empty_registry: No
     return add
 
 
+@pytest.fixture(scope="session")
+def sources() -> Sources:
+    """The sources as they stand, read once: no test edits them."""
+    return Sources()
+
+
 @pytest.fixture
-def run(tmp_path: Path) -> Callable[..., tuple[int, str]]:
+def run(tmp_path: Path, sources: Sources) -> Callable[..., tuple[int, str]]:
     """Run studies by name into ``tmp_path / "results"``; gives the exit code and what was printed."""
 
     def call(
@@ -73,7 +79,7 @@ def run(tmp_path: Path) -> Callable[..., tuple[int, str]]:
             data=data,
             expected=expected or {},
             results=tmp_path / "results",
-            sources=Sources(),
+            sources=sources,
             console=Console(file=text),
         )
         return code, text.getvalue()

@@ -10,7 +10,6 @@ import json
 import os
 import platform
 import tomllib
-from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 from functools import cache
 from importlib.metadata import PackageNotFoundError, requires, version
@@ -76,11 +75,12 @@ def surroundings(quick: bool, root: Path = ROOT) -> dict[str, str]:
     found = {LENGTH: "quick" if quick else "full", "processor": cpu_name(), "cores": str(os.cpu_count())}
     found["python"] = platform.python_version()
     project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    asked = [*project["dependencies"], *project["optional-dependencies"]["suite"]]
+    asked = (*project["dependencies"], *project["optional-dependencies"]["suite"])
     return found | {f"package {name}": installed for name, installed in sorted(_packages(asked).items())}
 
 
-def _packages(asked: Iterable[str]) -> dict[str, str]:
+@cache  # a process keeps the packages that it has imported
+def _packages(asked: tuple[str, ...]) -> dict[str, str]:
     """Version of every package asked for, and of those that they need in turn; ``absent`` for one that is not there."""
     found: dict[str, str] = {}
     waiting = [Requirement(text) for text in asked]

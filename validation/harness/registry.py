@@ -32,5 +32,6 @@ STUDIES: dict[str, str] = {
     "speed": "validation.studies.speed",
     "real_survey": "validation.studies.real_survey",
     "real_chart": "validation.studies.real_chart",
+    "buckled_wells": "validation.studies.buckled_wells",
     "refine_real": "validation.studies.refine_real",
 }

@@ -7,6 +7,7 @@ import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium
 from references.buckling import helix, mitchell
+from validation.harness.study import Check
 from validation.parts.buckled_pipe import BELOW_SURFACE, BUCKLING, MUD, OPERATION, PIPE, SECTION, Rig, turns_of, wave_of
 
 JOINT = 9.0  # [m]: a joint of drill pipe, which cannot bend as the waves do
@@ -14,6 +15,7 @@ LENGTH = 300.0  # [m]
 # A horizontal well: vertical to 900 m, build of 4.5° in 30 m, level from 1500 to 2700 m.
 BUILT = [[900.0 + 30 * k, 4.5 * k, 0.0] for k in range(21)]
 DEPTH, CASED, WEIGHT_ON_BIT, WALL = 2700.0, 1500.0, 88.96e3, 1e6
+WEIGHT = SECTION.weight * DEPTH  # of the string [N]
 WELL_FRICTION = 0.19
 WELL_SEGMENTS = (20.0, 10.0, 5.0, 2.5, 1.25)  # [m]
 
@@ -66,10 +68,9 @@ def pushed_row(times_onset: float, friction: float, share: float) -> pd.DataFram
 
 def well_rows() -> pd.DataFrame:
     """Hook load of a horizontal well that slides, against the segment length; the last row is resolved."""
-    weight = SECTION.weight * DEPTH
     rows = []
     for segment, mode in (*((segment, "detect") for segment in WELL_SEGMENTS), (WELL_SEGMENTS[0], "resolve")):
-        point = equilibrium(_well(segment, mode), OPERATION, DEPTH)
+        point = equilibrium(horizontal_well(segment, mode), OPERATION, DEPTH)
         rows.append(
             {
                 "segment_m": segment, "buckling": mode, "status": str(point.status), "shape": point.shape,
@@ -78,12 +79,12 @@ def well_rows() -> pd.DataFrame:
         )  # fmt: skip
     table = pd.DataFrame(rows)
     finest = table.loc[table["buckling"] == "detect", "hookload_kN"].iloc[-1]
-    return table.assign(off_percent_of_weight=100 * (table["hookload_kN"] - finest) * 1e3 / weight)
+    return table.assign(off_percent_of_weight=100 * (table["hookload_kN"] - finest) * 1e3 / WEIGHT)
 
 
-def _well(segment: float, mode: str) -> Case:
-    """The horizontal well with segments of a length [m]."""
-    interval: dict[str, Any] = {"friction": WELL_FRICTION}
+def horizontal_well(segment: float, mode: str, friction: float = WELL_FRICTION) -> Case:
+    """The horizontal well with segments of a length [m] and ``solver.buckling`` as said."""
+    interval: dict[str, Any] = {"friction": friction}
     return Case.model_validate(
         {
             "name": "horizontal",
@@ -103,6 +104,25 @@ def _well(segment: float, mode: str) -> Case:
             "solver": {"buckling": mode},
         }
     )
+
+
+def checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
+    """Rows of the level pipe against their laws, and in the full run those of the well against each other."""
+    rows = tables["rows"]
+    found = [
+        Check(f"row of {ratio:g} times the onset", abs(off), 3.0, "at_most", "%", "Mitchell's equation, rF²/4EI")
+        for ratio, off in zip(rows["times_onset"], rows["off_percent"], strict=True)
+    ]
+    if "well" in tables:
+        row, well = tables["pushed_row"].iloc[0], tables["well"]
+        off = float(well["off_percent_of_weight"].abs().iloc[-1])
+        halved = float(well["off_percent_of_weight"].abs().iloc[-3])
+        found += [
+            Check("row of the helix that slides, push", abs(row["off_percent"]), 3.0, "at_most", "%", "reciprocal law"),
+            Check("well, resolved against the finest segments", off, 1.0, "at_most", "%", "of the string's weight"),
+            Check("well, finest segments doubled", halved, 1.0, "at_most", "%", "of the string's weight"),
+        ]
+    return found
 
 
 def _amplitude(force: float, half_wave: float) -> float:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from references.buckling import helix, mitchell
 from references.buckling.onset import FREE_END, half_wave, snaking_limit
 from validation.harness.study import Check, Context, Outcome, Study
-from validation.parts import resolved_rows
+from validation.parts import analytic_helix, resolved_rows
 from validation.parts.buckled_pipe import BUCKLING, Rig, Turns, UnsettledError, energy, middle, turns_of, wave_of
 
 Array = NDArray[np.float64]
@@ -45,6 +45,7 @@ ROD_LENGTH, ROD_SEGMENT, ROD_WAVES = 100.0, 1.0, 8  # [m], [m], half waves
 FULL = {
     "pushed_row": "A row of the helix that slides",
     "well": "Hook load of a horizontal well that slides, against the segment length; the last row is resolved",
+    "analytic_well": "Hook load of that well on long segments, with and without the helix's wall force",
     "second_route": "One string by a second route",
 }
 
@@ -277,11 +278,13 @@ def run(context: Context) -> Outcome:
         ("convergence", convergence),
         ("shapes", lambda: shapes(segment)),
         ("rows", lambda: resolved_rows.level_rows(*ROWS)),
+        ("analytic_pushed", lambda: analytic_helix.pushed_rows(PUSHED, FRICTION, SHARES)),
     ]
     if not context.quick:
         parts += [
             ("pushed_row", lambda: resolved_rows.pushed_row(PUSHED, FRICTION, SHARES[0])),
             ("well", resolved_rows.well_rows),
+            ("analytic_well", analytic_helix.well_rows),
             ("second_route", second_route),
         ]
     tables = {name: part() for name, part in context.progress(parts, "rigs")}
@@ -306,6 +309,7 @@ def run(context: Context) -> Outcome:
             "hanging": "Shortening of vertical tubing by its helix",
             "convergence": "Segment length, against the value of none",
             "rows": "Rows of a level pipe of long segments, with its buckling resolved",
+            "analytic_pushed": "Force through a level pipe of long segments, with and without the helix's wall force",
         }
         | {name: caption for name, caption in FULL.items() if name in tables},
     )
@@ -351,20 +355,7 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
         order = float(np.log2((coarse - middling) / (middling - fine)))
         name = f"order of convergence, {column.split('_')[0]}"
         checks.append(Check(name, order, (1.7, 2.5), "within", "", "a chain of rigid segments: second order"))
-    rows = tables["rows"]
-    checks += [
-        Check(f"row of {ratio:g} times the onset", abs(off), 3.0, "at_most", "%", "Mitchell's equation, rF²/4EI")
-        for ratio, off in zip(rows["times_onset"], rows["off_percent"], strict=True)
-    ]
-    if "well" in tables:
-        row, well = tables["pushed_row"].iloc[0], tables["well"]
-        off = float(well["off_percent_of_weight"].abs().iloc[-1])
-        halved = float(well["off_percent_of_weight"].abs().iloc[-3])
-        checks += [
-            Check("row of the helix that slides, push", abs(row["off_percent"]), 3.0, "at_most", "%", "reciprocal law"),
-            Check("well, resolved against the finest segments", off, 1.0, "at_most", "%", "of the string's weight"),
-            Check("well, finest segments doubled", halved, 1.0, "at_most", "%", "of the string's weight"),
-        ]
+    checks += resolved_rows.checks(tables) + analytic_helix.checks(tables)
     if "second_route" in tables:
         routes = tables["second_route"].set_index(["route", "times_onset"])
         other, own = routes.loc["PyElastica"], routes.loc["engine"]

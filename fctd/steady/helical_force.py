@@ -1,0 +1,113 @@
+"""The wall force of a helix on a string whose segments are too long to bend into one.
+
+A helix of compression F presses on the wall with r F²/(4EI) a metre in all (Mitchell 1986; r : radial clearance).  A
+coarse string lies straighter and presses with less.  What is missing is added as a load: it drags the string along the
+hole and about its axis as the friction of the wall does, and leaves its shape alone.  This raises the compression
+above it, and so the force: both are found in turn.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.mechanics import state
+from fctd.mechanics.jit import entry
+from fctd.mechanics.laws import CODES, shares
+from fctd.results.buckling import HELICAL, MODE, NEEDED, buckling_along, pipe_of
+from fctd.steady.climb import BEYOND, START_ITERATIONS, creep_of
+from fctd.steady.continuation import CONVERGED, Pace
+from fctd.steady.problem import Problem
+from fctd.steady.tangent import JOINT_TENSION, NORMAL_FORCE
+
+Array = NDArray[np.float64]
+
+# The force is found when the hook load changes by less than this share of the string's weight.
+SETTLED = 1e-6
+ROUNDS = 200
+
+
+class Added(NamedTuple):
+    """How the search for the missing wall force ended; the string is in its last balance.
+
+    settled : whether the force was found; endless : whether the push grew beyond any rig's (climb.py); iterations :
+    all.
+    """
+
+    settled: bool
+    endless: bool
+    iterations: int
+
+
+@entry
+def slide(law: int, speed: float, spin: float, radius: Array, along: Array, around: Array) -> None:
+    """Fill the shares of friction along the hole and about the axis of contact points with these radii [m]."""
+    for j in range(len(radius)):
+        along[j], around[j], _ = shares(law, speed, spin * radius[j])
+
+
+class Helical:
+    """The missing wall force of a string, and its friction.
+
+    along, around (n,) : shares of the friction; wound (n,) : contact points with the wall force of a helix.  A helix
+    stays when the compression falls somewhat below its limit, and so do these.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        n, rates, S = problem.n, problem.rates, problem.work.S
+        self.radius = problem.string.contact_radius()
+        self.along, self.around = np.empty(n), np.empty(n)
+        law = CODES[problem.case.contact.friction_law]
+        slide(law, float(rates.speed), float(rates.spin), self.radius, self.along, self.around)
+        self.wound = np.zeros(n, np.bool_)
+        self.mud_axial, self.mud_spin = state.row(S, state.MUD_AXIAL, n), state.row(S, state.MUD_SPIN, n)
+        self.own_axial, self.own_spin = self.mud_axial.copy(), self.mud_spin.copy()
+
+    def add(self) -> None:
+        """Add the wall force that is missing at the string's compression."""
+        problem, string = self.problem, self.problem.string
+        found = problem.reactions()
+        walls, tension = problem.walls(found.contacts), found.joints[:, JOINT_TENSION]
+        rows, _ = buckling_along(
+            problem.hole, pipe_of(string), string.top_md, walls.md, walls.radius, tension, problem.bit_tension()
+        )
+        self.wound |= (rows[1:, MODE] == HELICAL) & (string.length > rows[1:, NEEDED])
+        normal = found.contacts[:, NORMAL_FORCE]
+        # The tension jumps at a contact point by the friction there: its mean is that of the pipe beside the point.
+        below = np.append(tension[1:], problem.bit_tension())
+        compression = np.maximum(0.5 * walls.friction * normal * self.along - below, 0.0)
+        helix = (walls.radius - self.radius) * compression**2 / (4 * string.of("EI")) * string.tributary()
+        missing = np.where(self.wound, np.maximum(helix - normal + problem.added[:, 0], 0.0), 0.0)
+        limit, rates = walls.friction * missing, problem.rates
+        # The friction enters as mud does, whose drag and torque are proportional to the rates.
+        self.mud_axial[:] = self.own_axial + (limit * self.along / rates.speed if rates.speed else 0.0)
+        self.mud_spin[:] = self.own_spin + (self.radius * limit * self.around / rates.spin if rates.spin else 0.0)
+        problem.added = np.column_stack([missing, self.radius * limit * self.around, self.radius * limit])
+
+
+def add_helical_force(problem: Problem, pace: Pace) -> Added:
+    """Add the missing wall force of the helix to a string in balance, and follow the string to its balance with it."""
+    helical, total = Helical(problem), 0
+    hookload = problem.reactions().hookload
+    for _ in range(ROUNDS):
+        kept = problem.copy_pose(), problem.added
+        helical.add()
+        code, done = problem.iterate(pace)
+        if code != CONVERGED:
+            # A string that buckles as its segments allow comes to rest in another shape.
+            problem.put_pose(kept[0])
+            problem.at_axis = 1
+            code, more = problem.relax(creep_of(problem, START_ITERATIONS))
+            done += more
+        total += done
+        if code != CONVERGED:
+            problem.put_pose(kept[0])
+            problem.added = kept[1]
+            break
+        before, hookload = hookload, problem.reactions().hookload
+        if abs(hookload - before) < SETTLED * problem.weight:
+            return Added(True, False, total)
+        if -hookload > BEYOND * problem.weight:
+            return Added(False, True, total)
+    return Added(False, False, total)

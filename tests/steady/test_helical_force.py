@@ -1,0 +1,133 @@
+"""The wall force of a helix on coarse strings: the force it transmits, what includes it, and where it ends."""
+
+import numpy as np
+import pytest
+
+import fctd
+from fctd.case.load import Case
+from fctd.mechanics import state
+from fctd.model.drillstring import Section, section_of
+from fctd.model.operations import steady_rates
+from fctd.results.status import SteadyStatus
+from fctd.steady.equilibrium import Solver, balance
+from fctd.steady.helical_force import Helical
+from fctd.steady.problem import Problem
+from tests.steady.buckled import HOLE, level_case
+
+FRICTION, PUSHED = 0.3, 1.5  # times the onset, above the helical limit of 1.41
+
+
+def analytic(case: Case, **contact: str) -> Case:
+    changes = {"helical_force": "analytic", **contact}
+    return case.model_copy(update={"contact": case.contact.model_copy(update=changes)})
+
+
+def section(case: Case) -> Section:
+    return section_of(case.string.components[0], case.mud.density)
+
+
+def helix_force(case: Case, compression: float) -> float:
+    """r F²/4EI [N/m] (Mitchell 1986)."""
+    pipe = section(case)
+    return (0.5 * HOLE - pipe.contact_radius) * compression**2 / (4 * pipe.EI)
+
+
+def lock_up_length() -> float:
+    """4EI/(μ r F₀) [m]."""
+    case = level_case(PUSHED)
+    push = case.bit.weight_on_bit
+    return push / (FRICTION * helix_force(case, push))
+
+
+@pytest.mark.parametrize("share", [0.25, 0.5, 0.75])
+def test_the_push_through_a_level_helix_follows_the_reciprocal_law(share: float) -> None:
+    """1/F₀ − 1/F(x) = μ r x/4EI, whatever the segments; without the force it is far less."""
+    length = share * lock_up_length()
+    case = level_case(PUSHED, length, 15.0, friction=FRICTION)
+    law = case.bit.weight_on_bit / (1 - share)
+    point = fctd.equilibrium(analytic(case), "drill_sliding", length)
+    assert -point.hookload == pytest.approx(law, rel=0.03)
+    assert -fctd.equilibrium(case, "drill_sliding", length).hookload < 0.9 * law
+    assert point.status == SteadyStatus.LOCKED_UP  # this rig cannot push
+    assert "analytic" in point.message
+
+
+def test_profile_and_sums_include_the_force() -> None:
+    length = 300.0
+    case = level_case(PUSHED, length, 20.0, friction=FRICTION)
+    point = fctd.equilibrium(analytic(case), "drill_sliding", length)
+    inside = point.profile.iloc[2:-2]
+    force = [20.0 * helix_force(case, push) for push in -inside["effective_tension_N"]]
+    # The tension of a contact point is that below it, without the friction there (2 % of it, 4 % of its square).
+    np.testing.assert_allclose(inside["contact_force_N"], force, rtol=0.05)
+    assert (inside["buckling"] == "helical").all()
+    assert point.total_contact_force == pytest.approx(point.profile["contact_force_N"].sum())
+    assert point.sum_r_mu_fn == pytest.approx(section(case).contact_radius * FRICTION * point.total_contact_force)
+    # All that pushes the level string along is the weight on bit and the friction.
+    drag = -point.hookload - case.bit.weight_on_bit
+    assert drag == pytest.approx(FRICTION * point.total_contact_force, rel=1e-3)
+
+
+@pytest.mark.parametrize("operation", ["drill_sliding", "drill_rotating"])
+def test_a_coarse_row_stays_under_resolved_and_says_where_its_force_comes_from(operation: str) -> None:
+    case = level_case(PUSHED, 300.0, 20.0, friction=0.1)
+    case = case.model_copy(update={"rig": case.rig.model_copy(update={"block_weight": 1e6})})
+    bare, point = (fctd.equilibrium(each, operation, 300.0) for each in (case, analytic(case)))
+    assert bare.status == point.status == SteadyStatus.UNDER_RESOLVED
+    assert point.message.startswith(bare.message.split(" from ")[0])
+    assert point.message.endswith("r F²/4EI")
+    assert "r F²" not in bare.message
+    if operation == "drill_rotating":
+        # The torque at surface is that of the friction: the bit has none.
+        assert point.surface_torque == pytest.approx(point.sum_r_ft, rel=0.02)
+        assert point.surface_torque > 1.3 * bare.surface_torque
+
+
+@pytest.mark.parametrize(("law", "operation"), [("coulomb", "back_ream"), ("paper", "drill_rotating")])
+def test_friction_acts_against_the_sliding_of_the_surface(law: str, operation: str) -> None:
+    """One force against the resultant speed; the law of the paper has drag and torque in full."""
+    case = analytic(level_case(PUSHED, 300.0, 20.0, friction=FRICTION), friction_law=law)
+    problem, speed = pressed(case, operation)
+    limit = FRICTION * problem.added[:, 0]
+    n, S, rates = problem.n, problem.work.S, problem.rates
+    drag, torque = state.row(S, state.MUD_AXIAL, n) * rates.speed, state.row(S, state.MUD_SPIN, n) * rates.spin
+    radius = section(case).contact_radius
+    around = radius * rates.spin
+    along = np.array([rates.speed, around]) / np.hypot(rates.speed, around) if law == "coulomb" else np.sign([speed, 1])
+    assert limit.max() > 0
+    np.testing.assert_allclose(drag, along[0] * limit, rtol=1e-9)
+    np.testing.assert_allclose(torque, along[1] * radius * limit, rtol=1e-9)
+    np.testing.assert_allclose(problem.added[:, 1], torque, rtol=1e-9)
+    np.testing.assert_allclose(problem.added[:, 2], radius * limit, rtol=1e-9)
+
+
+def pressed(case: Case, operation: str) -> tuple[Problem, float]:
+    """A level string in balance under the weight on bit, with the force of its helix; its speed [m/s]."""
+    rates = steady_rates(case, operation)
+    problem = Solver(case).problem(operation, rates, case.wellbore.intervals[-1].to_md)
+    problem.weight_on_bit = case.bit.weight_on_bit
+    balance(problem)
+    Helical(problem).add()
+    return problem, rates.speed
+
+
+def test_a_helix_that_no_push_moves_is_locked_up() -> None:
+    length = 1.3 * lock_up_length()
+    case = level_case(PUSHED, length, 20.0, friction=FRICTION)
+    point = fctd.equilibrium(analytic(case), "drill_sliding", length)
+    assert point.status == SteadyStatus.LOCKED_UP
+    assert not point.answered
+    assert point.message.startswith("slack-off is spent, and the push exceeds 10 times the string's weight; ")
+
+
+@pytest.mark.parametrize(("times_onset", "segment"), [(1.2, 20.0), (1.5, 0.75)])
+def test_nothing_is_added_to_snaking_nor_to_segments_that_can_bend(times_onset: float, segment: float) -> None:
+    case = level_case(times_onset, 40.0, segment, friction=0.1)
+    bare, point = (fctd.equilibrium(each, "drill_sliding", 40.0) for each in (case, analytic(case)))
+    assert point.hookload == bare.hookload
+    assert point.message == bare.message
+
+
+def test_a_refinement_refuses_it() -> None:
+    with pytest.raises(fctd.InputError, match=r'contact.helical_force = "analytic": expected "none" in a refinement'):
+        fctd.refine(analytic(level_case(PUSHED)), operation="drill_sliding", bit_depth=150.0)

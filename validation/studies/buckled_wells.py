@@ -1,0 +1,230 @@
+"""Charts of wells in which strings buckle and lock up: every row has an answer, or says why not.
+
+A real survey and random wells, with the segments of the case and with buckling resolved.  The limit of a locked string
+is tried from both sides, and the resolved segments of a horizontal well are halved.
+"""
+
+from collections.abc import Iterable
+from random import Random
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fctd import Case, Equilibrium
+from fctd.case.operations import KINDS
+from fctd.model import layouts
+from fctd.model.operations import steady_rates
+from fctd.results.status import SteadyStatus
+from fctd.steady.equilibrium import Solver
+from fctd.steady.torque_drag import with_friction
+from validation.cases.wells import real_well
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts import random_wells
+from validation.parts.buckled_pipe import OPERATION
+from validation.parts.resolved_rows import DEPTH, WEIGHT, horizontal_well
+
+FRICTIONS = (0.2, 0.3, 0.4, 0.5)
+WEIGHTS = (0.0, 100e3, 200e3, 300e3)  # on bit [N]
+STEP, DEEPEST = 500.0, 8000.0  # [m]
+WELLS, SHARES = 200, (0.4, 0.7, 1.0)  # of the depths that a string can reach
+RESOLVED, RESOLVED_WELLS = 60, 60  # rows, drawn from those that are buckled or locked up
+LIMITS, BELOW, ABOVE = 30, 0.97, 1.03
+HALVED = (0.3, 0.6, 0.9)  # of the friction at lock-up
+BEYOND_LOCK_UP = 0.34  # friction factor
+# What a row may say.
+REASONED = (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.UNDER_RESOLVED)
+
+
+def solve(case: Case, kind: str, depth: float) -> Equilibrium:
+    """A row."""
+    return Solver(case).solve(kind, steady_rates(case, kind), depth)
+
+
+def resolving(case: Case) -> Case:
+    """The case with buckling resolved."""
+    return case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": "resolve"})})
+
+
+def scaled(case: Case, share: float) -> Case:
+    """The case with a share of its friction factors."""
+    intervals = tuple(i.model_copy(update={"friction": share * i.friction}) for i in case.wellbore.intervals)
+    return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})
+
+
+def row_of(well: str, point: Equilibrium, **more: Any) -> dict[str, Any]:
+    """A row of the tables."""
+    return {
+        "well": well, **more, "operation": point.operation, "bit_depth_m": point.bit_depth,
+        "weight_on_bit_kN": point.case.bit.weight_on_bit / 1e3, "status": str(point.status),
+        "buckling": point.buckling.mode, "shape": point.shape, "hookload_kN": point.hookload / 1e3,
+        "slack_off_spent_at": point.slack_off_spent_at, "locked_up_at": point.locked_up_at,
+        "iterations": point.iterations, "reason": point.message,
+    }  # fmt: skip
+
+
+def real_rows(context: Context) -> Iterable[tuple[Case, str, float, float]]:
+    """Case, operation, depth and friction factor of every row of the real well; weight on bit where it counts."""
+    frictions, weights = (FRICTIONS[2:3], WEIGHTS[2:3]) if context.quick else (FRICTIONS, WEIGHTS)
+    fine: dict[str, Any] = {"segments": None, "segment_length": "10 m"}
+    changes = {f"string__components__0__{key}": value for key, value in fine.items()}
+    for weight in weights:
+        case = real_well(context, wellbore__geometry="arcs", bit__weight_on_bit=weight, **changes)
+        for friction in frictions:
+            for kind in KINDS:
+                if weight > 0 and not KINDS[kind].on_bottom and weights[0] == 0:
+                    continue
+                for depth in np.arange(STEP, DEEPEST + 1, 8 * STEP if context.quick else STEP):
+                    yield with_friction(case, friction), kind, float(depth), friction
+
+
+def random_rows(count: int) -> Iterable[tuple[int, Case, str, float]]:
+    """Seed, case, operation and depth of every row of the random wells."""
+    for seed in range(count):
+        case = Case.model_validate(random_wells.well(Random(seed)))
+        top, bottom = case.depths
+        for kind in KINDS:
+            for share in SHARES:
+                yield seed, case, kind, round(top + share * (bottom - top), 2)
+
+
+def statuses(context: Context) -> tuple[pd.DataFrame, list[tuple[Case, str, float]]]:
+    """Every row with the segments of its case, and those that are to be resolved: buckled, or without an answer."""
+    rows, hard = [], []
+    real, drawn = list(real_rows(context)), list(random_rows(4 if context.quick else WELLS))
+    for case, kind, depth, friction in context.progress(real, "rows of a real well"):
+        point = solve(case, kind, depth)
+        rows.append(row_of("K05-ENC-05-S1", point, friction=friction))
+        if point.status != SteadyStatus.CONVERGED:
+            hard.append((case, kind, depth))
+    rng = np.random.default_rng(1)
+    picked = [hard[k] for k in rng.permutation(len(hard))[:RESOLVED]]
+    hard = []
+    for seed, case, kind, depth in context.progress(drawn, "rows of random wells"):
+        point = solve(case, kind, depth)
+        rows.append(row_of(f"random {seed}", point, friction=np.nan))
+        if point.status != SteadyStatus.CONVERGED:
+            hard.append((case, kind, depth))
+    picked += [hard[k] for k in rng.permutation(len(hard))[:RESOLVED_WELLS]]
+    return pd.DataFrame(rows), picked[:2] if context.quick else picked
+
+
+def resolved_rows(context: Context, picked: list[tuple[Case, str, float]]) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Rows with their buckling resolved, and those that lock up on both sides of their limit."""
+    rows: list[dict[str, Any]] = []
+    limits: list[dict[str, Any]] = []
+    for case, kind, depth in context.progress(picked, "resolved rows"):
+        fine = resolving(case)
+        point = solve(fine, kind, depth)
+        rows.append(row_of(case.name, point))
+        at = point.locked_up_at
+        if point.status != SteadyStatus.LOCKED_UP or not np.isfinite(at) or len(limits) >= LIMITS:
+            continue
+        below, above = (solve(scaled(fine, share * at), kind, depth) for share in (BELOW, ABOVE))
+        limits.append(
+            {
+                "well": case.name, "operation": kind, "bit_depth_m": depth, "locked_up_at": at,
+                "status_below": str(below.status), "hookload_below_kN": below.hookload / 1e3,
+                "imbalance_below_N": below.imbalance if below.answered else np.nan,
+                "status_above": str(above.status), "hookload_above_kN": above.hookload / 1e3,
+            }
+        )  # fmt: skip
+    return pd.DataFrame(rows), pd.DataFrame(limits)
+
+
+def halved() -> pd.DataFrame:
+    """The horizontal well at shares of its friction at lock-up, with the resolved segments and with their halves."""
+    beyond = horizontal_well(20.0, "resolve", BEYOND_LOCK_UP)
+    first = solve(beyond, OPERATION, DEPTH)
+    locked = first.locked_up_at * BEYOND_LOCK_UP
+    rows = []
+    for friction in (*(share * locked for share in HALVED), BEYOND_LOCK_UP):
+        case = with_friction(beyond, friction)
+        point = solve(case, OPERATION, DEPTH)
+        md = point.profile["md_m"].to_numpy()
+        half = 0.5 * np.diff(md, prepend=2 * md[0] - md[1])
+        other = solve(layouts.with_components(case, layouts.resolved(case, DEPTH, md, half)), OPERATION, DEPTH)
+        rows.append(
+            {
+                "friction": friction, "share_of_lock_up_percent": 100 * friction / locked,
+                "segments": len(md) - 1, "halved_segments": len(other.profile) - 1,
+                "shape": point.shape, "halved_shape": other.shape,
+                "hookload_kN": point.hookload / 1e3, "halved_hookload_kN": other.hookload / 1e3,
+                "off_percent_of_weight": 100 * (other.hookload - point.hookload) / WEIGHT,
+                "locked_up_friction": friction * point.locked_up_at,
+                "halved_locked_up_friction": friction * other.locked_up_at,
+            }
+        )  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def run(context: Context) -> Outcome:
+    """Statuses, resolved rows and their limits; the full run halves segments as well."""
+    rows, picked = statuses(context)
+    resolved, limits = resolved_rows(context, picked)
+    tables = {"rows": rows, "counts": _counts(rows), "resolved": resolved, "resolved_counts": _counts(resolved)}
+    display = {"counts": "Rows by status", "resolved_counts": "Rows with buckling resolved, by status"}
+    if len(limits):
+        tables["limits"] = limits
+        display["limits"] = f"Locked strings at {100 * BELOW:g} % and at {100 * ABOVE:g} % of their limit"
+    if not context.quick:
+        tables["halved"] = halved()
+        display["halved"] = "A horizontal well that slides, with the resolved segments and with their halves"
+    return Outcome(
+        tables=tables,
+        checks=_checks(tables),
+        notes=[
+            "Hole, string and friction of the real well are assumed, its survey is real. Random wells are those of the "
+            f"seeds 0 to {WELLS - 1}; the full run resolves {RESOLVED} rows of the real well and {RESOLVED_WELLS} of "
+            "the random ones, drawn from those that are not converged.",
+        ],
+        display=display,
+    )
+
+
+def _counts(rows: pd.DataFrame) -> pd.DataFrame:
+    """Number of rows of each status in the real and in the random wells."""
+    wells = rows["well"].str.replace(r"^(random|plausible).*", "random wells", regex=True)
+    return rows.groupby([wells, "operation", "status"], sort=False).size().rename("rows").reset_index()
+
+
+def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
+    """The numbers with bounds."""
+    rows, resolved = tables["rows"], tables["resolved"]
+    both = pd.concat([rows, resolved])
+    checks = [
+        Check("rows with a status that gives no reason", float((~both["status"].isin(REASONED)).sum()), 0, "at_most",
+              "", "converged, locked up, unstable or under-resolved"),
+        Check("rows other than converged without a reason",
+              float(((both["status"] != "converged") & (both["reason"] == "")).sum()), 0, "at_most", "", "a message"),
+        Check("resolved rows that are under-resolved", float((resolved["status"] == "under_resolved").sum()), 0,
+              "at_most", "", "segments are as short as the waves need"),
+    ]  # fmt: skip
+    if "limits" in tables:
+        limits = tables["limits"]
+        lost = limits["hookload_below_kN"].isna().sum()
+        held = limits["hookload_above_kN"].notna().sum()
+        checks += [
+            Check("locked strings without a balance below their limit", float(lost), 0, "at_most", "", "the limit"),
+            Check("locked strings with a balance above their limit", float(held), 0, "at_most", "", "the limit"),
+        ]
+    if "halved" in tables:
+        table = tables["halved"]
+        below = table[table["share_of_lock_up_percent"] <= 100 * max(HALVED) + 1e-6]
+        off = float(below["off_percent_of_weight"].abs().max())
+        last = table.iloc[-1]
+        locked = 100 * abs(last["halved_locked_up_friction"] / last["locked_up_friction"] - 1)
+        checks += [
+            Check("segments halved, hook load", off, 1.0, "at_most", "%", "of the string's weight"),
+            Check("segments halved, friction at lock-up", locked, 1.0, "at_most", "%", "of that friction"),
+        ]
+    return checks
+
+
+STUDY = Study(
+    "buckled_wells",
+    "Does every row of a chart in which strings buckle and lock up have an answer or a reason?",
+    run,
+    reproduce=False,
+    needs=("data",),
+)
