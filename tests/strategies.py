@@ -69,7 +69,7 @@ RULES: list[tuple[str, Any, str]] = [
     ("wellbore.survey_smoothing", 0, "an angle above 0 and at most 0.02 rad"),
     ("wellbore.stations", [[0, 0, 0]], "two different stations, found 1"),
     ("wellbore.stations[0][0]", -5, "a measured depth of at least 0"),
-    ("wellbore.stations[0][0]", "0 m", "a bare number"),
+    ("wellbore.stations[0][0]", "0 kg", "a length such as"),
     ("wellbore.stations[2][0]", 900, "greater than that of the station"),
     ("wellbore.stations[2][0]", 50_001, "a measured depth of at most 50 km"),
     ("wellbore.stations[1][1]", 181, "an inclination from 0 to 180 deg"),

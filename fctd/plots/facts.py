@@ -16,7 +16,7 @@ from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Equilibrium
 
 # Units of pictures for quantities that no table has: SI unit, metric unit, field unit.
-_DENSITY: Final = ("kg/m^3", "kg/m^3", "ppg")
+_DENSITY: Final = ("kg/m^3", "kg/m^3", "lb/gal")
 _SPEED: Final = ("m/s", "m/s", "ft/min")
 
 
@@ -86,7 +86,7 @@ def _in(value: float, unit_of: tuple[str, str, str], units: System) -> str:
     """An SI value with its unit."""
     si, metric, field = unit_of
     unit = field if units == "field" else metric
-    return f"{value * conversion(si, unit):.4g} {unit}".replace("^3", "³")
+    return f"{value * conversion(si, unit):.4g} {unit}".replace("^3", "³").replace("lb/gal", "ppg")
 
 
 def _load(value: float, column: str, units: System) -> str:

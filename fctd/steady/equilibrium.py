@@ -26,11 +26,12 @@ from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
+from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
 from fctd.steady.climb import BEYOND, LOW, SOUND, Climb, climb, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.post_buckling import resolve
-from fctd.steady.problem import Pose, Problem, Workspace
+from fctd.steady.problem import Problem, Workspace
 from fctd.steady.tangent import (
     JOINT_BENDING,
     JOINT_TENSION,
@@ -43,17 +44,6 @@ from fctd.steady.tangent import (
 
 Array = NDArray[np.float64]
 
-# With large steps most strings converge in some eight iterations.  A string with little clearance needs a pseudo-time
-# that shrinks when the imbalance rises; one that buckles needs small steps to converge or to find a stable shape.
-# Fields of Pace: iterations, first pseudo-time [s], growth, shrink, largest lateral step [m].
-ATTEMPTS = (
-    (25, 0.2, 3.0, 1.0, 0.05),
-    (60, 0.05, 3.0, 0.3, 0.02),
-    (80, 0.1, 1.5, 1.0, 0.02),
-    (200, 0.1, 1.1, 1.0, 0.01),
-    (300, 0.05, 1.5, 0.3, 0.005),
-)
-LARGEST_TURN = 0.1  # [rad] per step
 # Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
 APART = 0.01
 ANALYTIC = "the wall force of the helix is the analytic one, r F²/4EI"
@@ -358,31 +348,6 @@ class Solver:
             modes = f"{negative} mode{'s' * (negative > 1)}"
             return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {modes}"
         return SteadyStatus.CONVERGED, ""
-
-
-def balance(problem: Problem) -> tuple[int, int, int]:
-    """Iterate to a stable balance, more carefully with every attempt, or else to the first balance found.
-
-    Returns code, iterations and number of unstable modes; leaves the pose in the problem.
-    """
-    total, code, negative = 0, NOT_FINITE, 0
-    unstable: tuple[int, Pose] | None = None
-    for iterations, tau, growth, shrink, shift in ATTEMPTS:
-        problem.lay_guess()
-        allowed = problem.allowed
-        code, done = problem.iterate(Pace(iterations, tau, growth, shrink, shift, LARGEST_TURN, allowed, allowed))
-        total += done
-        if code != CONVERGED:
-            continue
-        negative = problem.unstable_modes()
-        if negative == 0:
-            return code, total, 0
-        if unstable is None:
-            unstable = negative, problem.copy_pose()
-    if unstable is not None:
-        code, negative = CONVERGED, unstable[0]
-        problem.put_pose(unstable[1])
-    return code, total, negative
 
 
 def _end_of(problem: Problem, path: Climb) -> str:

@@ -139,12 +139,3 @@ def test_rates_and_friction_that_are_asked_for() -> None:
     assert codes(case_of(), frictions=[FrictionSet(cased=0.2, open=0.7)]) == {"friction"}
     rough = case_of(wellbore=hole((1000, 0.3), friction=0.9))
     assert codes(rough, frictions=[FrictionSet(every=0.2)]) == set()  # the case's own factor is not used
-
-
-def test_a_survey_of_few_stations_is_doubted(tmp_path: Path) -> None:
-    survey = tmp_path / "survey.csv"
-    rows = [f"{250 * k},0,0\n" for k in range(5)]
-    for count, expected in ((4, {"few_stations"}), (5, set())):
-        survey.write_text("md_m,inc_deg,azi_deg\n" + "".join(rows[:count]), encoding="utf-8")
-        case = case_of(wellbore={"stations": None, "survey": survey, **hole((700, 0.3))}, components=[pipe(600, 9)])
-        assert codes(case) == expected

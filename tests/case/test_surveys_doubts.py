@@ -19,7 +19,7 @@ from fctd.case.surveys.smoothing import MOST_SMOOTHED
 from fctd.case.surveys.stations import Written, check, to_radians
 from tests.case.survey_files import STATION, witsml
 from tests.case.test_surveys import read, written
-from tests.fuzz.paths import path
+from validation.parts.random_paths import path
 
 Rows = Sequence[Sequence[float]] | NDArray[np.float64]
 

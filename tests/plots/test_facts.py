@@ -36,7 +36,7 @@ def test_titles_name_what_all_curves_share() -> None:
         == "test; slacking off; friction factor 0.2"
     )
     title, lines = heading_of_chart(chart(["trip_in", "trip_out"], [0.2, 0.3]), "si", None, None, ["w"])
-    assert (title, lines) == ("", ["", "w"])
+    assert (title, lines) == ("", ["", "warning w"])
     title, lines = heading_of_profile(points(), "field", ["w"])
     assert title.startswith("test; bit at 2887 ft; friction factor")
-    assert lines[1] == "w"
+    assert lines[1] == "warning w"

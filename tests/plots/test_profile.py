@@ -93,7 +93,7 @@ def test_warnings_and_notes_stand_below_the_title() -> None:
         point.__dict__["notes"] = found
     small = [text.get_text() for text in plots.profile_figure(noted, warnings=["a warning"]).texts][2:]
     assert small == [
-        "a warning",
+        "warning a warning",
         "note penetration: a contact point at 5 m is 9 mm deep",
         "note yield: the stress at 800 m is 3000 MPa, $\\frac",
     ]

@@ -9,7 +9,8 @@ from fctd.mechanics import state
 from fctd.model.drillstring import Section, section_of
 from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
-from fctd.steady.equilibrium import Solver, balance
+from fctd.steady.balance import balance
+from fctd.steady.equilibrium import Solver
 from fctd.steady.helical_force import Helical
 from fctd.steady.problem import Problem
 from tests.steady.buckled import HOLE, level_case
