@@ -27,9 +27,10 @@ START_ITERATIONS, STEP_ITERATIONS = 1500, 400
 # points in a few iterations goes one way round.
 ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
 # Lock-up is where 1/push, extrapolated by a line through two balances, is 0.  It is known where the extrapolations of
-# two steps differ by less than ``AGREEING`` of it, or where the push is beyond any rig's, ``BEYOND`` weights.  Where no
-# shape is found before, the last one is taken from a push of one weight on.
-AGREEING, BEYOND = 0.01, 10.0
+# ``STEPS`` steps differ by less than ``AGREEING`` of it, or where the push is beyond any rig's, ``BEYOND`` weights: two
+# agree by chance while the helix still grows longer.  Where no shape is found before, the last one is taken from a push
+# of one weight on.
+AGREEING, STEPS, BEYOND = 0.01, 3, 10.0
 # From a push of so many weights on, a step goes so far towards lock-up as it is extrapolated there.
 PUSHED, TOWARDS = 0.25, 0.6
 # The compression for which segments are cut is that of a push of at most this share of the weight beyond the block's:
@@ -199,9 +200,12 @@ def _locked_at(problem: Problem, path: Climb) -> float:
     steps = path.steps
     if len(steps) < 3 or _push(problem, path) < PUSHED * problem.weight:
         return float("nan")
-    before, now = _extrapolated(steps[:-1]), _extrapolated(steps)
-    known = abs(now - before) < AGREEING * now or _push(problem, path) > BEYOND * problem.weight
-    return now if known and np.isfinite(now) else float("nan")
+    locks = [_extrapolated(steps[: len(steps) - k]) for k in range(min(STEPS, len(steps) - 1))]
+    now = locks[0]
+    if not np.isfinite(now):
+        return float("nan")
+    agree = len(locks) == STEPS and max(locks) - min(locks) < AGREEING * now
+    return now if agree or _push(problem, path) > BEYOND * problem.weight else float("nan")
 
 
 def _extrapolated(steps: list[Step]) -> float:

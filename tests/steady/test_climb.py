@@ -47,7 +47,7 @@ def test_preparation_comes_before_each_step() -> None:
 def test_lock_up_is_where_no_push_suffices(lock: float) -> None:
     """Exact for a path on which 1/push falls linearly to 0."""
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
-    friction = lock * np.array([0.5, 0.9, 0.99])
+    friction = lock * np.array([0.5, 0.7, 0.9, 0.99])
     path = Climb(steps=[Step(float(f), -problem.weight / (3 * (1 - f / lock))) for f in friction])
     _close(problem, path)
     assert path.locked_at == pytest.approx(lock)
@@ -58,7 +58,19 @@ def test_lock_up_is_where_no_push_suffices(lock: float) -> None:
     assert np.isnan(path.locked_at)
 
 
-def test_lock_up_is_not_known_where_two_extrapolations_differ() -> None:
+def test_two_extrapolations_that_agree_by_chance_are_not_lock_up() -> None:
+    """A helix that grows in 1,500 m of hole at 40°, with 250 kN at the bit: the extrapolations rise, then stand still.
+
+    Hook loads of the string, in its weights; at friction factors nearer to its lock-up, 1.33, the path ends there.
+    """
+    problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
+    pushes = ((0.6, 0.1244), (0.825, 0.2139), (1.0, 0.3717), (1.1, 0.6466))
+    path = Climb(steps=[Step(share, -push * problem.weight) for share, push in pushes])
+    _close(problem, path)
+    assert np.isnan(path.locked_at)
+
+
+def test_lock_up_is_not_known_where_extrapolations_differ() -> None:
     """1/push falls as (1 − f)²: by lines it seems to be 0 too early."""
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     steps = [Step(f, -problem.weight / (3 * (1 - f) ** 2)) for f in (0.1, 0.2, 0.3)]
