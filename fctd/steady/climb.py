@@ -238,5 +238,6 @@ def _close(problem: Problem, path: Climb) -> None:
     path.ends_at = float("nan")
     if np.isnan(path.locked_at) and len(share) > 1 and _push(problem, path) > problem.weight:
         path.locked_at = _extrapolated(path.steps)
-    elif path.pose is None and np.isnan(path.locked_at):
+    # A lock-up beyond the loads of the operation does not say why the string has no loads there.
+    if path.pose is None and not path.locked_at <= 1:
         path.ends_at = float(share[-1]) if len(share) else 0.0

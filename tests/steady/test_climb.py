@@ -84,6 +84,19 @@ def test_lock_up_is_not_known_where_extrapolations_differ() -> None:
     assert path.locked_at == pytest.approx(0.85 + 0.15 * 0.15**2 / (0.3**2 - 0.15**2))
 
 
+def test_a_path_that_ends_before_its_loads_says_so_beside_a_later_lock_up() -> None:
+    """1/push falls linearly to 0 at 1.04, where the string is not followed beyond 0.98."""
+    problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
+    steps = [Step(f, -problem.weight / (3 * (1 - f / 1.04))) for f in (0.5, 0.8, 0.9, 0.98)]
+    path = Climb(steps=steps)
+    _close(problem, path)
+    assert path.locked_at == pytest.approx(1.04)
+    assert path.ends_at == 0.98
+    path = Climb(steps=steps, pose=problem.copy_pose())
+    _close(problem, path)
+    assert np.isnan(path.ends_at)
+
+
 def test_slack_off_is_spent_at_the_root_of_the_hook_load() -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     path = Climb(steps=[Step(f, 1e5 * (0.7 - f)) for f in (0.1, 0.4, 0.6, 0.8, 1.0)])
