@@ -10,7 +10,7 @@ from pathlib import Path
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from rich.table import Table
 
 from fctd.case.load import Case
@@ -64,6 +64,7 @@ def check_plain(*printed: str) -> None:
         assert all(line.isprintable() for line in text.split("\n"))
 
 
+@settings(max_examples=100)
 @given(ANYTHING)
 def test_any_text_reaches_the_terminal_as_it_stands(text: str) -> None:
     with redirect_stdout(io.StringIO()) as out:
