@@ -304,7 +304,7 @@ def test_refine_refuses_at_once_a_survey_that_toml_cannot_name(
 
 
 def test_a_title_is_no_formula(wild: str, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    plots = ("--plot", "a.svg", "--plot-profile", "b.png")
+    plots = ("--plot", "a.svg", "--plot-profile", "b.svg")
     for name in (r"\\$\\frac{$", "$\\\\frac{ \\u001b"):
         Path("wild.toml").write_text(CASE.replace('name = "small"', f'name = "{name}"'))
         assert fctd(monkeypatch, "chart", wild, *CHART, *plots) == 0
