@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case, parse_override
@@ -299,6 +299,7 @@ def test_a_valid_case_loads_and_round_trips(raw: dict[str, Any], tmp_path_factor
     assert Case.model_validate(copy.deepcopy(raw)).operations == case.operations
 
 
+@settings(max_examples=100)
 @given(raw=corrupted_cases())
 def test_a_corrupted_case_is_accepted_or_refused(raw: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> None:
     path = tmp_path_factory.mktemp("corrupted") / "well.toml"

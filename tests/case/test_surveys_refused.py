@@ -9,7 +9,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fctd.case.errors import InputError
@@ -146,11 +146,13 @@ STARTS = [
 ]
 
 
+@settings(max_examples=100)
 @given(start=st.sampled_from(STARTS), rest=st.binary(max_size=60) | CELLS.map(str.encode))
 def test_any_bytes_are_stations_or_refused(start: str, rest: bytes, tmp_path_factory: pytest.TempPathFactory) -> None:
     check_read(tmp_path_factory, start.encode() + rest)
 
 
+@settings(max_examples=100)
 @given(seed=st.integers(0, 2**32))
 def test_changed_workbooks_and_trajectories_are_stations_or_refused(
     seed: int, tmp_path_factory: pytest.TempPathFactory

@@ -5,7 +5,7 @@ import os
 import sys
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fctd.case.text import degrade_output, file_name, printable, printable_lines
@@ -31,6 +31,7 @@ def test_what_does_not_print_is_shown_as_its_escape(text: str, shown: str) -> No
     assert printable(text) == shown
 
 
+@settings(max_examples=100)
 @given(ANYTHING)
 def test_only_characters_that_print_are_left_and_those_stay(text: str) -> None:
     shown = printable(text)
@@ -62,6 +63,7 @@ def test_a_file_name_is_made_of_letters_digits_and_dashes(text: str, name: str) 
     assert file_name(text, "-result") == name
 
 
+@settings(max_examples=100)
 @given(ANYTHING)
 def test_any_text_gives_a_file_name_that_can_be_written(text: str) -> None:
     name = file_name(text, "-result")

@@ -4,7 +4,7 @@ import contextlib
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fctd.case import units
@@ -63,6 +63,7 @@ def test_no_quantity(value: object) -> None:
         units.Quantity(dimension=units.LENGTH).parse(value)
 
 
+@settings(max_examples=100)
 @given(text=st.text(max_size=12) | st.from_regex(r"\A[0-9]{1,3} [a-zµ°]{1,5}([*/^]{1,2}[a-z0-9]{1,3})?\Z"))
 def test_any_text_is_a_length_or_refused(text: str) -> None:
     with contextlib.suppress(InputError):

@@ -68,8 +68,8 @@ def test_a_resolved_string_shows_its_shapes_and_its_limits(
 ) -> None:
     case_file, out = tmp_path / "level.toml", tmp_path / "profile.csv"
     case_file.write_text(LEVEL)
-    point = ("equilibrium", case_file, "--operation", "drill_sliding", "--bit-depth", "150", "--out", out)
-    assert run(monkeypatch, *point, "--resolve-buckling") == 0
+    point = ("equilibrium", case_file, "--operation", "drill_sliding", "--resolve-buckling", "--out", out)
+    assert run(monkeypatch, *point, "--bit-depth", "150") == 0
     screen = " ".join(capsys.readouterr().out.split())
     origin = json.loads((tmp_path / "profile.csv.json").read_text())
     assert origin["shape"] == "helix"
@@ -79,8 +79,8 @@ def test_a_resolved_string_shows_its_shapes_and_its_limits(
         assert f"hook load, {word} of both shapes {origin[f'hookload_{end}_N'] / 1e3:.3f} kN" in screen
 
     out.unlink()
-    stuck = ("--friction", "2", *settings("rig.block_weight=350 kN"))
-    assert run(monkeypatch, *point, "--resolve-buckling", *stuck) == 1  # the file that was asked for is not there
+    stuck = ("--bit-depth", "80", "--friction", "4", *settings("rig.block_weight=350 kN"))
+    assert run(monkeypatch, *point, *stuck) == 1  # the file that was asked for is not there
     assert not out.exists()
     printed = capsys.readouterr()
     assert "Nothing is written" in printed.err

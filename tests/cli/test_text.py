@@ -10,7 +10,7 @@ from pathlib import Path
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from rich.table import Table
 
 from fctd.case.load import Case
@@ -64,6 +64,7 @@ def check_plain(*printed: str) -> None:
         assert all(line.isprintable() for line in text.split("\n"))
 
 
+@settings(max_examples=100)
 @given(ANYTHING)
 def test_any_text_reaches_the_terminal_as_it_stands(text: str) -> None:
     with redirect_stdout(io.StringIO()) as out:
@@ -303,7 +304,7 @@ def test_refine_refuses_at_once_a_survey_that_toml_cannot_name(
 
 
 def test_a_title_is_no_formula(wild: str, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    plots = ("--plot", "a.svg", "--plot-profile", "b.png")
+    plots = ("--plot", "a.svg", "--plot-profile", "b.svg")
     for name in (r"\\$\\frac{$", "$\\\\frac{ \\u001b"):
         Path("wild.toml").write_text(CASE.replace('name = "small"', f'name = "{name}"'))
         assert fctd(monkeypatch, "chart", wild, *CHART, *plots) == 0

@@ -217,11 +217,11 @@ def test_stepper_converges_at_first_order() -> None:
     ("kernel", "arguments"),
     [
         (dynamics.update_axes, ()),
-        (joints.update_joint_loads, (1e-4, 1e-3)),
+        pytest.param(joints.update_joint_loads, (1e-4, 1e-3), marks=pytest.mark.slow),
         (follow_cylinders, ()),
         (follow_arcs, ()),
-        (dynamics.PUSHES[CODES["coulomb"]], (FREE, 1e-3)),
-        (dynamics.PUSHES[CODES["paper"]], (FREE, 1e-3)),
+        pytest.param(dynamics.PUSHES[CODES["coulomb"]], (FREE, 1e-3), marks=pytest.mark.slow),
+        pytest.param(dynamics.PUSHES[CODES["paper"]], (FREE, 1e-3), marks=pytest.mark.slow),
         (dynamics.push_freely, (FREE, 1e-3)),
         (dynamics.move_bodies, (1e-3,)),
     ],
@@ -230,7 +230,7 @@ def test_kernels_are_packed(kernel, arguments: tuple) -> None:
     """The main loop of every arithmetic kernel is vector code.
 
     Its packed operations match the scalar ones of the remainder loop; a helper that stayed a call, or rows
-    that may alias, would leave none.
+    that may alias, would leave none.  The largest kernels take seconds to compile.
     """
     packed, scalar = operations(kernel, state.new_state(8), 8, *arguments)
     assert packed > 10

@@ -24,10 +24,17 @@ def test_names_make_distinct_files():
     assert set(figures.MODULES) == {study for study, _ in names}
 
 
-@pytest.mark.parametrize(("study", "figure"), ALL, ids=[f"{study}-{figure.name}" for study, figure in ALL])
+every_figure = pytest.mark.parametrize(
+    ("study", "figure"), ALL, ids=[f"{study}-{figure.name}" for study, figure in ALL]
+)
+
+
+@every_figure
 def test_figure_draws(study, figure):
+    """Without its layout, which takes most of the time."""
     with mpl.rc_context(style.RC):
         canvas = figure.draw(synthetic.STUDIES[study]())
+        canvas.set_layout_engine("none")
         canvas.draw_without_rendering()
     assert figure.caption.endswith(".")
     for ax in canvas.axes:
@@ -36,6 +43,14 @@ def test_figure_draws(study, figure):
     assert labels
     without_unit = {label for label in labels if ", " not in label}
     assert without_unit <= {"contact angle", "|residual| / work", "state"}
+
+
+@pytest.mark.slow
+@every_figure
+def test_a_figure_has_room_for_its_texts(study, figure):
+    """matplotlib warns, and every warning is an error, where a layout leaves an axes no room."""
+    with mpl.rc_context(style.RC):
+        figure.draw(synthetic.STUDIES[study]()).draw_without_rendering()
 
 
 def test_torque_is_drawn_in_kilonewton_metres():

@@ -179,7 +179,7 @@ def test_a_resolved_row_has_both_shapes_and_does_not_depend_on_its_neighbours() 
 
 
 def test_a_string_that_no_push_moves_has_no_loads_but_says_where_it_locked_up() -> None:
-    chart = torque_drag(level_case(rig={"block_weight": 3.5e5}), "drill_sliding", [150.0], friction=2.0)
+    chart = torque_drag(level_case(rig={"block_weight": 3.5e5}), "drill_sliding", [80.0], friction=4.0)
     (row,) = chart.to_dict("records")
     assert (row["status"], row["buckling"]) == ("locked_up", "unknown")
     loads = chart.loc[:, "hookload_N":"total_contact_force_N"]

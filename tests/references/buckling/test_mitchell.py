@@ -1,6 +1,7 @@
 """Mitchell's equation: its shapes balance, are stationary in energy, and have the known limits."""
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from references.buckling import helix as closed
+from references.buckling import mitchell
 from references.buckling.mitchell import (
     NoShapeError,
     Shape,
@@ -26,6 +28,12 @@ SHAPES = {"snaking": snaking, "helix": helix}
 Angle = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
+@cache
+def found(name: str, ratio: float) -> Shape:
+    """The shape of least energy at a ratio of the force to the onset."""
+    return SHAPES[name](PIPE, ratio * PIPE.onset)
+
+
 def energy(shape: Shape, angle: Angle) -> float:
     """The energy of a part that lies at other angles [J], by differences."""
     s = np.linspace(0, shape.s[-1], 8001)
@@ -40,7 +48,7 @@ def energy(shape: Shape, angle: Angle) -> float:
 @pytest.mark.parametrize("ratio", [1.1, 1.4, 1.7])
 @pytest.mark.parametrize("name", SHAPES)
 def test_shape_is_stationary(name: str, ratio: float) -> None:
-    shape = SHAPES[name](PIPE, ratio * PIPE.onset)
+    shape = found(name, ratio)
     angle = CubicSpline(shape.s, shape.angle)
     for waves in (1, 2):
         # Snaking may vary with θ = 0 at one end and θ' = 0 at the other, a helix with θ = 0 and θ = π.
@@ -57,17 +65,16 @@ def test_shape_is_stationary(name: str, ratio: float) -> None:
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_length_has_the_least_energy(name: str) -> None:
-    find, force = SHAPES[name], 1.5 * PIPE.onset
-    best = find(PIPE, force)
+    best = found(name, 1.4)
     for share in (0.97, 1.03):
-        assert find(PIPE, force, share * best.length).energy > best.energy
+        assert SHAPES[name](PIPE, best.force, share * best.length).energy > best.energy
 
 
 @pytest.mark.parametrize("ratio", [1.1, 1.4, 1.7])
 @pytest.mark.parametrize("name", SHAPES)
 def test_wall_carries_the_weight(name: str, ratio: float) -> None:
     """Over a period, the upward part of the wall's force is the weight: a balance apart from the equation."""
-    shape = SHAPES[name](PIPE, ratio * PIPE.onset)
+    shape = found(name, ratio)
     carried = CubicSpline(shape.s, shape.wall_force * np.cos(shape.angle)).integrate(0, shape.s[-1])
     assert carried == pytest.approx(PIPE.weight * shape.s[-1], rel=2e-4)
 
@@ -82,7 +89,7 @@ def test_snaking_begins_at_the_onset() -> None:
 
 
 def test_waves_alternate() -> None:
-    shape = snaking(PIPE, 1.3 * PIPE.onset)
+    shape = found("snaking", 1.4)
     quarters = shape.waves(0.5 * shape.length * np.arange(5))
     assert quarters == pytest.approx(shape.amplitude * np.array([0, 1, 0, -1, 0]))
 
@@ -95,7 +102,7 @@ def test_half_waves_that_do_not_buckle() -> None:
 @pytest.mark.parametrize(("ratio", "degrees"), [(1.10, 22.2), (1.25, 35.9), (1.40, 46.5)])
 def test_amplitude(ratio: float, degrees: float) -> None:
     """The engine's own trials gave these amplitudes; the one-term solution is up to 4 % lower."""
-    amplitude = snaking(PIPE, ratio * PIPE.onset).amplitude
+    amplitude = found("snaking", ratio).amplitude
     assert np.degrees(amplitude) == pytest.approx(degrees, abs=0.05)
     one_term = brentq(lambda a: one_term_ratio(a) - ratio, 1e-3, 2.0)
     assert 0.95 < one_term / amplitude < 1
@@ -103,11 +110,12 @@ def test_amplitude(ratio: float, degrees: float) -> None:
 
 def test_one_term_error_at_1_4() -> None:
     one_term = brentq(lambda a: one_term_ratio(a) - 1.4, 1e-3, 2.0)
-    assert one_term / snaking(PIPE, 1.4 * PIPE.onset).amplitude == pytest.approx(0.96, abs=0.003)
+    assert one_term / found("snaking", 1.4).amplitude == pytest.approx(0.96, abs=0.003)
 
 
-def test_limits_of_the_equation() -> None:
+def test_limits_of_the_equation(monkeypatch: pytest.MonkeyPatch) -> None:
     """From 1.77 times the onset on the pipe leaves the wall; the helix has less energy from 1.45 times on (trials)."""
+    monkeypatch.setattr(mitchell, "TOLERANCE", 1e-5)  # moves neither by more than 0.003
     assert wall_contact_limit() == pytest.approx(1.77, abs=0.005)
     assert equal_energy_ratio() == pytest.approx(1.45, abs=0.005)
 
