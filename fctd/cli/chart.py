@@ -53,14 +53,14 @@ from fctd.cli.steady import (
     in_units,
     metadata_of,
     print_segments,
+    read_depth,
     read_drive,
 )
 from fctd.model.operations import rates_of_all
-from fctd.plots.facts import shoes_of
 from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
 from fctd.results.measured import read_measured
 from fctd.results.notes import MEANINGS, meanings_of
-from fctd.results.series import series_of
+from fctd.results.series import frictions_of, in_words, series_of
 from fctd.results.status import SteadyStatus
 from fctd.results.tables import write_table
 from fctd.results.unit_systems import System, reworded, shown
@@ -174,7 +174,7 @@ def read_depths(text: str, case: Case, units: System = "si") -> list[float]:
         raise InputError(
             "FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft' or shoe:td:50", key="--depths", value=text
         )
-    first, last = (_depth(part.strip(), case, text, units) for part in parts[:2])
+    first, last = (read_depth(part, case, "--depths", units, given=text) for part in parts[:2])
     step = read_quantity(parts[2], LENGTH, "--depths", units)
     if not (first <= last and step > 0):
         raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key="--depths", value=text)
@@ -183,18 +183,6 @@ def read_depths(text: str, case: Case, units: System = "si") -> list[float]:
         raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)
     # Rounding errors must neither double the last depth nor give 1750.3000000000002 in a table.
     return [*(round(first + k * step, 6) for k in range(int(np.ceil(steps - 1e-6)))), round(last, 6)]
-
-
-def _depth(text: str, case: Case, depths: str, units: System) -> float:
-    """A depth [m], or the one that a word stands for."""
-    if text == "td":
-        return case.depths[1]
-    if text == "shoe":
-        shoes = shoes_of(case)
-        if not shoes:
-            raise InputError("a depth, as the case has one interval and no shoe", key="--depths", value=depths)
-        return shoes[-1]
-    return read_quantity(text, LENGTH, "--depths", units)
 
 
 def _measured(path: Path, case: Case, plot: Path | None) -> pd.DataFrame:
@@ -207,17 +195,20 @@ def _measured(path: Path, case: Case, plot: Path | None) -> pd.DataFrame:
 def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     """Print a table that fits the screen, and a line for each run of rows with another status or a note."""
     units_of = {column.name: shown(column.name, units) for column in SHOWN}
-    screen.print(printable(name), style="bold")
+    series = series_of(chart, units)
+    frictions = frictions_of(series)
+    fan = len(frictions) > 1  # one set of factors, which may be a long text, stands above the table
+    screen.print(printable(name if fan else f"{name}; {in_words(frictions[0])}"), style="bold", soft_wrap=True)
     table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
-    for heading in ("operation", "μ"):
-        table.add_column(heading, no_wrap=True)
+    table.add_column("operation", no_wrap=True)
+    if fan:
+        table.add_column("μ", overflow="fold")
     for column in SHOWN:
         table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
     buckled = bool(chart["buckled_from_md_m"].notna().any())
     if buckled:
         table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
     table.add_column("status", overflow="fold")
-    series = series_of(chart, units)
     each = max(SCREEN_ROWS // len(series), 1)
     for operation, friction, rows in series:
         # Evenly spread rows, always with the deepest one.
@@ -229,15 +220,16 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
             ]
             if buckled:
                 values.append(_buckled(row, units_of[DEPTH.name].factor))
-            names = ("", "") if k else (operation, friction)
-            table.add_row(*names, *values, row["status"])
+            names = (operation, friction) if fan else (operation,)
+            table.add_row(*(("",) * len(names) if k else names), *values, row["status"])
     screen.print(table)
     counts = ", ".join(f"{count} {status}" for status, count in chart["status"].value_counts().items())
     screen.print(f"{len(chart)} rows: {counts}", soft_wrap=True)
     depth = units_of["bit_depth_m"]
     for operation, friction, rows in series:
+        of = f"{operation}, friction {friction}" if fan else operation
         for line in _exceptions(rows, depth.factor, depth.label):
-            messages.print(reworded(f"{operation}, friction {friction}: {line}", units), soft_wrap=True)
+            messages.print(reworded(f"{of}: {line}", units), soft_wrap=True)
 
 
 def _buckled(row: dict[Hashable, Any], factor: float) -> str:

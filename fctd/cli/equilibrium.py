@@ -14,7 +14,6 @@ from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.load import check_bit_depth, naming_file
 from fctd.case.text import printable
-from fctd.case.units import LENGTH
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -28,13 +27,13 @@ from fctd.cli.options import (
     print_status,
     print_written,
     read_case,
-    read_quantity,
     refuse_sources,
     screen,
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, ShownSideForce, check_pictures, draw_profiles
 from fctd.cli.steady import (
+    DEPTH_HELP,
     KIND_HELP,
     ResolveBuckling,
     Rpm,
@@ -45,6 +44,7 @@ from fctd.cli.steady import (
     in_units,
     metadata_of,
     print_segments,
+    read_depth,
     read_drive,
 )
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
@@ -57,9 +57,7 @@ from fctd.steady.equilibrium import Equilibrium, equilibrium
 def equilibrium_command(
     case_file: CaseFile,
     operations: Annotated[list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}.")],
-    bit_depth: Annotated[
-        str, typer.Option("--bit-depth", metavar="D", help="Bit depth, '2450 m'; bare in m, with --units field in ft.")
-    ],
+    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help=f"{DEPTH_HELP}.")],
     speed: Speed = None,
     rpm: Rpm = None,
     resolve_buckling: ResolveBuckling = None,
@@ -81,7 +79,7 @@ def equilibrium_command(
     case = read_case(case_file, changes_of(overrides, friction, resolve_buckling))
     refuse_sources(case, out, "--out")
     refuse_sources(case, plot, "--plot")
-    depth = read_quantity(bit_depth, LENGTH, "--bit-depth", units)
+    depth = read_depth(bit_depth, case, "--bit-depth", units)
     with naming_file(case):
         check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
     drive = read_drive(speed, rpm, units)

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from fctd.case.errors import InputError
 from fctd.case.specs import WellboreSpec
 from fctd.case.text import is_utf8, printable
-from fctd.case.units import LENGTH
 from fctd.cli.manners import Silent
 from fctd.cli.new_case import Plan, Quantities, UnitSystem, aligned, from_survey, from_template
 from fctd.cli.options import check_target, messages, screen
@@ -21,6 +20,7 @@ from fctd.results.whole_file import whole_file
 Array = NDArray[np.float64]
 # A well that is steeper than this gets the string of the template ``horizontal`` [rad].
 NEARLY_HORIZONTAL = np.radians(70)
+DEPTHS = 10  # from shoe to end, at most, in the chart that is proposed
 
 
 def init_command(
@@ -91,13 +91,12 @@ def _hole(path: Path, **keys: Any) -> WellboreSpec:
 
 def _next(plan: Plan, out: Path) -> list[str]:
     """Commands that the case is ready for."""
-    quantity = Quantities(plan.units)
-    first, last, step = (quantity(LENGTH, share * plan.depth) for share in (0.5, 1.0, 0.05))
+    step = Quantities(plan.units).round_length((plan.depth - plan.shoe) / DEPTHS)
     file, units = printable(str(out)), " --units field" if plan.units == "field" else ""
     kinds = "all" if plan.template.weight_on_bit else "trip_in"
     return [
         f"Next:    fctd check {file}{units}",
-        f"         fctd chart {file} --operation {kinds} --depths '{first}:{last}:{step}' --out chart.csv{units}",
-        f"         fctd equilibrium {file} --operation trip_in --bit-depth '{last}'{units}",
+        f"         fctd chart {file} --operation {kinds} --depths shoe:td:{step} --out chart.csv{units}",
+        f"         fctd equilibrium {file} --operation trip_in --bit-depth td{units}",
         f"         fctd simulate {file}",
     ]

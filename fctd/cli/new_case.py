@@ -157,6 +157,17 @@ class Quantities:
             number = np.floor(number * 10**digits + 1e-6) / 10**digits
         return f"{round(float(number), digits):.10g} {unit}"
 
+    def round_length(self, length: float) -> str:
+        """A bare length of at least this [m]: 1, 2 or 5 times a power of ten in the system's unit."""
+        unit, _ = self.units[LENGTH]
+        return f"{_round_up(length / Quantity(dimension=LENGTH).parse(f'1 {unit}')):g}"
+
+
+def _round_up(number: float) -> float:
+    """The least of 1, 2 or 5 times a power of ten that is not below a number above 0."""
+    power = 10.0 ** np.floor(np.log10(number))
+    return float(next(m * power for m in (1, 2, 5, 10) if m * power >= number))
+
 
 def entry(key: str, value: str, comment: str = "") -> str:
     """A line of TOML with a text."""
@@ -168,19 +179,22 @@ def aligned(line: str, comment: str) -> str:
     return f"{line:<{COMMENTS - 1}} # {comment}" if comment else line
 
 
+def _scaled(template: Template, units: UnitSystem) -> tuple[float, Template]:
+    """What a template's metre is written as, 1 m or 3 ft [m], and the template with parts of such lengths."""
+    scale = 1.0 if units == "metric" else 3 * FOOT
+    parts = (part._replace(length=part.length and part.length * scale) for part in template.string)
+    return scale, template._replace(string=tuple(parts))
+
+
 def from_template(template: Template, name: str, units: UnitSystem) -> Plan:
     """The template's own well."""
-    # Every metre is written as 3 ft.
-    scale = 1.0 if units == "metric" else 3 * FOOT
+    scale, scaled = _scaled(template, units)
     stations = np.array(template.stations) * [scale, 1.0, 1.0]
     quantity = Quantities(units)
     md = [json.dumps(quantity(LENGTH, depth)) if units == "field" else f"{depth:g}" for depth in stations[:, 0]]
     rows = [f"    [{at}, {inc:g}, {azi:g}]," for at, (_, inc, azi) in zip(md, stations, strict=True)]
     unit = "ft" if units == "field" else "m"
     hole = [aligned("stations = [", f"measured depth [{unit}], inclination and azimuth [deg]"), *rows, "]"]
-    scaled = template._replace(
-        string=tuple(part._replace(length=part.length and part.length * scale) for part in template.string)
-    )
     shoe, depth = scale * template.shoe, float(stations[-1, 0])
     stiffness = stiff_wall(scaled, np.radians(stations) * [180 / np.pi, 1.0, 1.0], shoe)
     return Plan(name, template.title, scaled, units, tuple(hole), shoe, depth, "the casing shoe", stiffness)
@@ -193,6 +207,7 @@ def from_survey(
 
     path : as the case writes it; columns : lines of TOML about its columns; stations (n, 3) [m, rad, rad].
     """
+    _, template = _scaled(template, units)
     hole = (entry("survey", path), *columns)
     shoe, depth = sensible_shoe(stations, units), float(stations[-1, 0])
     comment = "an assumed casing shoe, below the build: put yours"
@@ -228,9 +243,7 @@ def stiff_wall(template: Template, stations: Array, shoe: float) -> float:
         above, weight, heaviest = above - length, weight + buoyed * length, max(heaviest, buoyed)
         clearance = min(clearance, 0.5 * 0.0254 * (narrowest - float(part.contact or part.outer)))
     sharpest = float(mean_curvature(stations, np.linspace(0.0, depth, 2000)).max())
-    needed = (weight * sharpest + heaviest) / (0.01 * clearance)
-    power = 10.0 ** np.floor(np.log10(needed))
-    return float(next(m * power for m in (1, 2, 5, 10) if m * power >= needed))
+    return _round_up((weight * sharpest + heaviest) / (0.01 * clearance))
 
 
 STEEL = 7850.0  # kg/m^3

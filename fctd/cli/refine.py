@@ -10,7 +10,6 @@ from rich.table import Table
 
 from fctd.case.doubts import warnings_of
 from fctd.case.text import printable
-from fctd.case.units import LENGTH
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -25,13 +24,12 @@ from fctd.cli.options import (
     print_status,
     print_written,
     read_case,
-    read_quantity,
     read_share,
     refuse_sources,
     screen,
     tell,
 )
-from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, read_drive
+from fctd.cli.steady import DEPTH_HELP, KIND_HELP, ResolveBuckling, Rpm, Speed, Units, read_depth, read_drive
 from fctd.results.unit_systems import System, shown
 from fctd.steady.refine import Refinement, refine
 from fctd.steady.refined_file import survey_from, write_refined
@@ -51,7 +49,7 @@ def refine_command(
         typer.Option(
             "--bit-depth",
             metavar="D",
-            help="Bit depth, '2450 m'; bare in m, with --units field in ft; default: the end of that operation.",
+            help=f"{DEPTH_HELP}; default: the end of that operation.",
         ),
     ] = None,
     graded: Annotated[
@@ -81,7 +79,7 @@ def refine_command(
     refuse_sources(case, out, "--out")
     if out is not None:
         survey_from(out, case)  # raises InputError before the computing
-    depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth", units)
+    depth = None if bit_depth is None else read_depth(bit_depth, case, "--bit-depth", units)
     drive = read_drive(speed, rpm, units)
     tell(case, warnings_of(case, operations, **drive), strict=strict, units=units)
     with messages.status("compiling") as status:

@@ -7,15 +7,17 @@ from typing import Annotated, Any
 import pandas as pd
 import typer
 
+from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.case.units import ROTATION, SPEED
+from fctd.case.units import LENGTH, ROTATION, SPEED
 from fctd.cli.options import check_target, read_quantity, screen
 from fctd.cli.pictures import check_package
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import segments_in_words
+from fctd.plots.facts import shoes_of
 from fctd.results.tables import versions
 from fctd.results.unit_systems import System, in_field_units, shown
 
@@ -41,6 +43,7 @@ Rpm = Annotated[
     str | None,
     typer.Option("--rpm", metavar="N", help=f"Rev/min; default: the case's, else {_defaults('default_rpm')}."),
 ]
+DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
 Units = Annotated[
     System,
     typer.Option("--units", help="Units of tables, pictures and screen, and of bare depths and speeds of options."),
@@ -66,6 +69,22 @@ def read_drive(speed: str | None, rpm: str | None, units: System = "si") -> dict
         "speed": None if speed is None else read_quantity(speed, SPEED, "--speed", units),
         "rpm": None if rpm is None else read_quantity(rpm, ROTATION, "--rpm"),
     }
+
+
+def read_depth(text: str, case: Case, key: str, units: System = "si", *, given: str | None = None) -> float:
+    """A depth [m] of an option: bare numbers in the system's unit; ``shoe`` is the last casing shoe, ``td`` the end.
+
+    given : the option's whole value, where text is a part of it.  Raises InputError, which names the option.
+    """
+    word = text.strip().lower()
+    if word == "td":
+        return case.depths[1]
+    if word == "shoe":
+        shoes = shoes_of(case)
+        if not shoes:
+            raise InputError("a depth, as the case has one interval and no shoe", key=key, value=given or text)
+        return shoes[-1]
+    return read_quantity(text, LENGTH, key, units)
 
 
 def check_table(path: Path | None) -> None:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model import survey
@@ -75,9 +76,21 @@ class Summary:
         return self.buoyed / self.air
 
     def string(self) -> String:
-        """The string with its segments; raises InputError where it does not fit the hole."""
-        hole, string = build_wellbore(self.case), lay_out(self.case, self.bit_depth)
-        check_fit(self.case, string, hole, self.bit_depth)
+        """The string with its segments at the end of the hole, or, where it does not fit there, of the operations.
+
+        Raises InputError where it fits at neither.
+        """
+        try:
+            return self._string_at(self.bit_depth)
+        except InputError:
+            deepest = max((max(o.start_md, o.end_md) for o in self.case.operations), default=self.bit_depth)
+            if deepest >= self.bit_depth:
+                raise
+        return self._string_at(deepest)
+
+    def _string_at(self, bit_depth: float) -> String:
+        string = lay_out(self.case, bit_depth)
+        check_fit(self.case, string, build_wellbore(self.case), bit_depth)
         return string
 
 

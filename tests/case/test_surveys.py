@@ -66,6 +66,7 @@ FOOT = 0.3048
         ("Along Hole Depth (m),Deviation,Azimuth (True North)", 1),
         ("MD (usft),Inc (°),Azi (azimuth) (°)", 1200 / 3937),
         ("Depth (m RT),Inclin,AZI_GN", 1),
+        ("Depth ( ft ),I_deg,A_deg", FOOT),
     ],
 )
 def test_headers_that_the_field_uses(headers: str, unit: float, tmp_path: Path) -> None:
@@ -88,6 +89,14 @@ def test_other_columns_are_nothing(tmp_path: Path) -> None:
     rows = [f"{k},{row},-9,x,{k}" for k, row in enumerate(ROWS)]
     headers = "No,MD (m),Inc,Azi,TVD (m),Tool,DLS (deg/30m)"
     is_the_survey(read(tmp_path, text(headers, rows=rows)))
+
+
+def test_a_letter_names_an_angle_where_no_word_does(tmp_path: Path) -> None:
+    rows = [f"{row},80,70" for row in ROWS]
+    is_the_survey(read(tmp_path, text("md_m,Inc,Azi,I (deg),A (deg)", rows=rows)))
+    for headers in ("md_m,I,Azi", "md_m,I_m,Azi"):
+        with pytest.raises(InputError, match="column inc_deg or inc_rad"):
+            read(tmp_path, text(headers))
 
 
 def test_depth_beside_measured_depth_is_another_one(tmp_path: Path) -> None:

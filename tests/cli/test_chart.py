@@ -1,6 +1,7 @@
 """The steady commands as a user meets them: tables, units, statuses, messages, exit codes."""
 
 import json
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -177,7 +178,7 @@ def test_a_row_without_an_answer_shows_in_row_screen_and_exit_code(
     assert code == 1
     screen, errors = capsys.readouterr()
     assert "diverged" in screen
-    assert "trip_out, friction 0.2: diverged at 650 to 800 m (2 of 3)" in errors
+    assert "trip_out: diverged at 650 to 800 m (2 of 3)" in errors
     table = pd.read_csv(out)
     assert table["status"].tolist() == ["converged", "diverged", "diverged"]
     assert table["hookload_N"].isna().tolist() == [False, True, True]
@@ -197,7 +198,7 @@ def test_a_chart_goes_on_below_the_hole(
     assert code == 1
     screen, errors = capsys.readouterr()
     assert "not_possible" in screen
-    assert 'trip_out, friction 0.2: not_possible at 1000 m (1 of 3): bit_depth = "1000 m": expected a depth' in errors
+    assert 'trip_out: not_possible at 1000 m (1 of 3): bit_depth = "1000 m": expected a depth' in errors
     table = pd.read_csv(out)
     assert table["status"].tolist() == ["converged", "converged", "not_possible"]
     assert table["hookload_N"].isna().tolist() == [False, False, True]
@@ -225,6 +226,21 @@ def test_a_warning_is_on_screen_once_in_the_files_and_on_the_picture(
     assert run(monkeypatch, *given, "--strict") == 1
     assert "strict: warnings are errors (mud_density); nothing is computed" in capsys.readouterr().err
     assert not list(tmp_path.glob("*.svg"))
+
+
+@pytest.mark.parametrize("units", ["si", "field"])
+def test_factors_that_differ_along_the_hole_leave_the_table_its_width(
+    units: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """On a terminal of 80 columns."""
+    monkeypatch.setenv("COLUMNS", "80")
+    intervals = "[{to_md = 600, diameter = 0.3, friction = 0.1}, {to_md = 900, diameter = 0.2159, friction = 0.25}]"
+    given = ("chart", case_file, "--operation", "trip_out", *settings(f"wellbore.intervals={intervals}"))
+    assert run(monkeypatch, *given, "--depths", "td:td:1", "--quiet", "--units", units) == 0
+    printed = capsys.readouterr().out
+    shoe = "600 m" if units == "si" else "1969 ft"
+    assert f"; friction factors: case's own: 0.1 down to {shoe}, 0.25 below\n" in printed
+    assert re.search(r"^ trip_out +[\d.]+( +-?[\d.]+){3} .*converged", printed, re.MULTILINE)
 
 
 def test_friction_by_kind_is_a_line_of_its_own(

@@ -110,6 +110,22 @@ def test_what_does_not_fit_is_refused_below_the_tables(
     assert "-1.27" in out
 
 
+def test_a_string_that_fits_where_its_operations_end_is_checked_there(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Pipe of one segment is straight: with the bit at 390 m it ends at 290 m, above the bend at 300 m."""
+    text = CASE.replace('length = "100 m"', 'length = "100 m"\nsegments = 10')
+    text = text.replace('linear_mass = "30 kg/m"', 'linear_mass = "30 kg/m"\nsegments = 1')
+    case_file.write_text(text)
+    assert run(monkeypatch, "check", case_file) == 2
+    assert "expected a hole within 1 deg of vertical along the top segment" in capsys.readouterr().err
+    operation = 'kind = "trip_in"\nfrom_md = 350\nto_md = {}\nspeed = 0.3\n'
+    case_file.write_text(f"{text}[[operations]]\n{operation.format(390)}")
+    assert "11 segments of 10 to 290 m with the bit at 390.0 m" in printed(case_file, monkeypatch, capsys)
+    case_file.write_text(f"{text}[[operations]]\n{operation.format(700)}")
+    assert run(monkeypatch, "check", case_file) == 2
+
+
 def test_warnings(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ("check", case_file, "--quiet", "--set", "mud.density=10.4")
     assert run(monkeypatch, *arguments) == 0

@@ -49,6 +49,17 @@ def test_equilibrium_prints_the_loads_and_writes_the_profile(
         np.testing.assert_allclose(table[name] * factor, point.profile[column], rtol=1e-12, atol=1e-15)
 
 
+def test_the_end_of_the_hole_is_a_word(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The hole ends at 900 m and has one interval."""
+    assert run(monkeypatch, "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", "td") == 0
+    assert "trip_out, bit at 900.0 m" in capsys.readouterr().out
+    for word, expected in (("shoe", "a depth, as the case has one interval and no shoe"), ("end", "a length such as")):
+        assert run(monkeypatch, "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", word) == 2
+        assert f'--bit-depth = "{word}": expected {expected}' in capsys.readouterr().err
+
+
 def test_equilibrium_without_an_answer_writes_nothing(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -42,6 +42,7 @@ def test_the_commands_that_it_names_run(
     assert run(monkeypatch, "init", "--units", units) == 0
     commands = advised(capsys.readouterr().out)
     assert [command[0] for command in commands] == ["check", "chart", "equilibrium", "simulate"]
+    assert "shoe:td:" in " ".join(commands[1])
     for command in commands[:3]:
         assert run(monkeypatch, *command) == 0
     assert "segments of" in capsys.readouterr().out

@@ -137,6 +137,24 @@ def test_a_depth_is_never_below_the_end_of_the_survey(units: UnitSystem) -> None
     assert end - 0.01 < float(number) * (1.0 if unit == "m" else 0.3048) <= end
 
 
+@BOTH
+def test_lengths_of_a_template_are_round_in_the_hole_of_a_survey(units: UnitSystem) -> None:
+    """A metre of the template is written as 3 ft."""
+    stations = np.array([[0.0, 0.0, 0.0], [1500.0, 0.0, 0.0], [3000.0, 0.7, 0.0]])
+    plan = from_survey(TEMPLATES["build-hold"], "of a survey", units, "s.csv", (), stations)
+    lengths = [part.get("length") for part in tomllib.loads(plan.text())["string"]["components"]]
+    assert lengths == (["120 m", "150 m", None] if units == "metric" else ["360 ft", "450 ft", None])
+
+
+@pytest.mark.parametrize(
+    ("length", "metric", "field"),
+    [(100.0, "100", "500"), (101.0, "200", "500"), (30.48, "50", "100"), (0.3, "0.5", "1")],
+)
+def test_a_round_length_is_at_least_the_given_one(length: float, metric: str, field: str) -> None:
+    assert Quantities("metric").round_length(length) == metric
+    assert Quantities("field").round_length(length) == field
+
+
 def test_quantities_are_rounded_as_a_person_would() -> None:
     assert Quantities("field")(FORCE, 250e3) == "56 klbf"
     assert Quantities("field")(DENSITY, 1250.0) == "10.4 ppg"

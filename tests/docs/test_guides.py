@@ -16,6 +16,7 @@ from fctd.cli import main
 from fctd.model.operations import rad_per_s, steady_rates
 from fctd.results.notes import MEANINGS
 from references import __main__ as references
+from tests.case import survey_files
 from validation.harness.registry import STUDIES
 
 ROOT = Path(__file__).parents[2]
@@ -107,18 +108,57 @@ def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatc
         assert (checkout / target).exists()
 
 
-@pytest.mark.parametrize("document", IN_ORDER, ids=name)
-def test_commands_run_one_after_the_other(document: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """In an empty folder with a survey."""
+def survey_in_feet() -> bytes:
+    """Text with headers as a service company may write them."""
+    return survey_files.text("Depth ( ft ),I_deg,A_deg").encode()
+
+
+def survey_in_a_workbook() -> bytes:
+    pytest.importorskip("xlsxwriter")
+    pytest.importorskip("python_calamine")
+    return survey_files.workbook({"Notes": [["Well A-1"]], "Survey": survey_files.SHEET})
+
+
+def survey_in_witsml() -> bytes:
+    return survey_files.witsml("S1").encode()
+
+
+GUIDE = ROOT / "docs" / "well.md"
+SURVEYS = {"csv": survey_in_feet, "xlsx": survey_in_a_workbook, "xml": survey_in_witsml}
+
+
+# The guide's with every format of survey; those of other documents with one.
+WITH_SURVEYS = [
+    (document, suffix) for document in IN_ORDER for suffix in SURVEYS if suffix == "csv" or document == GUIDE
+]
+
+
+@pytest.mark.parametrize(("document", "suffix"), WITH_SURVEYS, ids=name)
+def test_commands_run_one_after_the_other(
+    document: Path, suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Word for word, but for the suffix of the survey, in an empty folder with a survey in feet to 2,000 ft."""
     pytest.importorskip("matplotlib")
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "survey.csv").write_text((ROOT / "examples" / "my_survey.csv").read_text())
-    for command in commands(document, "console"):
-        program, *arguments = shlex.split(shorter(command))
+    survey = f"survey.{suffix}"
+    content = SURVEYS[suffix]()
+    (tmp_path / survey).write_bytes(content)
+    asked = commands(document, "console")
+    assert len(asked) <= 5
+    for command in asked:
+        program, *arguments = shlex.split(command.replace("survey.csv", survey))
         monkeypatch.setattr(sys, "argv", ["fctd", *arguments])
         with exit_code_0():
             main.run(PROGRAMS[program.removeprefix(".venv/bin/")])
-    assert {"survey.csv", "my.toml", "chart.csv", "chart.png"} < {path.name for path in tmp_path.iterdir()}
+    assert {survey, "my.toml", "chart.csv", "chart.png"} < {path.name for path in tmp_path.iterdir()}
+    assert (tmp_path / survey).read_bytes() == content
+    assert load_case("my.toml").depths[1] == pytest.approx(2000 * 0.3048, abs=0.01)
+
+
+def test_five_commands_lead_to_a_run_in_time() -> None:
+    """Those of the guide, in this order."""
+    names = [command.split()[1] for command in commands(GUIDE, "console")]
+    assert names == ["init", "check", "chart", "equilibrium", "simulate"]
 
 
 def test_what_is_not_run_is_named_and_is_there() -> None:

@@ -30,6 +30,8 @@ _NAMES: Final[dict[StationKey, frozenset[str]]] = {
     "inc": frozenset({"inc", "incl", "inclin", "inclination", "devi", "dev", "deviation", "drift"}),
     "azi": frozenset({"az", "azi", "azim", "azimuth", "hazi"}),
 }
+# A letter names an angle where its unit stands beside it ("I_deg") and no other header names the quantity.
+_LETTERS: Final[dict[StationKey, str]] = {"inc": "i", "azi": "a"}
 _HOLE: Final = frozenset({"angle", "hole", "well", "wellbore", "borehole", "survey"})
 _NORTH: Final = frozenset({"grid", "true", "magnetic", "mag", "north", "gn", "tn", "mn", "corrected"})
 _REFERENCE: Final = frozenset({"rkb", "kb", "rt", "rte", "brt"})
@@ -160,7 +162,7 @@ def _candidates(key: StationKey, cells: Sequence[str], wanted: Wanted) -> list[C
     if wanted.header is not None:
         places = [k for k, cell in enumerate(cells) if _normal(cell) == _normal(wanted.header)]
         return [Column(k, cells[k], _named_unit(cells[k])) for k in places]
-    found, explicit = [], []
+    found, explicit, letters = [], [], []
     for place, cell in enumerate(cells):
         if len(cell) > _LONGEST or not _LETTER.search(cell):  # a sentence, or a number
             continue
@@ -170,8 +172,10 @@ def _candidates(key: StationKey, cells: Sequence[str], wanted: Wanted) -> list[C
             found.append(column)
             if key == "md" and not words <= _PLAIN_DEPTH:
                 explicit.append(column)
+        elif words == {_LETTERS.get(key)} and _named_unit(cell) in UNITS[key]:
+            letters.append(Column(place, cell, _named_unit(cell)))
     fitting = [column for column in explicit or found if column.unit is None or column.unit in UNITS[key]]
-    return fitting or explicit or found
+    return fitting or explicit or found or letters
 
 
 def _score(cells: Sequence[str], columns: Mapping[StationKey, Wanted]) -> int:
