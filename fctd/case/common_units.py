@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Final
 
 # By target and unit, both in pint's words, each the number that pint gives to 15 digits; a test compares them.  To
-# import pint and build its registry takes longer than a chart takes to compute.
+# import pint and build its registry takes half a second.
 COMMON: Final[Mapping[str, Mapping[str, float]]] = {
     "m": {"mm": 0.001, "cm": 0.01, "km": 1000.0, "foot": 0.3048, "inch": 0.0254, "ft": 0.3048, "in": 0.0254},
     "s": {"ms": 0.001, "min": 60.0, "minute": 60.0, "h": 3600.0},

@@ -5,7 +5,6 @@ from decimal import Decimal
 import pytest
 
 from fctd.case import spellings, units
-from fctd.case.common_units import COMMON
 from fctd.case.errors import InputError
 
 # Exact by definition (NIST SP 811, appendix B.8): pound [kg], foot and inch [m], standard gravity [m/s^2].
@@ -93,11 +92,6 @@ def test_another_dimension_is_refused_with_the_accepted_units(text: str, dimensi
     with pytest.raises(InputError) as caught:
         units.Quantity(dimension=dimension).parse(text)
     assert caught.value.expected.endswith(f"({dimension.accepted})")
-
-
-def test_common_units_have_the_factors_of_the_registry() -> None:
-    for target, factors in COMMON.items():
-        assert factors == {unit: spellings.by_registry(unit, target) for unit in factors}
 
 
 def test_every_accepted_unit_is_accepted() -> None:
