@@ -16,7 +16,7 @@ from fctd.mechanics.compile_cache import STORE, CompileCacheWarning, KeptCode, S
 from fctd.simulation.simulate import simulate
 from fctd.steady.equilibrium import equilibrium
 
-# The smallest case that calls every function: a string hung in a straight hole.
+# The smallest case that calls every function: a string hung in a straight hole, with a long segment at its top.
 SMALL: dict[str, Any] = {
     "name": "compile",
     "wellbore": {
@@ -25,7 +25,8 @@ SMALL: dict[str, Any] = {
     },
     "string": {
         "components": [
-            {"name": "pipe", "length": 100.0, "outer_diameter": 0.1, "inner_diameter": 0.05, "segments": 2},
+            {"name": "pipe", "length": 50.0, "outer_diameter": 0.1, "inner_diameter": 0.05, "segments": 2},
+            {"name": "pipe to surface", "outer_diameter": 0.1, "inner_diameter": 0.05, "segments": 1},
         ]
     },
     "operations": [{"kind": "rotate_off_bottom", "at_md": 90.0, "duration": 0.1, "rpm": 60.0, "ramp_time": 0.1}],

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from fctd.mechanics.jit import inlined
+from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import hinge_gap, joint_loads, strain_energy
 from fctd.mechanics.rotations import half_twist, turned
 from fctd.mechanics.state import (
@@ -119,6 +119,12 @@ def set_long_segment(S, length, pipe):
     S[K_SHEAR + 1] = pipe.shear / length
     S[K_BEND + 1] = pipe.EI / length
     S[K_TWIST + 1] = pipe.GJ / length
+
+
+@entry
+def put_long_segment(S, length, pipe):
+    """``set_long_segment`` for Python, which would compile an inlined function in every process."""
+    set_long_segment(S, length, pipe)
 
 
 @inlined

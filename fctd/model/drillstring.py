@@ -11,7 +11,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
-from fctd.mechanics.topdrive import GRAVITY, PerMetre, set_long_segment
+from fctd.mechanics.topdrive import GRAVITY, PerMetre, put_long_segment
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.wellbore import RADIUS, TO_MD, Wellbore
 
@@ -365,7 +365,7 @@ def fill(S: Array, string: String, case: Case) -> PerMetre:
     )  # fmt: skip
     if string.long_segment:
         row(S, state.ARM_BOTTOM, n)[0] = row(S, state.ARM_CONTACT, n)[0] = 0.0
-        set_long_segment(S, length[0], pipe)
+        put_long_segment(S, length[0], pipe)
     else:
         pipe = pipe._replace(weight=0.0)
     for inverse, of in (

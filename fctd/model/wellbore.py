@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
@@ -169,6 +168,8 @@ class Wellbore:
 
     def nearest(self, points: Array) -> NDArray[np.int64]:
         """Piece nearest to each point, from samples of the axis at most half a metre apart."""
+        from scipy.spatial import cKDTree  # seldom needed, and slow to import
+
         md = _divided(self.md, np.ceil(np.diff(self.md) / 0.5))
         _, i = cKDTree(self.at(md)[0]).query(points)
         return np.searchsorted(self.pieces[:, contact.START_MD], md[i], side="right").astype(np.int64) - 1

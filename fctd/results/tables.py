@@ -16,8 +16,6 @@ from uuid import uuid4
 import numba
 import numpy as np
 import pandas as pd
-import pyarrow as pa
-import pyarrow.parquet as pq
 
 from fctd.case.errors import InputError
 from fctd.case.input_file import check_regular
@@ -140,6 +138,8 @@ def open_result(folder: str | os.PathLike[str], pause: float = PAUSE) -> Simulat
 
 
 def _read(folder: Path) -> SimulationResult:
+    import pyarrow.parquet as pq  # slow to import, and most commands write CSV
+
     tables, origins = {}, {}
     with ExitStack() as stack:
         try:
@@ -185,6 +185,8 @@ def _read(folder: Path) -> SimulationResult:
 
 def _metadata(path: Path) -> dict[bytes, bytes]:
     """Metadata of a Parquet file; empty for another file."""
+    import pyarrow.parquet as pq
+
     try:
         return dict(pq.read_schema(path).metadata or {})
     except (OSError, ValueError):
@@ -218,6 +220,9 @@ def _to_csv(frame: pd.DataFrame, path: Path, _: Mapping[str, Any] | None = None)
 
 def _to_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
     """Write a table; the metadata are added to those of pandas, texts as they are and other values as JSON."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
     table = pa.Table.from_pandas(frame, preserve_index=False)
     kept = dict(table.schema.metadata or {})
     for key, value in metadata.items():

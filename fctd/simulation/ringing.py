@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh_tridiagonal
 
 from fctd.mechanics import contact, state, topdrive
 from fctd.model.drillstring import String
@@ -124,9 +123,11 @@ def cylinder_tilt(hole: Wellbore) -> Tilt:
 
 def _modes(run: Run, string: String, probe: Array) -> Modes:
     """Modes of a string hanging from the top drive; probe : a state buffer for its long segment."""
+    from scipy.linalg import eigh_tridiagonal  # slow to import, and a steady string needs none
+
     n = string.segments
     if string.long_segment:
-        topdrive.set_long_segment(probe, string.length[0], run.pipe)
+        topdrive.put_long_segment(probe, string.length[0], run.pipe)
     k, mass, mud = (state.row(probe, offset, n) for offset in (state.K_AXIAL, state.MASS, state.MUD_AXIAL))
     square, vectors = eigh_tridiagonal(
         (k + np.append(k[1:], 0.0)) / mass, -k[1:] / np.sqrt(mass[1:] * mass[:-1]),

@@ -164,7 +164,7 @@ def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerM
     spin = max(rad_per_s(o.rpm) for o in case.operations)
     probe = S.copy()
     if string.long_segment:
-        topdrive.set_long_segment(probe, string.length[0] + shrinks, pipe)
+        topdrive.put_long_segment(probe, string.length[0] + shrinks, pipe)
     wall = hole.stiffest_wall if case.contact.enabled else 0.0
     try:
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):

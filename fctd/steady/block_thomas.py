@@ -2,7 +2,6 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_banded
 
 from fctd.mechanics.jit import entry
 
@@ -108,6 +107,8 @@ def solve_with_pivoting(D: Array, A: Array, U: Array, R: Array, n: int) -> Array
 
     Raises LinAlgError when the matrix is singular.
     """
+    from scipy.linalg import solve_banded  # seldom needed, and slow to import
+
     width = 2 * SIZE - 1
     banded = np.zeros((2 * width + 1, n * SIZE))
     for offset, blocks, first in ((0, D[1 : n + 1], 0), (-SIZE, A[2 : n + 1], 1), (SIZE, U[2 : n + 1], 0)):

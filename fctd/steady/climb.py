@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.problem import Pose, Problem, Share
@@ -231,6 +230,8 @@ def _close(problem: Problem, path: Climb) -> None:
     share = np.array([step.share for step in path.steps])
     left = np.array([step.hookload for step in path.steps]) + problem.case.rig.block_weight
     if len(left) > 1 and left[0] > 0 > left[-1]:
+        from scipy.interpolate import PchipInterpolator  # seldom needed, and slow to import
+
         path.spent_at = float(PchipInterpolator(share, left).roots(extrapolate=False)[0])
     elif len(left) and left[0] <= 0:
         path.spent_at = float(share[0])

@@ -200,11 +200,18 @@ class Solver:
         check_fit(self.case, string, self.hole, bit_depth)
         return string
 
-    # Of an iteration that diverged only the status is used; its numbers may overflow.
-    @np.errstate(over="ignore", invalid="ignore")
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
-        problem = self.problem(operation, rates, bit_depth)
+        return self.solve_string(operation, rates, self.lay_out(bit_depth))
+
+    # Of an iteration that diverged only the status is used; its numbers may overflow.
+    @np.errstate(over="ignore", invalid="ignore")
+    def solve_string(self, operation: str, rates: SteadyRates, string: String) -> Equilibrium:
+        """The same of a string that has been laid out, which depends neither on operation nor on friction.
+
+        Raises InputError when a resolved string has too many segments.
+        """
+        problem = self.problem(operation, rates, string)
         point = self.settle(problem)
         # Of an unstable balance the solver's pose may be another.
         buckled = point.answered and point.status != SteadyStatus.UNSTABLE and point.buckling.mode == "helical"
@@ -259,7 +266,8 @@ class Solver:
         coarse.iterations += iterations
 
         def lay(case: Case) -> Problem:
-            finer = self.problem(problem.operation, problem.rates, problem.string.bit_depth, case)
+            string = lay_out(case, problem.string.bit_depth)
+            finer = self.problem(problem.operation, problem.rates, string, case)
             finer.at_axis = 1
             return finer
 
@@ -287,13 +295,9 @@ class Solver:
             return point
         return replace(point, message=_end_of(problem, path) or point.message)
 
-    def problem(self, operation: str, rates: SteadyRates, bit_depth: float, cut: Case | None = None) -> Problem:
-        """The string at a bit depth [m] as a problem; raises InputError when string and hole do not fit there.
-
-        cut : the case with other segments.
-        """
+    def problem(self, operation: str, rates: SteadyRates, string: String, cut: Case | None = None) -> Problem:
+        """A laid-out string as a problem; cut : the case with other segments, of which it has been laid out."""
         case = self.case if cut is None else cut
-        string = self.lay_out(bit_depth) if cut is None else lay_out(cut, bit_depth)
         if self.work.segments < string.segments:
             self.work = Workspace(string.segments)
         return Problem(case, self.hole, self.work, string, operation, rates)

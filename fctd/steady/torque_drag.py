@@ -9,6 +9,7 @@ from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, friction_set, friction_sets, own_label
 from fctd.case.load import Case, naming_file
 from fctd.case.units import LENGTH, argument
+from fctd.model.drillstring import String
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import UNKNOWN
@@ -56,15 +57,17 @@ def torque_drag(
         sets = None if friction is None else friction_sets(friction)
         hole = build_wellbore(case)
         solvers = _solvers(case, hole, sets)
-        misfits = _misfits(solvers[0][1], depths)
+        strings = _lay_out(solvers[0][1], depths)
         rows = []
         for kind in kinds:
             for label, solver in solvers:
-                for depth in depths:
-                    point, misfit = None, misfits.get(depth)
-                    if misfit is None:
+                for depth, string in zip(depths, strings, strict=True):
+                    point, misfit = None, ""
+                    if isinstance(string, InputError):
+                        misfit = str(string)
+                    else:
                         try:
-                            point = solver.solve(kind, rates[kind], depth)
+                            point = solver.solve_string(kind, rates[kind], string)
                         except InputError as error:  # as of a resolved string with too many segments
                             misfit = str(error)
                     rows.append(_row(solver.case, label, kind, depth, point, misfit))
@@ -95,22 +98,20 @@ def own_friction(case: Case) -> float:
     return factors.pop() if len(factors) == 1 else float("nan")
 
 
-def _misfits(solver: Solver, depths: Sequence[float]) -> dict[float, str]:
-    """Depths at which string and hole do not fit, with the reason; raises InputError where they fit at none."""
-    found: dict[float, InputError] = {}
+def _lay_out(solver: Solver, depths: Sequence[float]) -> list[String | InputError]:
+    """The string at each depth, or why string and hole do not fit; raises InputError where they fit at none."""
+    found: list[String | InputError] = []
     for depth in depths:
         try:
-            solver.lay_out(depth)
+            found.append(solver.lay_out(depth))
         except InputError as error:
-            found[depth] = error
-    if len(found) == len(depths):
-        raise found[depths[0]]
-    return {depth: str(error) for depth, error in found.items()}
+            found.append(error)
+    if isinstance(found[0], InputError) and all(isinstance(string, InputError) for string in found):
+        raise found[0]
+    return found
 
 
-def _row(
-    case: Case, label: str, kind: str, depth: float, point: Equilibrium | None, misfit: str | None
-) -> dict[str, object]:
+def _row(case: Case, label: str, kind: str, depth: float, point: Equilibrium | None, misfit: str) -> dict[str, object]:
     """A chart row: of a solved string, or of a depth where string and hole do not fit (point is None)."""
     answer = point if point is not None and point.answered else None
     # The values of an unfinished iteration are not loads.

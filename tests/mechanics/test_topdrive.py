@@ -24,7 +24,6 @@ from tests.bodies import (
 from tests.compiled import kept
 
 ramp = kept(topdrive.ramp)
-set_long_segment = kept(topdrive.set_long_segment)
 long_segment_energy = kept(topdrive.long_segment_energy)
 spring_tension = kept(topdrive.spring_tension)
 planned_speeds = kept(topdrive.planned_speeds)
@@ -45,7 +44,7 @@ def hung(length: float, stretch: float = 0.0, twist: float = 0.0) -> tuple[Array
     top[topdrive.TOP_LENGTH] = length
     place(S, 0, TILT, [0.0, 0.0, 0.0])
     place(S, 1, TILT * Rotation.from_rotvec([0, 0, twist]), (length + stretch) * AXIAL)
-    set_long_segment(S, length, PIPE)
+    topdrive.put_long_segment(S, length, PIPE)
     return S, top
 
 

@@ -36,6 +36,7 @@ def onset(case: Case) -> float:
 def problem_of(case: Case) -> Problem:
     """The sliding string of a case, with friction at its axis."""
     rates = steady_rates(case, "drill_sliding", None, None)
-    problem = Solver(case).problem("drill_sliding", rates, case.wellbore.intervals[-1].to_md)
+    solver = Solver(case)
+    problem = solver.problem("drill_sliding", rates, solver.lay_out(case.wellbore.intervals[-1].to_md))
     problem.at_axis = 1
     return problem

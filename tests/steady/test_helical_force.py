@@ -105,7 +105,8 @@ def test_friction_acts_against_the_sliding_of_the_surface(law: str, operation: s
 def pressed(case: Case, operation: str) -> tuple[Problem, float]:
     """A level string in balance under the weight on bit, with the force of its helix; its speed [m/s]."""
     rates = steady_rates(case, operation)
-    problem = Solver(case).problem(operation, rates, case.wellbore.intervals[-1].to_md)
+    solver = Solver(case)
+    problem = solver.problem(operation, rates, solver.lay_out(case.wellbore.intervals[-1].to_md))
     problem.weight_on_bit = case.bit.weight_on_bit
     balance(problem)
     Helical(problem).add()

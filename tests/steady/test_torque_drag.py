@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from fctd import InputError, equilibrium, load_case, torque_drag
+from fctd.model.drillstring import String
 from fctd.model.operations import SteadyRates
 from fctd.steady.equilibrium import Equilibrium, Solver
 from tests.cases import level_case, make_case, pipe
@@ -142,14 +143,14 @@ def test_a_depth_that_does_not_fit_is_a_row_with_its_reason() -> None:
 
 def test_a_row_that_cannot_be_laid_out_does_not_end_the_chart(monkeypatch: pytest.MonkeyPatch) -> None:
     """As a resolved string may be, of which only the solver finds out."""
-    solve = Solver.solve
+    solve = Solver.solve_string
 
-    def fails_at_800(solver: Solver, kind: str, rates: SteadyRates, depth: float) -> Equilibrium:
-        if depth == 800:
+    def fails_at_800(solver: Solver, kind: str, rates: SteadyRates, string: String) -> Equilibrium:
+        if string.bit_depth == 800:
             raise InputError("at most 10 segments", key="string.components")
-        return solve(solver, kind, rates, depth)
+        return solve(solver, kind, rates, string)
 
-    monkeypatch.setattr(Solver, "solve", fails_at_800)
+    monkeypatch.setattr(Solver, "solve_string", fails_at_800)
     chart = torque_drag(case_of(), "trip_out", [700.0, 800.0, 850.0])
     assert chart["status"].tolist() == ["converged", "not_possible", "converged"]
     assert chart["reason"][1] == "string.components is missing: expected at most 10 segments"

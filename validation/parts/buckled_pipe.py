@@ -87,7 +87,7 @@ class Rig:
         )
         self.solver = Solver(self.case)
         self.problem = self.solver.problem(
-            OPERATION, steady_rates(self.case, OPERATION, None, None), BELOW_SURFACE + length
+            OPERATION, steady_rates(self.case, OPERATION, None, None), self.solver.lay_out(BELOW_SURFACE + length)
         )
         # Friction at the pipe's surface turns a helix about the hole's axis for ever; the closed forms have it act at
         # the pipe's axis.
