@@ -301,7 +301,7 @@ def test_the_screen_has_a_line_for_every_note_and_stretch_of_depths(
     (line,) = [line for line in errors.splitlines() if "note yield" in line]
     headline, remedy = notes.MEANINGS["yield"]
     where = f"{first:g} to 1800 m ({with_yield.sum()} of 14)"
-    assert line == f"trip_out, friction 0.5: note yield at {where}: {headline}: {remedy}"
+    assert line == f"trip_out: note yield at {where}: {headline}: {remedy}"
     assert json.loads((tmp_path / "chart.csv.json").read_text())["notes"]["yield"]["headline"] == headline
 
     assert run(monkeypatch, "chart", case, *asked, "--out", out, "--strict") == 1
