@@ -296,5 +296,7 @@ def _handles(view: _View, series: list[Series], unnamed: list[_Pair]) -> list[Ar
     if any(((one.rows["status"] != "converged") & one.rows["hookload_N"].notna()).any() for one in series):
         handles.append(Line2D([], [], color=QUIET, marker="o", label="not converged: see state", **OPEN))
     if view.measured is not None:
-        handles.append(Line2D([], [], marker="o", label="measured, with range", **MEASURED_LOOK))
+        ranged = view.measured.filter(regex="_(low|high)_").notna().any(axis=None)
+        label = "measured, with range" if ranged else "measured"
+        handles.append(Line2D([], [], marker="o", label=label, **MEASURED_LOOK))
     return handles

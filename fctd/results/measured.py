@@ -18,6 +18,7 @@ from fctd.case.units import FORCE, LENGTH, TORQUE, Dimension, Quantity
 from fctd.results.columns import COLUMNS
 
 _LARGEST_FILE: Final = 8  # MiB
+_BELOW: Final = 30.0  # m: a measured depth may exceed the last station of the survey by a joint or two
 
 
 class _Field(NamedTuple):
@@ -57,7 +58,7 @@ def read_measured(path: Path, case: Case) -> pd.DataFrame:
     the block weight of the case, and the other way round.  Raises InputError, which names file, row and column.
     """
     try:
-        table = _table(_rows(path))
+        table = _table(_rows(path), case.depths[1])
     except InputError as error:
         raise error.in_file(path) from error.__cause__
     rig = case.rig
@@ -83,7 +84,8 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
         raise InputError(f"a CSV file of text ({error})") from error
 
 
-def _table(rows: Sequence[tuple[int, list[str]]]) -> pd.DataFrame:
+def _table(rows: Sequence[tuple[int, list[str]]], deepest: float) -> pd.DataFrame:
+    """The measured rows; deepest [m] : end of the hole."""
     if len(rows) < 2:
         raise InputError("a row of headers and a row for each measurement")
     (first, headers), *body = rows
@@ -105,7 +107,9 @@ def _table(rows: Sequence[tuple[int, list[str]]]) -> pd.DataFrame:
             cell = cells[k] if k < len(cells) else ""
             if name:
                 try:
-                    record[name] = _cell(cell, name, quantity, unit)
+                    record[name] = value = _cell(cell, name, quantity, unit)
+                    if name == "bit_depth_m" and isinstance(value, float) and value > deepest + _BELOW:
+                        raise InputError(f"a depth in the hole, which ends at {deepest:g} m")
                 except InputError as error:
                     raise InputError(error.expected, key=f"row {line}, {headers[k]}", value=cell) from error
         _check_ranges(record, line)

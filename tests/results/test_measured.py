@@ -89,3 +89,13 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     (tmp_path / "binary.csv").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(InputError, match="CSV file of text"):
         read_measured(tmp_path / "binary.csv", CASE)
+
+
+def test_a_depth_below_the_hole_is_refused(tmp_path: Path) -> None:
+    """By more than the joints between the last station and the bit."""
+    rows = "depth_m,operation,hookload_kN\n{},trip_in,500\n"
+    assert len(read_measured(written(tmp_path, rows.format(2025)), CASE)) == 1
+    with pytest.raises(
+        InputError, match=r'row 2, depth_m = "9000": expected a depth in the hole, which ends at 2000 m'
+    ):
+        read_measured(written(tmp_path, rows.format(9000)), CASE)
