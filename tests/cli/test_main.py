@@ -116,7 +116,7 @@ def test_with_a_full_disk_the_answer_is_still_printed(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("fctd.results.tables.pq.write_table", full)
+    monkeypatch.setattr("pyarrow.parquet.write_table", full)
     out = tmp_path / "out"
     assert run(monkeypatch, "simulate", case_file, "--out", out, "--quiet") == 2
     captured = capsys.readouterr()
