@@ -32,8 +32,8 @@ ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
 AGREEING, STEPS, BEYOND = 0.01, 3, 10.0
 # From a push of so many weights on, a step goes so far towards lock-up as it is extrapolated there.
 PUSHED, TOWARDS = 0.25, 0.6
-# The compression for which segments are cut is that of a push of at most this share of the weight beyond the block's:
-# lock-up hangs little on the segments (0.2 % for segments twice as long), and their number grows with the push.
+# The compression for which segments are cut is that of a push of at most this share of the weight beyond the block's,
+# since their number grows with the push; what lock-up needs beyond that is in post_buckling.py.
 SOUND = 0.05
 # A locked string is followed up to this share of its loads.
 FARTHEST = 5.0
