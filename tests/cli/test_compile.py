@@ -47,6 +47,7 @@ assert not several, several
 """
 
 
+@pytest.mark.slow
 def test_compile_reaches_every_function_with_every_signature() -> None:
     done = subprocess.run(
         [sys.executable, "-c", EVERY_SIGNATURE], cwd=Path(__file__).parents[2], capture_output=True, text=True

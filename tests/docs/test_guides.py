@@ -33,6 +33,8 @@ NOT_RUN = {
 PROGRAMS = {"fctd": main.app, "python -m references": references.app}
 # A window in which an engine's string of the guide is settled already, as that of its Python block is.
 SHORT_WINDOW = "--start 5 --duration 1.5"
+# Guides whose engines and meshes run for seconds each.
+SLOW = {"references.md"}
 # What a Python block prints.
 PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],
@@ -56,7 +58,18 @@ def commands(document: Path, language: str = "sh") -> list[str]:
 
 COMMANDS = [(document, command) for document in DOCUMENTS for command in commands(document)]
 IN_ORDER = [document for document in DOCUMENTS if "```console\n" in document.read_text(encoding="utf-8")]
-RUN = [(document, command) for document, command in COMMANDS if not command.startswith(tuple(NOT_RUN))]
+
+
+def slow(document: Path) -> Any:
+    """The mark of the tests of a document."""
+    return pytest.mark.slow if document.name in SLOW else ()
+
+
+RUN = [
+    pytest.param(document, command, marks=slow(document))
+    for document, command in COMMANDS
+    if not command.startswith(tuple(NOT_RUN))
+]
 
 
 def name(value: Path | str) -> str:
@@ -129,7 +142,10 @@ SURVEYS = {"csv": survey_in_feet, "xlsx": survey_in_a_workbook, "xml": survey_in
 
 # The guide's with every format of survey; those of other documents with one.
 WITH_SURVEYS = [
-    (document, suffix) for document in IN_ORDER for suffix in SURVEYS if suffix == "csv" or document == GUIDE
+    pytest.param(document, suffix, marks=() if suffix == "csv" else pytest.mark.slow)
+    for document in IN_ORDER
+    for suffix in SURVEYS
+    if suffix == "csv" or document == GUIDE
 ]
 
 
@@ -166,7 +182,7 @@ def test_what_is_not_run_is_named_and_is_there() -> None:
         assert any(command.startswith(prefix) for _, command in COMMANDS), prefix
 
 
-@pytest.mark.parametrize("document", [d for d in GUIDES if blocks(d, "python")], ids=name)
+@pytest.mark.parametrize("document", [pytest.param(d, marks=slow(d)) for d in GUIDES if blocks(d, "python")], ids=name)
 def test_the_python_blocks_run(document: Path, checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("matplotlib")
     if "mujoco" in "".join(blocks(document, "python")):

@@ -87,6 +87,7 @@ def test_static_work_is_stored_or_lost_to_friction():
     assert work(lowered(pipe(), 1.0, 100).ledger) < work(ledger)
 
 
+@pytest.mark.slow
 def test_slow_lowering_tends_to_equilibrium():
     """Difference of the states of first order in the speed, below 1 % of the clearance at the lowest speed."""
     still, slowed = lowered(pipe(), 1.0, 20).states, pipe(lateral_damping=20.0)

@@ -22,11 +22,17 @@ SETTINGS += [
     (name, {"facets": facets, "ring_spacing": ring}) for name in MESHES for facets, ring in ((24, 3.0), (96, 1.0))
 ]
 SETTINGS += [(name, {"query": "collide"}) for name in ("fcl", "coal")]
+FINE = {"facets": 96, "ring_spacing": 1.0}
 IDS = ["-".join([name, *(f"{value}" for value in options.values())]) for name, options in SETTINGS]
 BUILT: dict[str, contact.ContactMethod] = {}
 
 
-@pytest.fixture(params=zip(IDS, SETTINGS, strict=True), ids=IDS)
+@pytest.fixture(
+    params=[
+        pytest.param((key, setting), id=key, marks=pytest.mark.slow if setting[1] == FINE else ())
+        for key, setting in zip(IDS, SETTINGS, strict=True)
+    ]
+)
 def method(request: pytest.FixtureRequest) -> contact.ContactMethod:
     """A method built for the case; skipped, with the name of its package, where that is missing."""
     key, (name, options) = request.param
@@ -186,7 +192,7 @@ def test_every_class_has_the_name_of_its_registry_entry(name: str) -> None:
             {"ring_spacing": "300 m"},
             'ring_spacing = "300 m": expected at most the length of the hole, 240 m',
         ),
-        ("bullet", {"facets": 400, "ring_spacing": 0.5}, "at most the 174762 triangles that bullet accepts"),
+        ("bullet", {"facets": 400, "ring_spacing": 1.0}, "at most the 174762 triangles that bullet accepts"),
         ("fcl", {"query": "guess"}, "fcl.query"),
         ("fcl", {"ring": 1}, "ring_spacing"),
         ("arcs", {"facets": 4}, "facets"),

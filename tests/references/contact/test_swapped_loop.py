@@ -50,6 +50,7 @@ def test_the_compiled_for_loop_equals_fctd_where_its_cylinder_is_unique() -> Non
     assert state.row(loop.S, state.SUM_NORMAL, run.segments).sum() > 0
 
 
+@pytest.mark.slow
 def test_loads_of_a_turning_string_with_fcl_are_those_of_fctd() -> None:
     pytest.importorskip("fcl")
     case = turning()

@@ -104,6 +104,7 @@ def s_shape() -> Callable[[str, str], EngineRun]:
     return run
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", GEOMETRIES)
 @pytest.mark.parametrize("name", ["mujoco", "elastica"])
 def test_a_well_that_turns_below_an_inclined_top(
@@ -118,6 +119,7 @@ def test_a_well_that_turns_below_an_inclined_top(
         assert mean(run, column) == pytest.approx(mean(own, column), rel=bound)
 
 
+@pytest.mark.slow
 @BULLET
 @pytest.mark.parametrize("geometry", GEOMETRIES)
 def test_bullet_notes_why_its_torque_is_low_where_the_hole_turns(
@@ -178,7 +180,7 @@ def test_friction_obeys_coulomb_at_an_oblique_azimuth(name: str, least: float) -
 
 
 @BULLET
-@pytest.mark.parametrize("azimuth", [15.0, 60.0])
+@pytest.mark.parametrize("azimuth", [pytest.param(15.0, marks=pytest.mark.slow), 60.0])
 def test_bullet_friction_deviates_as_computed_from_two_fixed_directions(azimuth: float) -> None:
     """The reason why the ``fair`` settings turn the hole into Bullet's own plane."""
     lean = lean_of_two_directions(azimuth)
@@ -214,7 +216,7 @@ def test_a_freely_hanging_string_has_the_same_hook_load_and_torque(name: str) ->
     ("name", "options", "failed"),
     [
         ("bullet", {"step": "12 ms"}, "finite state"),
-        ("mujoco", {"stiffness": "1e3 N/m"}, "end points inside the hole"),
+        pytest.param("mujoco", {"stiffness": "1e3 N/m"}, "end points inside the hole", marks=pytest.mark.slow),
         ("elastica", {"step": "8 ms"}, "energy"),
         ("elastica", {"step": "8 ms"}, "chain length"),
     ],
