@@ -133,6 +133,7 @@ def test_signals_wait_for_their_handlers() -> None:
         signal.signal(signal.SIGTERM, before[1])
 
 
+@pytest.mark.slow
 def test_results_are_written_after_the_terminal_has_closed(case_file: Path, tmp_path: Path) -> None:
     """With its bar and its tables on that terminal."""
     code = (

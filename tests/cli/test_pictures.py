@@ -18,7 +18,10 @@ def case_file(tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize("suffix", PICTURES)
+@pytest.mark.parametrize(
+    "suffix",
+    [pytest.param(suffix, marks=pytest.mark.slow if suffix in {".svg", ".pdf"} else ()) for suffix in PICTURES],
+)
 def test_a_picture_is_as_its_suffix_says(
     suffix: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -303,6 +303,7 @@ def test_refine_refuses_at_once_a_survey_that_toml_cannot_name(
     assert "UTF-8" in err
 
 
+@pytest.mark.slow
 def test_a_title_is_no_formula(wild: str, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plots = ("--plot", "a.svg", "--plot-profile", "b.svg")
     for name in (r"\\$\\frac{$", "$\\\\frac{ \\u001b"):

@@ -48,6 +48,7 @@ def test_a_new_result_takes_the_place_of_the_old_one(tmp_path: Path) -> None:
     assert folder.stat().st_mode & 0o777 == 0o750
 
 
+@pytest.mark.slow
 def test_killed_at_every_step_it_is_the_old_or_the_new_one(tmp_path: Path) -> None:
     """SIGKILL before every change of the file system, also while it is repaired."""
     done = subprocess.run([sys.executable, "-m", "tests.killed_saves", tmp_path], cwd=ROOT, capture_output=True)
