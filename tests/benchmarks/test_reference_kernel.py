@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 from numba import njit
 
 from benchmarks import reference_kernel as kernel
@@ -44,6 +45,7 @@ def test_values_stay_normal_and_of_order_one() -> None:
     assert not (np.abs(S[S != 0]) < np.finfo(float).tiny).any()
 
 
+@pytest.mark.slow
 def test_it_is_packed_arithmetic_with_division_and_root() -> None:
     fresh = njit(error_model="numpy")(kernel.reference_kernel.py_func)  # numba does not show code from its cache
     fresh(kernel.new_buffer(), 1)

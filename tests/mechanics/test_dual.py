@@ -6,24 +6,24 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numba import njit
 
 from fctd.mechanics.dual import reciprocal, root
+from tests.compiled import kept
 
 STEP = 1e-30
 
 
-@njit
+@kept
 def compiled_root(x):
     return root(x)
 
 
-@njit
+@kept
 def compiled_reciprocal(x):
     return reciprocal(x)
 
 
-@njit
+@kept
 def witch(x):
     """1/√(1 + x²), by root and reciprocal."""
     return reciprocal(root(1 + x * x))

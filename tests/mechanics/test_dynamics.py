@@ -35,6 +35,7 @@ from tests.compiled import kept
 
 push_freely, move_bodies = kept(dynamics.push_freely), kept(dynamics.move_bodies)
 read_top_drive = kept(topdrive.read_top_drive)
+may_touch = kept(dynamics.may_touch)
 strain_energy, joint_twist = kept(joints.strain_energy), kept(joints.joint_twist)
 
 FREE = state.Laws(state.OPEN, CODES["coulomb"], 1.0, 0.0, 0.0, 0.0)
@@ -219,11 +220,11 @@ def test_stepper_converges_at_first_order() -> None:
         (dynamics.update_axes, ()),
         pytest.param(joints.update_joint_loads, (1e-4, 1e-3), marks=pytest.mark.slow),
         (follow_cylinders, ()),
-        (follow_arcs, ()),
+        pytest.param(follow_arcs, (), marks=pytest.mark.slow),
         pytest.param(dynamics.PUSHES[CODES["coulomb"]], (FREE, 1e-3), marks=pytest.mark.slow),
         pytest.param(dynamics.PUSHES[CODES["paper"]], (FREE, 1e-3), marks=pytest.mark.slow),
-        (dynamics.push_freely, (FREE, 1e-3)),
-        (dynamics.move_bodies, (1e-3,)),
+        pytest.param(dynamics.push_freely, (FREE, 1e-3), marks=pytest.mark.slow),
+        pytest.param(dynamics.move_bodies, (1e-3,), marks=pytest.mark.slow),
     ],
 )
 def test_kernels_are_packed(kernel, arguments: tuple) -> None:
@@ -237,6 +238,7 @@ def test_kernels_are_packed(kernel, arguments: tuple) -> None:
     assert packed >= 0.9 * scalar
 
 
+@pytest.mark.slow
 @compiled
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86-64 instructions")
 def test_the_query_of_one_arc_is_packed() -> None:
@@ -252,11 +254,6 @@ def operations(kernel, *arguments) -> tuple[int, int]:
     assembly = "\n".join(kernel.inspect_asm().values())
     arithmetic = r"\bv?(?:add|sub|mul|div|sqrt|fn?m(?:add|sub)\d{3})"
     return len(re.findall(arithmetic + r"pd\b", assembly)), len(re.findall(arithmetic + r"sd\b", assembly))
-
-
-@njit(error_model="numpy")
-def may_touch(S, first):
-    return dynamics.may_touch(S, first)
 
 
 @pytest.mark.parametrize("lane", range(state.LANES))

@@ -55,8 +55,7 @@ def pushed(turn, off, velocity, spin, depth=2e-3, damping=0.0, mu=0.25, law=CODE
     put(S, 1, TO_WALL, (HOLE - RADIUS + depth) * normal)
     put(S, 1, VELOCITY, velocity)
     put(S, 1, SPIN, turned.inv().apply(spin))
-    push = dynamics.PUSHES[law]
-    push(S, state.LANES, Laws(state.ARCS, law, 1.0, damping, 0.0, 0.0), DT)
+    update_velocities(S, state.LANES, Laws(state.ARCS, law, 1.0, damping, 0.0, 0.0), DT)
     after = at(S, 1, VELOCITY), turned.apply(at(S, 1, SPIN))
     moment = turned.apply(INERTIA * turned.inv().apply(after[1] - spin))
     arm = ARM * turned.apply([0, 0, 1])
