@@ -1,13 +1,18 @@
 """Settings of every test."""
 
+import functools
 import gc
 
 import hypothesis
+import typer.main
 
 # The first call of a compiled function takes seconds, and CI must fail the same way twice.  Tests of text and files
 # from outside, whose faults are rare, ask for Hypothesis' own 100 examples.
 hypothesis.settings.register_profile("fctd", deadline=None, derandomize=True, max_examples=40)
 hypothesis.settings.load_profile("fctd")
+
+# A program builds its command line once and runs one command; the tests run hundreds.
+typer.main.get_command = functools.cache(typer.main.get_command)
 
 
 def pytest_collection_finish() -> None:

@@ -71,6 +71,7 @@ def fctd(copy: Path, cache: Path, *commands: list[str]) -> list[str]:
     return done.stdout.split("\f")[:-1]
 
 
+@pytest.mark.slow
 def test_a_result_column_is_one_line(copy: Path) -> None:
     """It is in charts and their field units, on the screen and beside a profile."""
     add_line(
@@ -135,6 +136,7 @@ for rpm in (30, 60):
 ROTATE = '[[operations]]\nkind = "rotate_off_bottom"\nat_md = 700\nduration = 60\nrpm = 60\nramp_time = 5\n'
 
 
+@pytest.mark.slow
 def test_a_friction_law_is_one_file_and_one_line(copy: Path) -> None:
     """A case may name it; stepper and steady solver agree on its torque, which is proportional to the rotation."""
     laws = copy / "fctd" / "mechanics" / "laws"

@@ -21,7 +21,7 @@ from tests.fuzz.wells import well
 SEED = 14
 
 
-@pytest.mark.parametrize("start", range(0, 200, 50))
+@pytest.mark.parametrize("start", [0, *(pytest.param(start, marks=pytest.mark.slow) for start in (50, 100, 150))])
 def test_files_are_refused_or_answered(start: int) -> None:
     """Of fifty items two are plausible wells that are solved six times each."""
     tally: Counter[str] = Counter()

@@ -41,6 +41,7 @@ def cache_folder(root: Path, **environment: str) -> str:
     return done.stdout.strip()
 
 
+@pytest.mark.slow
 def test_the_compile_cache_follows_the_sources(copy: Path, tmp_path: Path) -> None:
     """numba does not see an edit in a function that a cached one calls; a folder per source hash does."""
     before = cache_folder(copy)

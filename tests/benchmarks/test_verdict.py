@@ -64,6 +64,7 @@ def share_caught(factor: float, kernels: list[str], count: int) -> float:
     return float(np.mean(found))
 
 
+@pytest.mark.slow
 def test_slower_kernels_are_caught_and_named() -> None:
     """Slower by a fifth is close to the threshold for this noise; contact's addition is three times as noisy."""
     own = [name for name in KERNELS if "addition" not in name]
@@ -73,6 +74,7 @@ def test_slower_kernels_are_caught_and_named() -> None:
     assert share_caught(1.5, [name for name in KERNELS if "addition" in name], 20) == 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [1.05, 1.1])
 def test_kernels_slower_below_the_threshold_pass(factor: float) -> None:
     for kernel in KERNELS:

@@ -339,6 +339,7 @@ def test_a_buckled_string_is_resolved_where_that_is_asked_for(
     assert pd.read_csv(out)["shape"].tolist() == ["none"]
 
 
+@pytest.mark.slow
 def test_a_string_that_no_push_moves_is_an_answer_without_loads(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

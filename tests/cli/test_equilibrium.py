@@ -74,6 +74,7 @@ def test_equilibrium_without_an_answer_writes_nothing(
     assert not any(file.exists() for file in files)
 
 
+@pytest.mark.slow
 def test_a_resolved_string_shows_its_shapes_and_its_limits(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -134,7 +134,7 @@ def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypat
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
 
 
-@pytest.mark.parametrize("package", ["numba", "typer"])
+@pytest.mark.parametrize("package", ["numba", pytest.param("typer", marks=pytest.mark.slow)])
 def test_interrupted_while_it_is_imported(package: str, tmp_path: Path) -> None:
     (tmp_path / f"{package}.py").write_text("raise KeyboardInterrupt\n")
     environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{Path(__file__).parents[2]}"}

@@ -146,6 +146,7 @@ def test_a_message_says_that_the_string_is_locked_up(
     assert "trip_in (locked up)" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "resolved"),
     [((), True), (("--no-resolve-buckling",), False), (("--set", "solver.buckling=detect"), False)],

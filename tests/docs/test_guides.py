@@ -78,9 +78,9 @@ def name(value: Path | str) -> str:
 
 
 def shorter(command: str) -> str:
-    """A chart with its first and last depth alone, and other methods and engines with less time and fewer segments."""
+    """A chart with its last depth alone, and other methods and engines with less time and fewer segments."""
     command = re.sub(
-        r"(--depths )([\d.]+):([\d.]+):[\d.]+", lambda m: f"{m[1]}{m[2]}:{m[3]}:{float(m[3]) - float(m[2])}", command
+        r"(--depths )[\d.]+:([\d.]+:[\d.]+)", lambda m: m[1] + m[2].partition(":")[0] + ":" + m[2], command
     )
     command = command.replace('duration="2 s"', 'duration="0.2 s"').replace("--start 10 --duration 3", SHORT_WINDOW)
     return f"{command} --set string.components[0].segments=15" if "curved_chain.toml" in command else command
@@ -249,6 +249,7 @@ def test_pictures_are_small_and_those_of_the_command() -> None:
     assert max(path.stat().st_size for path in files.values()) <= 150_000
 
 
+@pytest.mark.slow
 def test_a_picture_is_drawn(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     from docs import pictures

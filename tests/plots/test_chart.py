@@ -120,7 +120,7 @@ def test_warnings_and_notes_stand_below_the_title() -> None:
     [
         (["trip_in"], [0.2], "si", "string"),
         (list(KINDS), [0.2], "field", "indicator"),
-        (list(KINDS), [0.2, 0.3], "si", "string"),
+        pytest.param(list(KINDS), [0.2, 0.3], "si", "string", marks=pytest.mark.slow),
     ],
 )
 def test_no_text_covers_another(kinds: list[str], factors: list[float], units: Any, load: Any) -> None:

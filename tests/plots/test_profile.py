@@ -78,7 +78,7 @@ def test_a_string_without_a_balance_is_only_named() -> None:
     assert texts_that_overlap(figure) == []
 
 
-@pytest.mark.parametrize(("units", "force"), [("si", "length"), ("field", "joint")])
+@pytest.mark.parametrize(("units", "force"), [("si", "length"), pytest.param("field", "joint", marks=pytest.mark.slow)])
 def test_no_text_covers_another(units: Any, force: Any) -> None:
     assert texts_that_overlap(plots.profile_figure(points(), units, force=force)) == []
 

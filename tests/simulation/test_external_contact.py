@@ -32,23 +32,23 @@ def turning(geometry: str = "cylinders", **sections) -> Case:
 
 
 class Faulty:
-    """The hole's own contacts, with a fault after some queries."""
+    """The hole's own contacts, with a fault after a number of queries."""
 
     name = "faulty"
 
-    def __init__(self, case: Case, spoil: Callable[[Contacts], Contacts]) -> None:
-        self.hole, self.spoil, self.asked = build_wellbore(case), spoil, 0
+    def __init__(self, case: Case, spoil: Callable[[Contacts], Contacts], after: int = 10) -> None:
+        self.hole, self.spoil, self.after, self.asked = build_wellbore(case), spoil, after, 0
 
     def query(self, points: Array, radii: Array) -> Contacts:
         self.asked += 1
         hits = find_contacts(self.hole, np.nan_to_num(points), radii)
-        return self.spoil(hits) if self.asked > 1000 else hits
+        return self.spoil(hits) if self.asked > self.after else hits
 
 
 def test_a_method_with_a_fault_stops_the_run_and_keeps_its_rows() -> None:
     case = turning()
 
-    nowhere = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)))
+    nowhere = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)), after=1000)
     result = simulate(case, contact=nowhere)
     assert result.status == "unstable"
     assert "not finite" in result.message

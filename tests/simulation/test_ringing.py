@@ -75,6 +75,7 @@ def test_ringing_is_expected_of_cylinders_in_motion_alone() -> None:
     assert not len(expected_ringing(*prepare(case, contact.build("for_loop", case))).bit_depth)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def test_a_run_that_rings_says_so(geometry: str) -> None:
     """The end of a window of well b swings as estimated, and the result has a note; with arcs neither happens.

@@ -177,6 +177,7 @@ def test_a_schedule_feeds_what_its_operations_say(moves: list[dict[str, Any]]) -
         clock += motion.duration
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(components=strings(), bit=st.floats(950.0, 1400.0), length=st.floats(2.0, 60.0))
 def test_other_layouts_are_as_long_and_as_heavy(components: list[dict[str, Any]], bit: float, length: float) -> None:

@@ -43,6 +43,7 @@ def test_a_string_that_does_not_settle_is_an_error() -> None:
     assert 400 - 1 / relaxing(run)[0].settling < times[-1] <= 400
 
 
+@pytest.mark.slow
 def test_the_imbalance_of_a_string_that_still_falls_is_that_of_its_forces() -> None:
     """After a window it gains speed still; from rest at the same place the forces alone set it in motion.
 
@@ -112,6 +113,7 @@ class Shaking:
         return hits._replace(penetration=hits.penetration + self.by * (-1) ** self.asked)
 
 
+@pytest.mark.slow
 def test_a_wall_that_jumps_is_settled_against_on_average(monkeypatch: pytest.MonkeyPatch) -> None:
     case = make_case([[0, 0, 0], [300, 40, 60]], [pipe(None, 10)], [rotation(300, 1)])
     hole = prepare(case)[0].hole

@@ -59,6 +59,7 @@ def test_scheme_damps_the_fastest_modes_and_is_second_order(share):
     assert phase == pytest.approx(slow, rel=2e-4)
 
 
+@pytest.mark.slow
 def test_energy_balance_of_the_dynamic_beam_closes():
     model = pipe(friction=0.2, creep=0.05, lateral_damping=50.0, axial_damping=20.0)
     ledgers = [lowered(model, 1.0, steps, 1.0).ledger for steps in (50, 100)]
@@ -78,6 +79,7 @@ def test_a_missing_force_would_show_in_the_ledger():
     assert ledger["lost_mud_J"].iloc[-1] > 10 * ledger["residual_J"].abs().max()
 
 
+@pytest.mark.slow
 def test_static_work_is_stored_or_lost_to_friction():
     model = pipe(friction=0.2, creep=1e-3)
     ledger = lowered(model, 1.0, 100).ledger

@@ -113,6 +113,7 @@ def test_one_term_error_at_1_4() -> None:
     assert one_term / found("snaking", 1.4).amplitude == pytest.approx(0.96, abs=0.003)
 
 
+@pytest.mark.slow
 def test_limits_of_the_equation(monkeypatch: pytest.MonkeyPatch) -> None:
     """From 1.77 times the onset on the pipe leaves the wall; the helix has less energy from 1.45 times on (trials)."""
     monkeypatch.setattr(mitchell, "TOLERANCE", 1e-5)  # moves neither by more than 0.003

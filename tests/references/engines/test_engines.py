@@ -179,8 +179,9 @@ def test_friction_obeys_coulomb_at_an_oblique_azimuth(name: str, least: float) -
     assert abs(np.degrees(found.lean)) < 0.1
 
 
+@pytest.mark.slow
 @BULLET
-@pytest.mark.parametrize("azimuth", [pytest.param(15.0, marks=pytest.mark.slow), 60.0])
+@pytest.mark.parametrize("azimuth", [15.0, 60.0])
 def test_bullet_friction_deviates_as_computed_from_two_fixed_directions(azimuth: float) -> None:
     """The reason why the ``fair`` settings turn the hole into Bullet's own plane."""
     lean = lean_of_two_directions(azimuth)

@@ -150,6 +150,7 @@ def holes(draw: st.DrawFn) -> dict[str, Any]:
     }
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(holes(), st.floats(0.3, 1.0), st.floats(0.0, 0.2))
 def test_hook_load_rotating_in_place_is_the_weight_over_the_vertical_depth(
@@ -169,6 +170,7 @@ def test_hook_load_rotating_in_place_is_the_weight_over_the_vertical_depth(
     assert soft_string(case, "rotate_off_bottom", depth).hookload == pytest.approx(expected, abs=1e-5 * scale)
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(holes(), st.sampled_from(list(MOTIONS)), st.floats(0.5, 1.0))
 def test_in_any_hole_both_summations_agree(hole: dict[str, Any], operation: str, part: float) -> None:

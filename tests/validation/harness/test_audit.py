@@ -70,6 +70,7 @@ def test_the_first_digest_of_a_file_counts(tmp_path: Path) -> None:
     assert declare(path) == path  # also where no study is being run
 
 
+@pytest.mark.slow
 def test_importing_the_studies_reads_no_file() -> None:
     """It would be read once for all of them, and count for none."""
     pytest.importorskip("skfem")

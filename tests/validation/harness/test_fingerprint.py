@@ -323,6 +323,7 @@ def test_a_kept_result_is_judged_by_what_is_expected_now(lab):
     assert sorted(path.name for path in (lab / "results" / "question").iterdir()) == ["inputs.json", "verdict.json"]
 
 
+@pytest.mark.slow
 def test_a_run_that_was_killed_goes_on_where_it_was(lab):
     write(lab, "toylab/second.py", PROJECT["toylab/question.py"].replace('"question"', '"second"'))
     waiting = (lab / "toylab" / "second.py").read_text().replace("here =", "__import__('time').sleep(60); here =")

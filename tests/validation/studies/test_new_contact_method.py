@@ -82,6 +82,7 @@ def test_it_is_in_every_table_of_errors_cost_and_memory(toy, monkeypatch):
     assert "toy" in written("contact_accuracy", tables)
 
 
+@pytest.mark.slow
 def test_it_is_raced_and_turns_the_chain(toy, monkeypatch):
     monkeypatch.setattr(contact_swap, "ROUND", 0.0005)
     monkeypatch.setattr(contact_swap, "SEGMENTS", (60,))
