@@ -60,7 +60,9 @@ print(os.path.isdir(os.environ["NUMBA_CACHE_DIR"]))
 """
 
 
-@pytest.mark.parametrize("name", ["NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "HOME"])
+@pytest.mark.parametrize(
+    "name", [*(pytest.param(name, marks=pytest.mark.slow) for name in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")), "HOME"]
+)
 def test_without_a_cache_folder_code_is_kept_for_one_run(name: str, copy: Path, tmp_path: Path) -> None:
     """As in a container whose user has no home."""
     here = tmp_path / "here"

@@ -22,6 +22,7 @@ def test_its_source_is_unchanged() -> None:
     assert reference_digest() == SOURCE
 
 
+@pytest.mark.slow
 def test_its_compiled_code_is_in_the_cache_folder_of_fctd() -> None:
     """Not next to its source, where another user may have no write permission."""
     program = "from benchmarks import reference_kernel as k; print(k.reference_kernel.stats.cache_path)"

@@ -239,7 +239,7 @@ def odd(here: Path) -> str:
     return os.path.join("f\udcff", "c\udcff.toml")
 
 
-@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+@pytest.mark.parametrize("suffix", [".csv", pytest.param(".parquet", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("command", ["equilibrium", "chart"])
 def test_steady_files_of_names_that_are_no_utf8(
     command: str, suffix: str, odd: str, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -60,6 +60,7 @@ def test_the_imbalance_of_a_string_that_still_falls_is_that_of_its_forces() -> N
         assert residual == pytest.approx(force / weight, rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_imbalance_on_average_is_that_of_the_motion_in_the_window() -> None:
     """Gain of speed, and the drag of the mean speed: here of 1000 speeds in each of two windows."""
     case = make_case(BUILD, [pipe(None, 40)], [rotation(1000, 1)], solver={"step": 1e-5})

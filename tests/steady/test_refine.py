@@ -313,6 +313,7 @@ def test_a_buckled_string_ends_the_search_early(
     assert levels[-1].resolved == 1000
 
 
+@pytest.mark.slow
 def test_buckled_strings_are_resolved_unless_the_case_says_otherwise() -> None:
     """A level string in a hole of arcs at 2.6 times its sinusoidal limit."""
     given = level_case(wellbore={

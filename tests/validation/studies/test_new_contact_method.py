@@ -69,6 +69,7 @@ def test_it_is_listed(toy):
     assert "asks the engine" in CliRunner().invoke(app, ["list"], terminal_width=200).output.replace("\n", "")
 
 
+@pytest.mark.slow
 def test_it_is_in_every_table_of_errors_cost_and_memory(toy, monkeypatch):
     monkeypatch.setattr(contact_accuracy, "footprint", lambda name, case: (1.0, 0.1))
     monkeypatch.setattr(contact_accuracy.traps, "TRAPS", [])
