@@ -80,7 +80,8 @@ SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
 def chart_command(
     case_file: CaseFile,
     operations: Annotated[
-        list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}, or all; may be repeated.")
+        list[str],
+        typer.Option("--operation", metavar="KINDS", help=f"{KIND_HELP}; several with commas between them, or all."),
     ],
     depths: Annotated[
         str,
@@ -125,7 +126,8 @@ def chart_command(
         refuse_sources(case, path, key)
     bit_depths = read_depths(depths, case, units)
     points_measured = None if measured is None else _measured(measured, case, plot)
-    kinds = list(dict.fromkeys(kind for name in operations for kind in (KINDS if name == "all" else [name])))
+    names = [name.strip() for text in operations for name in text.split(",")]
+    kinds = list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name])))
     factors = parse_frictions(frictions, "--friction")
     drive = read_drive(speed, rpm, units)
     warnings = warnings_of(case, kinds, **drive, frictions=factors)
@@ -209,10 +211,11 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
     if buckled:
         table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
     table.add_column("status", overflow="fold")
-    each = max(SCREEN_ROWS // len(series), 1)
+    each, printed = max(SCREEN_ROWS // len(series), 1), 0
     for operation, friction, rows in series:
         # Evenly spread rows, always with the deepest one.
         picked = np.unique(np.linspace(len(rows) - 1, 0, min(each, len(rows))).round().astype(int))
+        printed += len(picked)
         for k, row in enumerate(rows.iloc[picked].to_dict("records")):
             values = [
                 "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
@@ -224,7 +227,8 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
             table.add_row(*(("",) * len(names) if k else names), *values, row["status"])
     screen.print(table)
     counts = ", ".join(f"{count} {status}" for status, count in chart["status"].value_counts().items())
-    screen.print(f"{len(chart)} rows: {counts}", soft_wrap=True)
+    left_out = f"; {printed} of them above, all in the file of --out" if printed < len(chart) else ""
+    screen.print(f"{len(chart)} rows: {counts}{left_out}", soft_wrap=True)
     depth = units_of["bit_depth_m"]
     for operation, friction, rows in series:
         of = f"{operation}, friction {friction}" if fan else operation

@@ -1,4 +1,4 @@
-"""What all commands have in common: ``-h``, ``-o``, ``--version``, and messages about options left out or repeated."""
+"""What all commands have in common: ``-h``, ``-o``, ``-q``, ``--version``, and messages about their options."""
 
 from importlib.metadata import version
 from typing import Annotated, Any
@@ -7,18 +7,20 @@ import typer
 from typer.core import TyperCommand, TyperOption
 
 HELP = {"help_option_names": ["-h", "--help"]}
+SHORT = {"--out": "-o", "--quiet": "-q"}
 # ``--quiet`` of commands that compute nothing.
 Silent = Annotated[bool, typer.Option("--quiet", help="Print warnings and errors alone.")]
 
 
 class Command(TyperCommand):
-    """A command whose ``--out`` is also ``-o``; it says what a missing option accepts, and takes no option twice."""
+    """A command with short names of its options; it says what a missing option accepts, and takes no option twice."""
 
     def __init__(self, *given: Any, **settings: Any) -> None:
         super().__init__(*given, **settings)
         for option in self._options():
-            if "--out" in option.opts:
-                option.opts.insert(0, "-o")
+            for name, short in SHORT.items():
+                if name in option.opts:
+                    option.opts.insert(0, short)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the options after a check of their number; ends the command with exit code 2 where it is wrong."""

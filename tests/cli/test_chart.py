@@ -123,11 +123,11 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "new" / "chart.csv"
-    given = ("--operation", "trip_in", "--operation", "rotate_off_bottom", "--operation", "trip_in")
+    given = ("--operation", "trip_in, rotate_off_bottom", "--operation", "trip_in")
     factors = ("--friction", "0.1", "--friction", "0.3")
     code = run(monkeypatch, "chart", case_file, *given, *factors, "--depths", "700:850:50", "--rpm", "80", "--out", out)
     assert code == 0
-    assert "16 rows: 16 converged" in capsys.readouterr().out
+    assert "16 rows: 16 converged\n" in capsys.readouterr().out
     table = pd.read_csv(out, dtype={"friction_label": str})
     assert list(table.columns) == CHART_COLUMNS
     kinds, depths = ["trip_in", "rotate_off_bottom"], [700, 750, 800, 850]
@@ -137,6 +137,15 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
     assert origin["case"]["name"] == "tiny"
     assert origin["rates"]["trip_in"] == {"speed_m_s": 0.3, "spin_rad_s": pytest.approx(80 * np.pi / 30)}
     assert {"fctd", "numpy", "numba", "python"} <= origin["versions"].keys()
+
+
+def test_the_screen_says_how_many_rows_it_leaves_out(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, "chart", case_file, "--operation", "trip_in", "--depths", "600:636:1") == 0
+    printed = capsys.readouterr().out
+    assert "37 rows: 37 converged; 36 of them above, all in the file of --out" in printed
+    assert "636.0" in printed
 
 
 def test_field_units_in_columns_and_names(

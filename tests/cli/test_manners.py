@@ -28,6 +28,7 @@ def test_the_version(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixt
 def test_short_options(command: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(monkeypatch, command, "-h") == 0
     text = capsys.readouterr().out
+    assert "-q " in text
     assert "--quiet" in text
     assert ("--out" in text) == ("-o " in text)
 

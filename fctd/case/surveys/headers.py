@@ -28,7 +28,7 @@ _LETTER: Final = re.compile(r"[^\W\d_]")
 _NAMES: Final[dict[StationKey, frozenset[str]]] = {
     "md": frozenset({"md", "depth", "dept", "measureddepth", "ahd", "dmea"}),
     "inc": frozenset({"inc", "incl", "inclin", "inclination", "devi", "dev", "deviation", "drift"}),
-    "azi": frozenset({"az", "azi", "azim", "azimuth", "hazi"}),
+    "azi": frozenset({"az", "azi", "azim", "azm", "azmth", "azimuth", "hazi"}),
 }
 # A letter names an angle where its unit stands beside it ("I_deg") and no other header names the quantity.
 _LETTERS: Final[dict[StationKey, str]] = {"inc": "i", "azi": "a"}
