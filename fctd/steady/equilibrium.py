@@ -4,12 +4,14 @@ The string slides or turns at constant rates while its shape stands still; the f
 (tangent.py).  Newton's method starts from the guess of a soft string (first_guess.py, continuation.py).
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.case.load import Case, check_bit_depth, naming_file
@@ -42,6 +44,9 @@ from fctd.steady.tangent import (
     R_FT,
     R_MU_FN,
 )
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Array = NDArray[np.float64]
 
@@ -78,7 +83,7 @@ class Equilibrium:
     sum_r_ft: float
     sum_r_mu_fn: float
     imbalance: float
-    _shape: "Shape" = field(repr=False)
+    _shape: Shape = field(repr=False)
     shape: str = "none"
     hookload_low: float = float("nan")
     hookload_high: float = float("nan")
@@ -101,7 +106,7 @@ class Equilibrium:
         """Whether the numbers belong to a balance of forces."""
         return self.status.has_loads and bool(np.isfinite(self.hookload))
 
-    def without_loads(self) -> "Equilibrium":
+    def without_loads(self) -> Equilibrium:
         """The same without loads, for a string that has none at these loads."""
         none = float("nan")
         return replace(

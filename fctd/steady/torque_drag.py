@@ -1,9 +1,11 @@
 """Torque-and-drag charts: the steady string of several operations at many bit depths, one row for each."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, friction_set, friction_sets, own_label
@@ -18,10 +20,13 @@ from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 # Called after every row with the number of rows done and their total.
 Progress = Callable[[int, int], None]
 FrictionChoice = float | Mapping[str, float] | FrictionSet
-Row = dict[str, object]
+Row = dict[str, Any]
 
 
 def torque_drag(
@@ -49,6 +54,21 @@ def torque_drag(
     that is ``unstable`` because no steady shape was found.  At a depth where string and hole do not fit the status is
     ``not_possible``.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
     """
+    import pandas as pd  # slow to import, and a command that prints rows needs none
+
+    return pd.DataFrame(chart_rows(case, operation, bit_depths, friction, speed, rpm, progress))
+
+
+def chart_rows(
+    case: Case,
+    operation: str | Sequence[str],
+    bit_depths: Sequence[float | str],
+    friction: FrictionChoice | Sequence[FrictionChoice] | None = None,
+    speed: float | str | None = None,
+    rpm: float | str | None = None,
+    progress: Progress | None = None,
+) -> list[Row]:
+    """The rows of ``torque_drag``, each a mapping from column to value."""
     with naming_file(case):
         depths = _check_depths(bit_depths)
         kinds = [operation] if isinstance(operation, str) else list(operation)
@@ -74,7 +94,7 @@ def torque_drag(
                         progress((len(rows) - 1) * len(rows[0]) + len(rows[-1]), total)
         if len(unfit) == len(depths):
             raise unfit[0]
-        return pd.DataFrame([row for series in zip(*rows, strict=True) for row in series])
+        return [row for series in zip(*rows, strict=True) for row in series]
 
 
 def _solvers(case: Case, hole: Wellbore, sets: Sequence[FrictionSet] | None) -> list[tuple[str, Solver]]:
