@@ -12,13 +12,17 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from benchmarks.records import describe
 from benchmarks.strings import CASES
 
-CHAIN = str(CASES / "curved_chain.toml")
+CHAIN, WELL = str(CASES / "curved_chain.toml"), str(CASES / "paper_well.toml")
+# 71 bit depths, three operations and three friction factors: 639 strings of at most 61 segments.
+KINDS = [part for kind in ("trip_in", "trip_out", "rotate_off_bottom") for part in ("--operation", kind)]
+FAN = ["--depths", "1750:2450:10", *KINDS, "--friction", "0.2,0.3,0.4"]
 COMMANDS = {
     "python alone": ["-c", "pass"],
     "import numba": ["-c", "import numba"],
     "import fctd": ["-c", "import fctd"],
     "fctd --help": ["-m", "fctd", "--help"],
     "fctd equilibrium": ["-m", "fctd", "equilibrium", CHAIN, "--operation", "trip_out", "--bit-depth", "2450"],
+    "fctd chart": ["-m", "fctd", "chart", WELL, *FAN],
 }
 COMPILED = {
     "stepper": ["-c", f"import fctd; fctd.simulate(fctd.load_case({CHAIN!r}, {{'operations[0].duration': 1.0}}))"],

@@ -1,12 +1,12 @@
 """``fctd chart CASE``: steady strings of several operations at many bit depths."""
 
-from collections.abc import Hashable
+from collections import Counter
+from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import pandas as pd
 import typer
 from rich.box import SIMPLE_HEAD
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
@@ -60,12 +60,15 @@ from fctd.model.operations import rates_of_all
 from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
 from fctd.results.measured import read_measured
 from fctd.results.notes import MEANINGS, meanings_of
-from fctd.results.series import frictions_of, in_words, series_of
+from fctd.results.series import FRICTION_LABEL, in_words
 from fctd.results.status import SteadyStatus
 from fctd.results.tables import write_table
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Solver
-from fctd.steady.torque_drag import torque_drag, with_friction
+from fctd.steady.torque_drag import Row, chart_rows, with_friction
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 DEPTHS_HELP = (
     "Bit depths, 1750:2450:10 in m, with --units field in ft, '5000 ft:8000 ft:30 ft' or shoe:td:50; the last is "
@@ -140,30 +143,38 @@ def chart_command(
         def show(done: int, total: int) -> None:
             bar.update(task, description=printable(case.name), completed=done, total=total)
 
-        chart = torque_drag(case, kinds, bit_depths, factors or None, **drive, progress=show)
+        rows = chart_rows(case, kinds, bit_depths, factors or None, **drive, progress=show)
 
     # The last depth at which string and hole fit.
-    last = float(chart.loc[chart["status"] != SteadyStatus.NOT_POSSIBLE, "bit_depth_m"].max())
+    possible = [row["bit_depth_m"] for row in rows if row["status"] != SteadyStatus.NOT_POSSIBLE]
+    last = max(possible, default=float("nan"))
+    meanings = meanings_of(row["notes"] for row in rows)
     written = []
     try:  # as above
         if out is not None:
-            metadata = metadata_of(case, units, kinds, drive, warnings) | {"notes": meanings_of(chart["notes"])}
-            written += write_table(in_units(units, chart), out, metadata)
+            metadata = metadata_of(case, units, kinds, drive, warnings) | {"notes": meanings}
+            written += write_table(rows if units == "si" else in_units(units, _frame(rows)), out, metadata)
         if plot is not None:
             shown_rates = rates_of_all(case, kinds, **drive)
             options = {"load": load, "rates": shown_rates, "measured": points_measured, "warnings": told}
-            written += draw_chart(plot, chart, units=units, case=case, **options)
+            written += draw_chart(plot, _frame(rows), units=units, case=case, **options)
         if plot_profile is not None:
             one = with_friction(case, factors[0]) if factors else case
             solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
             points = [solver.solve(kind, rates[kind], last) for kind in kinds]
             written += draw_profiles(plot_profile, points, units=units, force=side_force, warnings=told)
     finally:
-        _print_chart(chart, case.name, units)
+        _print_chart(rows, case.name, units)
         print_segments(case, last, units)
     print_written(written)
-    acceptable = all(SteadyStatus(status).acceptable for status in chart["status"])
-    finish(acceptable, meanings_of(chart["notes"]), strict)
+    acceptable = all(SteadyStatus(status).acceptable for status in {row["status"] for row in rows})
+    finish(acceptable, meanings, strict)
+
+
+def _frame(rows: list[Row]) -> "pd.DataFrame":
+    import pandas as pd  # slow to import
+
+    return pd.DataFrame(rows)
 
 
 def read_depths(text: str, case: Case, units: System = "si") -> list[float]:
@@ -187,18 +198,20 @@ def read_depths(text: str, case: Case, units: System = "si") -> list[float]:
     return [*(round(first + k * step, 6) for k in range(int(np.ceil(steps - 1e-6)))), round(last, 6)]
 
 
-def _measured(path: Path, case: Case, plot: Path | None) -> pd.DataFrame:
+def _measured(path: Path, case: Case, plot: Path | None) -> "pd.DataFrame":
     """Measured rows, which only a picture shows."""
     if plot is None:
         raise InputError("--plot beside it, the picture to draw them in", key="--measured", value=path)
     return read_measured(path, case)
 
 
-def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
+def _print_chart(rows: list[Row], name: str, units: System) -> None:
     """Print a table that fits the screen, and a line for each run of rows with another status or a note."""
     units_of = {column.name: shown(column.name, units) for column in SHOWN}
-    series = series_of(chart, units)
-    frictions = frictions_of(series)
+    series: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        series.setdefault((row["operation"], reworded(row[FRICTION_LABEL], units)), []).append(row)
+    frictions = list(dict.fromkeys(friction for _, friction in series))
     fan = len(frictions) > 1  # one set of factors, which may be a long text, stands above the table
     screen.print(printable(name if fan else f"{name}; {in_words(frictions[0])}"), style="bold", soft_wrap=True)
     table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
@@ -207,16 +220,16 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
         table.add_column("μ", overflow="fold")
     for column in SHOWN:
         table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
-    buckled = bool(chart["buckled_from_md_m"].notna().any())
+    buckled = not all(np.isnan(row["buckled_from_md_m"]) for row in rows)
     if buckled:
         table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
     table.add_column("status", overflow="fold")
     each, printed = max(SCREEN_ROWS // len(series), 1), 0
-    for operation, friction, rows in series:
+    for (operation, friction), of in series.items():
         # Evenly spread rows, always with the deepest one.
-        picked = np.unique(np.linspace(len(rows) - 1, 0, min(each, len(rows))).round().astype(int))
+        picked = np.unique(np.linspace(len(of) - 1, 0, min(each, len(of))).round().astype(int))
         printed += len(picked)
-        for k, row in enumerate(rows.iloc[picked].to_dict("records")):
+        for k, row in enumerate(of[i] for i in picked):
             values = [
                 "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
                 for name, digits in ((column.name, column.digits) for column in SHOWN)
@@ -226,33 +239,33 @@ def _print_chart(chart: pd.DataFrame, name: str, units: System) -> None:
             names = (operation, friction) if fan else (operation,)
             table.add_row(*(("",) * len(names) if k else names), *values, row["status"])
     screen.print(table)
-    counts = ", ".join(f"{count} {status}" for status, count in chart["status"].value_counts().items())
-    left_out = f"; {printed} of them above, all in the file of --out" if printed < len(chart) else ""
-    screen.print(f"{len(chart)} rows: {counts}{left_out}", soft_wrap=True)
+    counts = ", ".join(f"{count} {status}" for status, count in Counter(row["status"] for row in rows).most_common())
+    left_out = f"; {printed} of them above, all in the file of --out" if printed < len(rows) else ""
+    screen.print(f"{len(rows)} rows: {counts}{left_out}", soft_wrap=True)
     depth = units_of["bit_depth_m"]
-    for operation, friction, rows in series:
-        of = f"{operation}, friction {friction}" if fan else operation
-        for line in _exceptions(rows, depth.factor, depth.label):
-            messages.print(reworded(f"{of}: {line}", units), soft_wrap=True)
+    for (operation, friction), of in series.items():
+        name = f"{operation}, friction {friction}" if fan else operation
+        for line in _exceptions(of, depth.factor, depth.label):
+            messages.print(reworded(f"{name}: {line}", units), soft_wrap=True)
 
 
-def _buckled(row: dict[Hashable, Any], factor: float) -> str:
+def _buckled(row: Row, factor: float) -> str:
     """Mode and depths of the buckled part of a string, "helical 540–1500"."""
     first, last = (row[column.name] * factor for column in BUCKLED)
     return "–" if np.isnan(first) else f"{row['buckling']} {first:.0f}–{last:.0f}"
 
 
-def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
+def _exceptions(rows: list[Row], factor: float, label: str) -> list[str]:
     """The runs of rows of one series that are not converged, and those with the same note, a line each."""
-    depths = rows["bit_depth_m"] * factor
-    reasons = dict(zip(rows["status"], rows["reason"], strict=True))  # the last, at the greatest depth, of each status
+    depths = [row["bit_depth_m"] * factor for row in rows]
+    reasons = {row["status"]: row["reason"] for row in rows}  # the last, at the greatest depth, of each status
     lines = [
         f"{status} at {where}: {reasons[status]}"
-        for status, where in _runs(rows["status"], depths, label)
+        for status, where in _runs([row["status"] for row in rows], depths, label)
         if status != SteadyStatus.CONVERGED
     ]
     for code, meaning in MEANINGS.items():
-        noted = rows["notes"].str.split(", ").map(lambda codes, code=code: code in codes)
+        noted = [code in row["notes"].split(", ") for row in rows]
         lines += [
             f"note {code} at {where}: {meaning.headline}: {meaning.remedy}"
             for has, where in _runs(noted, depths, label)
@@ -261,7 +274,7 @@ def _exceptions(rows: pd.DataFrame, factor: float, label: str) -> list[str]:
     return lines
 
 
-def _runs(values: "pd.Series[Any]", depths: "pd.Series[float]", label: str) -> list[tuple[Any, str]]:
+def _runs(values: Sequence[Any], depths: Sequence[float], label: str) -> list[tuple[Any, str]]:
     """Every run of equal values, with its depths as text."""
     found = []
     for value, run in groupby(zip(values, depths, strict=True), key=lambda row: row[0]):

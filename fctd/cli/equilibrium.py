@@ -2,10 +2,9 @@
 
 from itertools import groupby
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-import pandas as pd
 import typer
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
@@ -52,6 +51,9 @@ from fctd.results.notes import as_metadata
 from fctd.results.tables import write_table
 from fctd.results.unit_systems import System, shown
 from fctd.steady.equilibrium import Equilibrium, equilibrium
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def equilibrium_command(
@@ -153,7 +155,7 @@ def _print_point(point: Equilibrium, units: System) -> None:
     print_notes(point.notes, units)
 
 
-def stretches(profile: pd.DataFrame, mode: str) -> list[tuple[float, float]]:
+def stretches(profile: "pd.DataFrame", mode: str) -> list[tuple[float, float]]:
     """First and last depth [m] of every run of contact points beyond the buckling limit of a mode."""
     found = []
     for buckled, run in groupby(zip(profile["buckling"] == mode, profile["md_m"], strict=True), key=lambda row: row[0]):

@@ -3,9 +3,8 @@
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import pandas as pd
 import typer
 
 from fctd.case.errors import InputError
@@ -13,6 +12,9 @@ from fctd.cli.options import check_target
 from fctd.plots.loads import Load
 from fctd.plots.tracks import SideForce
 from fctd.steady.equilibrium import Equilibrium
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 PAGE = ".html"
 PICTURES = (".png", ".svg", ".pdf", PAGE)
@@ -53,7 +55,7 @@ def check_pictures(targets: Mapping[str, Path | None]) -> None:
         check_package(path, key)
 
 
-def draw_chart(path: Path, chart: pd.DataFrame, **options: Any) -> list[Path]:
+def draw_chart(path: Path, chart: "pd.DataFrame", **options: Any) -> list[Path]:
     """Write a chart; options : of ``chart_figure``.  Returns the files."""
     from fctd import plots
 

@@ -2,9 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import pandas as pd
 import typer
 
 from fctd.case.errors import InputError
@@ -20,6 +19,9 @@ from fctd.model.summary import segments_in_words
 from fctd.plots.facts import shoes_of
 from fctd.results.tables import versions
 from fctd.results.unit_systems import System, in_field_units, shown
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 TABLES = (".csv", ".parquet", ".xlsx")
 
@@ -102,7 +104,7 @@ def print_segments(case: Case, bit_depth: float, units: System) -> None:
         screen.print(line, soft_wrap=True)
 
 
-def in_units(units: System, table: pd.DataFrame) -> pd.DataFrame:
+def in_units(units: System, table: "pd.DataFrame") -> "pd.DataFrame":
     return in_field_units(table) if units == "field" else table
 
 

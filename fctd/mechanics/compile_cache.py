@@ -23,6 +23,7 @@ import llvmlite
 import numba
 from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
+from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 from numba.core.sigutils import normalize_signature
 
@@ -137,7 +138,7 @@ class KeptCode(_Cache):
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The compiled form for argument types; None where it has to be compiled."""
-        target_context.refresh()
+        rtsys.initialize(target_context)
         if not self._enabled:
             return None
         data = self._store.read(self._name(sig, target_context.codegen()))

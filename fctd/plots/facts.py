@@ -1,9 +1,9 @@
 """What a picture says beside its curves: title, mud, loads at the bit, rates, block, warnings, notes, casing shoes."""
 
-from collections.abc import Mapping, Sequence
-from typing import Final
+from __future__ import annotations
 
-import pandas as pd
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Final
 
 from fctd.case.friction import own_label
 from fctd.case.load import Case
@@ -14,6 +14,9 @@ from fctd.results.notes import meanings_of, worst
 from fctd.results.series import frictions_of, in_words, series_of
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Equilibrium
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 # Units of pictures for quantities that no table has: SI unit, metric unit, field unit.
 _DENSITY: Final = ("kg/m^3", "kg/m^3", "lb/gal")

@@ -1,10 +1,11 @@
 """Which load a chart shows, and how far its axes reach; for pictures and pages."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import Final, Literal, NamedTuple
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.case.load import Case
@@ -14,6 +15,9 @@ from fctd.results.measured import measured_column
 from fctd.results.series import Series, frictions_of, in_words
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Array = NDArray[np.float64]
 Load = Literal["string", "indicator"]
@@ -107,7 +111,7 @@ def limits_of_torque(chart: pd.DataFrame, units: System, measured: pd.DataFrame 
     return _span(visible, least, shown(TORQUE, units).factor, cut=bool(locked.any()))
 
 
-def _locked(chart: pd.DataFrame) -> "pd.Series[bool]":
+def _locked(chart: pd.DataFrame) -> pd.Series[bool]:
     return chart["status"] == SteadyStatus.LOCKED_UP
 
 

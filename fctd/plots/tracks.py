@@ -1,10 +1,11 @@
 """The quantities of a profile in the units of its panels; for pictures and pages."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import Final, Literal, NamedTuple
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.case.units import conversion
@@ -12,6 +13,9 @@ from fctd.plots.palette import BUCKLED
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import Shown, System, shown
 from fctd.steady.equilibrium import Equilibrium
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Array = NDArray[np.float64]
 

@@ -5,10 +5,16 @@ tables.  A load that is added to ``LOADS`` appears in charts, on the screen and 
 """
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any, Final, NamedTuple
 
 # Endings of names by unit; the order matters: a column that ends in `_N_m` is not a length.
 ENDINGS: Final = ("_N_m", "_Pa", "_N", "_m", "_deg")
+
+
+@cache
+def _stem(name: str) -> str:
+    return next((name.removesuffix(end) for end in ENDINGS if name.endswith(end)), name)
 
 
 class Column(NamedTuple):
@@ -31,7 +37,7 @@ class Column(NamedTuple):
     @property
     def stem(self) -> str:
         """The name without its unit."""
-        return next((self.name.removesuffix(end) for end in ENDINGS if self.name.endswith(end)), self.name)
+        return _stem(self.name)
 
     def value(self, point: Any) -> float:
         """The load of a steady string, SI; point : an ``Equilibrium``."""

@@ -1,11 +1,16 @@
 """Results as notebooks show them: a small table."""
 
-from collections.abc import Mapping
+from __future__ import annotations
 
-import pandas as pd
+from collections.abc import Mapping
+from math import isnan
+from typing import TYPE_CHECKING
 
 from fctd.results.columns import COLUMNS, LOADS
 from fctd.results.unit_systems import shown
+
+if TYPE_CHECKING:
+    pass
 
 # Loads that say most: hook load and surface torque.
 MAIN = LOADS[:2]
@@ -13,6 +18,8 @@ MAIN = LOADS[:2]
 
 def html_table(title: str, rows: Mapping[str, str]) -> str:
     """A table of names and values below a title, as HTML; texts are escaped."""
+    import pandas as pd
+
     table = pd.DataFrame({title: list(rows.values())}, index=list(rows)).to_html()
     return table.replace(' style="text-align: right;"', ' style="text-align: left;"')
 
@@ -23,6 +30,6 @@ def load_rows(loads: Mapping[str, float]) -> dict[str, str]:
     for name, value in loads.items():
         unit = shown(name, "si")
         rows[COLUMNS[name].label] = (
-            "–" if pd.isna(value) else f"{value * unit.factor:z.{COLUMNS[name].digits}f} {unit.label}"
+            "–" if isnan(value) else f"{value * unit.factor:z.{COLUMNS[name].digits}f} {unit.label}"
         )
     return rows

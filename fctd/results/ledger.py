@@ -1,11 +1,17 @@
 """The energy ledger: stored energy and losses against the energy put in; the difference is the error."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 # Losses and the rows of the state in which they are summed.
 LOSSES = {

@@ -1,14 +1,15 @@
 """Measured hook loads and torques from a CSV file, to be drawn over the curves of a chart."""
 
+from __future__ import annotations
+
 import csv
 import io
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
-import pandas as pd
 
 from fctd.case.errors import InputError, nearest
 from fctd.case.input_file import read_text
@@ -16,6 +17,9 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.units import FORCE, LENGTH, TORQUE, Dimension, Quantity
 from fctd.results.columns import COLUMNS
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 _LARGEST_FILE: Final = 8  # MiB
 _BELOW: Final = 30.0  # m: a measured depth may exceed the last station of the survey by a joint or two
@@ -86,6 +90,8 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
 
 def _table(rows: Sequence[tuple[int, list[str]]], deepest: float) -> pd.DataFrame:
     """The measured rows; deepest [m] : end of the hole."""
+    import pandas as pd
+
     if len(rows) < 2:
         raise InputError("a row of headers and a row for each measurement")
     (first, headers), *body = rows

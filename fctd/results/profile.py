@@ -1,9 +1,10 @@
 """The profile of a string from the top to the bit: loads, contacts, stress and buckling limits."""
 
-from typing import NamedTuple
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.mechanics.query import Walls
@@ -11,6 +12,9 @@ from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore, hole_frame
 from fctd.results.buckling import HELICAL_LIMIT, MODE, MODES, SINUSOIDAL_LIMIT, buckling_along, pipe_of
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Array = NDArray[np.float64]
 Load = float | Array
@@ -64,6 +68,8 @@ def profile_table(
 
     top (3,), points (n, 3) : upper end and contact points [m]; walls : beside them.
     """
+    import pandas as pd  # slow to import, and a chart as CSV needs none
+
     offset, md = walls.offset, walls.md
     _, direction = hole.at(md)
     high, right = hole_frame(direction)

@@ -1,10 +1,14 @@
 """The series of a chart: the rows of one operation and one set of friction factors."""
 
-from typing import NamedTuple
+from __future__ import annotations
 
-import pandas as pd
+from math import isnan
+from typing import TYPE_CHECKING, NamedTuple
 
 from fctd.results.unit_systems import System, reworded
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 FRICTION_LABEL = "friction_label"  # the column that names friction factors which differ along the hole
 OWN = "case's"  # factors of the case that differ along the hole, without a label
@@ -29,7 +33,7 @@ def series_of(chart: pd.DataFrame, units: System = "si") -> list[Series]:
     if FRICTION_LABEL in chart.columns:
         names = chart[FRICTION_LABEL].map(lambda label: reworded(str(label), units))
     else:
-        names = chart["friction"].map(lambda factor: OWN if pd.isna(factor) else f"{factor:g}")
+        names = chart["friction"].map(lambda factor: OWN if isnan(factor) else f"{factor:g}")
     groups = chart.groupby([chart["operation"], names], sort=False)
     return [Series(str(operation), str(friction), rows) for (operation, friction), rows in groups]
 

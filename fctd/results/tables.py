@@ -1,5 +1,8 @@
 """The result of a simulation, and the files of all results: tables with case, versions and commit as metadata."""
 
+from __future__ import annotations
+
+import csv
 import json
 import os
 import platform
@@ -10,12 +13,11 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 from uuid import uuid4
 
 import numba
 import numpy as np
-import pandas as pd
 
 from fctd.case.errors import InputError
 from fctd.case.input_file import check_regular
@@ -27,6 +29,10 @@ from fctd.results.status import RunStatus
 from fctd.results.whole_file import check_file, left_overs, whole_file
 from fctd.results.whole_folder import PAUSE, check_folder, repair, whole_folder
 
+if TYPE_CHECKING:
+    import pandas as pd
+
+Rows = list[dict[str, Any]]
 TABLES = ("history", "profile", "energy")
 ATTEMPTS = 20  # to read a folder that another process may be replacing
 
@@ -193,15 +199,21 @@ def _metadata(path: Path) -> dict[bytes, bytes]:
         return {}
 
 
-def write_table(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> list[Path]:
+def write_table(table: pd.DataFrame | Rows, path: Path, metadata: Mapping[str, Any]) -> list[Path]:
     """Write a table as CSV, Parquet or Excel's workbook, whichever the suffix says; returns the files written.
 
+    table : a data frame, or rows that have the same columns; rows as CSV need no pandas, which is slow to import.
     Parquet and workbook carry the metadata themselves; beside a CSV, which any reader must find a plain table, it goes
     into a JSON file of its own: ``chart.csv.json``.  Raises InputError where a file cannot be written.
     """
     files = table_files(path)
     with whole_file(path) as scratch:
-        _WRITERS[path.suffix.lower()](frame, scratch, metadata)
+        if path.suffix.lower() == ".csv":
+            _to_csv(table, scratch)
+        else:
+            import pandas as pd
+
+            _WRITERS[path.suffix.lower()](pd.DataFrame(table), scratch, metadata)
     for beside in files[1:]:
         with whole_file(beside) as scratch:
             scratch.write_text(json.dumps(metadata, indent=1), encoding="utf-8")
@@ -213,9 +225,16 @@ def table_files(path: Path) -> list[Path]:
     return [path, path.with_name(path.name + ".json")] if path.suffix.lower() == ".csv" else [path]
 
 
-def _to_csv(frame: pd.DataFrame, path: Path, _: Mapping[str, Any] | None = None) -> None:
-    """Write a table with one row of headers."""
-    frame.to_csv(path, index=False)
+def _to_csv(table: pd.DataFrame | Rows, path: Path) -> None:
+    """Write a table with one row of headers; NaN is an empty cell."""
+    if not isinstance(table, list):
+        table.to_csv(path, index=False)
+        return
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(table[0]), lineterminator=os.linesep)
+        writer.writeheader()
+        for row in table:
+            writer.writerow({name: "" if value != value else value for name, value in row.items()})
 
 
 def _to_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
@@ -233,6 +252,8 @@ def _to_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) ->
 
 def _to_workbook(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
     """Write a table as the first sheet of a workbook and its metadata as the second; needs xlsxwriter."""
+    import pandas as pd
+
     about = pd.DataFrame(
         [(key, value if isinstance(value, str) else json.dumps(value)) for key, value in metadata.items()],
         columns=["key", "value"],
@@ -246,7 +267,6 @@ def _to_workbook(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -
 
 
 _WRITERS: Final[dict[str, Callable[[pd.DataFrame, Path, Mapping[str, Any]], None]]] = {
-    ".csv": _to_csv,
     ".parquet": _to_parquet,
     ".xlsx": _to_workbook,
 }

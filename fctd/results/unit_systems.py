@@ -3,13 +3,16 @@
 In memory and in files the columns are SI; screen and pictures show the same quantities in larger or smaller units.
 """
 
-import re
-from typing import Final, Literal, NamedTuple
+from __future__ import annotations
 
-import pandas as pd
+import re
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 from fctd.case.units import conversion
 from fctd.results.columns import COLUMNS
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 System = Literal["si", "field"]
 
@@ -60,6 +63,8 @@ def shown(column: str, system: System) -> Shown:
 
 def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
     """An SI table in field units: ``hookload_N`` becomes ``hookload_klbf``, ``bit_depth_m`` ``bit_depth_ft``."""
+    import pandas as pd
+
     columns = {}
     for name in table.columns:
         measure = measure_of(name)

@@ -1,11 +1,12 @@
 """The records of a run: history, profiles along the string, and the energy ledger."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.mechanics import state, topdrive
@@ -20,6 +21,9 @@ from fctd.results.profile import Loads, profile_table
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
 from fctd.simulation.run import Run, contact_points
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Array = NDArray[np.float64]
 
@@ -100,6 +104,8 @@ class Recorder:
 
     def result(self, status: RunStatus, message: str, wall: float, residual: float) -> SimulationResult:
         """All records, with a profile at the end and the numbers of the run."""
+        import pandas as pd
+
         run = self.run
         profiles = self.profiles | ({self.last_time: self._profile()} if self.history else {})
         energy = pd.DataFrame(self.ledger)

@@ -4,23 +4,25 @@ The string slides or turns at constant rates while its shape stands still; the f
 (tangent.py).  Newton's method starts from the guess of a soft string (first_guess.py, continuation.py).
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
 from fctd.mechanics.query import Walls
-from fctd.model.drillstring import String, check_fit, lay_out
+from fctd.model.drillstring import check_fit, lay_out
 from fctd.model.frames import steady_offsets
 from fctd.model.operations import SteadyRates, sensors, steady_rates
 from fctd.model.wellbore import Wellbore, build_wellbore
-from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along, pipe_of
+from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, string_notes
@@ -30,6 +32,7 @@ from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
 from fctd.steady.climb import BEYOND, LOW, SOUND, Climb, climb, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
+from fctd.steady.laid_string import LaidString, lay
 from fctd.steady.post_buckling import resolve
 from fctd.steady.problem import Problem, Workspace
 from fctd.steady.tangent import (
@@ -41,6 +44,9 @@ from fctd.steady.tangent import (
     R_FT,
     R_MU_FN,
 )
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Array = NDArray[np.float64]
 
@@ -77,7 +83,7 @@ class Equilibrium:
     sum_r_ft: float
     sum_r_mu_fn: float
     imbalance: float
-    _shape: "Shape" = field(repr=False)
+    _shape: Shape = field(repr=False)
     shape: str = "none"
     hookload_low: float = float("nan")
     hookload_high: float = float("nan")
@@ -100,7 +106,7 @@ class Equilibrium:
         """Whether the numbers belong to a balance of forces."""
         return self.status.has_loads and bool(np.isfinite(self.hookload))
 
-    def without_loads(self) -> "Equilibrium":
+    def without_loads(self) -> Equilibrium:
         """The same without loads, for a string that has none at these loads."""
         none = float("nan")
         return replace(
@@ -113,7 +119,7 @@ class Equilibrium:
         """The string from the top to the bit, a row per contact point; columns of ``profile_table``."""
         shape, mud = self._shape, self.case.mud.density
         points = shape.contacts[:, PLACE]
-        return profile_table(shape.hole, shape.string, mud, shape.top, points, shape.walls, shape.loads)
+        return profile_table(shape.hole, shape.laid.string, mud, shape.top, points, shape.walls, shape.loads)
 
     @property
     def offsets(self) -> Array:
@@ -138,25 +144,30 @@ class Equilibrium:
         if not self.answered:
             return ()
         shape, in_hole = self._shape, self.case.contact.enabled
-        return string_notes(shape.string, shape.loads, self.hookload, shape.walls, shape.radius, in_hole=in_hole)
+        string, radius = shape.laid.string, shape.radius
+        return string_notes(string, shape.loads, self.hookload, shape.walls, radius, in_hole=in_hole)
 
 
 @dataclass(frozen=True)
 class Shape:
     """The data of a profile: rows of ``tangent.read_loads`` (n, ...), and the place of the string's top.
 
-    top (3,), radius (n,) of the contact points [m].
+    top (3,) [m].
     """
 
     hole: Wellbore
-    string: String
+    laid: LaidString
     top: Array
     joints: Array
     contacts: Array
-    radius: Array
     owner: NDArray[np.int64]
     bit_tension: float
     bit_torque: float
+
+    @property
+    def radius(self) -> Array:
+        """Radii (n,) at the contact points [m]."""
+        return self.laid.pipe.radius
 
     @cached_property
     def walls(self) -> Walls:
@@ -176,7 +187,7 @@ class Shape:
         if min(tension.min(), self.bit_tension) >= 0:
             return NOT_BUCKLED
         md, radius = self.walls.md, self.walls.radius
-        pipe, top_md = pipe_of(self.string), self.string.top_md
+        pipe, top_md = self.laid.pipe, self.laid.string.top_md
         return buckling_along(self.hole, pipe, top_md, md, radius, tension, self.bit_tension)[1]
 
 
@@ -193,12 +204,12 @@ class Solver:
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
         self.work = Workspace(0)
 
-    def lay_out(self, bit_depth: float) -> String:
+    def lay_out(self, bit_depth: float) -> LaidString:
         """The string with the bit at a depth [m]; raises InputError when string and hole do not fit there."""
         check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
         string = lay_out(self.case, bit_depth)
         check_fit(self.case, string, self.hole, bit_depth)
-        return string
+        return lay(self.case, self.hole, string)
 
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
@@ -206,12 +217,12 @@ class Solver:
 
     # Of an iteration that diverged only the status is used; its numbers may overflow.
     @np.errstate(over="ignore", invalid="ignore")
-    def solve_string(self, operation: str, rates: SteadyRates, string: String) -> Equilibrium:
+    def solve_string(self, operation: str, rates: SteadyRates, laid: LaidString) -> Equilibrium:
         """The same of a string that has been laid out, which depends neither on operation nor on friction.
 
         Raises InputError when a resolved string has too many segments.
         """
-        problem = self.problem(operation, rates, string)
+        problem = self.problem(operation, rates, laid)
         point = self.settle(problem)
         # Of an unstable balance the solver's pose may be another.
         buckled = point.answered and point.status != SteadyStatus.UNSTABLE and point.buckling.mode == "helical"
@@ -265,13 +276,13 @@ class Solver:
         coarse = climb(problem, most=SOUND)
         coarse.iterations += iterations
 
-        def lay(case: Case) -> Problem:
-            string = lay_out(case, problem.string.bit_depth)
-            finer = self.problem(problem.operation, problem.rates, string, case)
+        def lay_finer(case: Case) -> Problem:
+            laid = lay(case, self.hole, lay_out(case, problem.string.bit_depth))
+            finer = self.problem(problem.operation, problem.rates, laid, case)
             finer.at_axis = 1
             return finer
 
-        problem, snaking, helix = resolve(self.case, coarse, problem, lay)
+        problem, snaking, helix = resolve(self.case, coarse, problem, lay_finer)
         point = replace(self.follow(problem, snaking), shape="snaking")
         if helix is None:
             return point
@@ -295,12 +306,12 @@ class Solver:
             return point
         return replace(point, message=_end_of(problem, path) or point.message)
 
-    def problem(self, operation: str, rates: SteadyRates, string: String, cut: Case | None = None) -> Problem:
+    def problem(self, operation: str, rates: SteadyRates, laid: LaidString, cut: Case | None = None) -> Problem:
         """A laid-out string as a problem; cut : the case with other segments, of which it has been laid out."""
         case = self.case if cut is None else cut
-        if self.work.segments < string.segments:
-            self.work = Workspace(string.segments)
-        return Problem(case, self.hole, self.work, string, operation, rates)
+        if self.work.segments < laid.string.segments:
+            self.work = Workspace(laid.string.segments * 3 // 2)  # the depths of a chart rise
+        return Problem(case, self.hole, self.work, laid, operation, rates)
 
     def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
         """The steady string of a problem in its pose.
@@ -309,11 +320,9 @@ class Solver:
         """
         case, string, n = self.case, problem.string, problem.n
         found = problem.reactions()
-        row = state.row
         shape = Shape(
-            self.hole, string, problem.work.P[0, PLACE].copy(), found.joints, found.contacts,
-            row(problem.work.S, state.RADIUS, n).copy(), problem.work.owner[1 : n + 1].copy(), -problem.weight_on_bit,
-            problem.bit_torque,
+            self.hole, problem.laid, problem.work.P[0, PLACE].copy(), found.joints, found.contacts,
+            problem.work.owner[1 : n + 1].copy(), -problem.weight_on_bit, problem.bit_torque,
         )  # fmt: skip
         # The hook load of a horizontal string is 0 within rounding.
         pushed = -found.hookload - case.rig.block_weight > n * problem.allowed

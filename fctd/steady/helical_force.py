@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry
 from fctd.mechanics.laws import CODES, shares
-from fctd.results.buckling import HELICAL, MODE, NEEDED, buckling_along, pipe_of
+from fctd.results.buckling import HELICAL, MODE, NEEDED, buckling_along
 from fctd.steady.climb import BEYOND, START_ITERATIONS, creep_of
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.problem import Problem
@@ -70,7 +70,7 @@ class Helical:
         found = problem.reactions()
         walls, tension = problem.walls(found.contacts), found.joints[:, JOINT_TENSION]
         rows, _ = buckling_along(
-            problem.hole, pipe_of(string), string.top_md, walls.md, walls.radius, tension, problem.bit_tension()
+            problem.hole, problem.laid.pipe, string.top_md, walls.md, walls.radius, tension, problem.bit_tension()
         )
         self.wound |= (rows[1:, MODE] == HELICAL) & (string.length > rows[1:, NEEDED])
         normal = found.contacts[:, NORMAL_FORCE]

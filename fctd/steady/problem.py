@@ -11,14 +11,14 @@ from fctd.mechanics import state
 from fctd.mechanics.contact import START_MD
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.query import Walls
-from fctd.model.drillstring import String, fill
 from fctd.model.operations import SteadyRates
 from fctd.model.wellbore import Wellbore, hole_frame
-from fctd.results.buckling import buckling_along, pipe_of
+from fctd.results.buckling import buckling_along
 from fctd.steady import tangent
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
 from fctd.steady.continuation import NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, take_step
 from fctd.steady.first_guess import MD, NODE, guess, lay_guess
+from fctd.steady.laid_string import LaidString
 from fctd.steady.relaxation import Creep, relax
 from fctd.steady.tangent import (
     AXIAL_MOMENT,
@@ -41,6 +41,7 @@ Array = NDArray[np.float64]
 
 # Largest force out of balance at a body, over the weight of the string.
 TOLERANCE = 1e-7
+EPSILON = float(np.finfo(float).eps)
 # Lateral imperfection of the first guess, so that a straight string may buckle [m].
 SEED = 1e-4
 
@@ -110,21 +111,20 @@ class Problem:
     """
 
     def __init__(
-        self, case: Case, hole: Wellbore, work: Workspace, string: String, operation: str, rates: SteadyRates
+        self, case: Case, hole: Wellbore, work: Workspace, laid: LaidString, operation: str, rates: SteadyRates
     ) -> None:
-        self.case, self.hole, self.work, self.string, self.rates = case, hole, work, string, rates
+        self.case, self.hole, self.work, self.laid, self.rates = case, hole, work, laid, rates
         self.operation = operation
-        self.n = string.segments
-        self.pipe = fill(work.S, string, case)
+        self.string = laid.string
+        self.n = self.string.segments
+        laid.put(work.S)
         kind = KINDS[operation]
         self.weight_on_bit = case.bit.weight_on_bit if kind.on_bottom else 0.0
         self.bit_torque = case.bit.torque if kind.on_bottom else 0.0
-        _, (self._downhole,) = hole.at(np.array([string.bit_depth]))
-        self._top_axis = hole.at(np.array([string.top_md]))[1][0]
-        self.weight = float(string.of("weight") @ string.length) + self.weight_on_bit
+        self.weight = laid.weight + self.weight_on_bit
         # The stiffness of the shortest segments turns the rounding of positions into force.
-        stiffest = float(state.row(work.S, state.K_AXIAL, self.n).max())
-        self.allowed = max(TOLERANCE * self.weight, 16 * float(np.finfo(float).eps) * string.bit_depth * stiffest)
+        rounding = 16 * EPSILON * self.string.bit_depth * laid.stiffest
+        self.allowed = max(TOLERANCE * self.weight, rounding)
         self.kinks = np.zeros((self.n + 2, 4))
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
@@ -133,7 +133,7 @@ class Problem:
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
         geometry = self.hole.geometry if self.case.contact.enabled else state.OPEN
-        x, y, z = (float(-self.weight_on_bit * share.weight * d) for d in self._downhole)
+        x, y, z = (-self.weight_on_bit * share.weight * self.laid.bit_axis).tolist()
         return Steady(
             geometry, CODES[self.case.contact.friction_law], share.friction, self.rates.speed, self.rates.spin, x, y, z,
             self.bit_torque * share.weight, self.at_axis,
@@ -207,10 +207,10 @@ class Problem:
         contacts[1:, NORMAL_FORCE:] += self.added
         # Half of a long segment is lumped at the top: the top drive carries its weight and mud load.
         half = 0.5 * string.length[0] if string.long_segment else 0.0
-        rates, pipe = self.rates, self.pipe
+        rates, pipe = self.rates, self.laid.fed
         hung, resisted = half * (pipe.weight - pipe.mud_axial * rates.speed), half * pipe.mud_spin * rates.spin
         joints[1, [JOINT_TENSION, JOINT_TORQUE]] += hung, resisted
-        hookload, torque = float(w.R[0, FORCE] @ self._top_axis) + hung, resisted - float(w.R[0, AXIAL_MOMENT])
+        hookload, torque = float(w.R[0, FORCE] @ self.laid.top_axis) + hung, resisted - float(w.R[0, AXIAL_MOMENT])
         imbalance = float(np.linalg.norm(w.R[1 : n + 1, FORCE], axis=1).max())
         return Reactions(hookload, torque, imbalance, joints[1:], contacts[1:])
 
@@ -226,9 +226,7 @@ class Problem:
             found.joints[:, JOINT_TENSION],
             self.bit_tension(share),
         )
-        rows, _ = buckling_along(
-            self.hole, pipe_of(string), string.top_md, walls.md, walls.radius, tension, bit_tension
-        )
+        rows, _ = buckling_along(self.hole, self.laid.pipe, string.top_md, walls.md, walls.radius, tension, bit_tension)
         md, EI = np.append(string.top_md, walls.md), string.of("EI")
         return Compressed(md, -np.append(tension, bit_tension), np.append(EI[0], EI), rows)
 
@@ -251,9 +249,11 @@ class Problem:
     def _bend(self) -> None:
         """Write the bent housings into ``kinks``; the workspace must contain the first guess."""
         for k, component in enumerate(self.case.string.components[: len(self.string.sections)]):
+            if component.bend == 0:
+                continue
             # The joint above the component's uppermost segment; joint 1 at the top drive has no bend.
             j = int(np.argmax(self.string.component == k)) + 1
-            if component.bend == 0 or j == 1:
+            if j == 1:
                 continue
             _, direction = self.hole.at(self.work.G[j - 1 : j, MD])
             (high,), (right,) = hole_frame(direction)

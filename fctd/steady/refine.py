@@ -11,14 +11,15 @@ Before a graded string a uniform one is found.  Since a graded string is valid f
 at least a tenth fewer segments.
 """
 
+from __future__ import annotations
+
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
@@ -32,6 +33,9 @@ from fctd.results.notes import Note, worst
 from fctd.results.status import RefineStatus, SteadyStatus
 from fctd.steady.chords import largest_chord, shorter_cylinders
 from fctd.steady.equilibrium import Equilibrium, Solver
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Array = NDArray[np.float64]
 # Called before every level with a text that names the level.
@@ -279,6 +283,8 @@ def _result(
     case: Case, task: _Task, tolerance: float, error_of_hole: float, holes: list[_Level], strings: list[_Level]
 ) -> Refinement:
     """The refinement that results from the levels."""
+    import pandas as pd
+
     answered = [k for k, level in enumerate(strings) if level.answered]
     steps = pd.DataFrame(_rows(task, holes) + _rows(task, strings))
     notes = worst(note for point in (strings[answered[-1]].points if answered else []) for note in point.notes)
@@ -313,6 +319,7 @@ def _result(
 
 def _better(uniform: Refinement, graded: Refinement) -> Refinement:
     """The one within the tolerance with the fewest segments, else that with the smallest error; steps of both."""
+    import pandas as pd
 
     def merit(found: Refinement) -> tuple[bool, float]:
         within = found.status.acceptable
@@ -328,25 +335,15 @@ def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
     for k, level in enumerate(levels):
         change, error = _errors(levels[: k + 1])
         for i, kind in enumerate(task.rates):
-            rows.append(
-                {
-                    "stage": level.stage,
-                    "layout": level.layout,
-                    "level": k,
-                    "operation": kind,
-                    "segments": level.segments,
-                    "shortest_m": level.shortest,
-                    "chord_m": largest_chord(level.case),
-                    "hookload_N": level.loads[i, 0],
-                    "surface_torque_N_m": level.loads[i, 1],
-                    "hookload_change": change[i, 0],
-                    "torque_change": change[i, 1],
-                    "hookload_error": error[i, 0],
-                    "torque_error": error[i, 1],
-                    "status": level.points[i].status.value,
-                    "time_s": level.seconds[i],
-                }
-            )
+            row = {
+                "stage": level.stage, "layout": level.layout, "level": k, "operation": kind,
+                "segments": level.segments, "shortest_m": level.shortest, "chord_m": largest_chord(level.case),
+                "hookload_N": level.loads[i, 0], "surface_torque_N_m": level.loads[i, 1],
+                "hookload_change": change[i, 0], "torque_change": change[i, 1],
+                "hookload_error": error[i, 0], "torque_error": error[i, 1],
+                "status": level.points[i].status.value, "time_s": level.seconds[i],
+            }  # fmt: skip
+            rows.append(row)
     return rows
 
 

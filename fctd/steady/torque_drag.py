@@ -1,26 +1,32 @@
 """Torque-and-drag charts: the steady string of several operations at many bit depths, one row for each."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, friction_set, friction_sets, own_label
 from fctd.case.load import Case, naming_file
 from fctd.case.units import LENGTH, argument
-from fctd.model.drillstring import String
-from fctd.model.operations import rates_of_all
+from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import UNKNOWN
 from fctd.results.columns import IN_CHART, SHAPES, SHARES
 from fctd.results.notes import codes_of
 from fctd.results.status import SteadyStatus
-from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.equilibrium import Solver
+from fctd.steady.laid_string import LaidString
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 # Called after every row with the number of rows done and their total.
 Progress = Callable[[int, int], None]
 FrictionChoice = float | Mapping[str, float] | FrictionSet
+Row = dict[str, Any]
 
 
 def torque_drag(
@@ -48,6 +54,21 @@ def torque_drag(
     that is ``unstable`` because no steady shape was found.  At a depth where string and hole do not fit the status is
     ``not_possible``.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
     """
+    import pandas as pd  # slow to import, and a command that prints rows needs none
+
+    return pd.DataFrame(chart_rows(case, operation, bit_depths, friction, speed, rpm, progress))
+
+
+def chart_rows(
+    case: Case,
+    operation: str | Sequence[str],
+    bit_depths: Sequence[float | str],
+    friction: FrictionChoice | Sequence[FrictionChoice] | None = None,
+    speed: float | str | None = None,
+    rpm: float | str | None = None,
+    progress: Progress | None = None,
+) -> list[Row]:
+    """The rows of ``torque_drag``, each a mapping from column to value."""
     with naming_file(case):
         depths = _check_depths(bit_depths)
         kinds = [operation] if isinstance(operation, str) else list(operation)
@@ -57,23 +78,23 @@ def torque_drag(
         sets = None if friction is None else friction_sets(friction)
         hole = build_wellbore(case)
         solvers = _solvers(case, hole, sets)
-        strings = _lay_out(solvers[0][1], depths)
-        rows = []
-        for kind in kinds:
-            for label, solver in solvers:
-                for depth, string in zip(depths, strings, strict=True):
-                    point, misfit = None, ""
-                    if isinstance(string, InputError):
-                        misfit = str(string)
-                    else:
-                        try:
-                            point = solver.solve_string(kind, rates[kind], string)
-                        except InputError as error:  # as of a resolved string with too many segments
-                            misfit = str(error)
-                    rows.append(_row(solver.case, label, kind, depth, point, misfit))
+        total = len(kinds) * len(solvers) * len(depths)
+        rows: list[list[Row]] = []
+        unfit: list[InputError] = []
+        # The string is laid out once a depth, for all operations and frictions.
+        for depth in depths:
+            laid = _lay_out(solvers[0][1], depth)
+            rows.append([])
+            if isinstance(laid, InputError):
+                unfit.append(laid)
+            for kind in kinds:
+                for label, solver in solvers:
+                    rows[-1].append(_row(label, solver, kind, rates[kind], depth, laid))
                     if progress is not None:
-                        progress(len(rows), len(kinds) * len(solvers) * len(depths))
-        return pd.DataFrame(rows)
+                        progress((len(rows) - 1) * len(rows[0]) + len(rows[-1]), total)
+        if len(unfit) == len(depths):
+            raise unfit[0]
+        return [row for series in zip(*rows, strict=True) for row in series]
 
 
 def _solvers(case: Case, hole: Wellbore, sets: Sequence[FrictionSet] | None) -> list[tuple[str, Solver]]:
@@ -98,21 +119,24 @@ def own_friction(case: Case) -> float:
     return factors.pop() if len(factors) == 1 else float("nan")
 
 
-def _lay_out(solver: Solver, depths: Sequence[float]) -> list[String | InputError]:
-    """The string at each depth, or why string and hole do not fit; raises InputError where they fit at none."""
-    found: list[String | InputError] = []
-    for depth in depths:
+def _lay_out(solver: Solver, depth: float) -> LaidString | InputError:
+    """The string at a depth, or why string and hole do not fit."""
+    try:
+        return solver.lay_out(depth)
+    except InputError as error:
+        return error
+
+
+def _row(label: str, solver: Solver, kind: str, rates: SteadyRates, depth: float, laid: LaidString | InputError) -> Row:
+    """A chart row, of a string in balance or of a depth where string and hole do not fit."""
+    point, misfit = None, ""
+    if isinstance(laid, InputError):
+        misfit = str(laid)
+    else:
         try:
-            found.append(solver.lay_out(depth))
-        except InputError as error:
-            found.append(error)
-    if isinstance(found[0], InputError) and all(isinstance(string, InputError) for string in found):
-        raise found[0]
-    return found
-
-
-def _row(case: Case, label: str, kind: str, depth: float, point: Equilibrium | None, misfit: str) -> dict[str, object]:
-    """A chart row: of a solved string, or of a depth where string and hole do not fit (point is None)."""
+            point = solver.solve_string(kind, rates, laid)
+        except InputError as error:  # as of a resolved string with too many segments
+            misfit = str(error)
     answer = point if point is not None and point.answered else None
     # The values of an unfinished iteration are not loads.
     loads = {load.name: float("nan") if answer is None else load.value(answer) for load in IN_CHART}
@@ -120,7 +144,7 @@ def _row(case: Case, label: str, kind: str, depth: float, point: Equilibrium | N
     found = {column.name: float("nan") if point is None else column.value(point) for column in (*SHAPES, *SHARES)}
     return {
         "operation": kind,
-        "friction": own_friction(case),
+        "friction": own_friction(solver.case),
         "friction_label": label,
         "bit_depth_m": depth,
         **loads,

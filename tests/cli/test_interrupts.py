@@ -74,7 +74,7 @@ def test_a_command_without_results_ends_without_files(
         "refine": ("refine", case_file, "--out", tmp_path / "fine.toml"),
     }
     monkeypatch.setattr(sys.modules["fctd.simulation.simulate"], "settle", settle)
-    monkeypatch.setattr(chart, "torque_drag", sending(chart.torque_drag, number, 2))
+    monkeypatch.setattr(chart, "chart_rows", sending(chart.chart_rows, number, 2))
     monkeypatch.setattr(refine, "refine", sending(refine.refine, number, 1))
     assert run(monkeypatch, *options[command]) == 130
     assert "Traceback" not in capsys.readouterr().err

@@ -1,5 +1,6 @@
 """The command line: files written, messages, exit codes."""
 
+import gc
 import os
 import subprocess
 import sys
@@ -146,3 +147,16 @@ def test_an_interactive_session_is_not_ended(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(sys, "ps1", ">>> ", raising=False)
     with pytest.raises(KeyboardInterrupt), ends_program():
         raise KeyboardInterrupt
+
+
+def test_the_garbage_collector_rests_during_imports_alone() -> None:
+    assert gc.isenabled()
+    with ends_program():
+        assert not gc.isenabled()
+        with ends_program():  # as one module imports another
+            assert not gc.isenabled()
+        assert not gc.isenabled()
+    assert gc.isenabled()
+    with pytest.raises(SystemExit), ends_program():
+        raise KeyboardInterrupt
+    assert gc.isenabled()

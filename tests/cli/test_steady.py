@@ -103,7 +103,7 @@ def test_a_target_that_cannot_be_written_is_refused_before(
     os.mkfifo(tmp_path / "pipe.csv")
     os.mkfifo(tmp_path / "taken.csv.json")
     (tmp_path / "device.csv").symlink_to("/dev/null")
-    for compute in ("chart.torque_drag", "equilibrium.equilibrium"):
+    for compute in ("chart.chart_rows", "equilibrium.equilibrium"):
         monkeypatch.setattr(f"fctd.cli.{compute}", lambda *_, **__: pytest.fail("the case was computed"))
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / name)}
     assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 2

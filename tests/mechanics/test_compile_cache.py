@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from numba.core.cpu import CPUContext
 
 from fctd.mechanics import compile_cache, jit
 from fctd.mechanics.compile_cache import CompileCacheWarning, Store, open_store
@@ -33,6 +34,18 @@ def file(store: Store) -> Path:
 def test_code_is_read_back(store: Store, file: Path) -> None:
     assert file.stat().st_mode & 0o777 == 0o600
     assert hits(store, twice, 3.0) == 1
+
+
+def test_stored_code_needs_no_registries(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    """numba's registries of types and functions, most of a second, are for compiling alone."""
+
+    def refuse(_: CPUContext) -> None:
+        raise AssertionError("the registries are loaded")
+
+    monkeypatch.setattr(CPUContext, "load_additional_registries", refuse)
+    assert hits(store, twice, 3.0) == 1
+    with pytest.raises(AssertionError, match="registries"):
+        jit.entry(thrice, store)(1.5)
 
 
 def other_code(file: Path) -> bytes:

@@ -8,6 +8,7 @@ import subprocess
 from importlib.metadata import version
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numba
 import numpy as np
@@ -69,6 +70,22 @@ def test_the_suffix_says_what_a_table_is_written_as(name: str, tmp_path: Path) -
     assert not beside.exists()
     kept = pq.read_schema(path).metadata
     assert (kept[b"rpm"], kept[b"operation"]) == (b"[60, 90]", b"trip_in")
+
+
+def test_rows_are_written_as_their_table(tmp_path: Path) -> None:
+    """To the last character, also of a missing value, a text with a comma and numbers at the ends of the range."""
+    rows: list[dict[str, Any]] = [
+        {"depth_m": 0.1 + 0.2, "status": "converged", "iterations": 7, "reason": 'none, or "none"'},
+        {"depth_m": float("nan"), "status": "unstable", "iterations": 0, "reason": "ä\nb"},
+        {"depth_m": 1e22, "status": "converged", "iterations": 3, "reason": "none"},
+        {"depth_m": np.float64(-1.5e-7), "status": "converged", "iterations": 3, "reason": ""},
+        {"depth_m": -0.0, "status": "converged", "iterations": 3, "reason": " "},
+    ]
+    write_table(rows, tmp_path / "rows.csv", {})
+    write_table(pd.DataFrame(rows), tmp_path / "table.csv", {})
+    assert (tmp_path / "rows.csv").read_bytes() == (tmp_path / "table.csv").read_bytes()
+    write_table(rows, tmp_path / "rows.parquet", {})
+    pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "rows.parquet"), pd.DataFrame(rows))
 
 
 def test_a_workbook_has_a_sheet_of_the_table_and_one_of_its_origin(tmp_path: Path) -> None:

@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 
 from fctd import InputError, equilibrium, load_case, torque_drag
-from fctd.model.drillstring import String
 from fctd.model.operations import SteadyRates
 from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.laid_string import LaidString
 from tests.cases import level_case, make_case, pipe
 
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
@@ -145,10 +145,10 @@ def test_a_row_that_cannot_be_laid_out_does_not_end_the_chart(monkeypatch: pytes
     """As a resolved string may be, of which only the solver finds out."""
     solve = Solver.solve_string
 
-    def fails_at_800(solver: Solver, kind: str, rates: SteadyRates, string: String) -> Equilibrium:
-        if string.bit_depth == 800:
+    def fails_at_800(solver: Solver, kind: str, rates: SteadyRates, laid: LaidString) -> Equilibrium:
+        if laid.string.bit_depth == 800:
             raise InputError("at most 10 segments", key="string.components")
-        return solve(solver, kind, rates, string)
+        return solve(solver, kind, rates, laid)
 
     monkeypatch.setattr(Solver, "solve_string", fails_at_800)
     chart = torque_drag(case_of(), "trip_out", [700.0, 800.0, 850.0])
