@@ -3,7 +3,7 @@
 Needs plotly, which the package installs as its extra ``html``.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from html import escape
 from pathlib import Path
 from typing import Final
@@ -17,13 +17,13 @@ from plotly.subplots import make_subplots
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
-from fctd.model.operations import SteadyRates
 from fctd.plots.facts import heading_of_chart, heading_of_profile, shoes_of
 from fctd.plots.loads import (
     LOAD_COLUMNS,
     NAMES,
+    PLAIN,
     TORQUE,
-    Load,
+    ChartLook,
     groups_of,
     limits_of_load,
     limits_of_torque,
@@ -58,17 +58,10 @@ def save_page(figure: go.Figure, path: Path) -> list[Path]:
 
 
 def chart_page(
-    chart: pd.DataFrame,
-    units: System = "si",
-    case: Case | None = None,
-    *,
-    load: Load = "string",
-    rates: Mapping[str, SteadyRates] | None = None,
-    measured: pd.DataFrame | None = None,
-    warnings: Sequence[str] = (),
+    chart: pd.DataFrame, units: System = "si", case: Case | None = None, look: ChartLook = PLAIN
 ) -> go.Figure:
     """The chart of ``chart_figure`` as a page, with the same arguments; the pointer shows each row with its reason."""
-    groups = groups_of(series_of(chart, units))
+    groups, load, measured = groups_of(series_of(chart, units)), look.load, look.measured
     limits = limits_of_load(chart, case, load, units, measured), limits_of_torque(chart, units, measured)
     columns = LOAD_COLUMNS[load], TORQUE
     titles = [words for name, _ in groups for words in (name, "")]
@@ -87,7 +80,7 @@ def chart_page(
                     figure.add_trace(trace, **place)
             if measured is not None:
                 for kind in dict.fromkeys(one.operation for one in group):
-                    figure.add_trace(_measured(measured, kind, column, units, named), **place)
+                    figure.add_trace(_measured(look, kind, column, units, named), **place)
             label = f"{NAMES[column]}, {shown(column, units).label}"
             figure.update_xaxes(title_text=label, range=[limit.low, limit.high], **place)
             for shoe in [] if case is None else shoes_of(case):
@@ -105,7 +98,7 @@ def chart_page(
             title_text=f"{DEPTH.label}, {shown(DEPTH.name, units).label}", autorange="reversed", row=row, col=1
         )
         figure.update_yaxes(autorange="reversed", row=row, col=2)
-    title, lines = heading_of_chart(chart, units, case, rates, warnings)
+    title, lines = heading_of_chart(chart, units, case, look.rates, look.warnings)
     return _with_heading(figure, title, lines, PANEL * len(groups))
 
 
@@ -170,7 +163,10 @@ def _curve(one: Series, column: str, dash: str, units: System, edge: float, name
     if lost.any():
         found = np.flatnonzero(~lost)
         stuck = status == SteadyStatus.LOCKED_UP
-        between = np.interp(depth, depth[found], value[found]) if len(found) else np.zeros(len(depth))
+        # In a gap of the line on the line, else on the edge: any other place would look like a load.
+        between = np.full(len(depth), edge)
+        if len(found):
+            between = np.interp(depth, depth[found], value[found], left=edge, right=edge)
         label = "no loads"
         yield go.Scatter(
             x=np.where(stuck, edge, between)[lost], y=depth[lost], name=label, legendgroup=label,
@@ -180,12 +176,13 @@ def _curve(one: Series, column: str, dash: str, units: System, edge: float, name
         )  # fmt: skip
 
 
-def _measured(measured: pd.DataFrame, kind: str, column: str, units: System, named: set[str]) -> go.Scatter:
+def _measured(chosen: ChartLook, kind: str, column: str, units: System, named: set[str]) -> go.Scatter:
     """Measured points of an operation, with their ranges."""
-    rows, factor = measured[measured["operation"] == kind], shown(column, units).factor
+    assert chosen.measured is not None
+    rows, factor = chosen.measured[chosen.measured["operation"] == kind], shown(column, units).factor
     value, low, high = (rows[name].to_numpy(float) * factor for name in measured_columns(column))
     middle = np.where(np.isnan(value), 0.5 * (low + high), value)
-    label, unit = "measured, with range", shown(column, units).label
+    label, unit = chosen.measured_label, shown(column, units).label
     look = {"symbol": SYMBOLS[LOOKS[kind][1]], "size": 10, "color": MEASURED, "line": {"color": "black", "width": 1.5}}
     return go.Scatter(
         x=middle, y=rows["bit_depth_m"] * shown(DEPTH.name, units).factor, name=label, legendgroup=label,

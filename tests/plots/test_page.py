@@ -44,7 +44,7 @@ def test_a_curve_has_the_values_and_reasons_of_its_rows() -> None:
 
 
 def test_panels_are_those_of_the_picture() -> None:
-    figure = plots.chart_page(chart(list(KINDS), [0.2, 0.3]), "field", CASE, load="indicator")
+    figure = plots.chart_page(chart(list(KINDS), [0.2, 0.3]), "field", CASE, plots.ChartLook("indicator"))
     titles = [axis.title.text for axis in figure.select_xaxes()]
     assert titles == ["weight indicator (string and block), klbf", "surface torque, kft·lbf"] * 2
     names = [trace.name for trace in figure.data if trace.showlegend]
@@ -67,7 +67,7 @@ def test_measured_points_have_their_ranges() -> None:
         | {name: [value] for name, value in values.items()}
         | {f"surface_torque{end}_N_m": [np.nan] for end in ("", "_low", "_high")}
     )
-    figure = plots.chart_page(chart(["trip_in"], [0.2]), measured=measured)
+    figure = plots.chart_page(chart(["trip_in"], [0.2]), look=plots.ChartLook(measured=measured))
     point = next(trace for trace in figure.data if trace.name == "measured, with range")
     assert (list(point.x), list(point.error_x.array), list(point.error_x.arrayminus)) == ([300.0], [200.0], [100.0])
 
