@@ -46,14 +46,18 @@ SYMBOLS: Final = {
 DASHES: Final = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 PANEL: Final = 560  # height of a row of panels [px]
 LINE: Final = 18  # height of a line of the heading [px]
+# A page stays on its machine: plotly's own button would upload the chart.
+CONFIG: Final = {"displaylogo": False, "modeBarButtonsToRemove": ["sendChartToCloud"], "plotlyServerURL": ""}
+# Lines of the heading have 150 characters and do not wrap: on a narrow screen the page moves sideways.
+HEAD: Final = '<meta name="viewport" content="width=device-width"><style>#fctd {min-width: 960px}</style>'
 
 
 def save_page(figure: go.Figure, path: Path) -> list[Path]:
     """Write a page; returns the file.  Raises InputError where it cannot be written."""
     with whole_file(path) as scratch:
         # A name of its own for the drawing would differ from run to run.
-        text = figure.to_html(include_plotlyjs=True, div_id="fctd", config={"displaylogo": False})
-        scratch.write_text(text, encoding="utf-8")
+        text = figure.to_html(include_plotlyjs=True, div_id="fctd", config=CONFIG)
+        scratch.write_text(text.replace("</head>", f"{HEAD}</head>", 1), encoding="utf-8")
     return [path]
 
 
@@ -217,8 +221,8 @@ def _with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: i
     title_text = f"<b>{_plain(title)}</b>{small}"
     figure.update_layout(
         title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 12}},
-        height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 30, "b": 110},
-        template="plotly_white",
+        height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 45, "b": 110},
+        template="plotly_white", modebar={"orientation": "v"},  # beside the panels, not over the title
         legend={"orientation": "h", "y": 0, "yref": "container", "yanchor": "bottom"}, hovermode="closest",
     )  # fmt: skip
     return figure

@@ -5,12 +5,12 @@ from typing import Final
 # After Okabe and Ito's palette, which colour-blind readers can distinguish; some of the colours are darker or lighter
 # than theirs, so that no two are the same grey.
 PALETTE: Final = {
-    "blue": "#004F9A",
-    "vermilion": "#BC4000",
+    "blue": "#004C98",
+    "vermilion": "#B43600",
     "black": "#000000",
-    "sky": "#6BBDF0",
-    "green": "#008C66",
-    "purple": "#D47FAF",
+    "sky": "#6CBEF2",
+    "green": "#00946C",
+    "purple": "#D27AB0",
 }
 QUIET, DARK, SHADE = "#6e6e6e", "#303030", "#e4e4e4"
 # An operation has a colour and, for print in grey, a marker.
