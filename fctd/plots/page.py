@@ -49,7 +49,10 @@ LINE: Final = 18  # height of a line of the heading [px]
 # A page stays on its machine: plotly's own button would upload the chart.
 CONFIG: Final = {"displaylogo": False, "modeBarButtonsToRemove": ["sendChartToCloud"], "plotlyServerURL": ""}
 # Lines of the heading have 150 characters and do not wrap: on a narrow screen the page moves sideways.
-HEAD: Final = '<meta name="viewport" content="width=device-width"><style>#fctd {min-width: 960px}</style>'
+HEAD: Final = (
+    '<meta name="viewport" content="width=device-width">'
+    "<style>html {overflow-y: scroll} #fctd {min-width: 960px}</style>"
+)
 
 
 def save_page(figure: go.Figure, path: Path) -> list[Path]:
@@ -83,7 +86,9 @@ def chart_page(
                 for trace in _curve(one, column, dash, units, limit.low, named):
                     figure.add_trace(trace, **place)
             if measured is not None:
-                for kind in dict.fromkeys(one.operation for one in group):
+                # A trace without points would take the name in the legend, and plotly does not show it.
+                has_points = set(measured["operation"])
+                for kind in dict.fromkeys(one.operation for one in group if one.operation in has_points):
                     figure.add_trace(_measured(look, kind, column, units, named), **place)
             label = f"{NAMES[column]}, {shown(column, units).label}"
             figure.update_xaxes(title_text=label, range=[limit.low, limit.high], **place)
@@ -99,9 +104,9 @@ def chart_page(
                 annotation_text="slack-off is spent", annotation_position="top left",
             )  # fmt: skip
         figure.update_yaxes(
-            title_text=f"{DEPTH.label}, {shown(DEPTH.name, units).label}", autorange="reversed", row=row, col=1
+            title_text=f"{DEPTH.label}, {shown(DEPTH.name, units).label}", exponentformat="none", row=row, col=1
         )
-        figure.update_yaxes(autorange="reversed", row=row, col=2)
+        figure.update_yaxes(autorange="reversed", row=row)
     title, lines = heading_of_chart(chart, units, case, look.rates, look.warnings)
     return _with_heading(figure, title, lines, PANEL * len(groups))
 
@@ -136,8 +141,8 @@ def profile_page(
             for mode, (md, limit) in limits_near(answers, units).items():
                 dash = "dash" if mode == "sinusoidal" else "dot"
                 figure.add_trace(_line(limit, md, f"{mode} limit", QUIET, dash, legend=True), **place)
-        figure.update_xaxes(title_text=f"{name}, {unit}", title_font_size=11, **place)
-        figure.update_yaxes(autorange="reversed", **place)
+        figure.update_xaxes(title_text=f"{name},<br>{unit}", title_font_size=11, **place)
+        figure.update_yaxes(autorange="reversed", exponentformat="none", **place)
     figure.update_yaxes(title_text=f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}", row=1, col=1)
     title, lines = heading_of_profile(points, units, warnings)
     return _with_heading(figure, title, lines, PANEL + 100)
@@ -175,7 +180,7 @@ def _curve(one: Series, column: str, dash: str, units: System, edge: float, name
         yield go.Scatter(
             x=np.where(stuck, edge, between)[lost], y=depth[lost], name=label, legendgroup=label,
             showlegend=_new(label, named), mode="markers", text=[texts[k] for k in np.flatnonzero(lost)],
-            marker={"symbol": "x-thin", "size": 9, "line": {"color": colour, "width": 2}},
+            marker={"symbol": "x-thin", "size": 9, "line": {"color": colour, "width": 2}}, cliponaxis=False,
             hovertemplate=f"%{{y:.1f}}: %{{text}}<extra>{name}</extra>",
         )  # fmt: skip
 

@@ -70,9 +70,18 @@ def test_measured_points_have_their_ranges() -> None:
         | {name: [value] for name, value in values.items()}
         | {f"surface_torque{end}_N_m": [np.nan] for end in ("", "_low", "_high")}
     )
-    figure = plots.chart_page(chart(["trip_in"], [0.2]), look=plots.ChartLook(measured=measured))
+    figure = plots.chart_page(chart(["trip_out", "trip_in"], [0.2]), look=plots.ChartLook(measured=measured))
     point = next(trace for trace in figure.data if trace.name == "measured, with range")
+    # The name stands beside points, not with an operation that has none.
+    assert point.showlegend
     assert (list(point.x), list(point.error_x.array), list(point.error_x.arrayminus)) == ([300.0], [200.0], [100.0])
+
+
+def test_rows_without_loads_above_the_first_answer_stand_on_the_edge() -> None:
+    table = chart(["trip_in"], [0.2], {"diverged": "trip_in"})
+    figure = plots.chart_page(table)
+    lost = next(trace for trace in figure.data if trace.name == "no loads")
+    assert set(lost.x) == {next(iter(figure.select_xaxes())).range[0]}
 
 
 def test_a_profile_has_a_panel_for_every_quantity() -> None:

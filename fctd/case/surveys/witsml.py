@@ -34,11 +34,11 @@ def read_witsml(text: str, name: str | None) -> Written:
         raise InputError(f"a WITSML trajectory in XML ({error})") from error
     trajectory = _choose(root, name)
     stations, rejected = [], []
-    for number, station in enumerate((e for e in trajectory if _tag(e) == "trajectoryStation"), start=1):
+    for place, station in enumerate((e for e in trajectory if _tag(e) == "trajectoryStation"), start=1):
         if _text(_child(station, _STATUS)) == _REJECTED:
-            rejected.append(number)
+            rejected.append(place)
         else:
-            stations.append((number, [_child(station, tag) for tag in _ELEMENTS.values()]))
+            stations.append((place, [_child(station, tag) for tag in _ELEMENTS.values()]))
     stations = [(number, cells) for number, cells in stations if cells[1] is not None or cells[2] is not None]
     if len(stations) > MOST_STATIONS:
         raise InputError(f"at most {MOST_STATIONS} stations")
