@@ -47,7 +47,7 @@ DASHES: Final = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 PANEL: Final = 560  # height of a row of panels [px]
 LINE: Final = 18  # height of a line of the heading [px]
 # A page stays on its machine: plotly's own button would upload the chart.
-CONFIG: Final = {"displaylogo": False, "modeBarButtonsToRemove": ["sendChartToCloud"], "plotlyServerURL": ""}
+CONFIG: Final = {"displaylogo": False, "modeBarButtonsToRemove": ["sendChartToCloud"]}
 # Lines of the heading have 150 characters and do not wrap: on a narrow screen the page moves sideways.
 HEAD: Final = (
     '<meta name="viewport" content="width=device-width">'

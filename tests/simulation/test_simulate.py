@@ -298,7 +298,7 @@ def test_the_torque_at_the_end_is_judged_by_means_over_torsional_periods() -> No
     period = period_of(simulation.run.string)
 
     def note(interval: float) -> Note | None:
-        ends = interval * np.arange(1, int(5 * period / interval) + 1)
+        ends = interval * np.arange(1, int(5.25 * period / interval) + 1)
         swings = np.diff(np.append(1.0, np.cos(2 * np.pi * ends / period))) * -period / (2 * np.pi * interval)
         table = {"time_s": ends, "surface_torque_N_m": 12e3 * (1 + 0.1 * swings), "hookload_N": 5e5}
         return simulation._swings(pd.DataFrame(table))
