@@ -220,12 +220,12 @@ def _line(
 
 def _with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: int) -> go.Figure:
     """The figure with its title, the lines below it, and the legend below the panels."""
-    top = 50 + LINE * (len(lines) + 1)
+    top = 58 + LINE * (len(lines) + 1)
     small = "".join(f"<br><span style='font-size:12px;font-weight:normal'>{_wrapped(line)}</span>" for line in lines)
     extra = sum(_wrapped(line).count("<br>") for line in lines) * LINE
     title_text = f"<b>{_plain(title)}</b>{small}"
     figure.update_layout(
-        title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 12}},
+        title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 20}},
         height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 45, "b": 110},
         template="plotly_white", modebar={"orientation": "v"},  # beside the panels, not over the title
         legend={"orientation": "h", "y": 0, "yref": "container", "yanchor": "bottom"}, hovermode="closest",
