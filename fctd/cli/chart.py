@@ -57,6 +57,7 @@ from fctd.cli.steady import (
     read_drive,
 )
 from fctd.model.operations import rates_of_all
+from fctd.plots.loads import ChartLook
 from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
 from fctd.results.measured import read_measured
 from fctd.results.notes import MEANINGS, meanings_of
@@ -155,9 +156,8 @@ def chart_command(
             metadata = metadata_of(case, units, kinds, drive, warnings) | {"notes": meanings}
             written += write_table(rows if units == "si" else in_units(units, _frame(rows)), out, metadata)
         if plot is not None:
-            shown_rates = rates_of_all(case, kinds, **drive)
-            options = {"load": load, "rates": shown_rates, "measured": points_measured, "warnings": told}
-            written += draw_chart(plot, _frame(rows), units=units, case=case, **options)
+            look = ChartLook(load, rates_of_all(case, kinds, **drive), points_measured, told)
+            written += draw_chart(plot, _frame(rows), units, case, look)
         if plot_profile is not None:
             one = with_friction(case, factors[0]) if factors else case
             solver, rates = Solver(one), rates_of_all(one, kinds, **drive)

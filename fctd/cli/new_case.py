@@ -8,10 +8,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.case.specs import ComponentSpec
 from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
 from fctd.cli.templates import Part, Template
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import mean_curvature
+from fctd.model.drillstring import section_of
+from fctd.model.torsion import torsional_period
 
 Array = NDArray[np.float64]
 UnitSystem = Literal["metric", "field"]
@@ -114,6 +117,22 @@ class Plan:
         yield ""
         yield aligned("[[operations]]", "for fctd simulate; charts ask for their operations")
         yield from self._operation(quantity)
+        if template.weight_on_bit:
+            yield ""
+            yield "[record]"
+            yield entry("interval", f"{self.period:g} s", "the string's torsional period: a record is a mean over it")
+
+    @property
+    def period(self) -> float:
+        """The slowest torsional period of the string [s], rounded to 0.1 s."""
+        lengths = lengths_of(self.template, self.shoe, self.depth)
+        parts = [
+            (length, section.axial_inertia, section.GJ)
+            for length, part in zip(lengths, self.template.string, strict=True)
+            for section in [section_of(_component(part), self.template.mud)]
+            if length > 0
+        ]
+        return round(torsional_period(*zip(*reversed(parts), strict=True)), 1)
 
     def _part(self, part: Part, quantity: "Quantities") -> Iterator[str]:
         yield entry("name", part.name)
@@ -129,7 +148,14 @@ class Plan:
     def _operation(self, quantity: "Quantities") -> Iterator[str]:
         end = quantity(LENGTH, self.depth)
         if self.template.weight_on_bit:
-            yield from (entry("kind", "rotate_off_bottom"), entry("at_md", end), entry("duration", "20 s"), "rpm = 60")
+            yield from (
+                entry("kind", "rotate_off_bottom"),
+                entry("at_md", end),
+                entry(
+                    "duration", f"{PERIODS * self.period:g} s", f"{PERIODS} records: the first ones wind the string up"
+                ),
+                "rpm = 60",
+            )
         else:
             speed = "0.3 m/s" if self.units == "metric" else "60 ft/min"
             yield from (
@@ -142,6 +168,9 @@ class Plan:
 
 # Distance of a trip [m].
 RUN = 15.24
+# A rotation lasts this many torsional periods.  At 60 rev/min the wells of the templates and four public ones are wound
+# up within four of them; from then on the mean over a period changes by less than 2 %.
+PERIODS = 6
 
 
 class Quantities:
@@ -232,18 +261,31 @@ def stiff_wall(template: Template, stations: Array, shoe: float) -> float:
     The side force of a metre is tension times curvature, and weight: with the weight of the whole string, the sharpest
     bend and the heaviest component it is the largest one without friction.
     """
-    depth = float(stations[-1, 0])
-    above, weight, heaviest, clearance = depth, 0.0, 0.0, np.inf
+    weight, heaviest, clearance = 0.0, 0.0, np.inf
     narrowest = min(float(template.cased.diameter), float(template.open.diameter))
-    for part in template.string:
-        length = above if part.length is None else min(part.length or depth - shoe, above)
+    lengths = lengths_of(template, shoe, float(stations[-1, 0]))
+    for part, length in zip(template.string, lengths, strict=True):
         outer, inner = (0.0254 * float(size) for size in (part.outer, part.inner))
         mass = part.mass if part.mass is not None else STEEL * np.pi / 4 * (outer**2 - inner**2)
         buoyed = mass * GRAVITY * (1 - template.mud / STEEL)
-        above, weight, heaviest = above - length, weight + buoyed * length, max(heaviest, buoyed)
+        weight, heaviest = weight + buoyed * length, max(heaviest, buoyed)
         clearance = min(clearance, 0.5 * 0.0254 * (narrowest - float(part.contact or part.outer)))
-    sharpest = float(mean_curvature(stations, np.linspace(0.0, depth, 2000)).max())
+    sharpest = float(mean_curvature(stations, np.linspace(0.0, stations[-1, 0], 2000)).max())
     return _round_up((weight * sharpest + heaviest) / (0.01 * clearance))
 
 
 STEEL = 7850.0  # kg/m^3
+
+
+def lengths_of(template: Template, shoe: float, depth: float) -> list[float]:
+    """Lengths [m] of the components in a hole of a depth [m], from the bit up."""
+    lengths, above = [], depth
+    for part in template.string:
+        lengths.append(above if part.length is None else min(part.length or depth - shoe, above))
+        above -= lengths[-1]
+    return lengths
+
+
+def _component(part: Part) -> ComponentSpec:
+    keys = {"outer_diameter": f"{part.outer} in", "inner_diameter": f"{part.inner} in", "linear_mass": part.mass}
+    return ComponentSpec.model_validate({"name": part.name, **keys})

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fctd.case.errors import InputError
+from fctd.case.load import Case
 from fctd.cli.options import check_target
-from fctd.plots.loads import Load
+from fctd.plots.loads import ChartLook, Load
 from fctd.plots.tracks import SideForce
+from fctd.results.unit_systems import System
 from fctd.steady.equilibrium import Equilibrium
 
 if TYPE_CHECKING:
@@ -55,13 +57,13 @@ def check_pictures(targets: Mapping[str, Path | None]) -> None:
         check_package(path, key)
 
 
-def draw_chart(path: Path, chart: "pd.DataFrame", **options: Any) -> list[Path]:
-    """Write a chart; options : of ``chart_figure``.  Returns the files."""
+def draw_chart(path: Path, chart: "pd.DataFrame", units: System, case: Case, look: ChartLook) -> list[Path]:
+    """Write a chart; the arguments are those of ``chart_figure``.  Returns the files."""
     from fctd import plots
 
     if path.suffix.lower() == PAGE:
-        return plots.save_page(plots.chart_page(chart, **options), path)
-    return plots.save(plots.chart_figure(chart, **options), path)
+        return plots.save_page(plots.chart_page(chart, units, case, look), path)
+    return plots.save(plots.chart_figure(chart, units, case, look), path)
 
 
 def draw_profiles(path: Path, points: Sequence[Equilibrium], **options: Any) -> list[Path]:

@@ -2,7 +2,9 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Annotated
 
+import numpy as np
 import typer
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
@@ -33,10 +35,14 @@ from fctd.cli.options import (
 from fctd.results.columns import BUCKLED, COLUMNS
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult, check_result_folder, own_files, result_files
-from fctd.results.unit_systems import shown
+from fctd.results.unit_systems import System, shown
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.run import LONGEST_SETTLING
 from fctd.simulation.simulate import simulate
+
+ShownUnits = Annotated[
+    System, typer.Option("--units", help="Units of screen and CSV files; the Parquet files are in SI units.")
+]
 
 
 def simulate_command(
@@ -45,11 +51,12 @@ def simulate_command(
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
     csv: Csv = False,
+    units: ShownUnits = "si",
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
     """Run the operations of a case and write history, profile and energy tables."""
-    simulate_file(case_file, out, overrides, friction, csv, quiet, strict=strict)
+    simulate_file(case_file, out, overrides, friction, csv, quiet, units=units, strict=strict)
 
 
 def simulate_file(
@@ -61,11 +68,12 @@ def simulate_file(
     quiet: bool,
     contact: Callable[[Case], WallQuery] | None = None,
     *,
+    units: System = "si",
     strict: bool = False,
 ) -> None:
     """Run ``fctd simulate``; ``contact`` builds another contact method for the case (see fctd.simulate)."""
     case = read_case(case_file, changes_of(overrides, friction))
-    tell(case, case.warnings, strict=strict)
+    tell(case, case.warnings, strict=strict, units=units)
     method = None if contact is None else contact(case)
     folder = out or Path(file_name(case.name, "-result"))
     check_result_folder(folder, csv, "--out")  # before hours of computing
@@ -92,28 +100,28 @@ def simulate_file(
             result = simulate(case, progress=show, contact=method, settling=settling)
             # The files are written before anything is printed: the terminal may have been closed.
             with deferred():
-                written = result.save(folder, csv=csv)
+                written = result.save(folder, csv=csv, units=units)
     finally:  # printed also where a file cannot be written, or a signal came meanwhile
         if result is not None:
-            _summarise(result)
+            _summarise(result, units)
             print_written(written)
     if result.status is RunStatus.INTERRUPTED:
         raise typer.Exit(INTERRUPTED)
     finish(result.status.acceptable, (note.code for note in result.notes), strict)
 
 
-def _summarise(result: SimulationResult) -> None:
+def _summarise(result: SimulationResult, units: System) -> None:
     """Print the loads at the end, and the size, speed and energy error of the run."""
     if result.message and not result.status.acceptable:
-        print_status(result.status, result.message)
-    print_notes(note for note in result.notes if str(note) != result.message or result.status.acceptable)
+        print_status(result.status, result.message, units)
+    print_notes((note for note in result.notes if str(note) != result.message or result.status.acceptable), units)
     if len(result.history):
-        last = result.history.iloc[-1]
-        name = printable(result.case.name)
-        table = Table(title=f"{name}: {last['operation']}, bit at {last['bit_depth_m']:.1f} m")
+        last, depth = result.history.iloc[-1], shown("bit_depth_m", units)
+        at = f"{last['bit_depth_m'] * depth.factor:.1f} {depth.label}"
+        table = Table(title=f"{printable(result.case.name)}: {last['operation']}, bit at {at}")
         cells = []
         for name in ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "total_contact_force_N"):
-            column, unit = COLUMNS[name], shown(name, "si")
+            column, unit = COLUMNS[name], shown(name, units)
             table.add_column(f"{column.label} {unit.label}", justify="right")
             cells.append(f"{last[name] * unit.factor:.{column.digits}f}")
         table.add_column("contacts", justify="right")
@@ -123,13 +131,16 @@ def _summarise(result: SimulationResult) -> None:
         if len(buckled):
             first, last = (buckled[column.name].agg(how) for column, how in zip(BUCKLED, ("min", "max"), strict=True))
             mode = "helical" if (buckled["buckling"] == "helical").any() else "sinusoidal"
-            where = f"between {first:.0f} and {last:.0f} m"
+            where = f"between {first * depth.factor:.0f} and {last * depth.factor:.0f} {depth.label}"
             screen.print(f"buckled in {len(buckled)} of {len(result.history)} records, at worst {mode}, {where}")
     run = result.run
-    screen.print(
-        f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms, {run['steps']} steps, "
-        f"{run['simulated_s']:.0f} s simulated in {run['wall_s']:.2f} s "
-        f"({run['real_time_factor']:.0f} × real time), "
-        f"energy error {run['energy_error']:.1e}",
-        soft_wrap=True,
-    )  # fmt: skip
+    parts = [
+        f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms, {run['steps']} steps",
+        f"{run['simulated_s']:.0f} s simulated in {run['wall_s']:.2f} s",
+    ]
+    # A run that did not settle has no speed, and one that ended before any work was done no energy error.
+    if np.isfinite(run["real_time_factor"]):
+        parts[-1] += f" ({run['real_time_factor']:.0f} × real time)"
+    if np.isfinite(run["energy_error"]):
+        parts.append(f"energy error {run['energy_error']:.1e}")
+    screen.print(", ".join(parts), soft_wrap=True)

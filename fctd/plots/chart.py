@@ -1,6 +1,5 @@
 """The torque-and-drag chart: hook load (the broomstick) and surface torque against bit depth."""
 
-from collections.abc import Mapping, Sequence
 from typing import Any
 
 import matplotlib as mpl
@@ -16,7 +15,6 @@ from matplotlib.ticker import MaxNLocator
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.model.operations import SteadyRates
 from fctd.plots import labels
 from fctd.plots.curves import (
     BAND,
@@ -33,8 +31,9 @@ from fctd.plots.facts import heading_of_chart, shoes_of
 from fctd.plots.loads import (
     LOAD_COLUMNS,
     NAMES,
+    PLAIN,
     TORQUE,
-    Load,
+    ChartLook,
     as_load,
     groups_of,
     limits_of_load,
@@ -64,20 +63,11 @@ LEADER: dict[str, Any] = {"color": QUIET, "linewidth": 0.6, "zorder": 1.4}
 
 
 def chart_figure(
-    chart: pd.DataFrame,
-    units: System = "si",
-    case: Case | None = None,
-    *,
-    load: Load = "string",
-    rates: Mapping[str, SteadyRates] | None = None,
-    measured: pd.DataFrame | None = None,
-    warnings: Sequence[str] = (),
+    chart: pd.DataFrame, units: System = "si", case: Case | None = None, look: ChartLook = PLAIN
 ) -> Figure:
     """Load and torque against bit depth: a curve for each operation and set of friction factors.
 
     chart : of ``fctd.torque_drag``, SI.  case : for title, casing shoes, mud, loads at the bit and block weight.
-    load : hook load of the string, or the reading of the weight indicator.  rates : of the operations, else the case's
-    own.  measured : of ``read_measured``.  warnings : lines below the title, before the notes of the chart.
 
     More than ``MOST_CURVES`` curves are drawn in groups.  A strip beside the panels says where the string is buckled,
     and which rows are not ``converged``; a cross marks a row without loads, a band the loads of both shapes of a
@@ -88,9 +78,9 @@ def chart_figure(
     groups = groups_of(series)
     if len(groups) > MOST_GROUPS:
         raise InputError(f"at most {MOST_GROUPS} groups of curves in a picture", key="friction", value=len(groups))
-    title, lines = heading_of_chart(chart, units, case, rates, warnings)
+    title, lines = heading_of_chart(chart, units, case, look.rates, look.warnings)
     with mpl.rc_context(RC):
-        view = _View(chart, units, case, load, measured, alone=len(groups) == 1)
+        view = _View(chart, units, case, look, alone=len(groups) == 1)
         pairs = [_Pair(view, name, group) for name, group in groups]
         levels = _levels(pairs)
         view.scale_depth(levels)
@@ -110,11 +100,9 @@ class _View:
     drawn : what the panels of a pair show.  shoes [m] : within the depths.  above : room for a heading.
     """
 
-    def __init__(
-        self, chart: pd.DataFrame, units: System, case: Case | None, load: Load, measured: pd.DataFrame | None, *,
-        alone: bool,
-    ) -> None:  # fmt: skip
-        self.case, self.units, self.load, self.measured = case, units, load, measured
+    def __init__(self, chart: pd.DataFrame, units: System, case: Case | None, look: ChartLook, *, alone: bool) -> None:
+        self.case, self.units, self.look = case, units, look
+        load, measured = look.load, look.measured
         self.states = has_states(series_of(chart))
         self.widths, self.height = (ALONE if alone else AMONG)[:2], (ALONE if alone else AMONG)[2]
         self.depth = shown(DEPTH.name, units)
@@ -207,17 +195,17 @@ class _Pair:
             shapes = one.rows[["hookload_low_N", "hookload_high_N"]].to_numpy(float)
             if k:
                 shapes = np.full_like(shapes, np.nan)
-            low, high = (as_load(view.case, one.operation, end, view.load) for end in shapes.T)
+            low, high = (as_load(view.case, one.operation, end, view.look.load) for end in shapes.T)
             draw_curve(ax, one, dash, drawn, (low, high), place)
-        if view.measured is not None:
+        if view.look.measured is not None:
             for kind in dict.fromkeys(one.operation for one in self.group):
-                draw_measured(ax, view.measured, kind, drawn)
+                draw_measured(ax, view.look.measured, kind, drawn)
         limits = drawn.limits
         ax.set_xlim(limits.low, limits.high)
         ax.xaxis.set_major_locator(MaxNLocator(6 - 2 * k))
         ax.set_xlabel(f"{NAMES[drawn.column]}, {shown(drawn.column, view.units).label}")
         if limits.cut and not k:
-            spent = spent_at(view.case, view.load) * drawn.factor
+            spent = spent_at(view.case, view.look.load) * drawn.factor
             ax.axvspan(limits.low, spent, **SPENT)
             ax.axvline(spent, color=QUIET, linewidth=1, zorder=1)
             ax.annotate(
@@ -295,8 +283,6 @@ def _handles(view: _View, series: list[Series], unnamed: list[_Pair]) -> list[Ar
         handles.append(Patch(color=QUIET, label="hook loads of both shapes", **BAND))
     if any(((one.rows["status"] != "converged") & one.rows["hookload_N"].notna()).any() for one in series):
         handles.append(Line2D([], [], color=QUIET, marker="o", label="not converged: see state", **OPEN))
-    if view.measured is not None:
-        ranged = view.measured.filter(regex="_(low|high)_").notna().any(axis=None)
-        label = "measured, with range" if ranged else "measured"
-        handles.append(Line2D([], [], marker="o", label=label, **MEASURED_LOOK))
+    if view.look.measured is not None:
+        handles.append(Line2D([], [], marker="o", label=view.look.measured_label, **MEASURED_LOOK))
     return handles

@@ -114,8 +114,10 @@ def draw_curve(ax: Axes, series: Series, dash: Any, drawn: Drawn, shapes: tuple[
             ax.plot(edge, depth[at], color=colour, **marks)
     lost, found = np.isnan(value) & ~locked, np.isfinite(line)
     crosses: dict[str, Any] = LOST | {"markeredgecolor": colour}
-    if lost.any() and found.any():
-        ax.plot(np.interp(depth[lost], depth[found], line[found]), depth[lost], **crosses)
+    if found.any():
+        # Beyond the first and the last answer any place would look like a load; the strip has the crosses there.
+        gap = lost & (depth > depth[found].min()) & (depth < depth[found].max())
+        ax.plot(np.interp(depth[gap], depth[found], line[found]), depth[gap], **crosses)
     elif lost.any():
         across = ax.get_yaxis_transform()  # x in shares of the axes
         ax.plot(np.full(lost.sum(), 0.15 + 0.14 * place), depth[lost], transform=across, **crosses)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.model.operations import sensors
+from fctd.model.operations import SteadyRates, sensors
 from fctd.results.measured import measured_column
 from fctd.results.series import Series, frictions_of, in_words
 from fctd.results.status import SteadyStatus
@@ -36,6 +37,29 @@ AIR = 0.05  # of the span of an axis, beyond the loads
 # Least span of an axis as a share of the largest load, and of torques as a lever [m] times the largest of hook loads
 # and contact forces: friction has ten times this lever, and less is the torque of a string that slides.
 LEAST_SHARE, LEVER = 0.01, 2e-3
+
+
+@dataclass(frozen=True)
+class ChartLook:
+    """What a chart shows beside its rows, in a picture and on a page.
+
+    load : hook load of the string, or the reading of the weight indicator.  rates : of the operations, else the case's
+    own.  measured : of ``read_measured``.  warnings : lines below the title, before the notes of the chart.
+    """
+
+    load: Load = "string"
+    rates: Mapping[str, SteadyRates] | None = None
+    measured: pd.DataFrame | None = None
+    warnings: Sequence[str] = ()
+
+    @property
+    def measured_label(self) -> str:
+        """The name of the measured points in the legend."""
+        ranged = self.measured is not None and self.measured.filter(regex="_(low|high)_").notna().any(axis=None)
+        return "measured, with range" if ranged else "measured"
+
+
+PLAIN: Final = ChartLook()
 
 
 class Limits(NamedTuple):

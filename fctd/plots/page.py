@@ -3,7 +3,7 @@
 Needs plotly, which the package installs as its extra ``html``.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from html import escape
 from pathlib import Path
 from typing import Final
@@ -17,13 +17,13 @@ from plotly.subplots import make_subplots
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
-from fctd.model.operations import SteadyRates
 from fctd.plots.facts import heading_of_chart, heading_of_profile, shoes_of
 from fctd.plots.loads import (
     LOAD_COLUMNS,
     NAMES,
+    PLAIN,
     TORQUE,
-    Load,
+    ChartLook,
     groups_of,
     limits_of_load,
     limits_of_torque,
@@ -46,29 +46,29 @@ SYMBOLS: Final = {
 DASHES: Final = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 PANEL: Final = 560  # height of a row of panels [px]
 LINE: Final = 18  # height of a line of the heading [px]
+# A page stays on its machine: plotly's own button would upload the chart.
+CONFIG: Final = {"displaylogo": False, "modeBarButtonsToRemove": ["sendChartToCloud"]}
+# Lines of the heading have 150 characters and do not wrap: on a narrow screen the page moves sideways.
+HEAD: Final = (
+    '<meta name="viewport" content="width=device-width">'
+    "<style>html {overflow-y: scroll} #fctd {min-width: 960px}</style>"
+)
 
 
 def save_page(figure: go.Figure, path: Path) -> list[Path]:
     """Write a page; returns the file.  Raises InputError where it cannot be written."""
     with whole_file(path) as scratch:
         # A name of its own for the drawing would differ from run to run.
-        text = figure.to_html(include_plotlyjs=True, div_id="fctd", config={"displaylogo": False})
-        scratch.write_text(text, encoding="utf-8")
+        text = figure.to_html(include_plotlyjs=True, div_id="fctd", config=CONFIG)
+        scratch.write_text(text.replace("</head>", f"{HEAD}</head>", 1), encoding="utf-8")
     return [path]
 
 
 def chart_page(
-    chart: pd.DataFrame,
-    units: System = "si",
-    case: Case | None = None,
-    *,
-    load: Load = "string",
-    rates: Mapping[str, SteadyRates] | None = None,
-    measured: pd.DataFrame | None = None,
-    warnings: Sequence[str] = (),
+    chart: pd.DataFrame, units: System = "si", case: Case | None = None, look: ChartLook = PLAIN
 ) -> go.Figure:
     """The chart of ``chart_figure`` as a page, with the same arguments; the pointer shows each row with its reason."""
-    groups = groups_of(series_of(chart, units))
+    groups, load, measured = groups_of(series_of(chart, units)), look.load, look.measured
     limits = limits_of_load(chart, case, load, units, measured), limits_of_torque(chart, units, measured)
     columns = LOAD_COLUMNS[load], TORQUE
     titles = [words for name, _ in groups for words in (name, "")]
@@ -86,8 +86,10 @@ def chart_page(
                 for trace in _curve(one, column, dash, units, limit.low, named):
                     figure.add_trace(trace, **place)
             if measured is not None:
-                for kind in dict.fromkeys(one.operation for one in group):
-                    figure.add_trace(_measured(measured, kind, column, units, named), **place)
+                # A trace without points would take the name in the legend, and plotly does not show it.
+                has_points = set(measured["operation"])
+                for kind in dict.fromkeys(one.operation for one in group if one.operation in has_points):
+                    figure.add_trace(_measured(look, kind, column, units, named), **place)
             label = f"{NAMES[column]}, {shown(column, units).label}"
             figure.update_xaxes(title_text=label, range=[limit.low, limit.high], **place)
             for shoe in [] if case is None else shoes_of(case):
@@ -102,10 +104,10 @@ def chart_page(
                 annotation_text="slack-off is spent", annotation_position="top left",
             )  # fmt: skip
         figure.update_yaxes(
-            title_text=f"{DEPTH.label}, {shown(DEPTH.name, units).label}", autorange="reversed", row=row, col=1
+            title_text=f"{DEPTH.label}, {shown(DEPTH.name, units).label}", exponentformat="none", row=row, col=1
         )
-        figure.update_yaxes(autorange="reversed", row=row, col=2)
-    title, lines = heading_of_chart(chart, units, case, rates, warnings)
+        figure.update_yaxes(autorange="reversed", row=row)
+    title, lines = heading_of_chart(chart, units, case, look.rates, look.warnings)
     return _with_heading(figure, title, lines, PANEL * len(groups))
 
 
@@ -139,8 +141,8 @@ def profile_page(
             for mode, (md, limit) in limits_near(answers, units).items():
                 dash = "dash" if mode == "sinusoidal" else "dot"
                 figure.add_trace(_line(limit, md, f"{mode} limit", QUIET, dash, legend=True), **place)
-        figure.update_xaxes(title_text=f"{name}, {unit}", title_font_size=11, **place)
-        figure.update_yaxes(autorange="reversed", **place)
+        figure.update_xaxes(title_text=f"{name},<br>{unit}", title_font_size=11, **place)
+        figure.update_yaxes(autorange="reversed", exponentformat="none", **place)
     figure.update_yaxes(title_text=f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}", row=1, col=1)
     title, lines = heading_of_profile(points, units, warnings)
     return _with_heading(figure, title, lines, PANEL + 100)
@@ -170,22 +172,26 @@ def _curve(one: Series, column: str, dash: str, units: System, edge: float, name
     if lost.any():
         found = np.flatnonzero(~lost)
         stuck = status == SteadyStatus.LOCKED_UP
-        between = np.interp(depth, depth[found], value[found]) if len(found) else np.zeros(len(depth))
+        # In a gap of the line on the line, else on the edge: any other place would look like a load.
+        between = np.full(len(depth), edge)
+        if len(found):
+            between = np.interp(depth, depth[found], value[found], left=edge, right=edge)
         label = "no loads"
         yield go.Scatter(
             x=np.where(stuck, edge, between)[lost], y=depth[lost], name=label, legendgroup=label,
             showlegend=_new(label, named), mode="markers", text=[texts[k] for k in np.flatnonzero(lost)],
-            marker={"symbol": "x-thin", "size": 9, "line": {"color": colour, "width": 2}},
+            marker={"symbol": "x-thin", "size": 9, "line": {"color": colour, "width": 2}}, cliponaxis=False,
             hovertemplate=f"%{{y:.1f}}: %{{text}}<extra>{name}</extra>",
         )  # fmt: skip
 
 
-def _measured(measured: pd.DataFrame, kind: str, column: str, units: System, named: set[str]) -> go.Scatter:
+def _measured(chosen: ChartLook, kind: str, column: str, units: System, named: set[str]) -> go.Scatter:
     """Measured points of an operation, with their ranges."""
-    rows, factor = measured[measured["operation"] == kind], shown(column, units).factor
+    assert chosen.measured is not None
+    rows, factor = chosen.measured[chosen.measured["operation"] == kind], shown(column, units).factor
     value, low, high = (rows[name].to_numpy(float) * factor for name in measured_columns(column))
     middle = np.where(np.isnan(value), 0.5 * (low + high), value)
-    label, unit = "measured, with range", shown(column, units).label
+    label, unit = chosen.measured_label, shown(column, units).label
     look = {"symbol": SYMBOLS[LOOKS[kind][1]], "size": 10, "color": MEASURED, "line": {"color": "black", "width": 1.5}}
     return go.Scatter(
         x=middle, y=rows["bit_depth_m"] * shown(DEPTH.name, units).factor, name=label, legendgroup=label,
@@ -214,14 +220,14 @@ def _line(
 
 def _with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: int) -> go.Figure:
     """The figure with its title, the lines below it, and the legend below the panels."""
-    top = 50 + LINE * (len(lines) + 1)
+    top = 58 + LINE * (len(lines) + 1)
     small = "".join(f"<br><span style='font-size:12px;font-weight:normal'>{_wrapped(line)}</span>" for line in lines)
     extra = sum(_wrapped(line).count("<br>") for line in lines) * LINE
     title_text = f"<b>{_plain(title)}</b>{small}"
     figure.update_layout(
-        title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 12}},
-        height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 30, "b": 110},
-        template="plotly_white",
+        title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 20}},
+        height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 45, "b": 110},
+        template="plotly_white", modebar={"orientation": "v"},  # beside the panels, not over the title
         legend={"orientation": "h", "y": 0, "yref": "container", "yanchor": "bottom"}, hovermode="closest",
     )  # fmt: skip
     return figure

@@ -2,14 +2,15 @@
 
 from typing import Final
 
-# Okabe and Ito's palette, which colour-blind readers can distinguish; neighbours also differ in lightness.
+# After Okabe and Ito's palette, which colour-blind readers can distinguish; some of the colours are darker or lighter
+# than theirs, so that no two are the same grey.
 PALETTE: Final = {
-    "blue": "#0072B2",
-    "vermilion": "#D55E00",
+    "blue": "#004C98",
+    "vermilion": "#B43600",
     "black": "#000000",
-    "sky": "#56B4E9",
-    "green": "#009E73",
-    "purple": "#CC79A7",
+    "sky": "#6CBEF2",
+    "green": "#00946C",
+    "purple": "#D27AB0",
 }
 QUIET, DARK, SHADE = "#6e6e6e", "#303030", "#e4e4e4"
 # An operation has a colour and, for print in grey, a marker.

@@ -124,7 +124,9 @@ def _scale(ax: Axes, column: str, answers: Sequence[Equilibrium], near: dict[str
         limits = [float(np.nanmax(limit.value)) - MARGIN * (high - low) for limit in near.values()]
         low, high = min(low, 0.0, *limits), max(high, 0.0)
     if column == "torque_N_m":
-        low, high = min(low, 0.0), max(high, 0.0)
+        # A string that slides has the same torque everywhere, on which matplotlib's limits would close in.
+        air = MARGIN * max(high, -low)
+        low, high = min(low, -air), max(high + air, air)
     if column == "contact_force_N":
         low = 0.0
     if high - low < least:

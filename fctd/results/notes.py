@@ -26,6 +26,9 @@ SHARE_OF_CLEARANCE, LEAST_PENETRATION, MOST_PENETRATION = 0.25, 0.002, 0.010
 # Energy error of a run as a share of the work: above the first there is a note, above the second the status is
 # ``inaccurate``.
 DOUBTFUL, INACCURATE = 0.01, 0.10
+# The torque of a turning string differs from its mean over a torsional period, and this from the mean over the period
+# before, by at most this share; settled means differ by 1 %.  Below this lever [m] times the hook load, it is noise.
+UNSTEADY, LEVER = 0.05, 1e-3
 
 
 class Meaning(NamedTuple):
@@ -49,6 +52,10 @@ MEANINGS: Final = {
         "the string is buckled, and its segments are too long to bend that way", "use shorter segments there"
     ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
+    "torque": Meaning(
+        "the surface torque at the end of the run is not steady",
+        "rotate longer, with a record.interval of the torsional period",
+    ),
     "ringing": Meaning(
         "the string rings on the seams between the hole's cylinders", 'set wellbore.geometry = "arcs", without seams'
     ),
@@ -182,6 +189,23 @@ def ledger_off(error: float) -> Note | None:
     if error < DOUBTFUL:
         return None
     return _note("ledger", f"the energy ledger is off by {100 * error:.2g} %", error / DOUBTFUL)
+
+
+def torque_swings(last: float, mean: float, before: float, period: float, hookload: float) -> Note | None:
+    """A note where the surface torque of a turning string is not steady at the end of a run.
+
+    last : of the last record; mean, before : over the last torsional period and over the one before [N m]; period [s];
+    hookload [N].
+    """
+    bound = UNSTEADY * max(abs(mean), abs(before))
+    off = max(abs(last - mean), abs(mean - before))
+    if bound < UNSTEADY * LEVER * abs(hookload) or not off > bound:
+        return None
+    text = (
+        f"the surface torque of the last record is {last / 1e3:.3g} kN·m, its mean over the last torsional period of "
+        f"{period:.3g} s {mean / 1e3:.3g} kN·m, and over the one before {before / 1e3:.3g} kN·m"
+    )
+    return _note("torque", text, off / bound)
 
 
 def rings(swing: float, frequency: float, depth: float, bound: float) -> Note | None:

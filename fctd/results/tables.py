@@ -26,6 +26,7 @@ from fctd.case.load import Case
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, as_metadata, from_metadata
 from fctd.results.status import RunStatus
+from fctd.results.unit_systems import System, in_field_units
 from fctd.results.whole_file import check_file, left_overs, whole_file
 from fctd.results.whole_folder import PAUSE, check_folder, repair, whole_folder
 
@@ -74,11 +75,12 @@ class SimulationResult:
         last = self.history.iloc[-1]
         return f", {last['operation']} at {last['bit_depth_m']:.1f} m"
 
-    def save(self, folder: Path, csv: bool = False) -> list[Path]:
+    def save(self, folder: Path, csv: bool = False, units: System = "si") -> list[Path]:
         """Write history, profile and energy tables as the results in ``folder``; returns the files written.
 
-        They take the place of an earlier run's tables all at once; other files in the folder stay.  Raises
-        InputError where the folder cannot be written.
+        They take the place of an earlier run's tables all at once; other files in the folder stay.  units : of the CSV
+        files; the Parquet files are SI, as ``open_result`` reads them.  Raises InputError where the folder cannot be
+        written.
         """
         metadata = {
             "case": self.case.model_dump(mode="json"),
@@ -96,7 +98,7 @@ class SimulationResult:
                 frame: pd.DataFrame = getattr(self, name)
                 _to_parquet(frame, new / f"{name}.parquet", metadata)
                 if csv:
-                    _to_csv(frame, new / f"{name}.csv")
+                    _to_csv(in_field_units(frame) if units == "field" else frame, new / f"{name}.csv")
         return [folder / name for name in result_files(csv)]
 
 

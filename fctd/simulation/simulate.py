@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
+import pandas as pd
 
 from fctd.case.load import Case, naming_file
 from fctd.mechanics import topdrive
@@ -13,6 +14,7 @@ from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
+from fctd.model.torsion import period_of
 from fctd.results import notes
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
@@ -185,15 +187,26 @@ class Simulation(Iterator[Record]):
             )
 
     def _judged(self, result: SimulationResult) -> SimulationResult:
-        """The result of a completed run, with the notes on its energy ledger and on ringing, and its final status."""
+        """The result of a completed run, with the notes of its end, and its final status."""
         error = result.run["energy_error"]
         swing, frequency, depth = expected_ringing(self.run, self.phases).largest()
         bound = RINGING * float(result.history["hookload_N"].abs().mean())
         ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
-        found = tuple(note for note in (ledger, ringing, *result.notes) if note is not None)
+        found = tuple(note for note in (ledger, ringing, self._swings(result.history), *result.notes) if note)
         if ledger is not None and not error <= notes.INACCURATE:
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
+
+    def _swings(self, history: pd.DataFrame) -> notes.Note | None:
+        """The note on the surface torque at the end of a run whose string turns there."""
+        if not self.case.operations[-1].rpm:
+            return None
+        period, time_s = period_of(self.run.string), np.append(0.0, history["time_s"])
+        torque = history["surface_torque_N_m"].to_numpy(float)
+        impulse = np.append(0.0, np.cumsum(torque * np.diff(time_s)))
+        before, middle, end = np.interp(time_s[-1] - period * np.array([2.0, 1.0, 0.0]), time_s, impulse)
+        means = (end - middle) / period, (middle - before) / period
+        return notes.torque_swings(float(torque[-1]), *means, period, float(history["hookload_N"].iloc[-1]))
 
 
 def simulate(

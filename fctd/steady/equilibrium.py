@@ -375,10 +375,11 @@ def _end_of(problem: Problem, path: Climb) -> str:
     if not parts:
         return ""
     text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
+    remedy = "; drill there with less weight on bit" if path.of_weight else ""
     if not path.rolls or np.isnan(path.ends_at):
-        return text
+        return text + remedy
     cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
-    return f"{text}: {cause} rolls the buckled string round the hole" if cause else text
+    return (f"{text}: {cause} rolls the buckled string round the hole" if cause else text) + remedy
 
 
 def equilibrium(

@@ -16,7 +16,7 @@ from fctd.case.surveys import doubts
 from fctd.case.surveys.headers import Wanted
 from fctd.case.surveys.reading import read_survey
 from fctd.case.surveys.stations import StationKey, Survey, Written, check, to_radians
-from tests.case.survey_files import DEPTH, HEADERS, ROWS, SHEET, TEXT, text, witsml, workbook
+from tests.case.survey_files import DEPTH, HEADERS, ROWS, SHEET, STATION, TEXT, text, witsml, workbook
 
 DATA = Path(os.environ.get("FCTD_DATA", Path(__file__).parents[2] / ".." / "shared" / "data"))
 
@@ -259,6 +259,20 @@ def test_a_station_without_a_direction_is_left_out(tmp_path: Path) -> None:
     assert survey.stations[:, 0] == pytest.approx(np.array(DEPTH) * FOOT)
 
 
+def test_rejected_stations_are_left_out_with_a_warning(tmp_path: Path) -> None:
+    """The words of TrajStationStatus are open, rejected and position; here the station at 1,000 ft is taken twice."""
+    each = [STATION.format(*row.split(",")) for row in ROWS]
+    status = "<statusTrajStation>{}</statusTrajStation></trajectoryStation>"
+    wrong = STATION.format("1000", "33", "94").replace("</trajectoryStation>", status.format("rejected"))
+    good = [row.replace("</trajectoryStation>", status.format(word)) for row, word in
+            zip(each, ["open", "position", "position", "unknown", "position"], strict=True)]  # fmt: skip
+    survey = read(tmp_path, witsml("S1", stations="".join([*good[:2], wrong, *good[2:]])))
+    is_the_survey(survey, FOOT)
+    (warning,) = doubts.find(survey)
+    assert (warning.code, warning.key) == ("rejected_stations", "survey.dat")
+    assert warning.text == "stations that the file marks as rejected are left out: 1 (3)"
+
+
 # --- stations --------------------------------------------------------------------------------------
 
 
@@ -337,5 +351,5 @@ def test_every_warning_has_its_line_in_the_guide() -> None:
     folder = Path(doubts.__file__).parent
     sources = "".join((folder / name).read_text() for name in ("doubts.py", "rounding.py"))
     codes = re.findall(r'InputWarning\(\s*f?"([a-z_]+)', sources)
-    assert len(codes) == 7
+    assert len(codes) == 8
     assert [code for code in codes if f"\n| `{code}" not in GUIDE] == []

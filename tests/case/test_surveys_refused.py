@@ -196,3 +196,14 @@ def is_a_path(found: np.ndarray) -> None:
     assert found.shape[1] == 3
     assert found[0, 0] == 0.0
     assert (found[1:, 0] > found[:-1, 0]).all()
+
+
+def test_a_text_that_is_named_as_a_workbook(tmp_path: Path) -> None:
+    """A survey in columns is read whatever its name; any other text is no workbook."""
+    path = tmp_path / "survey.xlsx"
+    path.write_text(f"{HEADERS}\n0,0,0\n100,1,2\n")
+    assert len(read_survey(path).stations) == 2
+    path.write_text("see the other sheet\n")
+    assert str(refusal(path)).startswith(
+        f"{path}: expected a workbook, as the name says: the file is a text, and no survey (column md_m or md_ft is "
+    )

@@ -38,7 +38,7 @@ def test_every_template_is_written(name: str, here: Path, monkeypatch: pytest.Mo
 def test_the_commands_that_it_names_run(
     units: str, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """All but ``simulate``, whose 20 s take too long for a fast test."""
+    """All but ``simulate``, which takes too long for a fast test."""
     assert run(monkeypatch, "init", "--units", units) == 0
     commands = advised(capsys.readouterr().out)
     assert [command[0] for command in commands] == ["check", "chart", "equilibrium", "simulate"]

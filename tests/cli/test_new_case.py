@@ -7,11 +7,14 @@ import numpy as np
 import pytest
 
 from fctd import Case
+from fctd.case.operations import RotateOffBottom
 from fctd.case.units import DENSITY, FORCE, LENGTH
 from fctd.cli.new_case import Plan, Quantities, UnitSystem, entry, from_survey, from_template, sensible_shoe, stiff_wall
 from fctd.cli.templates import TEMPLATES, TemplateName
 from fctd.model import layouts
+from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
+from fctd.model.torsion import period_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
 from fctd.steady.refine import relative_difference
@@ -164,3 +167,13 @@ def test_quantities_are_rounded_as_a_person_would() -> None:
 def test_texts_are_quoted() -> None:
     line = entry("name", 'a "b" \\ ü', "c")
     assert tomllib.loads(line) == {"name": 'a "b" \\ ü'}
+
+
+@pytest.mark.parametrize("name", [name for name in TEMPLATES if TEMPLATES[name].weight_on_bit])
+def test_a_rotation_is_recorded_over_its_torsional_period(name: TemplateName) -> None:
+    """Each record is a mean over the swing of the torque: the period of the laid-out string, rounded to 0.1 s."""
+    case = case_of(name)
+    (operation,) = case.operations
+    assert isinstance(operation, RotateOffBottom)
+    assert case.record.interval == pytest.approx(period_of(lay_out(case, case.depths[1])), abs=0.06)
+    assert operation.duration == pytest.approx(6 * case.record.interval)

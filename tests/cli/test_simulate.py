@@ -2,14 +2,19 @@
 
 import json
 import os
+import re
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
 from fctd import open_result
+from fctd.case.load import Case
 from fctd.cli import simulate
+from fctd.results.tables import SimulationResult
+from fctd.simulation.simulate import Simulation
 from tests.cli.test_main import CASE, run
 
 
@@ -38,6 +43,36 @@ def test_simulate_writes_tables_with_metadata(
     assert {"fctd", "numpy", "numba", "python"} <= json.loads(metadata[b"versions"]).keys()
     assert json.loads(metadata[b"run"])["segments"] == 32
     assert metadata[b"status"] == b"completed"
+
+
+def test_simulate_in_field_units(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Screen and CSV files are in field units, what ``open_result`` reads is SI."""
+    out = tmp_path / "out"
+    assert run(monkeypatch, "simulate", case_file, "--out", out, "--csv", "--quiet", "--units", "field") == 0
+    printed = capsys.readouterr().out
+    assert "bit at 2624.7 ft" in printed
+    assert re.search(r"hook load\s+klbf|hook load klbf", printed)
+    history, table = open_result(out).history, pd.read_csv(out / "history.csv")
+    np.testing.assert_allclose(table["bit_depth_ft"], history["bit_depth_m"] / 0.3048)
+    np.testing.assert_allclose(table["hookload_klbf"], history["hookload_N"] / 4448.2216152605)
+    assert "hookload_N" not in table
+
+
+def test_a_run_without_work_has_no_energy_error(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Interrupted before the first record, the run has turned over no energy, and took no time."""
+
+    def interrupted(case: Case, **_: object) -> SimulationResult:
+        return Simulation(case).result()
+
+    monkeypatch.setattr(simulate, "simulate", interrupted)
+    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
+    printed = capsys.readouterr().out
+    assert "32 segments" in printed
+    assert "nan" not in printed
 
 
 def test_an_unfinished_run_is_exit_code_1_and_keeps_its_rows(

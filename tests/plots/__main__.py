@@ -60,7 +60,7 @@ def charts() -> dict[str, tuple[pd.DataFrame, dict[str, Any]]]:
 
 def main(folder: Path) -> None:
     figures = {
-        f"{name}_{units}": plots.chart_figure(table, units, CASE, **options)  # type: ignore[arg-type]
+        f"{name}_{units}": plots.chart_figure(table, units, CASE, plots.ChartLook(**options))  # type: ignore[arg-type]
         for name, (table, options) in charts().items()
         for units in ("si", "field")
     }
@@ -72,7 +72,9 @@ def main(folder: Path) -> None:
         with Image.open(path) as picture:
             picture.convert("L").save(folder / f"{name}_grey.png")
         print(path)
-    plots.save_page(plots.chart_page(states(), "si", CASE, measured=measured()), folder / "states.html")
+    plots.save_page(
+        plots.chart_page(states(), "si", CASE, plots.ChartLook(measured=measured())), folder / "states.html"
+    )
     plots.save_page(plots.profile_page(points()), folder / "profile.html")
 
 

@@ -59,7 +59,7 @@ def test_every_series_is_drawn_in_the_units_of_its_axes() -> None:
 
 def test_the_weight_indicator_is_shown_and_named_where_it_is_asked_for() -> None:
     table = chart(["trip_in"], [0.2])
-    left, _ = plots.chart_figure(table, "si", CASE, load="indicator").axes
+    left, _ = plots.chart_figure(table, "si", CASE, plots.ChartLook("indicator")).axes
     assert left.get_xlabel() == "weight indicator (string and block), kN"
     np.testing.assert_allclose(curves(left)[0].get_xdata(), table["weight_indicator_N"] / 1e3)
 
@@ -108,7 +108,7 @@ def test_facts_and_shoes_are_in_the_picture() -> None:
 def test_warnings_and_notes_stand_below_the_title() -> None:
     table = chart(["trip_in"], [0.2])
     table.loc[3, "notes"] = "yield, penetration"
-    figure = plots.chart_figure(table, "si", CASE, warnings=["mud.density: a warning, $\\frac"])
+    figure = plots.chart_figure(table, "si", CASE, plots.ChartLook(warnings=["mud.density: a warning, $\\frac"]))
     found = [text.get_text() for text in figure.texts][2:]
     notes = [f"note {code}: {MEANINGS[code].headline}" for code in ("penetration", "yield")]
     assert found == ["warning mud.density: a warning, $\\frac", *notes]
@@ -129,7 +129,7 @@ def test_no_text_covers_another(kinds: list[str], factors: list[float], units: A
         kinds, factors, {"max_iterations": "trip_in", "under_resolved": "drill_sliding", "unstable": "back_ream"}
     )
     named = CASE.model_copy(update={"name": "a well of a rather long name, $1 \\frac 5$"})
-    assert texts_that_overlap(plots.chart_figure(table, units, named, load=load)) == []
+    assert texts_that_overlap(plots.chart_figure(table, units, named, plots.ChartLook(load))) == []
 
 
 def test_where_slack_off_is_spent_is_hatched_and_named() -> None:
@@ -173,7 +173,7 @@ def test_measured_points_are_drawn_over_the_curves() -> None:
            for end, value in (("_N", 300.0), ("_low_N", 250.0), ("_high_N", 2000.0))}
         | {f"surface_torque{end}_N_m": [np.nan] for end in ("", "_low", "_high")}
     )  # fmt: skip
-    figure = plots.chart_figure(chart(["trip_in"], [0.2]), measured=measured)
+    figure = plots.chart_figure(chart(["trip_in"], [0.2]), look=plots.ChartLook(measured=measured))
     left, right = figure.axes
     assert [
         (line.get_xdata()[0], line.get_ydata()[0]) for line in left.lines if line.get_markeredgecolor() == "black"

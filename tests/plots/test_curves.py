@@ -13,11 +13,14 @@ CASE = well(rig={"block_weight": 3e4})
 
 
 def test_rows_without_an_answer_are_crossed_where_their_line_breaks() -> None:
+    """A cross stands in a gap of the line; rows above the first answer have theirs in the strip alone."""
     table = chart(["trip_out", "trip_in"], [0.2], {"diverged": "trip_in"})
-    lost = int((table["status"] == "diverged").sum())
+    first = table.index[(table["operation"] == "trip_in") & (table["bit_depth_m"] == 1100)]
+    table.loc[first, ["hookload_N", "surface_torque_N_m", "status"]] = [3e5, 2e3, "converged"]
+    gap = table[(table["status"] == "diverged") & (table["bit_depth_m"] > 1100)]
     for ax in plots.chart_figure(table).axes[:2]:
         (crosses,) = [line for line in lines(ax, marker="x") if len(line.get_xdata())]
-        assert len(crosses.get_xdata()) == lost
+        assert list(crosses.get_ydata()) == list(gap["bit_depth_m"])
         assert np.isfinite(crosses.get_xdata()).all()
 
 
@@ -68,7 +71,7 @@ def test_a_band_spans_the_hook_loads_of_both_shapes() -> None:
     table.loc[4:8, "hookload_low_N"] = table.loc[4:8, "hookload_N"]
     table.loc[4:8, "hookload_high_N"] = table.loc[4:8, "hookload_N"] + 5e4
     for load, shift in (("string", 0.0), ("indicator", 30.0)):
-        figure = plots.chart_figure(table, "si", CASE, load=load)  # type: ignore[arg-type]
+        figure = plots.chart_figure(table, "si", CASE, plots.ChartLook(load))  # type: ignore[arg-type]
         left, torque, *_ = figure.axes
         band, bars = left.collections
         edges = band.get_paths()[0].vertices

@@ -26,6 +26,8 @@ def test_a_page_is_one_file_that_needs_no_network(tmp_path: Path) -> None:
     assert text.lstrip().startswith("<!doctype html>")
     assert not re.search(r"<(?:script|link|img)[^>]+(?:src|href)=", text)
     assert "Plotly.newPlot" in text
+    # Nor does a button send the chart anywhere, as plotly's own would.
+    assert '"modeBarButtonsToRemove": ["sendChartToCloud"]' in text
     assert first.read_bytes() == second.read_bytes()
 
 
@@ -44,7 +46,7 @@ def test_a_curve_has_the_values_and_reasons_of_its_rows() -> None:
 
 
 def test_panels_are_those_of_the_picture() -> None:
-    figure = plots.chart_page(chart(list(KINDS), [0.2, 0.3]), "field", CASE, load="indicator")
+    figure = plots.chart_page(chart(list(KINDS), [0.2, 0.3]), "field", CASE, plots.ChartLook("indicator"))
     titles = [axis.title.text for axis in figure.select_xaxes()]
     assert titles == ["weight indicator (string and block), klbf", "surface torque, kft·lbf"] * 2
     names = [trace.name for trace in figure.data if trace.showlegend]
@@ -67,9 +69,18 @@ def test_measured_points_have_their_ranges() -> None:
         | {name: [value] for name, value in values.items()}
         | {f"surface_torque{end}_N_m": [np.nan] for end in ("", "_low", "_high")}
     )
-    figure = plots.chart_page(chart(["trip_in"], [0.2]), measured=measured)
+    figure = plots.chart_page(chart(["trip_out", "trip_in"], [0.2]), look=plots.ChartLook(measured=measured))
     point = next(trace for trace in figure.data if trace.name == "measured, with range")
+    # The name stands beside points, not with an operation that has none.
+    assert point.showlegend
     assert (list(point.x), list(point.error_x.array), list(point.error_x.arrayminus)) == ([300.0], [200.0], [100.0])
+
+
+def test_rows_without_loads_above_the_first_answer_stand_on_the_edge() -> None:
+    table = chart(["trip_in"], [0.2], {"diverged": "trip_in"})
+    figure = plots.chart_page(table)
+    lost = next(trace for trace in figure.data if trace.name == "no loads")
+    assert set(lost.x) == {next(iter(figure.select_xaxes())).range[0]}
 
 
 def test_a_profile_has_a_panel_for_every_quantity() -> None:

@@ -357,3 +357,23 @@ def test_a_buckled_string_on_long_segments_is_noted_at_its_upper_end() -> None:
     assert "helical from 540 to 1500 m, where segments of 10 m cannot bend that way" in note.text
     assert "segments of at most 2.5 m would" in note.text
     assert notes.under_resolved(replace(buckled, longest=0.0)) is None
+
+
+@pytest.mark.parametrize(
+    ("last", "mean", "before", "excess"),
+    [
+        (10.4e3, 10e3, 10e3, None),  # within 5 %
+        (11.1e3, 10e3, 10e3, 2.2),  # the last record is 11 % above its mean
+        (10e3, 10e3, 8e3, 4.0),  # still winding up
+        (12.0, 8.0, 2.0, None),  # noise: a lever of less than 1 mm of 500 kN
+    ],
+)
+def test_a_torque_that_is_not_steady(last: float, mean: float, before: float, excess: float | None) -> None:
+    note = notes.torque_swings(last, mean, before, 3.64, 5e5)
+    if excess is None:
+        assert note is None
+        return
+    assert note is not None
+    assert note.excess == pytest.approx(excess)
+    assert f"{last / 1e3:.3g} kN·m, its mean over the last torsional period of 3.64 s 10 kN·m" in note.text
+    assert "record.interval" in note.remedy

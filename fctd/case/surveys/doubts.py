@@ -24,6 +24,7 @@ Doubt = Callable[[Survey], Iterator[InputWarning]]
 _FEW: Final = 5  # stations
 _GAP: Final = 300.0  # [m] without a station ...
 _TURN: Final = 5.0  # ... in which the hole turns by more than this [deg]
+_NAMED: Final = 5  # rejected stations in a message
 _STEEP: Final = 5.0  # [deg]: at a first station below surface, a hole that is not vertical above it
 _LONGEST: Final = 12_000.0  # [m]: a dozen wells are longer, which were drilled by two or three rigs
 # Surveys are taken at connections: stands of three joints are 28 to 30 m or 92 to 96 ft long.
@@ -53,6 +54,18 @@ def _few(survey: Survey) -> Iterator[InputWarning]:
             survey.rows(0, -1),
             f"a well of {count} stations has a single arc between each two",
             "check that the file is complete, or write the stations of a plan into the case (wellbore.stations)",
+        )
+
+
+def _rejected(survey: Survey) -> Iterator[InputWarning]:
+    numbers = survey.written.rejected
+    if numbers:
+        some = ", ".join(map(str, numbers[:_NAMED])) + (", …" if len(numbers) > _NAMED else "")
+        yield InputWarning(
+            "rejected_stations",
+            survey.written.file,
+            f"stations that the file marks as rejected are left out: {len(numbers)} ({some})",
+            "check that they were rejected for good",
         )
 
 
@@ -123,7 +136,7 @@ def _another_unit(survey: Survey, columns: str, accepted: str) -> str:
     return f"say so in the case: columns = {{{columns}}}"
 
 
-_DOUBTS: Final[tuple[Doubt, ...]] = (_tie_in, _few, _gap, _radians, _depth_unit)
+_DOUBTS: Final[tuple[Doubt, ...]] = (_tie_in, _few, _rejected, _gap, _radians, _depth_unit)
 
 
 def find(survey: Survey, *, smoothed: bool = False) -> tuple[InputWarning, ...]:

@@ -50,4 +50,9 @@ def _read(path: Path, columns: Mapping[StationKey, Wanted], sheet: str | None) -
         return read_witsml(text, sheet)
     if sheet is not None:
         raise InputError("no sheet for a text in columns", key="sheet", value=sheet)
-    return read_text(text, columns)
+    try:
+        return read_text(text, columns)
+    except InputError as error:
+        if path.suffix.lower() != ".xlsx":
+            raise
+        raise InputError(f"a workbook, as the name says: the file is a text, and no survey ({error})") from error

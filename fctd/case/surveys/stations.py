@@ -38,7 +38,8 @@ class Written:
 
     values : (n, 3) in the units of their columns, such as ("ft", "deg", "deg"); where : names a value; one, several :
     names of a row and of a range of rows, to be filled with the `numbers` of the rows; file : the name of the file, ""
-    for stations that the case itself holds.
+    for stations that the case itself holds; rejected : numbers of the stations that the file itself marks as rejected,
+    which are left out.
     """
 
     values: NDArray[np.float64]
@@ -48,6 +49,7 @@ class Written:
     one: str = "row {}"
     several: str = "rows {} to {}"
     file: str = ""
+    rejected: Sequence[int] = ()
 
     @property
     def factors(self) -> NDArray[np.float64]:

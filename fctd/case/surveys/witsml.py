@@ -14,12 +14,15 @@ from fctd.case.surveys.headers import KEYS, accepted_units, unit_of
 from fctd.case.surveys.stations import MOST_STATIONS, UNITS, StationKey, Where, Written
 from fctd.case.surveys.table import read_number
 
+# Status of a station (TrajStationStatus) that is no longer in use; the others are open and position.
+_STATUS, _REJECTED = "statusTrajStation", "rejected"
 _ELEMENTS: Final[dict[StationKey, str]] = {"md": "md", "inc": "incl", "azi": "azi"}
 
 
 def read_witsml(text: str, name: str | None) -> Written:
-    """The stations of the named trajectory, else of the only one; stations without a direction are left out.
+    """The stations of the named trajectory, else of the only one.
 
+    Stations without a direction are left out, and those whose status is ``rejected``.
     A document type is refused: its entities could fill the memory.  Raises InputError, which names station and element,
     for what cannot be read.
     """
@@ -30,10 +33,12 @@ def read_witsml(text: str, name: str | None) -> Written:
     except (ElementTree.ParseError, ValueError) as error:
         raise InputError(f"a WITSML trajectory in XML ({error})") from error
     trajectory = _choose(root, name)
-    stations = [
-        (number, [_child(station, tag) for tag in _ELEMENTS.values()])
-        for number, station in enumerate((e for e in trajectory if _tag(e) == "trajectoryStation"), start=1)
-    ]
+    stations, rejected = [], []
+    for place, station in enumerate((e for e in trajectory if _tag(e) == "trajectoryStation"), start=1):
+        if _text(_child(station, _STATUS)) == _REJECTED:
+            rejected.append(place)
+        else:
+            stations.append((place, [_child(station, tag) for tag in _ELEMENTS.values()]))
     stations = [(number, cells) for number, cells in stations if cells[1] is not None or cells[2] is not None]
     if len(stations) > MOST_STATIONS:
         raise InputError(f"at most {MOST_STATIONS} stations")
@@ -52,7 +57,7 @@ def read_witsml(text: str, name: str | None) -> Written:
         values[row, column] = number
     numbers = [number for number, _ in stations]
     names = ("trajectoryStation {}", "trajectoryStations {} to {}")
-    return Written(values, (units[0], units[1], units[2]), where, numbers, *names)
+    return Written(values, (units[0], units[1], units[2]), where, numbers, *names, rejected=rejected)
 
 
 def _choose(root: Element, name: str | None) -> Element:
