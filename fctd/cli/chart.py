@@ -38,7 +38,6 @@ from fctd.cli.pictures import (
     PICTURE_HELP,
     ShownLoad,
     ShownSideForce,
-    check_pictures,
     draw_chart,
     draw_profiles,
 )
@@ -48,7 +47,7 @@ from fctd.cli.steady import (
     Rpm,
     Speed,
     Units,
-    check_table,
+    check_targets,
     file_option,
     in_units,
     metadata_of,
@@ -105,7 +104,7 @@ def chart_command(
     resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     out: Annotated[
-        Path | None, file_option("--out", "The chart, a row for every string, .csv, .parquet or .xlsx.")
+        Path | None, file_option("--out", "The chart, a row for every string, .csv, .parquet or .xlsx, or its picture.")
     ] = None,
     plot: Annotated[Path | None, file_option("--plot", f"Load and torque against depth, {PICTURE_HELP}.")] = None,
     plot_profile: Annotated[
@@ -123,8 +122,7 @@ def chart_command(
     strict: Strict = False,
 ) -> None:
     """Compute a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
-    check_table(out)
-    check_pictures({"--plot": plot, "--plot-profile": plot_profile})
+    out, plot = check_targets(out, plot, plot_profile)
     case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key)
@@ -151,7 +149,7 @@ def chart_command(
     last = max(possible, default=float("nan"))
     meanings = meanings_of(row["notes"] for row in rows)
     written = []
-    try:  # as above
+    try:  # written before anything is printed, as the terminal may be closed
         if out is not None:
             metadata = metadata_of(case, units, kinds, drive, warnings) | {"notes": meanings}
             written += write_table(rows if units == "si" else in_units(units, _frame(rows)), out, metadata)

@@ -30,7 +30,7 @@ from fctd.cli.options import (
     screen,
     tell,
 )
-from fctd.cli.pictures import PICTURE_HELP, ShownSideForce, check_pictures, draw_profiles
+from fctd.cli.pictures import PICTURE_HELP, ShownSideForce, draw_profiles
 from fctd.cli.steady import (
     DEPTH_HELP,
     KIND_HELP,
@@ -38,7 +38,7 @@ from fctd.cli.steady import (
     Rpm,
     Speed,
     Units,
-    check_table,
+    check_targets,
     file_option,
     in_units,
     metadata_of,
@@ -65,7 +65,9 @@ def equilibrium_command(
     resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
-    out: Annotated[Path | None, file_option("--out", "Profile of the string, .csv, .parquet or .xlsx.")] = None,
+    out: Annotated[
+        Path | None, file_option("--out", "Profile of the string, .csv, .parquet or .xlsx, or its picture.")
+    ] = None,
     plot: Annotated[Path | None, file_option("--plot", f"Picture of the profile, {PICTURE_HELP}.")] = None,
     side_force: ShownSideForce = "length",
     units: Units = "si",
@@ -73,8 +75,7 @@ def equilibrium_command(
     strict: Strict = False,
 ) -> None:
     """Solve the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
-    check_table(out)
-    check_pictures({"--plot": plot})
+    out, plot = check_targets(out, plot)
     if len(operations) > 1:
         raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
     (operation,) = operations

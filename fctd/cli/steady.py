@@ -12,7 +12,7 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.units import LENGTH, ROTATION, SPEED
 from fctd.cli.options import check_target, read_quantity, screen
-from fctd.cli.pictures import check_package
+from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import segments_in_words
@@ -89,11 +89,23 @@ def read_depth(text: str, case: Case, key: str, units: System = "si", *, given: 
     return read_quantity(text, LENGTH, key, units)
 
 
-def check_table(path: Path | None) -> None:
-    """Raise InputError for ``--out`` where no table can be written there."""
-    check_target(path, "--out", TABLES)
-    if path is not None and path.suffix.lower() == ".xlsx":
-        check_package(path, "--out")
+def check_targets(
+    out: Path | None, plot: Path | None, plot_profile: Path | None = None
+) -> tuple[Path | None, Path | None]:
+    """The table and the picture of a command: ``--out`` is a picture where its suffix is that of one.
+
+    Raises InputError for a file that cannot be written, before anything is computed.
+    """
+    if out is None or out.suffix.lower() not in PICTURES:
+        check_target(out, "--out", (*TABLES, *PICTURES))
+        if out is not None and out.suffix.lower() == ".xlsx":
+            check_package(out, "--out")
+        check_pictures({"--plot": plot, "--plot-profile": plot_profile})
+        return out, plot
+    if plot is not None:
+        raise InputError(f"a table, {' or '.join(TABLES)}, beside the picture of --plot", key="--out", value=out)
+    check_pictures({"--out": out, "--plot-profile": plot_profile})
+    return None, out
 
 
 def print_segments(case: Case, bit_depth: float, units: System) -> None:

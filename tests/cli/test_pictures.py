@@ -37,3 +37,15 @@ def test_a_picture_is_as_its_suffix_says(
     assert code == 0
     for path in (chart, profile):
         assert path.read_bytes().startswith(START[suffix])
+
+
+def test_out_is_a_picture_where_its_suffix_says_so(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    given = ("equilibrium", case_file, "--operation", "trip_in", "--bit-depth", "500", "--quiet")
+    picture = tmp_path / "profile.png"
+    assert run(monkeypatch, *given, "--out", picture) == 0
+    assert picture.read_bytes().startswith(START[".png"])
+    assert run(monkeypatch, *given, "--out", picture, "--plot", tmp_path / "other.png") == 2
+    assert "a table, .csv or .parquet or .xlsx, beside the picture of --plot" in capsys.readouterr().err

@@ -159,7 +159,7 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     ("--rpm", "sixty", ROTATIONS),
     ("--rpm", "-60", "a rotation at least 0"),
     ("--set", "mud.density", "key=value"),
-    ("--out", "chart.txt", "a file name that ends in .csv or .parquet or .xlsx"),
+    ("--out", "chart.txt", "a file name that ends in .csv or .parquet or .xlsx or .png or .svg or .pdf or .html"),
     ("--plot", "chart.bmp", "a file name that ends in .png or .svg or .pdf or .html"),
 ]
 
