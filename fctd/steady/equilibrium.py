@@ -46,6 +46,7 @@ Array = NDArray[np.float64]
 
 # Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
 APART = 0.01
+TOO_MUCH = "resolving takes more work than a row may"
 ANALYTIC = "the wall force of the helix is the analytic one, r F²/4EI"
 
 
@@ -227,20 +228,30 @@ class Solver:
             return point
         unsolved = code != CONVERGED or (negative > 0 and point.buckling.mode != NOT_BUCKLED.mode)
         if self.case.solver.buckling == "resolve" and (unsolved or point.buckling.mode != NOT_BUCKLED.mode):
-            return self.resolve(problem, iterations)
-        if unsolved:
-            problem.at_axis = 1
-            path = climb(problem)
-            lock_up(problem, path)
-            path.iterations += iterations
-            followed = self.follow(problem, path)
-            if point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE):
-                return followed if followed.answered else point
-            if code != CONVERGED or followed.answered or followed.status != SteadyStatus.UNSTABLE:
-                return followed
-            message = f"the string would leave this balance, and {followed.message}"
-            return replace(point, status=followed.status, message=message, iterations=path.iterations)
-        return point
+            resolved = self.resolve(problem, iterations)
+            if resolved.status != SteadyStatus.MAX_ITERATIONS:
+                return resolved
+            problem = self.problem(problem.operation, problem.rates, problem.string)
+            coarse = self.stable(problem, point, code) if unsolved else point
+            return replace(coarse, message=f"{TOO_MUCH}; with the segments of the case: {coarse.message}")
+        return self.stable(problem, point, code) if unsolved else point
+
+    def stable(self, problem: Problem, point: Equilibrium, code: int) -> Equilibrium:
+        """The string of a problem followed from small loads, or what ends its path.
+
+        point, code : without that, where it is not in balance, or would leave its balance.
+        """
+        problem.at_axis = 1
+        path = climb(problem)
+        lock_up(problem, path)
+        path.iterations += point.iterations
+        followed = self.follow(problem, path)
+        if point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE):
+            return followed if followed.answered else point
+        if code != CONVERGED or followed.answered or followed.status == SteadyStatus.LOCKED_UP:
+            return followed
+        message = f"the string would leave this balance, and {followed.message}"
+        return replace(point, status=SteadyStatus.UNSTABLE, message=message, iterations=path.iterations)
 
     def with_helical_force(self, problem: Problem, point: Equilibrium) -> Equilibrium:
         """The string with the wall force of a helix where its segments cannot bend into one.
@@ -268,7 +279,7 @@ class Solver:
         def lay(case: Case) -> Problem:
             string = lay_out(case, problem.string.bit_depth)
             finer = self.problem(problem.operation, problem.rates, string, case)
-            finer.at_axis = 1
+            finer.at_axis, finer.allowance = 1, problem.allowance
             return finer
 
         problem, snaking, helix = resolve(self.case, coarse, problem, lay)
@@ -289,9 +300,10 @@ class Solver:
         point = replace(point, slack_off_spent_at=path.spent_at, locked_up_at=path.locked_at)
         if path.pose is None:
             # The pose is that of smaller loads.
-            status = SteadyStatus.LOCKED_UP if np.fmin(path.spent_at, path.locked_at) < 1 else SteadyStatus.UNSTABLE
+            unknown = SteadyStatus.MAX_ITERATIONS if path.is_cut else SteadyStatus.UNSTABLE
+            status = SteadyStatus.LOCKED_UP if np.fmin(path.spent_at, path.locked_at) < 1 else unknown
             point = replace(point.without_loads(), status=status, message=status.message)
-        if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE):
+        if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.MAX_ITERATIONS):
             return point
         return replace(point, message=_end_of(problem, path) or point.message)
 
@@ -360,12 +372,14 @@ def _end_of(problem: Problem, path: Climb) -> str:
     ends = (
         (f"slack-off is spent {'at' if path.spent_at > least else 'below'}", path.spent_at),
         ("the string is locked up at", path.locked_at),
-        ("no steady shape was found beyond", path.ends_at),
+        ("the work of a row ends at" if path.is_cut else "no steady shape was found beyond", path.ends_at),
     )
     parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
     if not parts:
         return ""
     text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
+    if path.is_cut and path.pose is None:
+        return f"{text}: longer segments take less"
     if not path.rolls or np.isnan(path.ends_at):
         return text
     cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
