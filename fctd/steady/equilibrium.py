@@ -31,7 +31,7 @@ from fctd.steady.climb import BEYOND, LOW, SOUND, Climb, climb, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.post_buckling import resolve
-from fctd.steady.problem import Problem, Workspace
+from fctd.steady.problem import WORK, Allowance, Problem, Workspace
 from fctd.steady.tangent import (
     JOINT_BENDING,
     JOINT_TENSION,
@@ -184,11 +184,11 @@ class Shape:
 class Solver:
     """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
-    hole : the case's hole, if it has been built already.
+    hole : the case's hole, if it has been built already.  work : what the relaxations of a row may take (problem.py).
     """
 
-    def __init__(self, case: Case, hole: Wellbore | None = None) -> None:
-        self.case = case
+    def __init__(self, case: Case, hole: Wellbore | None = None, work: float = WORK) -> None:
+        self.case, self.work_of_row = case, work
         self.hole = build_wellbore(case) if hole is None else hole
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
@@ -312,7 +312,7 @@ class Solver:
         case = self.case if cut is None else cut
         if self.work.segments < string.segments:
             self.work = Workspace(string.segments)
-        return Problem(case, self.hole, self.work, string, operation, rates)
+        return Problem(case, self.hole, self.work, string, operation, rates, Allowance(self.work_of_row))
 
     def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
         """The steady string of a problem in its pose.

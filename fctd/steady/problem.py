@@ -96,7 +96,7 @@ class Reactions(NamedTuple):
 class Allowance:
     """Work that a row may still take, iterations times segments; the problems of one row share it."""
 
-    left: float = WORK
+    left: float
 
 
 class Compressed(NamedTuple):
@@ -120,8 +120,9 @@ class Problem:
     """
 
     def __init__(
-        self, case: Case, hole: Wellbore, work: Workspace, string: String, operation: str, rates: SteadyRates
-    ) -> None:
+        self, case: Case, hole: Wellbore, work: Workspace, string: String, operation: str, rates: SteadyRates,
+        allowance: Allowance,
+    ) -> None:  # fmt: skip
         self.case, self.hole, self.work, self.string, self.rates = case, hole, work, string, rates
         self.operation = operation
         self.n = string.segments
@@ -139,7 +140,7 @@ class Problem:
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
         self.added = np.zeros((self.n, 3))
-        self.allowance = Allowance()
+        self.allowance = allowance
 
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
