@@ -46,6 +46,7 @@ Array = NDArray[np.float64]
 
 # Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
 APART = 0.01
+AT_FULL = "solved at its full friction alone, from which share of it on is not known"
 TOO_MUCH = "resolving takes more work than a row may"
 ANALYTIC = "the wall force of the helix is the analytic one, r F²/4EI"
 
@@ -297,7 +298,9 @@ class Solver:
         if path.pose is not None:
             problem.put_pose(path.pose)
         point = self.answer(problem, CONVERGED, path.iterations, 0)
-        point = replace(point, slack_off_spent_at=path.spent_at, locked_up_at=path.locked_at)
+        # Below the least share the string was not followed: the message gives the bound.
+        spent_at = path.spent_at if path.spent_at > _least_of(path) else float("nan")
+        point = replace(point, slack_off_spent_at=spent_at, locked_up_at=path.locked_at)
         if path.pose is None:
             # The pose is that of smaller loads.
             unknown = SteadyStatus.MAX_ITERATIONS if path.is_cut else SteadyStatus.UNSTABLE
@@ -356,7 +359,7 @@ class Solver:
             )
         coarse = self.geometry != state.OPEN and not shape.buckling.resolved
         if pushed:
-            text = SteadyStatus.LOCKED_UP.message
+            text = f"{SteadyStatus.LOCKED_UP.message}; {AT_FULL}"
             return SteadyStatus.LOCKED_UP, f"{text}; {shape.buckling.shortfall}" if coarse else text
         if coarse:
             return SteadyStatus.UNDER_RESOLVED, shape.buckling.shortfall
@@ -366,11 +369,15 @@ class Solver:
         return SteadyStatus.CONVERGED, ""
 
 
+def _least_of(path: Climb) -> float:
+    """The share of the loads at which a path begins."""
+    return 0.0 if path.of_weight else LOW
+
+
 def _end_of(problem: Problem, path: Climb) -> str:
     """What ends a path, in words; empty where nothing does."""
-    least = 0.0 if path.of_weight else LOW
     ends = (
-        (f"slack-off is spent {'at' if path.spent_at > least else 'below'}", path.spent_at),
+        (f"slack-off is spent {'at' if path.spent_at > _least_of(path) else 'below'}", path.spent_at),
         ("the string is locked up at", path.locked_at),
         ("the work of a row ends at" if path.is_cut else "no steady shape was found beyond", path.ends_at),
     )
