@@ -79,6 +79,11 @@ class Climb:
     rolls: bool = False
     is_cut: bool = False
 
+    @property
+    def least(self) -> float:
+        """The share of the loads at which its last part begins."""
+        return 0.0 if self.of_weight else LOW
+
 
 def creep_of(problem: Problem, iterations: int) -> Creep:
     """Step sizes that follow snaps of the string; with steps twice as long it lands in other shapes."""

@@ -27,7 +27,7 @@ from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
-from fctd.steady.climb import BEYOND, LOW, SOUND, Climb, climb, lock_up
+from fctd.steady.climb import BEYOND, SOUND, Climb, climb, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.post_buckling import resolve
@@ -185,7 +185,7 @@ class Shape:
 class Solver:
     """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
-    hole : the case's hole, if it has been built already.  work : what the relaxations of a row may take (problem.py).
+    hole : the case's hole, if it has been built already.  work : allowance of a row (problem.py).
     """
 
     def __init__(self, case: Case, hole: Wellbore | None = None, work: float = WORK) -> None:
@@ -233,15 +233,12 @@ class Solver:
             if resolved.status != SteadyStatus.MAX_ITERATIONS:
                 return resolved
             problem = self.problem(problem.operation, problem.rates, problem.string)
-            coarse = self.stable(problem, point, code) if unsolved else point
-            return replace(coarse, message=f"{TOO_MUCH}; with the segments of the case: {coarse.message}")
+            point = self.stable(problem, point, code) if unsolved else point
+            return replace(point, message=f"{TOO_MUCH}; with the segments of the case: {point.message}")
         return self.stable(problem, point, code) if unsolved else point
 
     def stable(self, problem: Problem, point: Equilibrium, code: int) -> Equilibrium:
-        """The string of a problem followed from small loads, or what ends its path.
-
-        point, code : without that, where it is not in balance, or would leave its balance.
-        """
+        """The string of a problem followed from small loads, where its balance ``point`` is none or an unstable one."""
         problem.at_axis = 1
         path = climb(problem)
         lock_up(problem, path)
@@ -298,13 +295,12 @@ class Solver:
         if path.pose is not None:
             problem.put_pose(path.pose)
         point = self.answer(problem, CONVERGED, path.iterations, 0)
-        # Below the least share the string was not followed: the message gives the bound.
-        spent_at = path.spent_at if path.spent_at > _least_of(path) else float("nan")
-        point = replace(point, slack_off_spent_at=spent_at, locked_up_at=path.locked_at)
-        if path.pose is None:
-            # The pose is that of smaller loads.
-            unknown = SteadyStatus.MAX_ITERATIONS if path.is_cut else SteadyStatus.UNSTABLE
-            status = SteadyStatus.LOCKED_UP if np.fmin(path.spent_at, path.locked_at) < 1 else unknown
+        spent = path.spent_at if path.spent_at > path.least else float("nan")  # the message gives the bound
+        point = replace(point, slack_off_spent_at=spent, locked_up_at=path.locked_at)
+        if path.pose is None:  # but that of smaller loads
+            status = SteadyStatus.MAX_ITERATIONS if path.is_cut else SteadyStatus.UNSTABLE
+            if np.fmin(path.spent_at, path.locked_at) < 1:
+                status = SteadyStatus.LOCKED_UP
             point = replace(point.without_loads(), status=status, message=status.message)
         if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.MAX_ITERATIONS):
             return point
@@ -369,15 +365,10 @@ class Solver:
         return SteadyStatus.CONVERGED, ""
 
 
-def _least_of(path: Climb) -> float:
-    """The share of the loads at which a path begins."""
-    return 0.0 if path.of_weight else LOW
-
-
 def _end_of(problem: Problem, path: Climb) -> str:
     """What ends a path, in words; empty where nothing does."""
     ends = (
-        (f"slack-off is spent {'at' if path.spent_at > _least_of(path) else 'below'}", path.spent_at),
+        (f"slack-off is spent {'at' if path.spent_at > path.least else 'below'}", path.spent_at),
         ("the string is locked up at", path.locked_at),
         ("the work of a row ends at" if path.is_cut else "no steady shape was found beyond", path.ends_at),
     )
@@ -385,8 +376,6 @@ def _end_of(problem: Problem, path: Climb) -> str:
     if not parts:
         return ""
     text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
-    if path.is_cut and path.pose is None:
-        return f"{text}: longer segments take less"
     if not path.rolls or np.isnan(path.ends_at):
         return text
     cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
