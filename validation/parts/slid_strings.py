@@ -7,7 +7,7 @@ from fctd.case.operations import KINDS
 from fctd.steady.equilibrium import Solver
 
 # Speed of the top [m/s] and the length fed [m]; Coulomb friction does not hang on the speed.
-SPEED, FED = 0.1, 2.0
+SPEED, FED = 0.1, 10.0
 # The string stalls where its top needs a push of so many weights of the string, or where its bit moves by less than
 # this share of the last quarter of the feed.
 MOST, FOLLOWS = 10.0, 0.5
