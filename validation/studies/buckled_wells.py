@@ -163,7 +163,8 @@ def slid(context: Context, locked: list[Locked]) -> pd.DataFrame:
     rows = []
     for case, point, at in context.progress(sorted(tripped, key=lambda row: len(row.point.profile))[:SLID], "stepper"):
         md = point.profile["md_m"].to_numpy()
-        cut = layouts.with_components(case, layouts.resolved(case, point.bit_depth, md, np.diff(md, prepend=2 * md[0] - md[1])))
+        lengths = np.diff(md, prepend=2 * md[0] - md[1])
+        cut = layouts.with_components(case, layouts.resolved(case, point.bit_depth, md, lengths))
         for share in (BELOW, ABOVE):
             found = slide(scaled(cut, share * at), point.operation, point.bit_depth)
             rows.append(
