@@ -30,6 +30,8 @@ ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
 # agree by chance while the helix still grows longer.  Where no shape is found before, the last one is taken from a push
 # of one weight on.
 AGREEING, STEPS, BEYOND = 0.01, 3, 10.0
+# A lock-up below this share of the loads is one before them for any error of the extrapolation.
+DECIDED = 0.97
 # From a push of so many weights on, a step goes so far towards lock-up as it is extrapolated there.
 PUSHED, TOWARDS = 0.25, 0.6
 # The compression for which segments are cut is that of a push of at most this share of the weight beyond the block's,
@@ -61,8 +63,8 @@ class Climb:
     pose : at full loads, None where the path ends before; sound : the last balance up to there in which the string is
     hardly pushed (``SOUND``), or has not all of its weight on bit; iterations : all.
     spent_at : share of the loads at which the hook load is −block weight; locked_at : at which no push suffices; NaN
-    where the path does not get there.  ends_at : share at which a path ends that found no shape, else NaN; rolls :
-    whether the string then goes round the hole.
+    where the path does not get there.  ends_at : share at which a path ends before the loads, else NaN; rolls : whether
+    the string then goes round the hole; is_cut : whether the row's allowance of work ended the path.
     """
 
     balances: list[Balance] = field(default_factory=list)
@@ -75,11 +77,17 @@ class Climb:
     locked_at: float = float("nan")
     ends_at: float = float("nan")
     rolls: bool = False
+    is_cut: bool = False
+
+    @property
+    def least(self) -> float:
+        """The share of the loads at which its last part begins."""
+        return 0.0 if self.of_weight else LOW
 
 
 def creep_of(problem: Problem, iterations: int) -> Creep:
     """Step sizes that follow snaps of the string; with steps twice as long it lands in other shapes."""
-    return Creep(iterations, 0.05, 1.15, 0.5, 0.6, 0.04, 0.1, problem.allowed, problem.allowed)
+    return Creep(iterations, 0.05, 1.3, 0.5, 0.6, 0.04, 0.1, problem.allowed, problem.allowed)
 
 
 def come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:
@@ -143,6 +151,7 @@ def _begin(problem: Problem) -> Climb:
     code, path.iterations = come_to_rest(problem, START_ITERATIONS, share)
     if code == CONVERGED:
         keep(problem, path, share)
+    path.is_cut = problem.is_spent
     return path
 
 
@@ -161,10 +170,11 @@ def _rise(
         code, done = come_to_rest(problem, STEP_ITERATIONS, aim)
         path.iterations += done
         if code != CONVERGED:
-            step *= 0.5
-            path.rolls = step < ROLLING_STEP and _rolls(problem, aim)
+            step = 0.5 * (aim.weight - share.weight if share.weight < 1 else aim.friction - share.friction)
+            path.is_cut = problem.is_spent
+            path.rolls = step < ROLLING_STEP and not path.is_cut and _rolls(problem, aim)
             problem.put_pose(kept)
-            if path.rolls or step < SMALLEST:
+            if path.is_cut or path.rolls or step < SMALLEST or _is_near_lock_up(problem, path):
                 return False
             continue
         share = aim
@@ -192,6 +202,13 @@ def _is_locked(problem: Problem, path: Climb) -> bool:
     """Whether lock-up is known, and the string is followed far enough for it."""
     locked = _locked_at(problem, path)
     return locked < 1 or (np.isfinite(locked) and path.steps[-1].share >= 1)
+
+
+def _is_near_lock_up(problem: Problem, path: Climb) -> bool:
+    """Whether the last balance is so near lock-up that smaller steps would hardly change its share of the loads."""
+    if len(path.steps) < 2 or _push(problem, path) < problem.weight:
+        return False
+    return path.steps[-1].share >= 1 or _extrapolated(path.steps) < DECIDED
 
 
 def _locked_at(problem: Problem, path: Climb) -> float:
@@ -240,5 +257,6 @@ def _close(problem: Problem, path: Climb) -> None:
     if np.isnan(path.locked_at) and len(share) > 1 and _push(problem, path) > problem.weight:
         path.locked_at = _extrapolated(path.steps)
     # A lock-up beyond the loads of the operation does not say why the string has no loads there.
-    if path.pose is None and not path.locked_at <= 1:
+    known = path.locked_at <= 1 if path.pose is None else np.isfinite(path.locked_at) or not path.is_cut
+    if not known:
         path.ends_at = float(share[-1]) if len(share) else 0.0

@@ -29,12 +29,12 @@ from fctd.results.notes import Note, string_notes
 from fctd.results.profile import Loads, profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
-from fctd.steady.climb import BEYOND, LOW, SOUND, Climb, climb, lock_up
+from fctd.steady.climb import BEYOND, SOUND, Climb, climb, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.laid_string import LaidString, lay
 from fctd.steady.post_buckling import resolve
-from fctd.steady.problem import Problem, Workspace
+from fctd.steady.problem import WORK, Allowance, Problem, Workspace
 from fctd.steady.tangent import (
     JOINT_BENDING,
     JOINT_TENSION,
@@ -52,6 +52,8 @@ Array = NDArray[np.float64]
 
 # Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
 APART = 0.01
+AT_FULL = "solved at its full friction alone, from which share of it on is not known"
+TOO_MUCH = "resolving takes more work than a row may"
 ANALYTIC = "the wall force of the helix is the analytic one, r F²/4EI"
 
 
@@ -194,11 +196,11 @@ class Shape:
 class Solver:
     """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
-    hole : the case's hole, if it has been built already.
+    hole : the case's hole, if it has been built already.  work : allowance of a row (problem.py).
     """
 
-    def __init__(self, case: Case, hole: Wellbore | None = None) -> None:
-        self.case = case
+    def __init__(self, case: Case, hole: Wellbore | None = None, work: float = WORK) -> None:
+        self.case, self.work_of_row = case, work
         self.hole = build_wellbore(case) if hole is None else hole
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
@@ -238,20 +240,27 @@ class Solver:
             return point
         unsolved = code != CONVERGED or (negative > 0 and point.buckling.mode != NOT_BUCKLED.mode)
         if self.case.solver.buckling == "resolve" and (unsolved or point.buckling.mode != NOT_BUCKLED.mode):
-            return self.resolve(problem, iterations)
-        if unsolved:
-            problem.at_axis = 1
-            path = climb(problem)
-            lock_up(problem, path)
-            path.iterations += iterations
-            followed = self.follow(problem, path)
-            if point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE):
-                return followed if followed.answered else point
-            if code != CONVERGED or followed.answered or followed.status != SteadyStatus.UNSTABLE:
-                return followed
-            message = f"the string would leave this balance, and {followed.message}"
-            return replace(point, status=followed.status, message=message, iterations=path.iterations)
-        return point
+            resolved = self.resolve(problem, iterations)
+            if resolved.status != SteadyStatus.MAX_ITERATIONS:
+                return resolved
+            problem = self.problem(problem.operation, problem.rates, problem.string)
+            point = self.stable(problem, point, code) if unsolved else point
+            return replace(point, message=f"{TOO_MUCH}; with the segments of the case: {point.message}")
+        return self.stable(problem, point, code) if unsolved else point
+
+    def stable(self, problem: Problem, point: Equilibrium, code: int) -> Equilibrium:
+        """The string of a problem followed from small loads, where its balance ``point`` is none or an unstable one."""
+        problem.at_axis = 1
+        path = climb(problem)
+        lock_up(problem, path)
+        path.iterations += point.iterations
+        followed = self.follow(problem, path)
+        if point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE):
+            return followed if followed.answered else point
+        if code != CONVERGED or followed.answered or followed.status == SteadyStatus.LOCKED_UP:
+            return followed
+        message = f"the string would leave this balance, and {followed.message}"
+        return replace(point, status=SteadyStatus.UNSTABLE, message=message, iterations=path.iterations)
 
     def with_helical_force(self, problem: Problem, point: Equilibrium) -> Equilibrium:
         """The string with the wall force of a helix where its segments cannot bend into one.
@@ -279,7 +288,7 @@ class Solver:
         def lay_finer(case: Case) -> Problem:
             laid = lay(case, self.hole, lay_out(case, problem.string.bit_depth))
             finer = self.problem(problem.operation, problem.rates, laid, case)
-            finer.at_axis = 1
+            finer.at_axis, finer.allowance = 1, problem.allowance
             return finer
 
         problem, snaking, helix = resolve(self.case, coarse, problem, lay_finer)
@@ -297,12 +306,14 @@ class Solver:
         if path.pose is not None:
             problem.put_pose(path.pose)
         point = self.answer(problem, CONVERGED, path.iterations, 0)
-        point = replace(point, slack_off_spent_at=path.spent_at, locked_up_at=path.locked_at)
-        if path.pose is None:
-            # The pose is that of smaller loads.
-            status = SteadyStatus.LOCKED_UP if np.fmin(path.spent_at, path.locked_at) < 1 else SteadyStatus.UNSTABLE
+        spent = path.spent_at if path.spent_at > path.least else float("nan")  # the message gives the bound
+        point = replace(point, slack_off_spent_at=spent, locked_up_at=path.locked_at)
+        if path.pose is None:  # but that of smaller loads
+            status = SteadyStatus.MAX_ITERATIONS if path.is_cut else SteadyStatus.UNSTABLE
+            if np.fmin(path.spent_at, path.locked_at) < 1:
+                status = SteadyStatus.LOCKED_UP
             point = replace(point.without_loads(), status=status, message=status.message)
-        if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE):
+        if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.MAX_ITERATIONS):
             return point
         return replace(point, message=_end_of(problem, path) or point.message)
 
@@ -311,7 +322,7 @@ class Solver:
         case = self.case if cut is None else cut
         if self.work.segments < laid.string.segments:
             self.work = Workspace(laid.string.segments * 3 // 2)  # the depths of a chart rise
-        return Problem(case, self.hole, self.work, laid, operation, rates)
+        return Problem(case, self.hole, self.work, laid, operation, rates, Allowance(self.work_of_row))
 
     def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
         """The steady string of a problem in its pose.
@@ -353,7 +364,7 @@ class Solver:
             )
         coarse = self.geometry != state.OPEN and not shape.buckling.resolved
         if pushed:
-            text = SteadyStatus.LOCKED_UP.message
+            text = f"{SteadyStatus.LOCKED_UP.message}; {AT_FULL}"
             return SteadyStatus.LOCKED_UP, f"{text}; {shape.buckling.shortfall}" if coarse else text
         if coarse:
             return SteadyStatus.UNDER_RESOLVED, shape.buckling.shortfall
@@ -365,11 +376,10 @@ class Solver:
 
 def _end_of(problem: Problem, path: Climb) -> str:
     """What ends a path, in words; empty where nothing does."""
-    least = 0.0 if path.of_weight else LOW
     ends = (
-        (f"slack-off is spent {'at' if path.spent_at > least else 'below'}", path.spent_at),
+        (f"slack-off is spent {'at' if path.spent_at > path.least else 'below'}", path.spent_at),
         ("the string is locked up at", path.locked_at),
-        ("no steady shape was found beyond", path.ends_at),
+        ("the work of a row ends at" if path.is_cut else "no steady shape was found beyond", path.ends_at),
     )
     parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
     if not parts:

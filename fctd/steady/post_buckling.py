@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 # segments, which are short from this share of the limit on and so many half waves beyond.  With the factor a half wave
 # has 10 segments, and the amplitude of snaking an error below 3 %.
 MORE, ADDED, NEARLY, BEYOND = 1.6, 0.02, 0.75, 2
-# A string that is pushed buckles farther before it locks up: two segments in a half wave of three weights more.
-LOCKING, IN_LOCKING = 3.0, 2
+# A string that is pushed buckles farther before it locks up: two segments in a half wave of one weight more.
+LOCKING, IN_LOCKING = 1.0, 2
 # Times that the string is laid out, and the helix laid at full loads.
 LAYOUTS, WINDINGS = 3, 4
 WINDING_ITERATIONS = 800
@@ -61,22 +61,31 @@ def resolve(case: Case, coarse: Climb, problem: Problem, lay: Callable[[Case], P
         if _is_resolved(problem, path):
             break
     path.iterations = total
-    climb(problem, path=path)
     wound = _wind(problem, path)
     if wound is None:
+        if problem.is_spent:
+            # Whether a helix has the lower energy is not known.
+            path.pose, path.is_cut = None, True
+            return Resolved(problem, path, None)
+        climb(problem, path=path)
         lock_up(problem, path)
         return Resolved(problem, path, None)
-    # Of the shape that is not the answer only the hook load at the loads of the operation is of use.
     helix, path_of_helix = wound
+    is_wound = helix.turns > 0
     lock_up(problem, path_of_helix, helix.prepare)
+    if not is_wound:
+        return Resolved(problem, path_of_helix, None)
+    if path_of_helix.pose is not None:
+        # Of the shape that is not the answer only the hook load at the loads of the operation is of use.
+        climb(problem, path=path)
     return Resolved(problem, path, path_of_helix)
 
 
 def _wind(problem: Problem, snaking: Climb) -> tuple[Helix, Climb] | None:
-    """The helix and its path to the loads of the operation, or None without one.
+    """The helix and its path to the loads of the operation, or None where it does not stand.
 
     It is laid into the last balance in which the string is hardly pushed, or, where it does not come to rest there,
-    wherever it is due on the way from small loads.
+    wherever it is due on the way from small loads.  Where none is due it has no turns.
     """
     if snaking.sound is None:
         return None
@@ -89,7 +98,7 @@ def _wind(problem: Problem, snaking: Climb) -> tuple[Helix, Climb] | None:
         if not _lay(problem, helix, path):
             continue
         climb(problem, helix.prepare, path)
-        if helix.turns > 0 and (path.pose is None or helix.stands()):
+        if helix.turns == 0 or path.pose is None or helix.stands():
             return helix, path
     return None
 

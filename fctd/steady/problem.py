@@ -1,5 +1,6 @@
 """A string at one depth under the loads of one operation: arrays of the solver, and what its methods start from."""
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -44,6 +45,8 @@ TOLERANCE = 1e-7
 EPSILON = float(np.finfo(float).eps)
 # Lateral imperfection of the first guess, so that a straight string may buckle [m].
 SEED = 1e-4
+# Work of the relaxations of a row, iterations times segments: some twenty seconds.
+WORK = 8e6
 
 
 class Workspace:
@@ -90,6 +93,13 @@ class Reactions(NamedTuple):
     contacts: Array
 
 
+@dataclass
+class Allowance:
+    """Work that a row may still take, iterations times segments; the problems of one row share it."""
+
+    left: float
+
+
 class Compressed(NamedTuple):
     """Top and contact points of a string, (n + 1, ...), against the buckling limits.
 
@@ -107,12 +117,13 @@ class Problem:
 
     string, hole; weight : of the string and on the bit [N]; allowed : largest imbalance of a body when converged [N];
     at_axis : see ``tangent.Steady``; added (n, 3) : wall force beside that of the wall's springs, in the columns of
-    contact loads (helical_force.py).
+    contact loads (helical_force.py); allowance : what relaxations may still take.
     """
 
     def __init__(
-        self, case: Case, hole: Wellbore, work: Workspace, laid: LaidString, operation: str, rates: SteadyRates
-    ) -> None:
+        self, case: Case, hole: Wellbore, work: Workspace, laid: LaidString, operation: str, rates: SteadyRates,
+        allowance: Allowance,
+    ) -> None:  # fmt: skip
         self.case, self.hole, self.work, self.laid, self.rates = case, hole, work, laid, rates
         self.operation = operation
         self.string = laid.string
@@ -129,6 +140,7 @@ class Problem:
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
         self.added = np.zeros((self.n, 3))
+        self.allowance = allowance
 
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
@@ -176,13 +188,19 @@ class Problem:
             done += 1
 
     def relax(self, creep: Creep, share: Share = FULL) -> tuple[int, int]:
-        """Let the string come to rest from the pose; returns code and iterations."""
-        w = self.work
+        """Let the string come to rest from the pose, within the allowance; returns code and iterations."""
+        w, most = self.work, int(self.allowance.left // self.n)
         code, done = relax(
-            w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(share), creep,
-            w.R, w.D, w.A, w.U, w.W,
+            w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(share),
+            creep._replace(iterations=min(creep.iterations, most)), w.R, w.D, w.A, w.U, w.W,
         )  # fmt: skip
+        self.allowance.left -= done * self.n
         return code, done
+
+    @property
+    def is_spent(self) -> bool:
+        """Whether the allowance has no iteration left."""
+        return self.allowance.left < self.n
 
     def shake(self) -> None:
         """Shift every body across the string by up to ``SEED``, each another way, always the same."""

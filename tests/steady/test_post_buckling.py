@@ -6,7 +6,9 @@ import pytest
 import fctd
 from fctd.case.load import Case
 from fctd.model.drillstring import section_of
+from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
+from fctd.steady.equilibrium import AT_FULL, TOO_MUCH, Solver
 from tests.steady.buckled import HOLE, level_case, onset
 
 
@@ -39,6 +41,8 @@ def test_a_helix_is_the_answer_where_it_has_the_lower_energy() -> None:
     law = 1 / (1 / F - mu * r * length / (4 * EI))
     assert -point.hookload == pytest.approx(law, rel=0.03)
     assert point.hookload_low == point.hookload < point.hookload_high < -F
+    assert np.isnan(point.slack_off_spent_at)
+    assert point.message.startswith("slack-off is spent below 10 %")
 
 
 def test_a_string_that_is_not_buckled_is_solved_as_it_is() -> None:
@@ -48,3 +52,14 @@ def test_a_string_that_is_not_buckled_is_solved_as_it_is() -> None:
     assert resolved.shape == "none"
     assert resolved.hookload == as_it_is.hookload
     assert np.isnan(resolved.hookload_low)
+
+
+def test_a_row_whose_work_is_spent_has_the_loads_of_the_segments_of_its_case() -> None:
+    case = level_case(1.3, 120.0, 12.0, friction=0.1)
+    as_it_is = fctd.equilibrium(case, "drill_sliding", 120.0)
+    solver = Solver(with_resolution(case), work=50.0)
+    cut = solver.solve("drill_sliding", steady_rates(case, "drill_sliding"), 120.0)
+    assert (cut.status, cut.shape, cut.hookload) == (as_it_is.status, "none", as_it_is.hookload)
+    assert cut.message == f"{TOO_MUCH}; with the segments of the case: {as_it_is.message}"
+    assert AT_FULL in as_it_is.message
+    assert np.isnan([as_it_is.slack_off_spent_at, as_it_is.locked_up_at]).all()

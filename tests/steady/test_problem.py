@@ -52,3 +52,14 @@ def test_compression_is_that_of_the_top_and_the_contact_points() -> None:
     assert here.compression == pytest.approx(problem.weight_on_bit, rel=1e-3)
     assert here.md[0] == 0
     assert here.md[-1] == pytest.approx(60.0, abs=0.1)
+
+
+def test_a_relaxation_stays_within_the_allowance() -> None:
+    problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
+    problem.lay_guess()
+    problem.allowance.left = 5.5 * problem.n
+    code, done = problem.relax(creep_of(problem, 200))
+    assert (code == CONVERGED, done) == (False, 5)
+    assert problem.allowance.left == pytest.approx(0.5 * problem.n)
+    assert problem.is_spent
+    assert problem.relax(creep_of(problem, 200))[1] == 0

@@ -4,9 +4,10 @@ A real survey and random wells, with the segments of the case and with buckling 
 is tried from both sides, and the resolved segments of a horizontal well are halved.
 """
 
+import time
 from collections.abc import Iterable
 from random import Random
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -17,12 +18,14 @@ from fctd.model import layouts
 from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
+from fctd.steady.problem import WORK
 from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts import random_wells
 from validation.parts.buckled_pipe import OPERATION
 from validation.parts.resolved_rows import DEPTH, WEIGHT, horizontal_well
+from validation.parts.slid_strings import slide
 
 FRICTIONS = (0.2, 0.3, 0.4, 0.5)
 WEIGHTS = (0.0, 100e3, 200e3, 300e3)  # on bit [N]
@@ -30,15 +33,18 @@ STEP, DEEPEST = 500.0, 8000.0  # [m]
 WELLS, SHARES = 200, (0.4, 0.7, 1.0)  # of the depths that a string can reach
 RESOLVED, RESOLVED_WELLS = 60, 60  # rows, drawn from those that are buckled or locked up
 LIMITS, BELOW, ABOVE = 30, 0.97, 1.03
+THOUSAND = (800, 1200)  # segments of the rows whose time is judged
+SLID = 4  # strings that trip in, at both shares
 HALVED = (0.3, 0.6, 0.9)  # of the friction at lock-up
 BEYOND_LOCK_UP = 0.34  # friction factor
+AMPLE = 10 * WORK  # for strings of twice the segments
 # What a row may say.
 REASONED = (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.UNDER_RESOLVED)
 
 
-def solve(case: Case, kind: str, depth: float) -> Equilibrium:
-    """A row."""
-    return Solver(case).solve(kind, steady_rates(case, kind), depth)
+def solve(case: Case, kind: str, depth: float, work: float = WORK) -> Equilibrium:
+    """A row, with an allowance of work."""
+    return Solver(case, work=work).solve(kind, steady_rates(case, kind), depth)
 
 
 def resolving(case: Case) -> Case:
@@ -109,16 +115,32 @@ def statuses(context: Context) -> tuple[pd.DataFrame, list[tuple[Case, str, floa
     return pd.DataFrame(rows), picked[:1] if context.quick else picked
 
 
-def resolved_rows(context: Context, picked: list[tuple[Case, str, float]]) -> tuple[pd.DataFrame, pd.DataFrame]:
+class Locked(NamedTuple):
+    """A resolved row without a balance at its loads: its case, and the share of the friction at which it locks up."""
+
+    case: Case
+    point: Equilibrium
+    at: float
+
+
+def resolved_rows(
+    context: Context, picked: list[tuple[Case, str, float]]
+) -> tuple[pd.DataFrame, pd.DataFrame, list[Locked]]:
     """Rows with their buckling resolved, and those that lock up on both sides of their limit."""
     rows: list[dict[str, Any]] = []
     limits: list[dict[str, Any]] = []
+    locked: list[Locked] = []
     for case, kind, depth in context.progress(picked, "resolved rows"):
         fine = resolving(case)
+        began = time.process_time()
         point = solve(fine, kind, depth)
-        rows.append(row_of(case.name, point))
+        seconds = time.process_time() - began
+        rows.append(row_of(case.name, point, segments=len(point.profile) - 1, seconds=seconds))
         at = point.locked_up_at
-        if point.status != SteadyStatus.LOCKED_UP or not np.isfinite(at) or len(limits) >= LIMITS:
+        if point.status != SteadyStatus.LOCKED_UP or point.shape == "none" or not np.isfinite(at):
+            continue
+        locked.append(Locked(fine, point, at))
+        if len(limits) >= LIMITS:
             continue
         below, above = (solve(scaled(fine, share * at), kind, depth) for share in (BELOW, ABOVE))
         limits.append(
@@ -129,21 +151,45 @@ def resolved_rows(context: Context, picked: list[tuple[Case, str, float]]) -> tu
                 "status_above": str(above.status), "hookload_above_kN": above.hookload / 1e3,
             }
         )  # fmt: skip
-    return pd.DataFrame(rows), pd.DataFrame(limits)
+    return pd.DataFrame(rows), pd.DataFrame(limits), locked
+
+
+def slid(context: Context, locked: list[Locked]) -> pd.DataFrame:
+    """Locked strings in time, on both sides of their limit and with their resolved segments.
+
+    The stepper has no bit on bottom: those of the locked strings that trip in, with the fewest segments.
+    """
+    tripped = [row for row in locked if row.point.operation == "trip_in"]
+    rows = []
+    for case, point, at in context.progress(sorted(tripped, key=lambda row: len(row.point.profile))[:SLID], "stepper"):
+        md = point.profile["md_m"].to_numpy()
+        lengths = np.diff(md, prepend=2 * md[0] - md[1])
+        cut = layouts.with_components(case, layouts.resolved(case, point.bit_depth, md, lengths))
+        for share in (BELOW, ABOVE):
+            found = slide(scaled(cut, share * at), point.operation, point.bit_depth)
+            rows.append(
+                {
+                    "well": case.name, "bit_depth_m": point.bit_depth, "segments": len(md) - 1,
+                    "share_of_limit_percent": 100 * share, "status": found.status,
+                    "bit_follows_percent": 100 * found.share, "push_weights": found.push,
+                    "ends": "slides" if found.slides else "stalls",
+                }
+            )  # fmt: skip
+    return pd.DataFrame(rows)
 
 
 def halved() -> pd.DataFrame:
     """The horizontal well at shares of its friction at lock-up, with the resolved segments and with their halves."""
     beyond = horizontal_well(20.0, "resolve", BEYOND_LOCK_UP)
-    first = solve(beyond, OPERATION, DEPTH)
+    first = solve(beyond, OPERATION, DEPTH, AMPLE)
     locked = first.locked_up_at * BEYOND_LOCK_UP
     rows = []
     for friction in (*(share * locked for share in HALVED), BEYOND_LOCK_UP):
         case = with_friction(beyond, friction)
-        point = solve(case, OPERATION, DEPTH)
+        point = solve(case, OPERATION, DEPTH, AMPLE)
         md = point.profile["md_m"].to_numpy()
         half = 0.5 * np.diff(md, prepend=2 * md[0] - md[1])
-        other = solve(layouts.with_components(case, layouts.resolved(case, DEPTH, md, half)), OPERATION, DEPTH)
+        other = solve(layouts.with_components(case, layouts.resolved(case, DEPTH, md, half)), OPERATION, DEPTH, AMPLE)
         rows.append(
             {
                 "friction": friction, "share_of_lock_up_percent": 100 * friction / locked,
@@ -161,13 +207,17 @@ def halved() -> pd.DataFrame:
 def run(context: Context) -> Outcome:
     """Statuses, resolved rows and their limits; the full run halves segments as well."""
     rows, picked = statuses(context)
-    resolved, limits = resolved_rows(context, picked)
+    resolved, limits, locked = resolved_rows(context, picked)
     tables = {"rows": rows, "counts": _counts(rows), "resolved": resolved, "resolved_counts": _counts(resolved)}
     display = {"counts": "Rows by status", "resolved_counts": "Rows with buckling resolved, by status"}
     if len(limits):
         tables["limits"] = limits
         display["limits"] = f"Locked strings at {100 * BELOW:g} % and at {100 * ABOVE:g} % of their limit"
     if not context.quick:
+        stepped = slid(context, locked)
+        if len(stepped):
+            tables["slid"] = stepped
+            display["slid"] = "Locked strings that trip in, by the stepper"
         tables["halved"] = halved()
         display["halved"] = "A horizontal well that slides, with the resolved segments and with their halves"
     return Outcome(
@@ -200,6 +250,10 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
         Check("resolved rows that are under-resolved", float((resolved["status"] == "under_resolved").sum()), 0,
               "at_most", "", "segments are as short as the waves need"),
     ]  # fmt: skip
+    timed = resolved[resolved["segments"].between(*THOUSAND) & (resolved["shape"] != "none")]
+    if len(timed):
+        slowest = float(timed["seconds"].max())
+        checks.append(Check("resolved rows of some 1,000 segments, slowest", slowest, 6.0, "at_most", "s", "a chart"))
     if "limits" in tables:
         limits = tables["limits"]
         lost = limits["hookload_below_kN"].isna().sum()
@@ -208,6 +262,15 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
             Check("locked strings without a balance below their limit", float(lost), 0, "at_most", "", "the limit"),
             Check("locked strings with a balance above their limit", float(held), 0, "at_most", "", "the limit"),
         ]
+    if "slid" in tables:
+        stepped = tables["slid"]
+        slides, is_below = stepped["ends"] == "slides", stepped["share_of_limit_percent"] < 100
+        checks += [
+            Check("stepper, strings that stall below their limit", float((is_below & ~slides).sum()), 0, "at_most", "",
+                  "the limit"),
+            Check("stepper, strings that slide above their limit", float((~is_below & slides).sum()), 0, "at_most", "",
+                  "the limit"),
+        ]  # fmt: skip
     if "halved" in tables:
         table = tables["halved"]
         below = table[table["share_of_lock_up_percent"] <= 100 * max(HALVED) + 1e-6]
