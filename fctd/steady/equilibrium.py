@@ -243,7 +243,7 @@ class Solver:
             resolved = self.resolve(problem, iterations)
             if resolved.status != SteadyStatus.MAX_ITERATIONS:
                 return resolved
-            problem = self.problem(problem.operation, problem.rates, problem.string)
+            problem = self.problem(problem.operation, problem.rates, problem.laid)
             point = self.stable(problem, point, code) if unsolved else point
             return replace(point, message=f"{TOO_MUCH}; with the segments of the case: {point.message}")
         return self.stable(problem, point, code) if unsolved else point

@@ -31,7 +31,7 @@ def slide(case: Case, kind: str, depth: float) -> Slid:
     """Feed a string into its hole until its bit is at a depth [m], off bottom and without rotation."""
     if KINDS[kind].direction != 1 or KINDS[kind].on_bottom:
         raise ValueError(f"{kind} does not slide into the hole off bottom")
-    string = Solver(case).lay_out(depth)
+    string = Solver(case).lay_out(depth).string
     weight = float(string.of("weight") @ string.length)
     operation = {"kind": kind, "from_md": depth - FED, "to_md": depth, "speed": SPEED, "ramp_time": 2.0}
     mud = case.mud.model_dump(exclude_defaults=True) | {"lateral_damping": DAMPING}
