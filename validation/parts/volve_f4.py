@@ -14,8 +14,8 @@ Rules of reading.
 - The series: medians of 25 m bins, at their middle.  ``rot_static``, ``rot_up`` and ``rot_dn`` give hook load and
   torque, ``pickup`` and ``slackoff`` hook load, ``in_slips`` the block's weight, and the torque of the free drive where
   half of its readings lie within 0.5 kN m (no connection is made up).  ``norot_static`` has no direction of friction
-  and is left out.  Speeds along the hole are those of the samples (median of the block's speed above 0.01 m/s, bit more than
-  1 m off bottom, by direction and with or without rotation).
+  and is left out.  Speeds along the hole are those of the samples (median of the block's speed above 0.01 m/s, bit
+  more than 1 m off bottom, by direction and with or without rotation).
 
 Rules of judging.  A torque or half the spread of up and down weight is inside a band where its recorded range meets it;
 a single number is a range without width, and half a spread has noise of its two readings.  The absolute weight is
