@@ -37,8 +37,9 @@ STRINGS: Final = {
     "F4-13": "volve_f4_cleanup",
     "F4-13r": "volve_f4_cleanup",
 }
-# The series stands for all of its bins, string volve_f4_12in.
+# The series stands for all of its bins; its string.
 SERIES: Final = "series"
+SERIES_STRING: Final = "volve_f4_12in"
 
 # Split A, the paper's rule: the rows of the 12 1/4 in section predict those of the 8 1/2 in section.
 FIT_A: Final = (SERIES, "F4-01", "F4-03")
