@@ -1,7 +1,7 @@
 """The schedule of the rig: the operations of a case as phases of constant or ramped feed and rotation."""
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,8 +11,6 @@ from fctd.case.operations import KINDS, Operation, RotateOffBottom
 from fctd.case.specs import RigSpec
 from fctd.case.units import FASTEST, MOST_RPM, ROTATION, SPEED, argument
 from fctd.mechanics.topdrive import Motion
-
-Real = TypeVar("Real", float, Any)
 
 # Shortest operation [s]; a shorter one would end before the first step, with no load to record.
 SHORTEST = 1e-3
@@ -80,7 +78,7 @@ def depth_range(case: Case) -> tuple[float, float, float]:
     return depths[0], min(depths), max(depths)
 
 
-def weight_indicator(rig: RigSpec, direction: Real, hookload: Real) -> Real:
+def weight_indicator(rig: RigSpec, direction: Any, hookload: Any) -> Any:
     """Reading of the weight indicator [N] for a hook load of the string [N]; scalars, or series of one shape.
 
     direction : of the string, 1 down, −1 up, 0 at rest.  Friction of the sheaves lowers the dead line's tension while
@@ -90,7 +88,7 @@ def weight_indicator(rig: RigSpec, direction: Real, hookload: Real) -> Real:
     return (hookload + rig.block_weight - direction * rig.guide_friction) * rig.sheave_efficiency ** (-direction)
 
 
-def string_load(rig: RigSpec, direction: Real, indicator: Real) -> Real:
+def string_load(rig: RigSpec, direction: Any, indicator: Any) -> Any:
     """The hook load of the string [N] at a reading of the weight indicator [N]: the inverse of it."""
     return indicator * rig.sheave_efficiency**direction - rig.block_weight + direction * rig.guide_friction
 

@@ -95,7 +95,9 @@ def limits_of_load(
         finite = np.concatenate(visible)
         if np.ptp(finite[np.isfinite(finite)]) == 0 and chart[column].notna().any():
             visible.append(np.array([chart[column].max()]))
-    largest = max(_largest(chart, ["hookload_N"]), case.rig.block_weight if case is not None and load == "indicator" else 0.0)
+    largest = max(
+        _largest(chart, ["hookload_N"]), case.rig.block_weight if case is not None and load == "indicator" else 0.0
+    )
     return _span(visible, LEAST_SHARE * largest, shown(column, units).factor, cut=bool(locked.any()))
 
 

@@ -1,4 +1,4 @@
-"""CSV files of measurements: columns whose headers name their units, loads as values or ranges, cells by row and column.
+"""CSV files of measurements: columns whose headers name their units, loads as values or ranges.
 
 Headers name their units as those of surveys do: ``depth_ft``, ``Hook load (klbf)``, ``torque_low_kN_m``, ``speed_m/s``.
 """
@@ -7,6 +7,7 @@ import csv
 import io
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -44,7 +45,7 @@ class Field(NamedTuple):
 
 
 class Text(NamedTuple):
-    """A column of texts: its name in the table, its names in headers, and how a cell is read (InputError for others)."""
+    """A column of texts: its name in the table, its names in headers, and how a cell is read."""
 
     stem: str
     names: str
@@ -152,7 +153,7 @@ def _column_of(header: str, fields: Sequence[Field], texts: Sequence[Text], row:
                 quantity.parse(f"1 {unit}")
             except InputError:
                 continue
-            return _Column(field.column(end), lambda cell, unit=unit: _number(cell, quantity, unit))  # type: ignore[misc]
+            return _Column(field.column(end), partial(_number, quantity=quantity, unit=unit))
         expected = f"a header that ends in its unit, such as {field.stem}{end}_{field.example}"
         raise InputError(expected, key=row, value=header)
     return _Column("", str)

@@ -184,15 +184,15 @@ class Shape:
 class Solver:
     """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
-    hole : the case's hole, if it has been built already.
+    hole : the case's hole, if it has been built already.  work : arrays that another solver has left.
     """
 
-    def __init__(self, case: Case, hole: Wellbore | None = None) -> None:
+    def __init__(self, case: Case, hole: Wellbore | None = None, work: Workspace | None = None) -> None:
         self.case = case
         self.hole = build_wellbore(case) if hole is None else hole
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
-        self.work = Workspace(0)
+        self.work = Workspace(0) if work is None else work
 
     def lay_out(self, bit_depth: float) -> String:
         """The string with the bit at a depth [m]; raises InputError when string and hole do not fit there."""
@@ -205,14 +205,17 @@ class Solver:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
         return self.solve_string(operation, rates, self.lay_out(bit_depth))
 
-    # Of an iteration that diverged only the status is used; its numbers may overflow.
-    @np.errstate(over="ignore", invalid="ignore")
     def solve_string(self, operation: str, rates: SteadyRates, string: String) -> Equilibrium:
         """The same of a string that has been laid out, which depends neither on operation nor on friction.
 
         Raises InputError when a resolved string has too many segments.
         """
-        problem = self.problem(operation, rates, string)
+        return self.solve_problem(self.problem(operation, rates, string))
+
+    # Of an iteration that diverged only the status is used; its numbers may overflow.
+    @np.errstate(over="ignore", invalid="ignore")
+    def solve_problem(self, problem: Problem) -> Equilibrium:
+        """The same of a problem, which then has the pose of the answer, but for resolved strings."""
         point = self.settle(problem)
         # Of an unstable balance the solver's pose may be another.
         buckled = point.answered and point.status != SteadyStatus.UNSTABLE and point.buckling.mode == "helical"
