@@ -6,6 +6,7 @@
     point = fctd.equilibrium(case, operation="trip_out", bit_depth="8000 ft")
     chart = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
     finer = fctd.refine(case, tolerance=0.01).case
+    fitted = fctd.calibrate(case, "measured.csv", ["friction.open", "rig.block_weight"]).case
 
 Units are SI; x is north, y east, z down.
 """
@@ -13,6 +14,8 @@ Units are SI; x is north, y east, z down.
 from fctd.cli.interrupts import ends_program
 
 with ends_program():
+    from fctd.calibration.calibrate import calibrate
+    from fctd.calibration.result import Calibration
     from fctd.case.errors import InputError
     from fctd.case.load import Case, load_case
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
@@ -23,6 +26,7 @@ with ends_program():
     from fctd.steady.torque_drag import torque_drag
 
 __all__ = [
+    "Calibration",
     "Case",
     "Contacts",
     "Equilibrium",
@@ -32,6 +36,7 @@ __all__ = [
     "SimulationResult",
     "Wellbore",
     "build_wellbore",
+    "calibrate",
     "equilibrium",
     "find_contacts",
     "load_case",

@@ -1,0 +1,87 @@
+"""The result of a calibration: values of the unknowns, residuals of the readings, rows left out."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pandas as pd
+
+from fctd.calibration.fit import Fit, Loss, residuals_of
+from fctd.calibration.forward import Forward
+from fctd.calibration.unknowns import Unknown, with_values
+from fctd.case.load import Case
+
+
+@dataclass(frozen=True, repr=False)
+class Calibration:
+    """A calibrated case.
+
+    base : the case before; unknowns, and their fit; left_out : reasons of the rows that were not fitted, by id;
+    loss : of the readings; starts, seed : of the search.
+    """
+
+    base: Case
+    forward: Forward
+    fit: Fit
+    left_out: Mapping[str, str]
+    loss: Loss
+    starts: int
+    seed: int
+
+    @property
+    def unknowns(self) -> tuple[Unknown, ...]:
+        """The unknowns."""
+        return self.forward.unknowns
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The value of each unknown [SI]."""
+        return dict(zip(self.forward.names, self.fit.best.tolist(), strict=True))
+
+    @property
+    def case(self) -> Case:
+        """The case with the values."""
+        return with_values(self.base, self.values)
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name} {value:.4g}" for name, value in self.values.items())
+        return f"Calibration({self.base.name!r}, {len(self.fit.used)} rows: {values})"
+
+    @cached_property
+    def residuals(self) -> pd.DataFrame:
+        """A row for each measured load: id, string, operation, bit_depth_m, load, low, high and fitted (SI), residual.
+
+        residual : distance of the fitted reading from the range [SI], 0 within it; in_noise : over the noise; fitted is
+        NaN where the string has no loads.  used : whether it was fitted.
+        """
+        forward, rows = self.forward, []
+        for i, reading in enumerate(forward.readings):
+            row, (low, high) = forward.rows[reading.row], (reading.range.low, reading.range.high)
+            if np.isnan(low):
+                continue
+            fitted = self.fit.evaluation.value[i]
+            off = np.maximum(fitted - high, 0.0) + np.minimum(fitted - low, 0.0)
+            rows.append(
+                {
+                    "id": row.id, "string": row.string, "operation": row.operation, "bit_depth_m": row.bit_depth,
+                    "load": reading.load, "low": low, "high": high, "fitted": fitted, "residual": off,
+                    "in_noise": off / reading.noise, "used": reading.row in self.fit.used,
+                }
+            )  # fmt: skip
+        return pd.DataFrame(rows)
+
+    @property
+    def active(self) -> dict[str, str]:
+        """The unknowns whose value is at a bound: "lowest" or "highest"."""
+        found = {}
+        for unknown, value in zip(self.unknowns, self.fit.best, strict=True):
+            near = 1e-6 * (unknown.high - unknown.low)
+            if value <= unknown.low + near or value >= unknown.high - near:
+                found[unknown.name] = "lowest" if value <= unknown.low + near else "highest"
+        return found
+
+    @property
+    def jacobian(self) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+        """Derivatives of the residuals, in standard deviations, by the unknowns (n, k), those of the priors last."""
+        return residuals_of(self.forward, self.fit.evaluation, self.fit.best, self.fit.used).jacobian
