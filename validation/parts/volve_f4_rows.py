@@ -46,10 +46,10 @@ def cases(data: Path) -> dict[str, Case]:
 def report_rows(data: Path, strings: Mapping[str, Case], ids: Sequence[str]) -> list[Row]:
     """The readings of these rows of the daily reports, and of no other row."""
     table = pd.read_csv(declare(data / FOLDER / REPORTS), dtype=str, keep_default_na=False).set_index("id").loc[[*ids]]
-    return [row for key, cells in table.iterrows() for row in _report(str(key), cells.to_dict(), strings)]
+    return [row for key, cells in table.iterrows() for row in _report(str(key), cells, strings)]
 
 
-def _report(key: str, cells: Mapping[str, str], strings: Mapping[str, Case]) -> list[Row]:
+def _report(key: str, cells: "pd.Series[str]", strings: Mapping[str, Case]) -> list[Row]:
     """The rows of one daily report: strokes, and rotation off bottom or while the string moves."""
     string, depth = STRINGS[key], float(cells["bit_depth_m"])
     rpm = float(np.mean([float(end) for end in cells["rpm"].split("-")]))
