@@ -14,7 +14,7 @@ Units are SI; x is north, y east, z down.
 from fctd.cli.interrupts import ends_program
 
 with ends_program():
-    from fctd.calibration.calibrate import calibrate
+    from fctd.calibration.calibrate import calibrate, predict
     from fctd.calibration.result import Calibration
     from fctd.case.errors import InputError
     from fctd.case.load import Case, load_case
@@ -41,6 +41,7 @@ __all__ = [
     "find_contacts",
     "load_case",
     "open_result",
+    "predict",
     "refine",
     "simulate",
     "torque_drag",

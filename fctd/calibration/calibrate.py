@@ -1,12 +1,20 @@
-"""``calibrate``: unknowns of a case from measured rows."""
+"""``calibrate``: unknowns of a case from measured rows; ``predict``: bands of the readings of other rows."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
+from typing import Final, Literal, get_args
+
+import numpy as np
+import pandas as pd
 
 from fctd.calibration.fit import LOSSES, Loss
 from fctd.calibration.fit import fit as fit_rows
 from fctd.calibration.forward import Forward
+from fctd.calibration.identify import refuse as refuse_undetermined
+from fctd.calibration.identify import undetermined
+from fctd.calibration.predict import SAMPLES, Posterior, posterior_file, predict_rows, read_posterior
 from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row, read_rows
 from fctd.calibration.rules import left_out_by_rule
@@ -16,6 +24,8 @@ from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case, load_case, naming_file
 
 Files = str | PathLike[str]
+Order = Literal["all", "first-section"]
+ORDERS: Final = get_args(Order)
 
 
 def calibrate(
@@ -27,14 +37,18 @@ def calibrate(
     setup: Files | Setup | None = None,
     strings: Mapping[str, Case] | None = None,
     loss: Loss = "soft_l1",
+    order: Order = "all",
     starts: int = 4,
     seed: int = 0,
+    refuse: bool = True,
 ) -> Calibration:
     """The unknowns of a case that fit measured rows best.
 
     measured : a CSV file, or rows; strings : their cases by name, where rows are given and not all are of ``case``.
     fit : unknowns, as names with bounds such as "friction.open=0.1:0.5", or as a table; priors : of them, such as
     "friction.open=0.25+-0.05".  setup : a TOML file or a ``Setup``, whose unknowns are added to these.
+    order : "all", or "first-section", which fits the rows of the shallowest hole section and predicts the deeper ones.
+    starts, seed : of the search.  refuse : whether unknowns that the rows do not tell apart are an error.
 
     Raises InputError for input that cannot be used.
     """
@@ -45,18 +59,71 @@ def calibrate(
             raise InputError("at least one start", key="starts", value=starts)
         told = gather_setup(setup)
         rows, cases = gather_rows(case, measured, told, strings, measured=True)
+        if order not in ORDERS:
+            raise InputError(nearest(order, ORDERS, "order"), key="order", value=order)
         specs = dict(fit) if isinstance(fit, Mapping) else parse_fits(fit, priors)
         unknowns = find_unknowns(specs, told, list(cases.values()))
         forward = Forward(rows, cases, unknowns, told)
         out = left_out_by_rule(rows, cases)
-        used = [k for k in range(len(rows)) if k not in out]
+        deeper = _deeper_section(rows, cases) if order == "first-section" else []
+        used = [k for k in range(len(rows)) if k not in out and k not in deeper]
+        # Before the fit, which unknowns without effect would lead astray, and at its end.
+        at_start = forward.evaluate(np.array([unknown.start for unknown in unknowns]))
+        loose = undetermined(forward, at_start, used)
+        if refuse:
+            refuse_undetermined(loose)
         found = fit_rows(forward, used, loss, starts, seed)
+        loose = undetermined(forward, found.evaluation, found.used)
+        if refuse:
+            refuse_undetermined(loose)
         if not found.used:
             raise InputError(
                 "rows whose strings have loads", key="measured", value=list((out | found.left_out).values())
             )
         reasons = {rows[k].id: reason for k, reason in sorted((out | found.left_out).items())}
-        return Calibration(case, forward, found, reasons, loss, starts, seed)
+        reasons |= {rows[k].id: "of a deeper hole section: predicted" for k in deeper}
+        fitted = Calibration(case, forward, found, reasons, loss, tuple(loose))
+        if not deeper:
+            return fitted
+        return replace(fitted, predicted=predict_rows(fitted.posterior, [rows[k] for k in deeper], cases))
+
+
+def predict(
+    case: Case,
+    rows: Files | Sequence[Row],
+    posterior: Posterior | Files | None = None,
+    *,
+    strings: Mapping[str, Case] | None = None,
+    samples: int = SAMPLES,
+    seed: int = 0,
+) -> pd.DataFrame:
+    """Bands of the readings of rows, and scores of those that are measured (``predict_rows``).
+
+    case : calibrated, as ``Calibration.case`` or from the file that ``fctd calibrate --out`` writes; posterior : of the
+    calibration, or its file, by default the one beside the case.  strings : as in ``calibrate``; samples, seed : of the
+    draws.  Raises InputError for input that cannot be used.
+    """
+    with naming_file(case):
+        if posterior is None:
+            if case.file is None:
+                raise InputError("a posterior, since the case is not from a file", key="posterior")
+            posterior = posterior_file(Path(case.file))
+        known = posterior if isinstance(posterior, Posterior) else read_posterior(Path(posterior))
+        found, cases = gather_rows(case, rows, known.setup, strings, measured=False)
+        return predict_rows(known, found, cases, samples, seed)
+
+
+def _deeper_section(rows: Sequence[Row], cases: Mapping[str, Case]) -> list[int]:
+    """The rows whose bit is in another hole size than that of the shallowest bit; rows without a string are in none."""
+    with_string = [k for k, row in enumerate(rows) if row.has_string]
+    sizes = {k: _hole_size(cases[rows[k].string], rows[k].bit_depth) for k in with_string}
+    first = sizes[min(with_string, key=lambda k: rows[k].bit_depth)] if with_string else None
+    return [k for k in with_string if sizes[k] != first]
+
+
+def _hole_size(case: Case, bit_depth: float) -> float:
+    """Diameter of the hole at the bit [m]."""
+    return next(i.diameter for i in case.wellbore.intervals if bit_depth <= i.to_md)
 
 
 def gather_setup(setup: Files | Setup | None) -> Setup:

@@ -7,8 +7,6 @@ from typing import Any, Final, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
-from scipy.stats import qmc
 
 from fctd.calibration.forward import Evaluation, Forward
 
@@ -16,6 +14,8 @@ Array = NDArray[np.float64]
 Loss = Literal["soft_l1", "linear"]
 LOSSES: Final = get_args(Loss)
 
+# Standard deviations beyond which the loss of a residual grows as its size, not its square.
+SOFT: Final = 3.0
 # Residual of a reading whose string has no loads at a trial: far beyond all others, so that the step is taken back.
 _NO_LOADS: Final = 1e3
 # Tolerance of the values, in their typical size: of a start, and of the best one's end.  The cost's is its square.
@@ -86,6 +86,8 @@ def fit(
     fixed : values of unknowns by index that are not fitted; first : the first start (k,), in place of the unknowns'.
     """
     first = np.array([unknown.start for unknown in forward.unknowns]) if first is None else first
+    if starts == 1:
+        return _fit_from(forward, first, used, loss, fixed or {}, FINE)
     begun = [
         _fit_from(forward, start, used, loss, fixed or {}, ROUGH) for start in _starts(forward, first, starts, seed)
     ]
@@ -96,6 +98,8 @@ def fit(
 
 def _starts(forward: Forward, first: Array, count: int, seed: int) -> list[Array]:
     """The first start and a Latin hypercube in the lower half of the bounds, or within two sd of a prior."""
+    from scipy.stats import qmc  # slow to import, and not needed by other commands
+
     ends = [
         (u.prior.mean - 2 * u.prior.sd, u.prior.mean + 2 * u.prior.sd)
         if u.prior is not None
@@ -151,6 +155,8 @@ def _minimise(
     robust: Any = "linear" if loss == "linear" else partial(_robust, measured=rows >= 0)
     if not free or not len(rows):
         return start, cost_of(at(start[free] / scale), loss)
+    from scipy.optimize import least_squares  # as above
+
     # Not at a bound, from which the method cannot start.
     margin = 1e-9 * (high - low)
     found: Any = least_squares(
@@ -164,10 +170,16 @@ def _minimise(
 
 def _robust(squares: Array, measured: NDArray[np.bool_]) -> Array:
     """The loss of squared residuals with its two derivatives (3, n): soft l1 of readings, squares of priors."""
-    root = np.sqrt(1 + squares)
+    root = np.sqrt(1 + squares / SOFT**2)
     rho = np.array([squares, np.ones_like(squares), np.zeros_like(squares)])
-    rho[:, measured] = np.array([2 * (root - 1), 1 / root, -0.5 / root**3])[:, measured]
+    rho[:, measured] = np.array([2 * SOFT**2 * (root - 1), 1 / root, -0.5 / (SOFT**2 * root**3)])[:, measured]
     return rho
+
+
+def weights_of(residuals: Residuals, loss: Loss) -> Array:
+    """What the loss makes of the square of each residual: its derivative (n,)."""
+    squares = residuals.value**2
+    return np.ones(len(squares)) if loss == "linear" else _robust(squares, residuals.rows >= 0)[1]
 
 
 def cost_of(residuals: Residuals, loss: Loss) -> float:

@@ -9,6 +9,9 @@ import pandas as pd
 
 from fctd.calibration.fit import Fit, Loss, residuals_of
 from fctd.calibration.forward import Forward
+from fctd.calibration.identify import Undetermined
+from fctd.calibration.intervals import Intervals, find_intervals, leave_one_out
+from fctd.calibration.predict import Posterior
 from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.load import Case
 
@@ -17,8 +20,9 @@ from fctd.case.load import Case
 class Calibration:
     """A calibrated case.
 
-    base : the case before; unknowns, and their fit; left_out : reasons of the rows that were not fitted, by id;
-    loss : of the readings; starts, seed : of the search.
+    base : the case before; fit : of the unknowns; left_out : reasons of the rows that were not fitted, by id; loss : of
+    the readings; undetermined : unknowns that the rows do not tell apart, where they were to be fitted all the same;
+    predicted : of rows of deeper hole sections (``predict_rows``), where the first section alone was fitted.
     """
 
     base: Case
@@ -26,8 +30,8 @@ class Calibration:
     fit: Fit
     left_out: Mapping[str, str]
     loss: Loss
-    starts: int
-    seed: int
+    undetermined: tuple[Undetermined, ...] = ()
+    predicted: pd.DataFrame | None = None
 
     @property
     def unknowns(self) -> tuple[Unknown, ...]:
@@ -57,7 +61,7 @@ class Calibration:
         """
         forward, rows = self.forward, []
         for i, reading in enumerate(forward.readings):
-            row, (low, high) = forward.rows[reading.row], (reading.range.low, reading.range.high)
+            row, (low, high) = forward.rows[reading.row], reading.range
             if np.isnan(low):
                 continue
             fitted = self.fit.evaluation.value[i]
@@ -70,6 +74,48 @@ class Calibration:
                 }
             )  # fmt: skip
         return pd.DataFrame(rows)
+
+    @cached_property
+    def intervals(self) -> Intervals:
+        """The 95 % intervals of the unknowns, which take some fits."""
+        return find_intervals(self.forward, self.fit, self.loss)
+
+    @cached_property
+    def leave_one_out(self) -> pd.DataFrame:
+        """The fit without each row, and what it predicts for that row (``intervals.leave_one_out``)."""
+        return leave_one_out(self.forward, self.fit, self.loss)
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """A row for each unknown: name, unit, value, low and high of its 95 % interval, how it was found, at_bound."""
+        found, columns = self.intervals, []
+        for k, unknown in enumerate(self.unknowns):
+            bound = unknown.name in found.at_bound or unknown.name in self.active
+            columns.append(
+                (unknown.name, unknown.unit, self.fit.best[k], found.low[k], found.high[k], found.how[k], bound)
+            )
+        return pd.DataFrame(columns, columns=["name", "unit", "value", "low", "high", "how", "at_bound"])
+
+    @cached_property
+    def correlations(self) -> pd.DataFrame:
+        """Correlations of the unknowns, (k, k)."""
+        names = list(self.forward.names)
+        return pd.DataFrame(self.intervals.correlation, index=names, columns=names)
+
+    @property
+    def posterior(self) -> Posterior:
+        """What predictions need: values, covariance, setup, and the width of the ranges that each source records."""
+        widths: dict[str, dict[str, list[float]]] = {}
+        for reading in self.forward.readings:
+            low, high = reading.range
+            if reading.row in self.fit.used and not np.isnan(low):
+                source = self.forward.rows[reading.row].source
+                widths.setdefault(source, {}).setdefault(reading.load, []).append(high - low)
+        spread = {
+            source: {load: float(np.sqrt(np.mean(np.square(w)) / 12)) for load, w in loads.items()}
+            for source, loads in widths.items()
+        }
+        return Posterior(self.unknowns, self.fit.best, self.intervals.covariance, self.forward.setup, spread)
 
     @property
     def active(self) -> dict[str, str]:

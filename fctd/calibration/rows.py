@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,7 @@ _FIELDS: Final = (DEPTH, _HOOKLOAD, TORQUE_FIELD, _SPEED, _ROTATION, _FLOW, _STR
 _HEADERS: Final = "such as id, bit_depth_m, operation, hookload_kN, torque_low_kN_m, torque_high_kN_m, rpm, source"
 
 
-@dataclass(frozen=True)
-class Range:
+class Range(NamedTuple):
     """A reading, or the range of readings that was recorded: low, high [SI], equal for a single value."""
 
     low: float

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
-from fctd.calibration.fit import ROUGH, Fit, cost_of, fit, residuals_of
+from fctd.calibration.fit import ROUGH, SOFT, Fit, cost_of, fit, residuals_of
 from fctd.calibration.forward import Forward
 from fctd.calibration.rows import Range, Row
 from fctd.calibration.setup import Setup
@@ -66,16 +67,20 @@ def test_a_fit_ends_at_its_bounds() -> None:
 
 
 def test_a_robust_loss_limits_an_outlier() -> None:
-    """Of three in-slips rows one is 200 kN off: its pull is one, that of the others their distance (soft l1)."""
+    """Of three in-slips rows one is 200 kN off: its pull is that of three standard deviations (soft l1)."""
     rows = [replace(ROWS[-2], id=str(k), hookload=Range(w, w)) for k, w in enumerate((230e3, 230e3, 430e3))]
     forward = forward_of(rows, ["rig.block_weight"])
     robust, linear = (fitted(forward, loss=loss).best[0] for loss in ("soft_l1", "linear"))
     assert linear == pytest.approx((2 * 230e3 + 430e3) / 3)
-    # 2 x / √(1 + x²) = 1 with the outlier far away: x = 1/√3 of the noise, 10 kN.
-    assert robust == pytest.approx(230e3 + 10e3 / np.sqrt(3), rel=1e-3)
+
+    def pull(x: float) -> float:
+        return x / np.sqrt(1 + x**2 / SOFT**2)
+
+    balance = brentq(lambda x: 2 * pull(x) - pull(20 - x), 0, 20)  # in standard deviations, 10 kN
+    assert robust == pytest.approx(230e3 + 10e3 * balance, rel=1e-4)
     at = residuals_of(forward, forward.evaluate(np.array([230e3])), np.array([230e3]), [0, 1, 2])
     assert cost_of(at, "linear") == pytest.approx(0.5 * 20**2)
-    assert cost_of(at, "soft_l1") == pytest.approx(np.sqrt(1 + 20**2) - 1)
+    assert cost_of(at, "soft_l1") == pytest.approx(SOFT**2 * (np.sqrt(1 + (20 / SOFT) ** 2) - 1))
 
 
 def test_an_unknown_may_be_fixed() -> None:
