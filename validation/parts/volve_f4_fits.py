@@ -14,9 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.calibration.calibrate import calibrate
+from fctd.calibration.fit import fit as fit_rows
+from fctd.calibration.fit import residuals_of, weights_of
+from fctd.calibration.forward import Forward
+from fctd.calibration.identify import covariance_of
 from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row
 from fctd.calibration.setup import PriorSpec, Setup, UnknownSpec, read_setup
+from fctd.calibration.unknowns import find_unknowns
 from fctd.case.load import Case
 from fctd.model.operations import rad_per_s
 from validation.cases import FOLDER
@@ -34,20 +39,20 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Frozen:
-    """Values of a fit [SI] by name, their covariance (k, k), and the ids of the fitted rows."""
+    """The best values of a fit [SI] by name, their covariance (k, k), and the ids of the fitted rows."""
 
-    values: dict[str, float]
+    best: dict[str, float]
     covariance: Array
     rows: tuple[str, ...]
 
     @property
     def deviations(self) -> dict[str, float]:
         """Standard deviation of each unknown [SI]."""
-        return dict(zip(self.values, np.sqrt(np.diag(self.covariance)).tolist(), strict=True))
+        return dict(zip(self.best, np.sqrt(np.diag(self.covariance)).tolist(), strict=True))
 
     def correlation(self, one: str, other: str) -> float:
         """Of two unknowns."""
-        i, j = (list(self.values).index(name) for name in (one, other))
+        i, j = (list(self.best).index(name) for name in (one, other))
         return float(self.covariance[i, j] / np.sqrt(self.covariance[i, i] * self.covariance[j, j]))
 
 
@@ -71,51 +76,53 @@ def at_speed(rows: Sequence[Row], rpm: float) -> list[Row]:
     return [row for row in rows if abs(row.rates.spin / rad_per_s(rpm) - 1) < 0.1]
 
 
-def fit(strings: Mapping[str, Case], rows: Sequence[Row], setup: Setup, starts: int = 3) -> Calibration:
-    """A calibration with a robust loss, from seeded starts."""
-    return calibrate(strings[SERIES_STRING], rows, setup=setup, strings=strings, starts=starts)
+def fit(
+    strings: Mapping[str, Case], rows: Sequence[Row], setup: Setup, starts: int = 3, route: type[Forward] = Forward
+) -> Calibration:
+    """A calibration with a robust loss, from seeded starts.  route : how the loads of a string are computed."""
+    base = strings[SERIES_STRING]
+    if route is Forward:
+        return calibrate(base, rows, setup=setup, strings=strings, starts=starts, refuse=False)
+    forward = route(rows, strings, find_unknowns({}, setup, list(strings.values())), setup)
+    return Calibration(base, forward, fit_rows(forward, range(len(rows)), "soft_l1", starts), {}, "soft_l1")
 
 
-def fits_of_a(data: Path, strings: Mapping[str, Case]) -> dict[str, Calibration]:
+def fits_of_a(data: Path, strings: Mapping[str, Case], route: type[Forward] = Forward) -> dict[str, Calibration]:
     """Model A: all rotation speeds with the torque offset fitted; one speed alone with that of the free drive."""
-    torques = turning_torques(series_rows(data, strings))
-    free = [row.torque.middle for row in series_rows(data, strings) if row.operation == "tare" and row.torque]
+    series = series_rows(data, strings)
+    torques = turning_torques(series)
+    free = [row.torque.middle for row in series if row.operation == "tare" and row.torque]
     held = setup_of("first_section", {"rig.torque_offset": (float(np.mean(free)), 100.0)})
     return {
-        "A": fit(strings, torques, setup_of("first_section")),
-        "A, 60 rpm alone": fit(strings, at_speed(torques, SLOW), held, 1),
-        "A, 130 rpm alone": fit(strings, at_speed(torques, FAST), held, 1),
+        "A": fit(strings, torques, setup_of("first_section"), route=route),
+        "A, 60 rpm alone": fit(strings, at_speed(torques, SLOW), held, 1, route),
+        "A, 130 rpm alone": fit(strings, at_speed(torques, FAST), held, 1, route),
     }
 
 
-def fit_of_rig(data: Path, strings: Mapping[str, Case]) -> Calibration:
+def fit_of_rig(data: Path, strings: Mapping[str, Case], route: type[Forward] = Forward) -> Calibration:
     """Model B, first stage: the constants of the rig."""
-    return fit(strings, series_rows(data, strings), setup_of("rig"))
+    return fit(strings, series_rows(data, strings), setup_of("rig"), route=route)
 
 
 def setup_of_b(rig: Frozen) -> Setup:
     """Model B, second stage: the values of the rig are priors."""
     return setup_of(
-        "reports", {name: (rig.values[name], rig.deviations[name]) for name in rig.values if name.startswith("rig.")}
+        "reports", {name: (rig.best[name], rig.deviations[name]) for name in rig.best if name.startswith("rig.")}
     )
 
 
-def fit_of_b(data: Path, strings: Mapping[str, Case], rig: Frozen) -> Calibration:
+def fit_of_b(data: Path, strings: Mapping[str, Case], rig: Frozen, route: type[Forward] = Forward) -> Calibration:
     """Model B, second stage: cased friction and the masses of three strings."""
-    return fit(strings, report_rows(data, strings, FIT_B), setup_of_b(rig))
+    return fit(strings, report_rows(data, strings, FIT_B), setup_of_b(rig), route=route)
 
 
 def freeze(found: Calibration) -> Frozen:
     """The values of a fit with the covariance of its Hessian, J'WJ with the weights of the robust loss."""
-    used = sorted({found.forward.rows[k].id for k in found.fit.used})
-    jacobian = found.jacobian
-    squares = found.residuals.query("used")["in_noise"].to_numpy() ** 2
-    weights = np.ones(len(jacobian))
-    weights[: len(squares)] = 1 / np.sqrt(1 + squares)
-    size = np.array([unknown.size for unknown in found.unknowns])
-    scaled = jacobian * size
-    covariance = np.linalg.inv(scaled.T @ (weights[:, None] * scaled)) * np.outer(size, size)
-    return Frozen(found.values, covariance, tuple(used))
+    used = tuple(sorted({found.forward.rows[k].id for k in found.fit.used}))
+    residuals = residuals_of(found.forward, found.fit.evaluation, found.fit.best, found.fit.used)
+    jacobian = np.sqrt(weights_of(residuals, found.loss))[:, None] * residuals.jacobian
+    return Frozen(found.values, covariance_of(jacobian, np.array([u.size for u in found.unknowns])), used)
 
 
 def frozen() -> dict[str, Frozen]:
@@ -130,7 +137,7 @@ def frozen() -> dict[str, Frozen]:
 
 def _write(fits: Mapping[str, Frozen]) -> None:
     stored: dict[str, Any] = {
-        name: {"values": one.values, "covariance": one.covariance.tolist(), "rows": one.rows}
+        name: {"values": one.best, "covariance": one.covariance.tolist(), "rows": one.rows}
         for name, one in fits.items()
     }
     FROZEN.write_text(json.dumps(stored, indent=1) + "\n", encoding="utf-8")
@@ -149,5 +156,5 @@ if __name__ == "__main__":
         for name, found in STAGES[stage](folder, cases(folder)).items():
             print(found.residuals.round(2).to_string())
             one = freeze(found)
-            print(name, {key: (round(value, 4), round(one.deviations[key], 4)) for key, value in one.values.items()})
+            print(name, {key: (round(value, 4), round(one.deviations[key], 4)) for key, value in one.best.items()})
             _write({**frozen(), name: one})

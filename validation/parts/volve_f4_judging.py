@@ -4,7 +4,7 @@ A band is that of what the source records: the values' covariance through the de
 the readings, and the declared error of the model, all normal and added in squares.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +17,7 @@ from fctd.calibration.rows import Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import find_unknowns
 from fctd.case.load import Case
-from validation.parts.volve_f4 import ABSOLUTE, BANDS
+from validation.parts.volve_f4 import BANDS
 from validation.parts.volve_f4_fits import Frozen
 
 Array = NDArray[np.float64]
@@ -32,21 +32,26 @@ class Judged(NamedTuple):
 
 
 def predict(
-    strings: Mapping[str, Case], rows: Sequence[Row], setup: Setup, fitted: Frozen, route: type[Forward] = Forward
+    strings: Mapping[str, Case],
+    rows: Sequence[Row],
+    setup: Setup,
+    fitted: Frozen,
+    absolute: Collection[str] = (),
+    route: type[Forward] = Forward,
 ) -> pd.DataFrame:
     """A row for each judged quantity [kN, kN m]: recorded range, median, bands, whether they meet, distance, CRPS.
 
-    route : how the loads of a string are computed.
+    absolute : ids of the rows whose weights are judged; route : how the loads of a string are computed.
     """
     unknowns = find_unknowns({}, setup, list(strings.values()))
     forward = route(rows, strings, unknowns, setup)
-    evaluation = forward.evaluate(np.array([fitted.values[name] for name in forward.names]))
-    order = [list(fitted.values).index(name) for name in forward.names]
+    evaluation = forward.evaluate(np.array([fitted.best[name] for name in forward.names]))
+    order = [list(fitted.best).index(name) for name in forward.names]
     covariance = fitted.covariance[np.ix_(order, order)]
-    return pd.DataFrame([_row(forward, evaluation, covariance, one) for one in judged(forward)])
+    return pd.DataFrame([_row(forward, evaluation, covariance, one) for one in judged(forward, absolute)])
 
 
-def judged(forward: Forward) -> list[Judged]:
+def judged(forward: Forward, absolute: Collection[str]) -> list[Judged]:
     """Torques, halves of the spread of up and down weight, and weights of the strings whose mass another row fixed."""
     at: dict[tuple[str, str], int] = {
         (forward.rows[r.row].id, r.load): i for i, r in enumerate(forward.readings) if not np.isnan(r.range.low)
@@ -63,7 +68,7 @@ def judged(forward: Forward) -> list[Judged]:
             found.append(Judged(key, "half spread", ((up, 0.5), (down, -0.5))))
         for label in ("up", "down", "rotating"):
             weight = at.get((f"{key} {label}", "hookload"))
-            if key in ABSOLUTE and weight is not None:
+            if key in absolute and weight is not None:
                 found.append(Judged(key, f"weight {label}", ((weight, 1.0),)))
     return found
 
