@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.calibration.rows import Range, Row
+from fctd.calibration.rows import Load, Range, Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.errors import InputError
@@ -20,7 +20,6 @@ from fctd.steady.problem import Workspace
 from fctd.steady.sensitivity import Changed, solve_with_changes
 
 Array = NDArray[np.float64]
-Load = Literal["hookload", "torque"]
 
 # The change of an unknown for the tangent, over its typical size.
 _STEP = 1e-4

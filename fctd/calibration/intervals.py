@@ -127,7 +127,8 @@ class Profile:
                 inner = offset, height
             else:
                 outer = offset, height
-            if abs(height - Z95) <= CLOSE * Z95 or inner[0] >= reach or outer[0] - inner[0] <= CLOSE * outer[0]:
+            found = np.isfinite(outer[0]) and outer[0] - inner[0] <= CLOSE * outer[0]
+            if found or abs(height - Z95) <= CLOSE * Z95 or inner[0] >= reach:
                 break
             if np.isinf(outer[0]):
                 offset = min(2 * offset, reach)
@@ -135,7 +136,7 @@ class Profile:
                 share = (Z95 - inner[1]) / (outer[1] - inner[1])
                 offset = inner[0] + float(np.clip(share, 0.1, 0.9)) * (outer[0] - inner[0])
             height = self.at(side * offset)
-        return value + side * offset
+        return float(value + side * offset)
 
 
 def leave_one_out(forward: Forward, best: Fit, loss: Loss) -> pd.DataFrame:

@@ -121,19 +121,19 @@ def print_calibration(found: Calibration) -> None:
         numbers = [f"{row[key] * factor:.4g}" for key in ("value", "low", "high")]
         unknowns.add_row(str(row["name"]), label, *numbers, f"{row['how']}{', at a bound' if row['at_bound'] else ''}")
     screen.print(unknowns)
-    names = list(found.correlations)
+    names, matrix = found.forward.names, found.correlations.to_numpy(float)
     for i, one in enumerate(names):
-        for other in names[:i]:
-            value = float(found.correlations.loc[one, other])  # type: ignore[arg-type]
+        for other, value in zip(names[:i], matrix[i], strict=False):
             if abs(value) >= 0.9:
                 screen.print(f"correlation of {other} and {one}: {value:.3f}", soft_wrap=True)
     rows = _table(["row", "load"], ["low", "high", "fitted", "off", "off/noise", "left out"], [])
-    without = found.leave_one_out.set_index(["id", "load"])["predicted"]
+    table = found.leave_one_out
+    without = dict(zip(zip(table["id"], table["load"], strict=True), table["predicted"], strict=True))
     for row in found.residuals.to_dict("records"):
         label, factor = SHOWN[LOADS[str(row["load"])]]
-        key = row["id"], row["load"]
+        key = str(row["id"]), str(row["load"])
         numbers = [f"{row[name] * factor:z.1f}" for name in ("low", "high", "fitted", "residual")]
-        alone = f"{float(without[key]) * factor:z.1f}" if key in without.index else "–"
+        alone = f"{float(without[key]) * factor:z.1f}" if key in without else "–"
         name = str(row["id"]) if row["used"] else f"({row['id']})"
         rows.add_row(name, f"{row['load']}, {label}", *numbers, f"{row['in_noise']:z.1f}", alone)
     screen.print(rows)
@@ -164,9 +164,9 @@ def print_prediction(table: pd.DataFrame) -> None:
         table[table["reason"] != "none"].drop_duplicates("id")[["id", "reason"]].itertuples(index=False)
     ):
         messages.print(printable(f"no prediction: {name}: {reason}"), soft_wrap=True)
-    inside = coverage(table)
-    if inside["inside95"][1]:
-        half, most = (f"{got} of {of}" for got, of in inside.values())
+    counts = coverage(table)
+    if counts["inside95"][1]:
+        half, most = (f"{got} of {of}" for got, of in counts.values())
         screen.print(f"inside the band of 50 %: {half}, of 95 %: {most}", soft_wrap=True)
         for load, unit in LOADS.items():
             label, factor = SHOWN[unit]

@@ -1,6 +1,6 @@
 """Pictures of a calibration: measured and fitted readings with bands, residuals, correlations; and of a prediction."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import matplotlib as mpl
@@ -26,10 +26,7 @@ _MOST_NAMES = 40  # rows that are named below a panel
 def calibration_figure(found: Calibration) -> Figure:
     """Readings of the fitted rows with the bands of both sizes, residuals over the noise, and correlations."""
     table = predict_rows(found.posterior, found.forward.rows, found.forward.strings)
-    values = ", ".join(
-        f"{row['name']} {row['value']:.4g} ({row['low']:.4g} to {row['high']:.4g}) {row['unit']}".rstrip()
-        for row in found.table.to_dict("records")
-    )
+    values = ", ".join(map(_in_words, found.table.to_dict("records")))
     lines = [values, "Bands of 50 and 95 %: unknowns, noise and ranges of the source, declared error of the model."]
     title = f"{found.base.name}: calibrated on {len(found.fit.used)} rows"
     with mpl.rc_context(RC):
@@ -62,6 +59,13 @@ def prediction_figure(table: pd.DataFrame, title: str) -> Figure:
     return sheet.figure
 
 
+def _in_words(row: Mapping[Any, Any]) -> str:
+    """An unknown with its interval, forces and torques in thousands of the SI unit."""
+    factor, prefix = (1e-3, "k") if row["unit"] in ("N", "N*m") else (1.0, "")
+    value, low, high = (f"{row[key] * factor:.4g}" for key in ("value", "low", "high"))
+    return f"{row['name']} {value} ({low} to {high}) {prefix}{row['unit'].replace('*', '·')}".rstrip()
+
+
 def _readings(axes: Axes, table: pd.DataFrame, load: str) -> None:
     """Bands, predicted and measured readings, a column for each row."""
     label, factor = LOADS[load]
@@ -78,6 +82,7 @@ def _readings(axes: Axes, table: pd.DataFrame, load: str) -> None:
             middle = 0.5 * (low + high)
             axes.plot(x, middle, "o", markerfacecolor=MEASURED, markeredgecolor="black", markersize=6, zorder=3)
     axes.set_ylabel(label)
+    axes.use_sticky_edges = False  # of the bars, which would end the axis at the lowest band
     axes.margins(y=0.08)
     _name_rows(axes, [str(row["id"]) for row in rows])
 
@@ -105,7 +110,7 @@ def _residuals(axes: Axes, found: Calibration) -> None:
 
 def _correlations(axes: Axes, found: Calibration) -> None:
     """The matrix of correlations of the unknowns."""
-    names, matrix = list(found.correlations), found.correlations.to_numpy(float)
+    names, matrix = list(found.forward.names), found.correlations.to_numpy(float)
     axes.imshow(matrix, cmap="RdBu_r", vmin=-1, vmax=1)
     axes.set_xticks(range(len(names)), names, rotation=90, fontsize=6.5, parse_math=False)
     axes.set_yticks(range(len(names)), names, fontsize=6.5, parse_math=False)
@@ -131,8 +136,8 @@ def _handles(table: pd.DataFrame) -> list[Any]:
         Patch(color=SHADE, label="95 %"),
     ]
     if table["low"].notna().any():
-        face = {"markerfacecolor": MEASURED, "markeredgecolor": "black"}
-        handles.append(Line2D([], [], color="black", marker="o", label="measured, range", **face))
+        measured = Line2D([], [], color="black", marker="o", markerfacecolor=MEASURED, label="measured, range")
+        handles.append(measured)
     for kind in dict.fromkeys(table["operation"]):
         colour, marker = LOOKS.get(str(kind), _NO_LOOKS)
         handles.append(Line2D([], [], color=colour, marker=marker, linestyle="none", label=f"{kind}, computed"))

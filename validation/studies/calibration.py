@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pandas as pd
@@ -12,7 +12,7 @@ from fctd import Case, calibrate
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import covariance_of, information, undetermined
 from fctd.calibration.intervals import Z95
-from fctd.calibration.rows import Range, Row
+from fctd.calibration.rows import Load, Range, Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import find_unknowns, parse_fits, with_values
 from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
@@ -27,6 +27,7 @@ TRUTH = {
     "friction.cased": 0.20, "friction.open": 0.30, "rig.block_weight": 250e3, "rig.sheave_efficiency": 0.95,
     "rig.torque_offset": 800.0, "rig.torque_per_rpm": 15.0,
 }  # fmt: skip
+LOADS: tuple[Load, ...] = get_args(Load)
 SHALLOW = 1000.0  # bit depth of rows that the trials leave out [m]
 # Pairs that the rows named beside them cannot tell apart, and whether torque is measured where the string slides.
 PAIRS: list[tuple[tuple[str, str], list[str], list[str]]] = [
@@ -96,7 +97,7 @@ def read(rows: Sequence[Row], forward: Forward, values: Any) -> list[Row]:
     found = list(rows)
     for reading, value in zip(forward.readings, values, strict=True):
         if reading.load == "hookload" or found[reading.row].rates.spin:
-            found[reading.row] = replace(found[reading.row], **{reading.load: Range(float(value), float(value))})
+            found[reading.row] = found[reading.row].with_reading(reading.load, Range(float(value), float(value)))
     return found
 
 
@@ -168,23 +169,24 @@ def model_error(case: Case) -> pd.DataFrame:
     truth = {name: TRUTH[name] for name in names}
     rows = [row for row in blank_rows(case) if row.has_string]
     rows = [replace(row, rates=steady_rates(case, row.operation)) for row in rows]
-    noise = {"hookload": SETUP.source("").hookload_noise, "torque": SETUP.source("").torque_noise}
+    noise: dict[str, float] = {load: getattr(SETUP.source(""), f"{load}_noise") for load in LOADS}
     forward = forward_of(case, rows, names)
     stiff_rows = read(rows, forward, forward.evaluate(np.array(list(truth.values()))).value)
     soft = soft_readings(with_values(case, truth), rows)
-    soft_rows = [
-        replace(
-            row, **{load: Range(soft[row.id, load], soft[row.id, load]) for load in noise if (row.id, load) in soft}
-        )
-        for row in rows
-    ]
-    measured = {(r.id, load): getattr(r, load).middle for r in stiff_rows for load in noise if getattr(r, load)}
+    soft_rows = rows
+    for load in LOADS:
+        readings = [soft.get((row.id, load)) for row in rows]
+        soft_rows = [
+            row if value is None else row.with_reading(load, Range(value, value))
+            for row, value in zip(soft_rows, readings, strict=True)
+        ]
+    measured = {(row.id, load): had.middle for row in stiff_rows for load in LOADS if (had := row.reading(load))}
 
     def off(x: Any) -> Any:
         found = soft_readings(with_values(case, dict(zip(names, map(float, x), strict=True))), rows)
         return [(found[key] - value) / noise[key[1]] for key, value in measured.items()]
 
-    fit = least_squares(off, list(truth.values()), x_scale=0.1, diff_step=1e-3, xtol=1e-6)
+    fit: Any = least_squares(off, list(truth.values()), x_scale=0.1, diff_step=[1e-3], xtol=1e-6)
     by_soft = soft_readings(with_values(case, dict(zip(names, map(float, fit.x), strict=True))), rows)
     by_stiff = calibrate(case, soft_rows, names, setup=SETUP, loss="linear", starts=1)
     table, stiff = [], by_stiff.case.wellbore.intervals
