@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
-from typing import Final, Literal, get_args
+from typing import Any, Final, Literal, get_args
 
 import numpy as np
 import pandas as pd
@@ -36,6 +36,7 @@ def calibrate(
     priors: Sequence[str] = (),
     setup: Files | Setup | None = None,
     strings: Mapping[str, Case] | None = None,
+    overrides: Mapping[str, Any] | None = None,
     loss: Loss = "soft_l1",
     order: Order = "all",
     starts: int = 4,
@@ -45,6 +46,7 @@ def calibrate(
     """The unknowns of a case that fit measured rows best.
 
     measured : a CSV file, or rows; strings : their cases by name, where rows are given and not all are of ``case``.
+    overrides : with which the case was loaded, for the override sets of its file.
     fit : unknowns, as names with bounds such as "friction.open=0.1:0.5", or as a table; priors : of them, such as
     "friction.open=0.25+-0.05".  setup : a TOML file or a ``Setup``, whose unknowns are added to these.
     order : "all", or "first-section", which fits the rows of the shallowest hole section and predicts the deeper ones.
@@ -58,7 +60,7 @@ def calibrate(
         if starts < 1:
             raise InputError("at least one start", key="starts", value=starts)
         told = gather_setup(setup)
-        rows, cases = gather_rows(case, measured, told, strings, measured=True)
+        rows, cases = gather_rows(case, measured, told, strings, overrides, measured=True)
         if order not in ORDERS:
             raise InputError(nearest(order, ORDERS, "order"), key="order", value=order)
         specs = dict(fit) if isinstance(fit, Mapping) else parse_fits(fit, priors)
@@ -94,14 +96,15 @@ def predict(
     posterior: Posterior | Files | None = None,
     *,
     strings: Mapping[str, Case] | None = None,
+    overrides: Mapping[str, Any] | None = None,
     samples: int = SAMPLES,
     seed: int = 0,
 ) -> pd.DataFrame:
     """Bands of the readings of rows, and scores of those that are measured (``predict_rows``).
 
     case : calibrated, as ``Calibration.case`` or from the file that ``fctd calibrate --out`` writes; posterior : of the
-    calibration, or its file, by default the one beside the case.  strings : as in ``calibrate``; samples, seed : of the
-    draws.  Raises InputError for input that cannot be used.
+    calibration, or its file, by default the one beside the case.  strings, overrides : as in ``calibrate``; samples,
+    seed : of the draws.  Raises InputError for input that cannot be used.
     """
     with naming_file(case):
         if posterior is None:
@@ -109,7 +112,7 @@ def predict(
                 raise InputError("a posterior, since the case is not from a file", key="posterior")
             posterior = posterior_file(Path(case.file))
         known = posterior if isinstance(posterior, Posterior) else read_posterior(Path(posterior))
-        found, cases = gather_rows(case, rows, known.setup, strings, measured=False)
+        found, cases = gather_rows(case, rows, known.setup, strings, overrides, measured=False)
         return predict_rows(known, found, cases, samples, seed)
 
 
@@ -134,9 +137,15 @@ def gather_setup(setup: Files | Setup | None) -> Setup:
 
 
 def gather_rows(
-    case: Case, rows: Files | Sequence[Row], setup: Setup, strings: Mapping[str, Case] | None, *, measured: bool
+    case: Case,
+    rows: Files | Sequence[Row],
+    setup: Setup,
+    strings: Mapping[str, Case] | None,
+    overrides: Mapping[str, Any] | None,
+    *,
+    measured: bool,
 ) -> tuple[list[Row], dict[str, Case]]:
-    """The rows and the case of each string; an override set changes the case's file."""
+    """The rows and the case of each string; an override set changes the case's file, after the case's overrides."""
     if not isinstance(rows, str | PathLike):
         return list(rows), {"": case, **(strings or {})}
     sets = dict(strings or {})
@@ -144,7 +153,7 @@ def gather_rows(
         if case.file is None:
             raise InputError("a case from a file, which override sets change", key=f"strings.{name}")
         try:
-            sets[name] = load_case(case.file, changes)
+            sets[name] = load_case(case.file, {**(overrides or {}), **changes})
         except InputError as error:
             raise error.at(f"strings.{name}") from None
     return read_rows(Path(rows), case, sets, measured=measured)

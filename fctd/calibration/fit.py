@@ -20,7 +20,7 @@ SOFT: Final = 3.0
 _NO_LOADS: Final = 1e3
 # Tolerance of the values, in their typical size: of a start, and of the best one's end.  The cost's is its square.
 ROUGH: Final = 1e-2
-FINE: Final = 1e-5
+FINE: Final = 1e-4
 # Rounds of a fit whose left-out rows are solved at its end.
 _ROUNDS: Final = 3
 

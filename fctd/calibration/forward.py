@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.calibration.rows import Range, Row
+from fctd.calibration.rows import Load, Range, Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.errors import InputError
@@ -16,10 +16,10 @@ from fctd.case.specs import RigSpec
 from fctd.model.drillstring import String, section_of
 from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
 from fctd.steady.equilibrium import Solver
+from fctd.steady.problem import Workspace
 from fctd.steady.sensitivity import Changed, solve_with_changes
 
 Array = NDArray[np.float64]
-Load = Literal["hookload", "torque"]
 
 # The change of an unknown for the tangent, over its typical size.
 _STEP = 1e-4
@@ -84,9 +84,14 @@ class Forward:
                     file = self.strings[row.string].file
                     named = error if file is None else error.in_file(file)
                     raise InputError(f"a string that fits at {row.bit_depth:g} m ({named})", key=row.id) from None
+        for (name, _), string in self._laid.items():  # one workspace for all strings of a case
+            solver = self._solvers[name]
+            if solver.work.segments < string.segments:
+                solver.work = Workspace(string.segments)
         self.readings = tuple(self._readings())
         self.names = tuple(unknown.name for unknown in unknowns)
         self._by_string = [k for k, unknown in enumerate(unknowns) if unknown.changes_string]
+        self._sizes = np.array([unknown.size for unknown in unknowns])
         self._kept: dict[bytes, list[StringLoads]] = {}
 
     def _readings(self) -> list[Reading]:
@@ -99,6 +104,13 @@ class Forward:
             if row.operation != "in_slips":
                 found.append(Reading(k, "torque", row.torque or nothing, source.torque_noise))
         return found
+
+    def length_in_hole(self, name: str, row: Row) -> float:
+        """Length of the components that an unknown ``mass.NAME`` names in the string of a row [m]."""
+        string = self._laid[row.string, row.bit_depth]
+        parts = self.strings[row.string].string.components
+        named = [k for k, part in enumerate(parts) if f"mass.{part.name}" == name]
+        return float(string.length[np.isin(string.component, named)].sum())
 
     def evaluate(self, values: Array) -> Evaluation:
         """The readings at values (k,) of the unknowns [SI]."""
@@ -145,7 +157,8 @@ class Forward:
 
     def _solve(self, values: Array) -> list[StringLoads]:
         """The loads of every row's string, kept for values that change no string."""
-        key = values[self._by_string].tobytes()
+        # The same value may differ by its rounding.
+        key = (np.round(values / self._sizes, 12) + 0.0)[self._by_string].tobytes()
         if key not in self._kept:
             if len(self._kept) >= 16:
                 self._kept.pop(next(iter(self._kept)))
@@ -153,50 +166,50 @@ class Forward:
         return self._kept[key]
 
     def _solve_rows(self, values: Array) -> list[StringLoads]:
-        steps = [_STEP * unknown.size for unknown in self.unknowns]
+        """The same at other values: the case and the hole of every string once, also for each unknown's step."""
+        steps = _STEP * self._sizes
+        beyond = values + steps > [unknown.high for unknown in self.unknowns]
+        steps[beyond] *= -1
+        moved = [values, *(values + steps[k] * np.eye(len(values))[k] for k in self._by_string)]
+        solvers = {name: [self._solver(name, at) for at in moved] for name in self.strings}
         nothing = StringLoads(np.zeros(2), np.zeros((2, len(values))), "")
         found: dict[tuple[object, ...], StringLoads] = {}
         answers = []
         for row in self.rows:
-            if not row.has_string:
-                answers.append(nothing)
-                continue
             key = row.string, row.bit_depth, row.operation, row.rates
-            if key not in found:
-                found[key] = self._solve_row(row, values, steps)
-            answers.append(found[key])
+            if row.has_string and key not in found:
+                found[key] = self._solve_row(row, solvers[row.string], steps)
+            answers.append(found[key] if row.has_string else nothing)
         return answers
 
-    def _solve_row(self, row: Row, values: Array, steps: Sequence[float]) -> StringLoads:
-        base = self._changed(row, values)
-        changes = []
-        for k in self._by_string:
-            moved = values.copy()
-            moved[k] += steps[k] if moved[k] + steps[k] <= self.unknowns[k].high else -steps[k]
-            changes.append(self._changed(row, moved, base))
+    def _solver(self, name: str, values: Array) -> Solver:
+        """The solver of a string's case with values of the unknowns."""
+        of = self._solvers[name]
+        case = with_values(of.case, dict(zip(self.names, map(float, values), strict=True)))
+        factors = np.array([interval.friction for interval in case.wellbore.intervals])
+        return Solver(case, of.hole.with_friction(factors), of.work)
+
+    def _solve_row(self, row: Row, solvers: Sequence[Solver], steps: Array) -> StringLoads:
+        """Loads of a row's string; solvers : at the values, and at the step of each unknown that changes the string."""
+        laid = self._laid[row.string, row.bit_depth]
+        strings: list[String] = []
+        for solver in solvers:
+            parts = solver.case.string.components[: len(laid.sections)]
+            sections = tuple(section_of(part, solver.case.mud.density) for part in parts)
+            same = [string for string in strings[:1] if string.sections == sections]
+            strings.append(same[0] if same else replace(laid, sections=sections))
+        changes = [Changed(solver, string) for solver, string in zip(solvers[1:], strings[1:], strict=True)]
         try:
-            point, by = solve_with_changes(base.solver, row.operation, row.rates, base.string, changes)
+            point, by = solve_with_changes(solvers[0], row.operation, row.rates, strings[0], changes)
         except InputError as error:  # as of a resolved string with too many segments
             return self._failed(str(error))
         if not point.answered:
             return self._failed(f"{point.status}: {point.message}")
-        slopes = np.zeros((2, len(values)))
-        for k, change in zip(self._by_string, by, strict=True):
-            step = steps[k] if values[k] + steps[k] <= self.unknowns[k].high else -steps[k]
-            slopes[:, k] = change / step
+        slopes = np.zeros((2, len(steps)))
+        slopes[:, self._by_string] = (by / steps[self._by_string][:, None]).T
         if not np.isfinite(slopes).all():
             return self._failed(f"{point.status}, and none with friction or mass a little larger")
         return StringLoads(np.array([point.hookload, point.surface_torque]), slopes, "")
 
     def _failed(self, reason: str) -> StringLoads:
         return StringLoads(np.full(2, np.nan), np.full((2, len(self.unknowns)), np.nan), reason)
-
-    def _changed(self, row: Row, values: Array, base: Changed | None = None) -> Changed:
-        """Solver and string of a row for values of the unknowns; those of ``base`` where they do not differ."""
-        of = self._solvers[row.string]
-        case = with_values(of.case, dict(zip(self.names, map(float, values), strict=True)))
-        factors = np.array([interval.friction for interval in case.wellbore.intervals])
-        laid = self._laid[row.string, row.bit_depth] if base is None else base.string
-        sections = tuple(section_of(part, case.mud.density) for part in case.string.components[: len(laid.sections)])
-        string = laid if sections == laid.sections else replace(laid, sections=sections)
-        return Changed(Solver(case, of.hole.with_friction(factors), of.work), string)

@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 EXPLAINED: Final = 0.97
 PAIR: Final = 0.95
 PARTNER: Final = 0.5
+# Share by which the length of a component in the hole must differ between rows to weigh it beside the block.
+ALIKE: Final = 0.2
 # What separates pairs, by the beginnings of their names.
 _REMEDIES: Final = (
     ("rig.sheave_efficiency", "rig.guide_friction", "rows up and down at hook loads that are far apart"),
@@ -83,6 +85,7 @@ def undetermined(forward: Forward, evaluation: Evaluation, used: Collection[int]
     for k, name in enumerate(names):
         if not (np.abs(J[:, k]) * sizes[k] > 1e-3).any():
             found.append(Undetermined((name,), "leave it out, or give rows or a prior for it"))
+    found += _block_and_masses(forward, used)
     cut = [k for k, name in enumerate(names) if all(name not in one.names for one in found)]
     C = covariance_of(J[:, cut], sizes[cut])
     sd = np.sqrt(np.diag(C))
@@ -95,14 +98,33 @@ def undetermined(forward: Forward, evaluation: Evaluation, used: Collection[int]
         if sd[k] <= sizes[cut][k] or explained < EXPLAINED:
             continue
         others = [int(j) for j in np.argsort(-np.abs(correlation[k])) if j != k]
-        near = others[:1] if abs(correlation[k][others[0]]) >= PAIR else [
-            j for j in others if abs(correlation[k][j]) >= PARTNER
-        ]  # fmt: skip
+        # Partners that each explain it alone, or else those that do so together.
+        alike = [j for j in others if abs(correlation[k][j]) >= PAIR]
+        near = alike or [j for j in others if abs(correlation[k][j]) >= PARTNER]
         groups.add(frozenset([k, *near]))
     whole = [group for group in groups if not any(group < other for other in groups)]
     for group in sorted(whole, key=sorted):
         members = tuple(names[cut[k]] for k in sorted(group))
         found.append(Undetermined(members, _remedy(members)))
+    return found
+
+
+def _block_and_masses(forward: Forward, used: Collection[int]) -> list[Undetermined]:
+    """The block's weight and each mass that hangs below it in all rows alike, without a row that weighs the block.
+
+    Side force and so torque tell them apart a little; a block weight from them is that of the friction model.
+    """
+    block = "rig.block_weight"
+    held = {unknown.name for unknown in forward.unknowns if unknown.prior is not None}
+    weighed = [forward.rows[k] for k in used if forward.rows[k].hookload is not None]
+    if block not in forward.names or block in held or any(not row.has_string for row in weighed):
+        return []
+    found = []
+    for name in forward.names:
+        if name.startswith("mass.") and name not in held:
+            lengths = [forward.length_in_hole(name, row) for row in weighed]
+            if lengths and max(lengths) - min(lengths) <= ALIKE * max(lengths):
+                found.append(Undetermined((block, name), _remedy((block, name))))
     return found
 
 

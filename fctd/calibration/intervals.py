@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd.calibration.fit import Fit, Loss, fit, residuals_of, weights_of
+from fctd.calibration.fit import Fit, Loss, cost_of, fit, residuals_of, weights_of
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import covariance_of, information
 
@@ -93,8 +93,25 @@ class Profile:
         value = float(np.clip(best[k] + offset, self.low[k], self.high[k]))
         # A quadratic cost has its least others on this line.
         first = np.clip(best + (value - best[k]) * self.along, self.low, self.high)
+        cost, gain = self._near(first)
+        if gain <= CLOSE * Z95**2:
+            return float(np.sqrt(2 * max(cost - gain - self.best.cost, 0.0)))
         found = fit(self.forward, self.best.used, self.loss, 1, fixed={k: value}, first=first)
         return float(np.sqrt(2 * max(found.cost - self.best.cost, 0.0)))
+
+    def _near(self, values: Array) -> tuple[float, float]:
+        """Cost at values, and what one step of Gauss and Newton in the other unknowns would take from it."""
+        evaluation = self.forward.evaluate(values)
+        if any(row in evaluation.reasons for row in self.best.used):
+            return np.inf, np.inf
+        residuals = residuals_of(self.forward, evaluation, values, self.best.used)
+        root = np.sqrt(weights_of(residuals, self.loss))
+        J, r = root[:, None] * np.delete(residuals.jacobian, self.k, axis=1), root * residuals.value
+        if not J.shape[1]:
+            return cost_of(residuals, self.loss), 0.0
+        step, *_ = np.linalg.lstsq(J, -r, rcond=None)
+        left = r + J @ step
+        return cost_of(residuals, self.loss), 0.5 * float(r @ r - left @ left)
 
     def end(self, side: int, first: float) -> float:
         """The value on a side where the profile is ``Z95``, by false position; the bound where it stays below.
@@ -110,7 +127,8 @@ class Profile:
                 inner = offset, height
             else:
                 outer = offset, height
-            if abs(height - Z95) <= CLOSE * Z95 or inner[0] >= reach or outer[0] - inner[0] <= CLOSE * outer[0]:
+            found = np.isfinite(outer[0]) and outer[0] - inner[0] <= CLOSE * outer[0]
+            if found or abs(height - Z95) <= CLOSE * Z95 or inner[0] >= reach:
                 break
             if np.isinf(outer[0]):
                 offset = min(2 * offset, reach)
@@ -118,7 +136,7 @@ class Profile:
                 share = (Z95 - inner[1]) / (outer[1] - inner[1])
                 offset = inner[0] + float(np.clip(share, 0.1, 0.9)) * (outer[0] - inner[0])
             height = self.at(side * offset)
-        return value + side * offset
+        return float(value + side * offset)
 
 
 def leave_one_out(forward: Forward, best: Fit, loss: Loss) -> pd.DataFrame:

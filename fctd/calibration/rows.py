@@ -1,9 +1,9 @@
 """Measured rows of a calibration or a prediction: a CSV file with a hook load or a torque in each row."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from fctd.case.units import FLOW, FORCE, LENGTH, ROTATION, SPEED, TORQUE
 from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
 from fctd.results.measured import DEPTH, TORQUE_FIELD
 from fctd.results.measured_file import Field, Line, Text, read_lines, require
+
+Load = Literal["hookload", "torque"]
 
 # Readings without a string in the hole's grip: in slips the hook carries the block alone; a tare turns the free drive.
 STRINGLESS: Final = ("in_slips", "tare")
@@ -70,6 +72,14 @@ class Row:
     def direction(self) -> int:
         """Of the block: 1 down, −1 up, 0 at rest."""
         return KINDS[self.operation].direction if self.operation in KINDS else 0
+
+    def with_reading(self, load: Load, reading: Range | None) -> "Row":
+        """The row with another reading."""
+        return replace(self, hookload=reading) if load == "hookload" else replace(self, torque=reading)
+
+    def reading(self, load: Load) -> Range | None:
+        """A reading of the row."""
+        return self.hookload if load == "hookload" else self.torque
 
     @property
     def has_string(self) -> bool:

@@ -34,7 +34,7 @@ class Form(NamedTuple):
 
 FRICTION: Final = Form(None, 0.0, 0.8, 0.1)
 RIG: Final = {
-    "rig.block_weight": Form(FORCE, 0.0, 2e6, 50e3),
+    "rig.block_weight": Form(FORCE, 0.0, 2e6, 20e3),
     "rig.guide_friction": Form(FORCE, 0.0, 100e3, 5e3),
     "rig.sheave_efficiency": Form(None, 0.7, 1.0, 0.02),
     "rig.torque_offset": Form(TORQUE, -20e3, 20e3, 500.0),

@@ -35,4 +35,5 @@ STUDIES: dict[str, str] = {
     "real_chart": "validation.studies.real_chart",
     "buckled_wells": "validation.studies.buckled_wells",
     "refine_real": "validation.studies.refine_real",
+    "calibration": "validation.studies.calibration",
 }
