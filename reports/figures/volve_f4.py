@@ -4,9 +4,7 @@ from matplotlib.figure import Figure as Canvas
 
 from reports.figures import Figure, Tables, style
 
-KINDS = {"trip_out": "picking up", "rotate_off_bottom": "rotating at 20 rev/min", "trip_in": "slacking off"}
-# Measured rows whose string slides, or rotates as on the curves.
-POINTS = {"trip_out": 0, "rotate_off_bottom": 1, "trip_in": 2}
+KINDS = {"trip_out": "picking up", "rotate_off_bottom": "rotating", "trip_in": "slacking off"}
 
 
 def chart(tables: Tables) -> Canvas:
@@ -21,13 +19,15 @@ def chart(tables: Tables) -> Canvas:
             if kind == "rotate_off_bottom":
                 left.plot(rows["drive_torque_N_m"] / 1e3, rows["bit_depth_m"], **style.line(index))
     for ax, load in ((left, "torque"), (right, "hookload")):
-        for kind, index in POINTS.items():
+        for index, kind in enumerate(KINDS):
             for source, filled in (("series", False), ("report", True)):
+                turns = points["rad_per_s"] > 0
                 wanted = (points["load"] == load) & (points["operation"] == kind) & (points["source"] == source)
+                wanted &= turns == (kind == "rotate_off_bottom")
                 rows = points[wanted]
                 # A range is a bar between its ends.
                 middle = 0.5 * (rows["low"] + rows["high"])
-                label = f"{KINDS[kind].split(' at ')[0]}, {source}" if ax is right else None
+                label = f"{KINDS[kind]}, {source}" if ax is right else None
                 ax.errorbar(
                     middle, rows["bit_depth_m"], xerr=0.5 * (rows["high"] - rows["low"]), label=label,
                     **style.dots(index, filled=filled),
@@ -57,7 +57,8 @@ def rows(tables: Tables) -> Canvas:
             ax.plot([one["low_50"], one["high_50"]], [at, at], color=colour, linewidth=4, label=label)
             ends = sorted({one["measured_low"], one["measured_high"]})
             ax.plot(ends, [at] * len(ends), color="black", marker="|", markersize=11, markeredgewidth=1.6)
-        style.rows_downwards(ax, list(part["row"]))
+        first = ~part["row"].duplicated()
+        style.rows_downwards(ax, [str(row) if new else "" for row, new in zip(part["row"], first, strict=True)])
         ax.set(xlabel=f"{quantity}, {unit}")
         if quantity == "half spread":
             style.legend_outside(canvas, ax, columns=4)
@@ -68,8 +69,9 @@ FIGURES = [
     Figure(
         "chart",
         "Well 15/9-F-4 of the Volve field, as the paper's Fig. 12: torque (left) and weight indicator (right) over bit "
-        "depth. Lines: model B, with the string of the 12 1/4 in section (above) and the wiper string (below). Open "
-        "markers: medians of the 4-second series, at 60 to 170 rev/min; filled: daily reports of several strings.",
+        "depth. Lines: model B, with the string of the 12 1/4 in section at 130 rev/min (above), and the wiper string "
+        "at 20 rev/min (below). Open markers: medians of the 4-second series, at 60 to 130 rev/min; filled: daily "
+        "reports of several strings, which the next figure judges one by one.",
         chart,
     ),
     Figure(

@@ -15,6 +15,8 @@ from validation.parts.volve_f4_fits import Frozen, fit, freeze, setup_of_b
 from validation.parts.volve_f4_judging import predict
 from validation.parts.volve_f4_rows import report_rows
 
+# Another speed of reaming [m/s].
+SLOW = 0.05
 # Of other 5 in pipe of 19.5 lb/ft [kg/m].
 LIGHT = 31.1
 
@@ -28,6 +30,7 @@ def second_round(context: Context, data: Path, strings: Mapping[str, Case], rig:
         "weights alone": (strings, [replace(row, torque=None) for row in rows if row.hookload]),
         "pipe touches with its body, not its tool joints": (_changed(strings, _slim), rows),
         f"5 in pipe of {LIGHT:g} kg/m": (_changed(strings, _light), rows),
+        f"row F4-13r reams at {SLOW:g} m/s": (strings, rows),
     }
     found = []
     for name in context.progress(changes, "second round"):
@@ -35,7 +38,10 @@ def second_round(context: Context, data: Path, strings: Mapping[str, Case], rig:
         setup = setup_of_b(rig)
         one = fit(changed, measured, setup, starts=2)
         fitted = freeze(one)
-        table = predict(changed, report_rows(data, changed, JUDGED_B), setup, fitted, ABSOLUTE)
+        judged = report_rows(data, changed, JUDGED_B)
+        if "reams" in name:
+            judged = [_slower(row) for row in judged]
+        table = predict(changed, judged, setup, fitted, ABSOLUTE)
         spreads, weights = table[table["quantity"] == "half spread"], table[table["quantity"] != "half spread"]
         found.append(
             {
@@ -50,6 +56,12 @@ def second_round(context: Context, data: Path, strings: Mapping[str, Case], rig:
             }
         )  # fmt: skip
     return pd.DataFrame(found)
+
+
+def _slower(row: Row) -> Row:
+    if not (row.rates.spin and row.rates.speed):
+        return row
+    return replace(row, rates=row.rates._replace(speed=row.direction * SLOW))
 
 
 def _slim(part: ComponentSpec) -> ComponentSpec:

@@ -26,8 +26,8 @@ from validation.parts.volve_f4_soft import SoftForward
 
 # Correlations of this size and more are listed.
 STRONG = 0.9
-# Depths of the curves [m]: strings of the first section and of the wiper.
-CURVES = {split.SERIES_STRING: range(1300, 1601, 50), "volve_f4_wiper": range(1600, 2751, 115)}
+# Curves: depths [m] and rotation [rev/min] of the strings of the first section and of the wiper.
+CURVES = {split.SERIES_STRING: (range(1300, 1601, 50), 130.0), "volve_f4_wiper": (range(1600, 2751, 115), 20.0)}
 
 
 def run(context: Context) -> Outcome:
@@ -50,7 +50,7 @@ def run(context: Context) -> Outcome:
     return Outcome(
         tables=tables,
         checks=checks,
-        notes=NOTES,
+        notes=notes(tables, fits),
         display={
             "splits": "Which rows fit and which judge", "parameters": "Frozen values with 95 % intervals (Hessian)",
             "correlations": f"Correlations of {STRONG:g} and more", "rows": "Measured range and predicted bands",
@@ -136,11 +136,12 @@ def checks_of(rows: pd.DataFrame, string: str) -> list[Check]:
 def curves(strings: Mapping[str, Case], fitted: Frozen) -> pd.DataFrame:
     """Readings of the rig over bit depth by model B: the string of the first section, and the wiper string."""
     parts = []
-    for name, depths in CURVES.items():
+    for name, (depths, rpm) in CURVES.items():
         values = {key: value for key, value in fitted.best.items() if not key.startswith("bias.")}
         case = with_values(strings[name], values)
-        chart = torque_drag(case, ["trip_in", "rotate_off_bottom", "trip_out"], [*depths], rpm=20.0)
-        parts.append(chart.assign(string=name))
+        strokes = torque_drag(case, ["trip_in", "trip_out"], [*depths])
+        turning = torque_drag(case, "rotate_off_bottom", [*depths], rpm=rpm)
+        parts += [chart.assign(string=name) for chart in (strokes, turning)]
     return pd.concat(parts, ignore_index=True)
 
 
@@ -150,8 +151,13 @@ def points(rows: Sequence[Row]) -> pd.DataFrame:
     for row in rows:
         for load, of in (("hookload", row.hookload), ("torque", row.torque)):
             if of is not None and row.has_string:
-                found.append({"row": row.id, "source": row.source, "operation": row.operation, "load": load,
-                              "bit_depth_m": row.bit_depth, "low": of.low / 1e3, "high": of.high / 1e3})  # fmt: skip
+                found.append(
+                    {
+                        "row": row.id, "source": row.source, "operation": row.operation, "load": load,
+                        "bit_depth_m": row.bit_depth, "rad_per_s": row.rates.spin,
+                        "low": of.low / 1e3, "high": of.high / 1e3,
+                    }
+                )  # fmt: skip
     return pd.DataFrame(found)
 
 
@@ -199,9 +205,45 @@ def furthest(again: Frozen, fitted: Frozen) -> float:
     return max(abs(again.best[key] - value) / fitted.deviations[key] for key, value in fitted.best.items())
 
 
-NOTES = [
-    "Data: Volve data village, Equinor and partners: daily drilling reports and the 4-second series of one day.",
-]
+def notes(tables: Mapping[str, pd.DataFrame], fits: Mapping[str, Frozen]) -> list[str]:
+    """What the data can say, with the numbers of this run."""
+
+    def value(model: str, name: str, unit: float = 1.0, digits: int = 2) -> str:
+        one = fits[model]
+        return f"{one.best[name] / unit:.{digits}f} ± {one.deviations[name] / unit:.{digits}f}"
+
+    torques = tables["rows"].query("model == 'A' and quantity == 'torque'")
+    pair = fits["A"].correlation("friction.cased", "rig.torque_offset")
+    found = [
+        "What the series says well (± one standard deviation): the block weighs "
+        f"{value('rig', 'rig.block_weight', 1e3, 0)} kN in slips; rotating up against rotating down gives a sheave "
+        f"efficiency of {value('rig', 'rig.sheave_efficiency', 1, 3)}; 60 against 130 rev/min give "
+        f"{value('rig', 'rig.torque_per_rpm', 1, 0)} N m of torque a rev/min.",
+        "What it does not say is friction: its string hangs nearly straight. Model A has a cased factor of "
+        f"{value('A', 'friction.cased')} with a torque offset of {value('A', 'rig.torque_offset', 1e3, 1)} kN m, "
+        f"correlation {pair:.2f}; 60 rev/min alone gives {value('A, 60 rpm alone', 'friction.cased')} and 130 rev/min "
+        f"{value('A, 130 rpm alone', 'friction.cased')}. It predicts {torques['median'].min():.0f} to "
+        f"{torques['median'].max():.0f} kN m where {torques['measured_low'].min():.0f} to "
+        f"{torques['measured_high'].max():.0f} were recorded.",
+        "No judged row of model B has a recorded torque with rotation, so B is judged on weights; its torque is tested "
+        "by leaving a row out. No row judges open-hole friction: every bit of the 8 1/2 in section stood in casing.",
+        f"The frozen mass of the wiper assembly, {fits['B'].best['mass.wiper assembly']:.0f} kg/m, is at its lower "
+        "bound: the string as it is described is heavier than what hung on the hook.",
+        "Not in the model, and not tried: the lift of running pumps (the reports record no pressure), drag of scraper "
+        "springs, cuttings, friction that depends on the sliding speed.",
+        "The author of the split had seen the series and the torques of F4-06 and F4-10 before the first commit, and "
+        "no weight of a daily report.",
+        "Data: Volve data village, Equinor and partners: surveys, daily drilling reports, and a 4-second series by way "
+        "of a public redistribution; non-commercial, share-alike, attribution.",
+    ]
+    if "second_round" in tables:
+        by = tables["second_round"].set_index("change")["friction_cased"]
+        found.insert(
+            2, f"One friction factor does not fit both loads: torques alone give {by['torques alone']:.2f}, weights "
+            f"alone {by['weights alone']:.2f} (second round).",
+        )  # fmt: skip
+    return found
+
 
 STUDY = Study(
     "volve_f4",
