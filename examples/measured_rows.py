@@ -21,11 +21,11 @@ case = fctd.load_case("examples/my_well.toml", TRUTH)
 hookload, torque, read = 5e3, 200.0, []  # one standard deviation [N], [N m]
 print("id,bit_depth_m,operation,rpm,hookload_kN,torque_kN_m")
 for depth in depths:
-    for operation, rpm in (("trip_out", 0), ("trip_in", 0), ("rotate_off_bottom", 60)):
+    for label, operation, rpm in (("up", "trip_out", 0), ("down", "trip_in", 0), ("turning", "rotate_off_bottom", 60)):
         string = fctd.equilibrium(case, operation, depth, rpm=rpm)
         pull = (string.weight_indicator + noise.normal(0, hookload)) / 1e3
         turn = f"{(string.drive_torque + noise.normal(0, torque)) / 1e3:.2f}" if rpm else ""
-        print(f"{operation} at {depth:.0f} m,{depth:g},{operation},{rpm},{pull:.1f},{turn}")
+        print(f"{depth:.0f} m {label},{depth:g},{operation},{rpm},{pull:.1f},{turn}")
         read.append(pull)
 print(f"slips,,in_slips,,{(265e3 + noise.normal(0, hookload)) / 1e3:.1f},")
 print(f"free drive,,tare,0,,{(600 + noise.normal(0, torque)) / 1e3:.2f}")

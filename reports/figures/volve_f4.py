@@ -69,9 +69,9 @@ FIGURES = [
     Figure(
         "chart",
         "Well 15/9-F-4 of the Volve field, as the paper's Fig. 12: torque (left) and weight indicator (right) over bit "
-        "depth. Lines: model B, with the string of the 12 1/4 in section at 130 rev/min (above), and the wiper string "
-        "at 20 rev/min (below). Open markers: medians of the 4-second series, at 60 to 130 rev/min; filled: daily "
-        "reports of several strings, which the next figure judges one by one.",
+        "depth. Lines: the string of the 12 1/4 in section at 130 rev/min, fitted to the series (above), and the wiper "
+        "string at 20 rev/min by model B (below). Open markers: medians of the 4-second series, at 60 to 130 rev/min; "
+        "filled: daily reports of several strings, which the next figure judges one by one.",
         chart,
     ),
     Figure(

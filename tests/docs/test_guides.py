@@ -2,6 +2,7 @@
 
 import contextlib
 import re
+import runpy
 import shlex
 import sys
 from collections.abc import Iterator
@@ -56,7 +57,13 @@ def commands(document: Path, language: str = "sh") -> list[str]:
 
 COMMANDS = [(document, command) for document in DOCUMENTS for command in commands(document)]
 IN_ORDER = [document for document in DOCUMENTS if "```console\n" in document.read_text(encoding="utf-8")]
-RUN = [(document, command) for document, command in COMMANDS if not command.startswith(tuple(NOT_RUN))]
+# Guides whose commands build on the ones before, and run one after the other in one folder.
+CHAINED = [ROOT / "docs" / "calibrate.md"]
+RUN = [
+    (document, command)
+    for document, command in COMMANDS
+    if document not in CHAINED and not command.startswith(tuple(NOT_RUN))
+]
 
 
 def name(value: Path | str) -> str:
@@ -96,16 +103,37 @@ def need_what_it_names(command: str) -> None:
         pytest.importorskip(package)
 
 
-@pytest.mark.parametrize(("document", "command"), RUN, ids=name)
-def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def run_command(command: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Run a command of a guide, and check that it writes what it names."""
     need_what_it_names(command)
     program = next((program for program in PROGRAMS if command.startswith(f".venv/bin/{program} ")), None)
     assert program is not None, f"a program that this test does not know: {command}"
     monkeypatch.setattr(sys, "argv", [program, *shlex.split(shorter(command).removeprefix(f".venv/bin/{program} "))])
     with exit_code_0():
         main.run(PROGRAMS[program])
-    for target in re.findall(r"--(?:out|plot|plot-profile) (\S+)", command):
-        assert (checkout / target).exists()
+    for target in re.findall(r"--(?:out|plot|plot-profile|table) (\S+)", command):
+        assert (folder / target).exists()
+
+
+@pytest.mark.parametrize(("document", "command"), RUN, ids=name)
+def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run_command(command, checkout, monkeypatch)
+
+
+@pytest.mark.parametrize("document", CHAINED, ids=name)
+def test_commands_build_on_each_other(
+    document: Path, checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A script writes to its standard output, which the command redirects."""
+    for command in commands(document):
+        script = re.fullmatch(r"\.venv/bin/python (examples/\w+\.py) (.*?) > (\S+)", command)
+        if script is None:
+            run_command(command, checkout, monkeypatch)
+            continue
+        monkeypatch.setattr(sys, "argv", [script[1], *script[2].split()])
+        capsys.readouterr()
+        runpy.run_path(script[1], run_name="__main__")
+        (checkout / script[3]).write_text(capsys.readouterr().out, encoding="utf-8")
 
 
 def survey_in_feet() -> bytes:

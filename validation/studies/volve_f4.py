@@ -26,8 +26,11 @@ from validation.parts.volve_f4_soft import SoftForward
 
 # Correlations of this size and more are listed.
 STRONG = 0.9
-# Curves: depths [m] and rotation [rev/min] of the strings of the first section and of the wiper.
-CURVES = {split.SERIES_STRING: (range(1300, 1601, 50), 130.0), "volve_f4_wiper": (range(1600, 2751, 115), 20.0)}
+# Curves: model, depths [m] and rotation [rev/min] of the string of the first section and of the wiper string.
+CURVES = {
+    split.SERIES_STRING: ("rig", range(1300, 1601, 100), 130.0),
+    "volve_f4_wiper": ("B", range(1600, 2751, 230), 20.0),
+}
 
 
 def run(context: Context) -> Outcome:
@@ -39,7 +42,7 @@ def run(context: Context) -> Outcome:
         "parameters": pd.concat([parameters(name, one) for name, one in fits.items()], ignore_index=True),
         "correlations": pd.concat([correlations(name, one) for name, one in fits.items()], ignore_index=True),
         "rows": judge(data, strings, fits),
-        "curves": curves(strings, fits["B"]),
+        "curves": curves(strings, fits),
         "points": points([*series_rows(data, strings), *report_rows(data, strings, tuple(split.STRINGS))]),
     }
     checks = checks_of(tables["rows"], "stiff string")
@@ -133,11 +136,11 @@ def checks_of(rows: pd.DataFrame, string: str) -> list[Check]:
     ]  # fmt: skip
 
 
-def curves(strings: Mapping[str, Case], fitted: Frozen) -> pd.DataFrame:
-    """Readings of the rig over bit depth by model B: the string of the first section, and the wiper string."""
+def curves(strings: Mapping[str, Case], fits: Mapping[str, Frozen]) -> pd.DataFrame:
+    """Readings of the rig over bit depth: the string of the first section, and the wiper string."""
     parts = []
-    for name, (depths, rpm) in CURVES.items():
-        values = {key: value for key, value in fitted.best.items() if not key.startswith("bias.")}
+    for name, (model, depths, rpm) in CURVES.items():
+        values = {key: value for key, value in fits[model].best.items() if not key.startswith("bias.")}
         case = with_values(strings[name], values)
         strokes = torque_drag(case, ["trip_in", "trip_out"], [*depths])
         turning = torque_drag(case, "rotate_off_bottom", [*depths], rpm=rpm)
