@@ -75,6 +75,13 @@ class Calibration:
             )  # fmt: skip
         return pd.DataFrame(rows)
 
+    @property
+    def misfit(self) -> float:
+        """Mean square of the residuals over the noise by degree of freedom: about 1; NaN without one."""
+        table = self.residuals[self.residuals["used"]]
+        free = len(table) - sum(unknown.prior is None for unknown in self.unknowns)
+        return float((table["in_noise"] ** 2).sum() / free) if free > 0 else float("nan")
+
     @cached_property
     def intervals(self) -> Intervals:
         """The 95 % intervals of the unknowns, which take some fits."""

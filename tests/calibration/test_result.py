@@ -28,3 +28,5 @@ def test_a_calibrated_case_and_its_residuals() -> None:
     assert repr(found).startswith("Calibration('test', 4 rows: rig.block_weight 2.26e+05")
     assert found.jacobian.shape == (7, 2)
     assert np.isfinite(found.jacobian).all()
+    used = table[table["used"]]["in_noise"]
+    assert found.misfit == pytest.approx((used**2).sum() / (len(used) - 2))
