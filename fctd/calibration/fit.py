@@ -165,7 +165,8 @@ def _minimise(
         xtol=tolerance, ftol=tolerance**2, gtol=1e-10, max_nfev=60,
     )  # fmt: skip
     values = start.copy()
-    values[free] = found.x * scale
+    x = np.where(found.x - low <= 2 * margin, low, np.where(high - found.x <= 2 * margin, high, found.x))
+    values[free] = x * scale
     return values, float(found.cost)
 
 

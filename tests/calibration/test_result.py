@@ -19,6 +19,7 @@ def test_a_calibrated_case_and_its_residuals() -> None:
     assert found.active == {"rig.block_weight": "highest"}
     assert found.case.rig.block_weight == pytest.approx(226e3)
     assert found.case.wellbore == well().wellbore
+    assert found.strings == {"": found.case}
     assert list(found.left_out) == ["trip_out 1500"]
     table = found.residuals.set_index(["id", "load"])
     slips = table.loc[("slips", "hookload")]
