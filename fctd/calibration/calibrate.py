@@ -1,6 +1,7 @@
 """``calibrate``: unknowns of a case from measured rows; ``predict``: bands of the readings of other rows."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -57,14 +58,15 @@ def calibrate(
     with naming_file(case):
         if loss not in LOSSES:
             raise InputError(nearest(loss, LOSSES, "loss"), key="loss", value=loss)
-        if starts < 1:
-            raise InputError("at least one start", key="starts", value=starts)
-        told = gather_setup(setup)
-        rows, cases = gather_rows(case, measured, told, strings, overrides, measured=True)
         if order not in ORDERS:
             raise InputError(nearest(order, ORDERS, "order"), key="order", value=order)
+        _check_count("starts", starts, 1)
+        _check_count("seed", seed, 0)
+        told = gather_setup(setup)
         specs = dict(fit) if isinstance(fit, Mapping) else parse_fits(fit, priors)
-        unknowns = find_unknowns(specs, told, list(cases.values()))
+        with _naming_setup(setup):
+            rows, cases = gather_rows(case, measured, told, strings, overrides, measured=True)
+            unknowns = find_unknowns(specs, told, list(cases.values()))
         forward = Forward(rows, cases, unknowns, told)
         out = left_out_by_rule(rows, cases)
         deeper = _deeper_section(rows, cases) if order == "first-section" else []
@@ -107,6 +109,8 @@ def predict(
     seed : of the draws.  Raises InputError for input that cannot be used.
     """
     with naming_file(case):
+        _check_count("samples", samples, 1)
+        _check_count("seed", seed, 0)
         if posterior is None:
             if case.file is None:
                 raise InputError("a posterior, since the case is not from a file", key="posterior")
@@ -127,6 +131,21 @@ def _deeper_section(rows: Sequence[Row], cases: Mapping[str, Case]) -> list[int]
 def _hole_size(case: Case, bit_depth: float) -> float:
     """Diameter of the hole at the bit [m]."""
     return next(i.diameter for i in case.wellbore.intervals if bit_depth <= i.to_md)
+
+
+def _check_count(key: str, value: int, least: int) -> None:
+    if value < least:
+        raise InputError(f"at least {least}", key=key, value=value)
+
+
+@contextmanager
+def _naming_setup(setup: Files | Setup | None) -> Iterator[None]:
+    """Add the setup's file to the InputError of one of its keys."""
+    try:
+        yield
+    except InputError as error:
+        of_setup = isinstance(setup, str | PathLike) and error.key.startswith(("unknowns.", "strings."))
+        raise (error.in_file(Path(setup)) if of_setup else error) from None  # type: ignore[arg-type]
 
 
 def gather_setup(setup: Files | Setup | None) -> Setup:
@@ -154,6 +173,6 @@ def gather_rows(
             raise InputError("a case from a file, which override sets change", key=f"strings.{name}")
         try:
             sets[name] = load_case(case.file, {**(overrides or {}), **changes})
-        except InputError as error:
-            raise error.at(f"strings.{name}") from None
+        except InputError as error:  # of a key that the set changes
+            raise InputError(error.expected, key=f"strings.{name}.{error.key}", value=error.value) from None
     return read_rows(Path(rows), case, sets, measured=measured)

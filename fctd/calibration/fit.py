@@ -18,6 +18,8 @@ LOSSES: Final = get_args(Loss)
 SOFT: Final = 3.0
 # Residual of a reading whose string has no loads at a trial: far beyond all others, so that the step is taken back.
 _NO_LOADS: Final = 1e3
+# Half-width of the starts about the first one, in typical sizes: beyond it strings lock up, which is slow to compute.
+SPREAD: Final = 1.5
 # Tolerance of the values, in their typical size: of a start, and of the best one's end.  The cost's is its square.
 ROUGH: Final = 1e-2
 FINE: Final = 1e-4
@@ -81,7 +83,7 @@ def fit(
     forward: Forward, used: Collection[int], loss: Loss = "soft_l1", starts: int = 4, seed: int = 0,
     fixed: dict[int, float] | None = None, first: Array | None = None,
 ) -> Fit:  # fmt: skip
-    """The fit of the used rows from several starts: the first values of the unknowns, and seeded ones in the bounds.
+    """The fit of the used rows from several starts: the first values of the unknowns, and seeded ones about them.
 
     fixed : values of unknowns by index that are not fitted; first : the first start (k,), in place of the unknowns'.
     """
@@ -97,16 +99,15 @@ def fit(
 
 
 def _starts(forward: Forward, first: Array, count: int, seed: int) -> list[Array]:
-    """The first start and a Latin hypercube in the lower half of the bounds, or within two sd of a prior."""
+    """The first start and a Latin hypercube about it, or within two standard deviations of a prior."""
     from scipy.stats import qmc  # slow to import, and not needed by other commands
 
-    ends = [
-        (u.prior.mean - 2 * u.prior.sd, u.prior.mean + 2 * u.prior.sd)
-        if u.prior is not None
-        else (u.low + 0.1 * (u.high - u.low), u.low + 0.5 * (u.high - u.low))
-        for u in forward.unknowns
+    around = [
+        (u.prior.mean, 2 * u.prior.sd) if u.prior is not None else (start, SPREAD * u.size)
+        for u, start in zip(forward.unknowns, first, strict=True)
     ]
-    low, high = np.array(ends).T
+    middle, half = np.array(around).T
+    low, high = middle - half, middle + half
     others = qmc.LatinHypercube(len(first), rng=np.random.default_rng(seed)).random(max(count - 1, 0))
     bounds = np.array([(u.low, u.high) for u in forward.unknowns]).T
     return [first, *(np.clip(low + share * (high - low), *bounds) for share in others)]
@@ -164,7 +165,8 @@ def _minimise(
         xtol=tolerance, ftol=tolerance**2, gtol=1e-10, max_nfev=60,
     )  # fmt: skip
     values = start.copy()
-    values[free] = found.x * scale
+    x = np.where(found.x - low <= 2 * margin, low, np.where(high - found.x <= 2 * margin, high, found.x))
+    values[free] = x * scale
     return values, float(found.cost)
 
 

@@ -83,7 +83,8 @@ class Forward:
                 except InputError as error:
                     file = self.strings[row.string].file
                     named = error if file is None else error.in_file(file)
-                    raise InputError(f"a string that fits at {row.bit_depth:g} m ({named})", key=row.id) from None
+                    at = f"{row.bit_depth:g} m"
+                    raise InputError(f"a depth at which the string fits ({named})", key=row.id, value=at) from None
         for (name, _), string in self._laid.items():  # one workspace for all strings of a case
             solver = self._solvers[name]
             if solver.work.segments < string.segments:

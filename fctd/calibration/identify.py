@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 EXPLAINED: Final = 0.97
 PAIR: Final = 0.95
 PARTNER: Final = 0.5
+# Standard deviations by which a change of an unknown by its typical size must change all readings together.
+LEAST: Final = 0.25
 # Share by which the length of a component in the hole must differ between rows to weigh it beside the block.
 ALIKE: Final = 0.2
 # What separates pairs, by the beginnings of their names.
@@ -37,14 +39,14 @@ _REMEDIES: Final = (
 
 
 class Undetermined(NamedTuple):
-    """Unknowns that the rows cannot tell apart (one: no row depends on it), and what would separate them."""
+    """Unknowns that the rows cannot tell apart (one: the rows hardly depend on it), and what would separate them."""
 
     names: tuple[str, ...]
     remedy: str
 
     def __str__(self) -> str:
         if len(self.names) == 1:
-            return f"{self.names[0]} has no effect on any row: {self.remedy}"
+            return f"{self.names[0]} has hardly any effect on the rows: {self.remedy}"
         return f"{' and '.join(self.names)} cannot be told apart: {self.remedy}"
 
 
@@ -83,7 +85,7 @@ def undetermined(forward: Forward, evaluation: Evaluation, used: Collection[int]
     names = forward.names
     found = []
     for k, name in enumerate(names):
-        if not (np.abs(J[:, k]) * sizes[k] > 1e-3).any():
+        if not np.linalg.norm(J[:, k]) * sizes[k] >= LEAST:
             found.append(Undetermined((name,), "leave it out, or give rows or a prior for it"))
     found += _block_and_masses(forward, used)
     cut = [k for k, name in enumerate(names) if all(name not in one.names for one in found)]

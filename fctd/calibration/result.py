@@ -48,6 +48,11 @@ class Calibration:
         """The case with the values."""
         return with_values(self.base, self.values)
 
+    @property
+    def strings(self) -> dict[str, Case]:
+        """The case of each string of the rows with the values."""
+        return {name: with_values(case, self.values) for name, case in self.forward.strings.items()}
+
     def __repr__(self) -> str:
         values = ", ".join(f"{name} {value:.4g}" for name, value in self.values.items())
         return f"Calibration({self.base.name!r}, {len(self.fit.used)} rows: {values})"
@@ -74,6 +79,13 @@ class Calibration:
                 }
             )  # fmt: skip
         return pd.DataFrame(rows)
+
+    @property
+    def misfit(self) -> float:
+        """Mean square of the residuals over the noise by degree of freedom: about 1; NaN without one."""
+        table = self.residuals[self.residuals["used"]]
+        free = len(table) - sum(unknown.prior is None for unknown in self.unknowns)
+        return float((table["in_noise"] ** 2).sum() / free) if free > 0 else float("nan")
 
     @cached_property
     def intervals(self) -> Intervals:

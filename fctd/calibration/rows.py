@@ -12,7 +12,7 @@ from fctd.case.load import Case, load_case
 from fctd.case.operations import KINDS
 from fctd.case.units import FLOW, FORCE, LENGTH, ROTATION, SPEED, TORQUE
 from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
-from fctd.results.measured import DEPTH, TORQUE_FIELD
+from fctd.results.measured import DEPTH
 from fctd.results.measured_file import Field, Line, Text, read_lines, require
 
 Load = Literal["hookload", "torque"]
@@ -23,12 +23,13 @@ OPERATIONS: Final = (*KINDS, *STRINGLESS)
 _HOOKLOAD: Final = Field(
     "hookload", "N", FORCE, r"hook[ _]?load|weight[ _]indicator|indicator", "kN", ranged=True, at_least=0.0
 )
+_TORQUE: Final = Field("torque", "N_m", TORQUE, r"(?:surface[ _]|drive[ _])?torque", "kN_m", ranged=True)
 _SPEED: Final = Field("speed", "m_s", SPEED, "speed|velocity", "m_s", at_least=0.0)
 _ROTATION: Final = Field("rpm", "", ROTATION, r"rpm|rotation|rotary(?:[ _]speed)?", "rpm", at_least=0.0, bare="rpm")
 _FLOW: Final = Field("flow", "m3_s", FLOW, r"flow(?:[ _]rate)?", "L_min", at_least=0.0)
 _STROKE: Final = Field("stroke", "m", LENGTH, "stroke", "m", at_least=0.0)
 _LOCKED: Final = Field("locked_torque", "N_m", TORQUE, r"locked[ _]torque", "kN_m")
-_FIELDS: Final = (DEPTH, _HOOKLOAD, TORQUE_FIELD, _SPEED, _ROTATION, _FLOW, _STROKE, _LOCKED)
+_FIELDS: Final = (DEPTH, _HOOKLOAD, _TORQUE, _SPEED, _ROTATION, _FLOW, _STROKE, _LOCKED)
 _HEADERS: Final = "such as id, bit_depth_m, operation, hookload_kN, torque_low_kN_m, torque_high_kN_m, rpm, source"
 
 
@@ -105,7 +106,7 @@ def read_rows(path: Path, case: Case, sets: Mapping[str, Case], *, measured: boo
         lines = read_lines(path, _FIELDS, texts, _HEADERS)
         require(lines, "operation", ["operation"], _HEADERS)
         if measured:
-            loads = [field.column(end) for field in (_HOOKLOAD, TORQUE_FIELD) for end in ("", "_low")]
+            loads = [field.column(end) for field in (_HOOKLOAD, _TORQUE) for end in ("", "_low")]
             require(lines, "hook load or torque", loads, _HEADERS)
         rows: list[Row] = []
         for line in lines:
@@ -135,11 +136,11 @@ def _string(line: Line, name: str, path: Path, sets: Mapping[str, Case]) -> Case
 def _row(line: Line, name: str, case: Case, *, measured: bool) -> Row:
     """A row of the file, checked against its case."""
     operation = str(line.cells["operation"])
-    loads = {field: _range(line, field) for field in (_HOOKLOAD, TORQUE_FIELD)}
+    loads = {field: _range(line, field) for field in (_HOOKLOAD, _TORQUE)}
     if measured and not any(loads.values()):
         raise InputError("a hook load or a torque", key=f"row {line.number}")
-    if operation == "in_slips" and loads[TORQUE_FIELD]:
-        raise line.error(TORQUE_FIELD.column(), "no torque for in_slips, where nothing turns")
+    if operation == "in_slips" and loads[_TORQUE]:
+        raise line.error(_TORQUE.column(), "no torque for in_slips, where nothing turns")
     depth, speed, rpm = (line.number_of(field.column()) for field in (DEPTH, _SPEED, _ROTATION))
     if operation in KINDS:
         top, bottom = case.depths
@@ -155,7 +156,7 @@ def _row(line: Line, name: str, case: Case, *, measured: bool) -> Row:
     return Row(
         id=str(line.cells.get("id") or f"row {line.number}"),
         string=name, bit_depth=depth, operation=operation, rates=rates,
-        hookload=loads[_HOOKLOAD], torque=loads[TORQUE_FIELD],
+        hookload=loads[_HOOKLOAD], torque=loads[_TORQUE],
         weight=float(str(line.cells.get("weight", 1.0))), source=str(line.cells.get("source", "")),
         flow=line.number_of(_FLOW.column()), stroke=line.number_of(_STROKE.column()),
         locked_torque=float(np.nan_to_num(line.number_of(_LOCKED.column()))),

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 from fctd.calibration.setup import PriorSpec, Setup, UnknownSpec, Written
-from fctd.case.errors import InputError, nearest
+from fctd.case.errors import MISSING, InputError, join_key, nearest, show
 from fctd.case.friction import KINDS
 from fctd.case.load import Case
 from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension, Number, Quantity
@@ -94,41 +94,48 @@ def find_unknowns(fit: Mapping[str, UnknownSpec], setup: Setup, cases: Sequence[
                 specs[name] = UnknownSpec(prior=PriorSpec(mean=bias.mean, sd=bias.sd))
     if not specs:
         raise InputError("at least one unknown, such as friction.open", key="fit")
-    found = [_unknown(name, spec, cases) for name, spec in specs.items()]
+    found = []
+    for name, spec in specs.items():
+        try:
+            found.append(_unknown(name, spec, cases))
+        except InputError as error:
+            if name not in fit:
+                raise error.at(join_key("unknowns", name)) from None
+            written = name if error.value is MISSING else f"{name}, {error.key}: {show(error.value)}"
+            raise InputError(error.expected, key="fit", value=written) from None
     _check_overlaps([unknown.name for unknown in found], cases)
     return found
 
 
 def _unknown(name: str, spec: UnknownSpec, cases: Sequence[Case]) -> Unknown:
+    """An unknown; the InputError of a bad value has its key in the table of the unknown."""
     form, own = _form_of(name, cases)
-    key = f"unknowns.{name}"
 
-    def parsed(value: Written, part: str) -> float:
+    def parsed(value: Written, key: str) -> float:
         try:
             return form.parse(value)
         except InputError as error:
-            raise error.at(f"{key}.{part}") from None
+            raise error.at(key) from None
 
     prior = None
     if spec.prior is not None:
         prior = Prior(parsed(spec.prior.mean, "prior.mean"), parsed(spec.prior.sd, "prior.sd"))
         if not prior.sd > 0:
-            raise InputError("a standard deviation above 0", key=f"{key}.prior.sd", value=spec.prior.sd)
+            raise InputError("a standard deviation above 0", key="prior.sd", value=spec.prior.sd)
     low, high = form.low, form.high
     if spec.bounds is not None:
         low, high = (parsed(end, "bounds") for end in spec.bounds)
         if not low < high or (low < form.low and not name.startswith("bias.")):
-            raise InputError(
-                f"two bounds that rise, the lower one at least {form.low:g}", key=f"{key}.bounds",
-                value=list(spec.bounds),
-            )  # fmt: skip
+            expected = f"two bounds that rise, the lower one at least {form.low:g}"
+            raise InputError(expected, key="bounds", value=list(spec.bounds))
+    within = f"within the bounds, {low:g} to {high:g}"
     if prior is not None and not low <= prior.mean <= high:
-        raise InputError(f"a mean within the bounds, {low:g} to {high:g}", key=f"{key}.prior.mean", value=prior.mean)
+        raise InputError(f"a mean {within}", key="prior.mean", value=prior.mean)
     start = prior.mean if prior is not None else min(max(own, low), high)
     if spec.start is not None:
         start = parsed(spec.start, "start")
         if not low <= start <= high:
-            raise InputError(f"a start within the bounds, {low:g} to {high:g}", key=f"{key}.start", value=spec.start)
+            raise InputError(f"a start {within}", key="start", value=spec.start)
     unit = "" if form.dimension is None else form.dimension.unit
     return Unknown(name, low, high, start, form.size, prior, unit)
 
@@ -157,7 +164,7 @@ def _form_of(name: str, cases: Sequence[Case]) -> tuple[Form, float]:
         expected = f"a component of a string ({', '.join(parts)})" if name.startswith("mass.") else (
             f"friction of intervals that the case has (those of a kind have the key {kinds})"
         )  # fmt: skip
-    raise InputError(expected, key="fit", value=name)
+    raise InputError(expected)
 
 
 def _own_values(name: str, case: Case) -> list[float]:
@@ -223,7 +230,7 @@ def with_values(case: Case, values: Mapping[str, float]) -> Case:
 def parse_fits(fits: Iterable[str], priors: Iterable[str] = ()) -> dict[str, UnknownSpec]:
     """Unknowns of texts such as "friction.open" or "friction.open=0.1:0.5", with priors "friction.open=0.25+-0.05".
 
-    Raises InputError for texts of another form, and for a prior of what is not among the fits.
+    A prior alone makes an unknown, too.  Raises InputError for texts of another form.
     """
     specs: dict[str, UnknownSpec] = {}
     for text in fits:

@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import pandas as pd
 import typer
 from rich.box import SIMPLE_HEAD
@@ -37,6 +38,8 @@ from fctd.results.tables import write_table
 
 # Units of the screen: label and factor of the SI unit.
 SHOWN = {"N": ("kN", 1e-3), "N*m": ("kN·m", 1e-3), "": ("", 1.0)}
+# Mean square of the residuals over the noise, by degree of freedom, beyond which the intervals are doubtful.
+MISFIT = 2.0
 LOADS = {"hookload": "N", "torque": "N*m"}
 
 
@@ -126,18 +129,25 @@ def print_calibration(found: Calibration) -> None:
         for other, value in zip(names[:i], matrix[i], strict=False):
             if abs(value) >= 0.9:
                 screen.print(f"correlation of {other} and {one}: {value:.3f}", soft_wrap=True)
-    rows = _table(["row", "load"], ["low", "high", "fitted", "off", "off/noise", "left out"], [])
+    rows = _table(["row", "load"], ["measured", "fitted", "off", "off/noise", "left out"], [])
     table = found.leave_one_out
     without = dict(zip(zip(table["id"], table["load"], strict=True), table["predicted"], strict=True))
     for row in found.residuals.to_dict("records"):
         label, factor = SHOWN[LOADS[str(row["load"])]]
         key = str(row["id"]), str(row["load"])
-        numbers = [f"{row[name] * factor:z.1f}" for name in ("low", "high", "fitted", "residual")]
+        numbers = [_span(row["low"] * factor, row["high"] * factor)]
+        numbers += [f"{row[name] * factor:z.1f}" for name in ("fitted", "residual")]
         alone = f"{float(without[key]) * factor:z.1f}" if key in without else "–"
         name = str(row["id"]) if row["used"] else f"({row['id']})"
         rows.add_row(name, f"{row['load']}, {label}", *numbers, f"{row['in_noise']:z.1f}", alone)
     screen.print(rows)
     screen.print("off: beyond the recorded range; left out: predicted by a fit without the row", soft_wrap=True)
+    if found.misfit > MISFIT:
+        messages.print(
+            f"warning: the residuals are {np.sqrt(found.misfit):.2g} times the noise of the sources: the noise is "
+            "declared too small, or the model lacks something; the intervals are too narrow",
+            soft_wrap=True,
+        )  # fmt: skip
     for name, reason in found.left_out.items():
         messages.print(printable(f"not fitted: {name}: {reason}"), soft_wrap=True)
     if found.predicted is not None:
@@ -146,18 +156,18 @@ def print_calibration(found: Calibration) -> None:
 
 def print_prediction(table: pd.DataFrame) -> None:
     """Print predicted readings with their bands, and how many measured ones lie inside."""
-    shown = _table(["row", "load"], ["predicted", "50 % from", "to", "95 % from", "to", "measured"], ["inside"])
+    shown = _table(["row", "load"], ["predicted", "50 %", "95 %", "measured"], ["inside"])
     for row in table.to_dict("records"):
         label, factor = SHOWN[str(row["unit"])]
         if row["reason"] != "none":
-            shown.add_row(str(row["id"]), f"{row['load']}, {label}", *["–"] * 6, "")
+            shown.add_row(str(row["id"]), f"{row['load']}, {label}", *["–"] * 4, "")
             continue
-        numbers = [f"{row[k] * factor:z.1f}" for k in ("predicted", "low50", "high50", "low95", "high95")]
+        numbers = [f"{row['predicted'] * factor:z.1f}"]
+        numbers += [_span(row[f"low{band}"] * factor, row[f"high{band}"] * factor) for band in (50, 95)]
         inside, measured = "", "–"
         if row["inside95"] is not None:
             inside = "50 %" if row["inside50"] else "95 %" if row["inside95"] else "no"
-            low, high = (f"{row[k] * factor:z.1f}" for k in ("low", "high"))
-            measured = low if low == high else f"{low}–{high}"
+            measured = _span(row["low"] * factor, row["high"] * factor)
         shown.add_row(str(row["id"]), f"{row['load']}, {label}", *numbers, measured, inside)
     screen.print(shown)
     for name, reason in (
@@ -173,6 +183,12 @@ def print_prediction(table: pd.DataFrame) -> None:
             scores = table.loc[(table["load"] == load) & table["crps"].notna(), "crps"]
             if len(scores):
                 screen.print(f"mean CRPS of {load}: {scores.mean() * factor:.3g} {label}", soft_wrap=True)
+
+
+def _span(low: float, high: float) -> str:
+    """A range, or the value that both ends are, to a tenth."""
+    ends = f"{low:z.1f}", f"{high:z.1f}"
+    return ends[0] if ends[0] == ends[1] else "–".join(ends).replace("-", "−")
 
 
 def _table(texts: list[str], numbers: list[str], last: list[str]) -> Table:

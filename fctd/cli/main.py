@@ -27,7 +27,7 @@ from fctd.cli.schema import schema_command
 from fctd.cli.simulate import simulate_command
 
 # Arguments of ``fctd.calibrate`` and ``fctd.predict``, and their options.
-CALIBRATION = {"fit": "--fit", "prior": "--prior", "starts": "--starts"}
+CALIBRATION = {name: f"--{name}" for name in ("fit", "prior", "starts", "seed", "samples")}
 
 app = typer.Typer(
     no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, context_settings=HELP,

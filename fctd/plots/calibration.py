@@ -104,7 +104,7 @@ def _residuals(axes: Axes, found: Calibration) -> None:
     for level in (-2, 2):
         axes.axhline(level, color=QUIET, linewidth=0.8, linestyle=":")
     axes.set_ylabel("fitted − measured, over noise")
-    axes.set_title("Residuals: hook load filled, torque open")
+    axes.set_title("Residuals: hook load filled, torque open, not fitted grey")
     _name_rows(axes, names)
 
 
@@ -118,7 +118,9 @@ def _correlations(axes: Axes, found: Calibration) -> None:
     if len(names) <= 12:
         for i, j in np.ndindex(matrix.shape):
             colour = "white" if abs(matrix[i, j]) > 0.6 else DARK
-            axes.text(j, i, f"{matrix[i, j]:.2f}".replace("-", "−"), ha="center", va="center", fontsize=6, color=colour)
+            axes.text(
+                j, i, f"{matrix[i, j]:z.2f}".replace("-", "−"), ha="center", va="center", fontsize=6, color=colour
+            )
     axes.set_title("Correlations")
 
 

@@ -15,11 +15,10 @@ from fctd.results.measured_file import ENDS, Field, Line, Text, read_lines, requ
 
 _BELOW: Final = 30.0  # m: a measured depth may exceed the last station of the survey by a joint or two
 DEPTH: Final = Field("bit_depth", "m", LENGTH, r"bit[ _]depth|depth|md", "m", at_least=0.0)
-TORQUE_FIELD: Final = Field("surface_torque", "N_m", TORQUE, r"(?:surface[ _])?torque", "kN_m", ranged=True)
 _LOADS: Final = (
     Field("hookload", "N", FORCE, r"hook[ _]?load|string[ _]load", "kN", ranged=True),
     Field("weight_indicator", "N", FORCE, r"weight[ _]indicator|indicator", "kN", ranged=True),
-    TORQUE_FIELD,
+    Field("surface_torque", "N_m", TORQUE, r"(?:surface[ _])?torque", "kN_m", ranged=True),
 )
 _LOAD_COLUMNS: Final = tuple(field.column(end) for field in _LOADS for end in ENDS)
 _HEADERS: Final = "such as bit_depth_m, operation, hookload_kN, hookload_low_kN, hookload_high_kN, torque_kN_m"

@@ -47,7 +47,7 @@ def test_input_that_cannot_be_used() -> None:
     rows = measured_rows(well(), {"rig.block_weight": 230e3}, blank_rows(well())[-2:-1])
     with pytest.raises(InputError, match="the loss soft_l1"):
         calibrate(well(), rows, ["rig.block_weight"], loss="soft_l2")  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="at least one start"):
+    with pytest.raises(InputError, match="starts = 0: expected at least 1"):
         calibrate(well(), rows, ["rig.block_weight"], starts=0)
     with pytest.raises(InputError, match="a case"):
         calibrate("well.toml", rows, ["rig.block_weight"])  # type: ignore[arg-type]

@@ -19,6 +19,7 @@ def test_a_calibrated_case_and_its_residuals() -> None:
     assert found.active == {"rig.block_weight": "highest"}
     assert found.case.rig.block_weight == pytest.approx(226e3)
     assert found.case.wellbore == well().wellbore
+    assert found.strings == {"": found.case}
     assert list(found.left_out) == ["trip_out 1500"]
     table = found.residuals.set_index(["id", "load"])
     slips = table.loc[("slips", "hookload")]
@@ -28,3 +29,5 @@ def test_a_calibrated_case_and_its_residuals() -> None:
     assert repr(found).startswith("Calibration('test', 4 rows: rig.block_weight 2.26e+05")
     assert found.jacobian.shape == (7, 2)
     assert np.isfinite(found.jacobian).all()
+    used = table[table["used"]]["in_noise"]
+    assert found.misfit == pytest.approx((used**2).sum() / (len(used) - 2))

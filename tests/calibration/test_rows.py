@@ -63,8 +63,8 @@ def test_a_string_may_be_another_case_beside_the_rows(tmp_path: Path) -> None:
     [
         (",1000,trip_inn,1,,,,", ['row 3, operation = "trip_inn"', "trip_in"]),
         (",1000,trip_in,heavy,,,,", ['row 3, hookload_kN = "heavy"', "a number"]),
-        (",1000,rotate_off_bottom,,5,4,60,", ["row 3, surface_torque", "that rise"]),
-        (",1000,rotate_off_bottom,,5,,60,", ["row 3, surface_torque", "both ends"]),
+        (",1000,rotate_off_bottom,,5,4,60,", ["row 3, torque", "that rise"]),
+        (",1000,rotate_off_bottom,,5,,60,", ["row 3, torque", "both ends"]),
         (",1600,trip_in,1,,,,", ['row 3, bit_depth_m = "1600"', "down to 1500 m"]),
         (",,trip_in,1,,,,", ["row 3, bit_depth_m", "a depth in the well"]),
         (",1000,trip_in,-5,,,,", ["row 3, hookload_kN", "at least 0"]),
