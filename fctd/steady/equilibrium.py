@@ -13,12 +13,13 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operations import KINDS
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String, check_fit, lay_out
 from fctd.model.frames import steady_offsets
-from fctd.model.operations import SteadyRates, sensors, steady_rates
+from fctd.model.operations import SteadyRates, drive_torque, steady_rates, weight_indicator
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along, pipe_of
 from fctd.results.columns import IN_CHART, Column
@@ -253,7 +254,7 @@ class Solver:
         if added.settled:
             says = wound.message and problem.added.any()
             return replace(wound, message=f"{wound.message}; {ANALYTIC}") if says else wound
-        pushed = -wound.hookload > self.case.rig.block_weight
+        pushed = -wound.hookload > self.case.rig.push
         status = SteadyStatus.LOCKED_UP if pushed or added.endless else SteadyStatus.UNSTABLE
         end = f"the push exceeds {BEYOND:g} times the string's weight" if added.endless else "no steady shape was found"
         spent = "slack-off is spent, and " if pushed else ""
@@ -316,9 +317,10 @@ class Solver:
             problem.bit_torque,
         )  # fmt: skip
         # The hook load of a horizontal string is 0 within rounding.
-        pushed = -found.hookload - case.rig.block_weight > n * problem.allowed
+        pushed = -found.hookload - case.rig.push > n * problem.allowed
         status, message = self._judge(code, negative, pushed, shape, found.imbalance)
-        indicator, drive = sensors(case, problem.operation, found.hookload, found.torque)
+        indicator = weight_indicator(case.rig, KINDS[problem.operation].direction, found.hookload)
+        drive = drive_torque(case.rig, problem.rates.spin, found.torque)
         normal, r_ft, r_mu_n = (float(found.contacts[:, k].sum()) for k in (NORMAL_FORCE, R_FT, R_MU_FN))
         return Equilibrium(
             case, problem.operation, string.bit_depth, status, message, iterations, found.hookload, found.torque,
