@@ -9,8 +9,8 @@ one direction then have a false alarm in 2 N readings on average or fewer of the
 Rotation, pick-up and slack-off have a baseline each, since what the model leaves out differs between them; a step of
 the friction shows in all, and they share the sums.  The baseline is the mean, weighted by 1/σ², of the readings of the
 kind but the last `LAG`, which may lie behind a step already; each enters with at most `HUBER` standard deviations of
-difference (Huber 1964).  Its own variance is added to that of a reading (self-starting: Hawkins, Technometrics 29, 1987).
-Where the readings of a kind scatter more than their σ says, σ is multiplied by the ratio.
+difference (Huber 1964).  Its own variance is added to that of a reading, as in Hawkins's self-starting sums
+(Technometrics 29, 1987).  Where the readings of a kind scatter more than their σ says, σ is multiplied by the ratio.
 """
 
 from __future__ import annotations
@@ -58,10 +58,9 @@ class Alarm:
         """The alarm in words."""
         change = "above" if self.size > 0 else "below"
         share = f", {abs(self.size / self.before):.0%}" if self.before > 0.02 else ""
-        return (
-            f"from {self.start:.0f} m the apparent friction factor is {abs(self.size):.2f} {change} the "
-            f"{self.before:.2f} before{share} (95 % band {self.low:+.2f} to {self.high:+.2f}); found at {self.found:.0f} m"
-        )
+        what = f"the apparent friction factor is {abs(self.size):.2f} {change} the {self.before:.2f} before{share}"
+        band = f"95 % band {self.low:+.2f} to {self.high:+.2f}"
+        return f"from {self.start:.0f} m {what} ({band}); found at {self.found:.0f} m"
 
 
 @dataclass
@@ -104,7 +103,7 @@ class Detector:
     starts the baselines anew, so that the next one tells a change from the new state.
     """
 
-    def __init__(self, step: float = 0.25, readings: float = 500.0) -> None:
+    def __init__(self, step: float = 0.25, readings: float = 50.0) -> None:
         self.step, self.limit = step, float(np.log(2 * readings))
         self._start_anew()
 

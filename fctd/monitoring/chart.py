@@ -1,4 +1,4 @@
-"""Loads of the steady string over bit depth and friction factor: solved at nodes when first needed, and interpolated."""
+"""Loads of the steady string over bit depth and friction factor: solved at nodes when needed, and interpolated."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from fctd.case.errors import InputError
-from fctd.case.friction import KINDS, FrictionSet
+from fctd.case.friction import FrictionSet
 from fctd.case.load import Case
 from fctd.case.operations import KINDS as OPERATIONS
 from fctd.model.drillstring import section_of
@@ -79,6 +79,7 @@ class Chart:
         self._rates = rates_of_all(case, list(OF_KIND))
         self._nodes: dict[tuple[str, float], Array] = {}
         self._coarse: dict[float, Array] = {}
+        self._inverses: dict[tuple[Mode, float, float], tuple[PchipInterpolator, float] | None] = {}
         self._stiffness = section_of(case.string.components[-1], case.mud.density).EA
 
     def _set(self, factor: float) -> FrictionSet:
@@ -118,18 +119,27 @@ class Chart:
         Beyond the loads of `FACTORS` the factor continues on a straight line: a reading below that of a frictionless
         string has a negative one.
         """
+        key = (mode, depth, rpm)
+        if key not in self._inverses:  # a reading is often repeated at the same depth, as in trials
+            self._inverses[key] = self._inverse_at(*key)
+        found = self._inverses[key]
+        if found is None:
+            return None
+        cubic, by_other = found
+        inside = float(np.clip(reading, cubic.x[0], cubic.x[-1]))
+        slope = float(cubic(inside, 1))
+        return Inverse(float(cubic(inside)) + slope * (reading - inside), slope, -slope * by_other)
+
+    def _inverse_at(self, mode: Mode, depth: float, rpm: float) -> tuple[PchipInterpolator, float] | None:
+        """Factor by reading, and derivative of the reading by the factor that is held."""
         found = self.readings(mode, depth, rpm)
         factors, loads = _monotone(FACTORS, found[:-1])
         if len(factors) < 2:
             return None
         if loads[0] > loads[-1]:
             factors, loads = factors[::-1], loads[::-1]
-        cubic = PchipInterpolator(loads, factors)
-        inside = float(np.clip(reading, loads[0], loads[-1]))
-        slope = float(cubic(inside, 1))
-        by_other = (found[-1] - found[2]) / CASED_STEP
-        per_other = -slope * by_other if self.fit != "all" and np.isfinite(by_other) else 0.0
-        return Inverse(float(cubic(inside)) + slope * (reading - inside), slope, per_other)
+        by_other = (found[-1] - found[2]) / CASED_STEP if self.fit != "all" else 0.0
+        return PchipInterpolator(loads, factors), float(np.nan_to_num(by_other))
 
     def slips_below(self, depth: Array) -> Array:
         """Weight indicator below which the string hangs in the slips: the block and half the string's weight [N]."""
@@ -137,7 +147,8 @@ class Chart:
         low, high = float(np.floor(depth.min() / COARSE)), float(np.ceil(depth.max() / COARSE))
         at = np.arange(low, high + 1) * COARSE
         weights = np.array([self._coarse_node(float(d))[0] for d in at])
-        return self.case.rig.block_weight + 0.5 * np.interp(depth, at, weights)
+        limits: Array = self.case.rig.block_weight + 0.5 * np.interp(depth, at, weights)
+        return limits
 
     def reversal(self, depth: float) -> float:
         """Stretch at reversal: difference of hook loads up and down, which falls to 0 at the bit, over EA [m]."""
@@ -154,7 +165,8 @@ class Chart:
         depth = min(depth, self.deepest)
         low = np.floor(depth / COARSE) * COARSE
         share = (depth - low) / COARSE
-        return (1 - share) * self._coarse_node(float(low)) + share * self._coarse_node(float(low + COARSE))
+        loads: Array = (1 - share) * self._coarse_node(float(low)) + share * self._coarse_node(float(low + COARSE))
+        return loads
 
     def _coarse_node(self, depth: float) -> Array:
         """Rotating hook load, hook load up minus down [N] and rotating torque [N m] at the case's own friction.

@@ -34,7 +34,7 @@ _DIMENSIONS: dict[str, Dimension] = {"hook_load": FORCE, "block_weight": FORCE, 
 
 
 def parse_uncertainty(texts: list[str], key: str) -> Uncertainty:
-    """Standard deviations of "hook_load=1 t", "torque=4%", "cased=0.02", "block_weight=5 kN", "torque_offset=0.3 kN*m"."""
+    """Standard deviations of texts such as "hook_load=1 t", "torque=4%", "cased=0.02" and "torque_offset=0.3 kN*m"."""
     names = [field.name for field in fields(Uncertainty)]
     found: dict[str, float] = {}
     for text in texts:
@@ -62,8 +62,8 @@ def parse_uncertainty(texts: list[str], key: str) -> Uncertainty:
 class Apparent:
     """A stretch with its friction factor.
 
-    factor : NaN where none is inferred, for the reason in ``left_out``.  noise : standard deviation of the factor by the
-    reading alone.  low, high : 95 % band by the reading and by what is held.
+    factor : NaN where none is inferred, for the reason in ``left_out``.  noise : standard deviation of the factor by
+    the reading alone.  low, high : 95 % band by the reading and by what is held.
     """
 
     stretch: Stretch

@@ -29,7 +29,7 @@ class Monitor:
 
     def __init__(
         self, case: Case, fit: Fit | None = None, uncertainty: Uncertainty | None = None, rules: Rules | None = None,
-        step: float = 0.25, readings: float = 500.0,
+        step: float = 0.25, readings: float = 50.0,
     ) -> None:  # fmt: skip
         if not 0 < step <= 10:
             raise InputError("a share above 0, such as 0.25", key="step", value=step)
@@ -113,7 +113,7 @@ def monitor(
     uncertainty: Uncertainty | None = None,
     columns: Mapping[str, tuple[str, str | None]] | None = None,
     step: float = 0.25,
-    readings: float = 500.0,
+    readings: float = 50.0,
 ) -> Monitored:
     """Apparent friction factors of the off-bottom stretches of a series, and alarms where they change.
 

@@ -43,8 +43,8 @@ def to_si(
         if decimal_comma:
             texts = texts.str.replace(",", ".", regex=False)
         values = pd.to_numeric(texts, errors="coerce").to_numpy(float, na_value=np.nan)
-        _refuse(np.isnan(values) & texts.notna().to_numpy() & ~texts.str.casefold().isin(["nan", "null", "n/a"]).to_numpy(),
-                texts, numbers, column, "a number")  # fmt: skip
+        nothing = texts.isna() | texts.str.casefold().isin(["nan", "null", "n/a"])
+        _refuse(np.isnan(values) & ~nothing.to_numpy(bool), texts, numbers, column, "a number")
         values[np.isin(values, NULLS) | ~np.isfinite(values)] = np.nan
         table[quantity.column] = values * column.factor(quantity)
     return pd.DataFrame(table, index=pd.Index(numbers, name="row"))
@@ -117,7 +117,8 @@ class Cleaner:
             )
         if len(times):
             self._latest = max(self._latest, float(times.max()))
-        return table[~(repeated | backward)]
+        later: pd.DataFrame = table[~(repeated | backward)]
+        return later
 
     def told(self) -> list[str]:
         """What was left out, a line for each reason."""

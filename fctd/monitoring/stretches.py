@@ -16,8 +16,8 @@ The rules, whose numbers are in `Rules`:
   too: hook load up minus down, times the length, over 2 EA.
 - What remains must last 8 s and have three rows, the fewest with quartiles.
 - A stroke shorter than three times the stretch at reversal is left out: friction has not turned around everywhere.
-- A stroke with more than 0.3 of the rotating torque locked in is left out: the wall's friction has one resultant, so that
-  of it √(1 − 0.3²), 95 %, is left along the hole.
+- A stroke with more than 0.3 of the rotating torque locked in is left out: the wall's friction has one resultant, of
+  which √(1 − 0.3²), 95 %, is left along the hole.
 """
 
 from __future__ import annotations
@@ -90,9 +90,9 @@ class Quartiles(NamedTuple):
 class Stretch:
     """A stretch with its readings [SI].
 
-    start, end : times [s]; first_row, last_row : in the file; samples : settled rows; torque : of the drive; hook_load :
-    of the weight indicator; rpm, speed (upwards positive), flow : medians; left_out : why no friction factor is to
-    be found from it, else empty.  rows : the settled rows, with bit depth, hook load and torque.
+    start, end : times [s]; first_row, last_row : in the file; samples : settled rows; torque : of the drive;
+    hook_load : of the weight indicator; rpm, speed (upwards positive), flow : medians; left_out : why no friction factor
+    is to be found from it, else empty.  rows : the settled rows, with bit depth, hook load and torque.
     """
 
     mode: Mode

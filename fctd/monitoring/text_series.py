@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
+import numpy as np
 import pandas as pd
 
 from fctd.case.errors import InputError
@@ -47,14 +48,14 @@ class Form:
             cells = pd.DataFrame(columns=range(len(self.headers)), dtype=str)
         except (pd.errors.ParserError, csv.Error) as error:
             raise InputError(f"rows with {len(self.headers)} cells, as many as headers ({error})") from error
-        numbers = pd.RangeIndex(number, number + len(cells))
+        numbers = np.arange(number, number + len(cells))
         empty = (cells.isna() | (cells == "")).all(axis=1)
         cells, numbers = cells[~empty], numbers[~empty.to_numpy()]
         if self.clock is not None and "time" in self.columns:
             place = self.columns["time"].place
             both = (cells[place] != "") & (cells[self.clock] != "")
             cells[place] = (cells[place] + " " + cells[self.clock].astype(str)).where(both, "")
-        return to_si(cells, numbers.to_list(), self.columns, decimal_comma=self.separator != ",")
+        return to_si(cells, numbers.tolist(), self.columns, decimal_comma=self.separator != ",")
 
 
 def decode(content: bytes) -> str:

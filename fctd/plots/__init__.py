@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fctd.plots.chart import chart_figure
+    from fctd.plots.monitor import monitor_figure
     from fctd.plots.page import chart_page, profile_page, save_page
     from fctd.plots.profile import profile_figure
     from fctd.plots.style import RC, save
 
-__all__ = ["RC", "chart_figure", "chart_page", "profile_figure", "profile_page", "save", "save_page"]
+__all__ = ["RC", "chart_figure", "chart_page", "monitor_figure", "profile_figure", "profile_page", "save", "save_page"]
 
 _HOMES = {
     "RC": "style",
     "chart_figure": "chart",
     "chart_page": "page",
+    "monitor_figure": "monitor",
     "profile_figure": "profile",
     "profile_page": "page",
     "save": "style",
