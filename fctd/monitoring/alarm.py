@@ -39,8 +39,8 @@ def kind_of(mode: Mode) -> str:
 class Alarm:
     """A step of the apparent friction factor.
 
-    start : depth of the first reading behind the step [m]; found : depth of the reading that raised the alarm [m];
-    row, time [s] : of that reading; size : change of the factor, low and high its 95 % band; before : weighted mean of
+    start, found : least and greatest depth of the readings from the step to the alarm [m]; row, time [s] : of the reading
+    that raised it; size : change of the factor, low and high its 95 % band; before : weighted mean of
     the baselines.
     """
 
@@ -156,7 +156,5 @@ class Detector:
         weights = np.array([deviation**-2 for _, _, deviation in since])
         size = float(np.average([off for _, off, _ in since], weights=weights))
         error = TWO_SIDED_95 * float(weights.sum() ** -0.5)
-        first, last = since[0][0].stretch, since[-1][0].stretch
-        return Alarm(
-            first.bit_depth, last.bit_depth, last.last_row, last.end, size, size - error, size + error, self._level()
-        )
+        depths, last = [reading.stretch.bit_depth for reading, _, _ in since], since[-1][0].stretch
+        return Alarm(min(depths), max(depths), last.last_row, last.end, size, size - error, size + error, self._level())

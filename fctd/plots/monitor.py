@@ -124,8 +124,8 @@ def _depths(panels: Sequence[Axes], known: pd.DataFrame, alarms: Sequence[Alarm]
         low, high = (float(known["friction"].quantile(q)) for q in (0.02, 0.98))
         panels[2].set_xlim(min(low, 0.0) - 0.15, high + 0.15)
     for alarm in alarms:
-        panels[2].axhspan(alarm.start * metre, alarm.found * metre, color=PALETTE["vermilion"], alpha=0.18, zorder=1)
-        panels[2].axhline(alarm.found * metre, color=PALETTE["vermilion"], linewidth=1.2, zorder=1.2)
+        panels[2].axhspan(alarm.start * metre, alarm.found * metre, color=PALETTE["purple"], alpha=0.18, zorder=1)
+        panels[2].axhline(alarm.found * metre, color=PALETTE["purple"], linewidth=1.2, zorder=1.2)
 
 
 def _handles(kinds: "pd.Series[str]", factors: Sequence[float], alarms: Sequence[Alarm]) -> list[Artist]:
@@ -142,5 +142,5 @@ def _handles(kinds: "pd.Series[str]", factors: Sequence[float], alarms: Sequence
     ]
     if alarms:
         label = "alarm, from its start"
-        handles.append(Line2D([], [], color=PALETTE["vermilion"], linewidth=4, alpha=0.6, label=label))
+        handles.append(Line2D([], [], color=PALETTE["purple"], linewidth=4, alpha=0.6, label=label))
     return handles

@@ -34,4 +34,6 @@ STUDIES: dict[str, str] = {
     "real_chart": "validation.studies.real_chart",
     "buckled_wells": "validation.studies.buckled_wells",
     "refine_real": "validation.studies.refine_real",
+    "monitoring": "validation.studies.monitoring",
+    "monitoring_f4": "validation.studies.monitoring_f4",
 }
