@@ -69,6 +69,7 @@ class _Baseline:
 
     weight: float = 0.0
     weighted: float = 0.0
+    readings: int = 0
     waiting: list[tuple[float, float]] = field(default_factory=list)
     scatter: list[float] = field(default_factory=list)
 
@@ -85,6 +86,7 @@ class _Baseline:
 
     def take(self, factor: float, noise: float) -> None:
         """Keep a reading back, and let the one that has waited longest enter."""
+        self.readings += 1
         self.waiting.append((factor, noise))
         if len(self.waiting) > LAG or self.weight == 0:
             factor, noise = self.waiting.pop(0)
@@ -105,10 +107,12 @@ class Detector:
 
     def __init__(self, step: float = 0.25, readings: float = 50.0) -> None:
         self.step, self.limit = step, float(np.log(2 * readings))
+        self._baselines = {kind: _Baseline() for kind in KINDS}
         self._start_anew()
 
     def _start_anew(self) -> None:
-        self._baselines = {kind: _Baseline() for kind in KINDS}
+        scatter = {kind: baseline.scatter for kind, baseline in self._baselines.items()}
+        self._baselines = {kind: _Baseline(scatter=scatter[kind]) for kind in KINDS}
         self._sums = np.zeros(2)  # of a rise, of a fall
         self._since: tuple[list[tuple[Apparent, float, float]], ...] = ([], [])
 
@@ -126,7 +130,7 @@ class Detector:
         kind = kind_of(reading.stretch.mode)
         baseline = self._baselines[kind]
         alarm = None
-        if baseline.weight > 0 and len(baseline.waiting) + len(baseline.scatter) + 1 >= FIRST:
+        if baseline.readings >= FIRST:
             deviation = baseline.scale * float(np.hypot(reading.noise, baseline.weight**-0.5))
             alarm = self._add(reading, reading.factor - baseline.mean, deviation)
         if alarm is not None:

@@ -22,7 +22,7 @@ from fctd.steady.equilibrium import Solver
 Array = NDArray[np.float64]
 Fit = Literal["open", "cased", "all"]
 
-FACTORS: Final = np.array([0.0, 0.1, 0.2, 0.35, 0.6])
+FACTORS: Final = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65])
 NODES: Final = 30.0  # [m] between bit depths, about a stand
 COARSE: Final = 120.0  # [m] between bit depths of the loads that the rules of stretches need
 CASED_STEP: Final = 0.05  # of the held factor, for the derivative by it

@@ -114,6 +114,7 @@ class Cleaner:
                 f"rows in the order of time ({self.counts['time before that of an earlier row']} of {read} rows are "
                 "earlier than a row above them)",
                 key=f"row {table.index[first]}, time",
+                value=f"{times[first]:.0f} s",
             )
         if len(times):
             self._latest = max(self._latest, float(times.max()))
@@ -122,4 +123,4 @@ class Cleaner:
 
     def told(self) -> list[str]:
         """What was left out, a line for each reason."""
-        return [f"{count} of {self.rows} rows left out: {reason}" for reason, count in self.counts.items()]
+        return [f"{count} of {self.rows} rows left out: {reason}" for reason, count in sorted(self.counts.items())]

@@ -39,15 +39,19 @@ class Form:
 
     def read(self, lines: str, number: int) -> pd.DataFrame:
         """The rows [SI] of whole lines of data, the first of which has this number in the file."""
+        count = len(self.headers)
+        for offset, line in enumerate(lines.split("\n")):
+            if line.count(self.separator) >= count and len([c for c in _cells(line, self.separator) if c]) > count:
+                raise InputError(f"{count} cells, as many as headers", key=f"row {number + offset}", value=line)
         try:
             cells = pd.read_csv(
-                io.StringIO(lines), sep=self.separator, header=None, names=range(len(self.headers)), dtype=str,
-                skip_blank_lines=False, skipinitialspace=True, index_col=False, keep_default_na=False,
+                io.StringIO(lines), sep=self.separator, header=None, names=range(count), usecols=range(count),
+                dtype=str, skip_blank_lines=False, skipinitialspace=True, index_col=False, keep_default_na=False,
             )  # fmt: skip
         except pd.errors.EmptyDataError:
-            cells = pd.DataFrame(columns=range(len(self.headers)), dtype=str)
+            cells = pd.DataFrame(columns=range(count), dtype=str)
         except (pd.errors.ParserError, csv.Error) as error:
-            raise InputError(f"rows with {len(self.headers)} cells, as many as headers ({error})") from error
+            raise InputError(f"rows with {count} cells, as many as headers ({error})") from error
         numbers = np.arange(number, number + len(cells))
         empty = (cells.isna() | (cells == "")).all(axis=1)
         cells, numbers = cells[~empty], numbers[~empty.to_numpy()]
@@ -94,7 +98,7 @@ def find_form(start: str, said: Mapping[str, tuple[str, str | None]]) -> Form:
     text_time = bool(re.search(r"\d[-/:T]\d", written))
     if text_time:
         columns["time"] = replace(columns["time"], unit=None)
-    check_columns(columns, headers, text_time=text_time)
+    check_columns(columns, headers, text_time=text_time or not written)
     clock = None
     if text_time and not _TIME_OF_DAY.search(written):
         clock = next((k for k, cell in enumerate(data[: len(headers)]) if _TIME_OF_DAY.match(cell)), None)
