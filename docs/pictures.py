@@ -45,7 +45,13 @@ def chart() -> Figure:
     return plots.chart_figure(fctd.torque_drag(case, kinds, range(1750, 2451, 25)), "si", case)
 
 
-PICTURES: dict[str, Callable[[], Figure]] = {"overview": overview, "chart": chart}
+def monitor() -> Figure:
+    """The readings of the example, whose open hole has a quarter more friction from 2,200 m on."""
+    case = fctd.load_case(WELL)
+    return plots.monitor_figure(fctd.monitor(case, ROOT / "examples" / "my_readings.csv"), case)
+
+
+PICTURES: dict[str, Callable[[], Figure]] = {"overview": overview, "chart": chart, "monitor": monitor}
 
 
 def draw(name: str, folder: Path) -> Path:

@@ -10,7 +10,8 @@ Rotation, pick-up and slack-off have a baseline each, since what the model leave
 the friction shows in all, and they share the sums.  The baseline is the mean, weighted by 1/σ², of the readings of the
 kind but the last `LAG`, which may lie behind a step already; each enters with at most `HUBER` standard deviations of
 difference (Huber 1964).  Its own variance is added to that of a reading, as in Hawkins's self-starting sums
-(Technometrics 29, 1987).  Where the readings of a kind scatter more than their σ says, σ is multiplied by the ratio.
+(Technometrics 29, 1987).  Where the readings of a kind scatter more than their σ says, σ is multiplied by the ratio,
+estimated from the median of the differences between one reading and the next (Rice 1984), which a step hardly changes.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ from fctd.monitoring.stretches import ROTATING, Mode
 FIRST: Final = 3  # readings of a kind before its baseline judges others
 LAG: Final = 3
 HUBER: Final = 2.0
-SCATTER_OF: Final = 8  # readings of a kind from which its scatter is estimated
+SCATTER_OF: Final = 5  # differences of a kind from which its scatter is estimated
+SPREAD_OF_MEDIAN: Final = 1.17  # times 1/√n: relative standard deviation of a scatter estimated by a median
 KINDS: Final = ("rotation", "pick_up", "slack_off")
 
 
@@ -39,9 +41,9 @@ def kind_of(mode: Mode) -> str:
 class Alarm:
     """A step of the apparent friction factor.
 
-    start, found : least and greatest depth of the readings from the step to the alarm [m]; row, time [s] : of the reading
-    that raised it; size : change of the factor, low and high its 95 % band; before : weighted mean of
-    the baselines.
+    start, found : least and greatest depth of the readings from the step to the alarm [m]; row, time [s] : of the
+    reading that raised it; size : change of the factor, low and high its 95 % band; before : weighted mean of the
+    baselines.
     """
 
     start: float
@@ -72,6 +74,7 @@ class _Baseline:
     readings: int = 0
     waiting: list[tuple[float, float]] = field(default_factory=list)
     scatter: list[float] = field(default_factory=list)
+    last: tuple[float, float] | None = None
 
     @property
     def mean(self) -> float:
@@ -79,20 +82,23 @@ class _Baseline:
 
     @property
     def scale(self) -> float:
-        """How much more the readings scatter than their standard deviations say: at least 1."""
+        """How much more the readings scatter than their standard deviations say, at least and by no chance: 1 or more."""
         if len(self.scatter) < SCATTER_OF:
             return 1.0
-        return max(1.0, 1.4826 * float(np.median(np.abs(self.scatter))))
+        found = 1.4826 * float(np.median(np.abs(self.scatter)))
+        return max(1.0, found / (1 + SPREAD_OF_MEDIAN * len(self.scatter) ** -0.5))
 
     def take(self, factor: float, noise: float) -> None:
         """Keep a reading back, and let the one that has waited longest enter."""
+        if self.last is not None:
+            self.scatter.append((factor - self.last[0]) / float(np.hypot(noise, self.last[1])))
+        self.last = (factor, noise)
         self.readings += 1
         self.waiting.append((factor, noise))
         if len(self.waiting) > LAG or self.weight == 0:
             factor, noise = self.waiting.pop(0)
             if self.weight > 0:
                 most = HUBER * self.scale * float(np.hypot(noise, self.weight**-0.5))
-                self.scatter.append((factor - self.mean) / float(np.hypot(noise, self.weight**-0.5)))
                 factor = float(np.clip(factor, self.mean - most, self.mean + most))
             self.weight += noise**-2
             self.weighted += factor * noise**-2
@@ -111,8 +117,7 @@ class Detector:
         self._start_anew()
 
     def _start_anew(self) -> None:
-        scatter = {kind: baseline.scatter for kind, baseline in self._baselines.items()}
-        self._baselines = {kind: _Baseline(scatter=scatter[kind]) for kind in KINDS}
+        self._baselines = {kind: _Baseline(scatter=old.scatter, last=old.last) for kind, old in self._baselines.items()}
         self._sums = np.zeros(2)  # of a rise, of a fall
         self._since: tuple[list[tuple[Apparent, float, float]], ...] = ([], [])
 

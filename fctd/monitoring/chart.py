@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final, Literal, NamedTuple
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet
@@ -18,6 +17,9 @@ from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, weight_
 from fctd.model.wellbore import build_wellbore
 from fctd.monitoring.stretches import OF_KIND, Mode
 from fctd.steady.equilibrium import Solver
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
 
 Array = NDArray[np.float64]
 Fit = Literal["open", "cased", "all"]
@@ -111,7 +113,7 @@ class Chart:
     def curve(self, mode: Mode, depth: float, factor: float, rpm: float = float("nan")) -> float:
         """The reading at a depth and a factor within `FACTORS`; NaN without a balance."""
         x, y = _monotone(FACTORS, self.readings(mode, depth, rpm)[:-1])
-        return float(PchipInterpolator(x, y, extrapolate=False)(factor)) if len(x) > 1 else float("nan")
+        return float(_cubic(x, y)(factor, extrapolate=False)) if len(x) > 1 else float("nan")
 
     def invert(self, mode: Mode, depth: float, reading: float, rpm: float) -> Inverse | None:
         """The factor of a reading; None where the chart has no two loads there or the load does not depend on it.
@@ -139,7 +141,7 @@ class Chart:
         if loads[0] > loads[-1]:
             factors, loads = factors[::-1], loads[::-1]
         by_other = (found[-1] - found[2]) / CASED_STEP if self.fit != "all" else 0.0
-        return PchipInterpolator(loads, factors), float(np.nan_to_num(by_other))
+        return _cubic(loads, factors), float(np.nan_to_num(by_other))
 
     def slips_below(self, depth: Array) -> Array:
         """Weight indicator below which the string hangs in the slips: the block and half the string's weight [N]."""
@@ -194,6 +196,12 @@ class Chart:
         except InputError:
             return float("nan"), float("nan")
         return (point.hookload, point.surface_torque) if point.answered else (float("nan"), float("nan"))
+
+
+def _cubic(x: Array, y: Array) -> PchipInterpolator:
+    from scipy.interpolate import PchipInterpolator  # slow to import, and other commands do without
+
+    return PchipInterpolator(x, y)
 
 
 def _monotone(factors: Array, loads: Array) -> tuple[Array, Array]:

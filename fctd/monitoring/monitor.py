@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from os import PathLike
+from typing import Final
 
 import numpy as np
 import pandas as pd
@@ -17,6 +18,14 @@ from fctd.monitoring.friction import Apparent, Uncertainty, apparent
 from fctd.monitoring.rows import Cleaner
 from fctd.monitoring.series import read_series
 from fctd.monitoring.stretches import Finder, Rules, Stretch, by_depth
+
+READINGS: Final = {"weight_indicator": "N", "drive_torque": "N_m"}
+ENDS: Final = ("_p25", "", "_p75", "_error")
+COLUMNS: Final = (
+    "mode", "start_s", "end_s", "first_row", "last_row", "bit_depth_m", "samples", "rpm", "speed_m_s", "flow_m3_s",
+    *(f"{name}{end}_{unit}" for name, unit in READINGS.items() for end in ENDS),
+    "friction", "friction_low", "friction_high", "friction_baseline", "friction_baseline_error", "left_out",
+)  # fmt: skip
 
 
 class Monitor:
@@ -74,23 +83,14 @@ class Monitor:
         rows = []
         for reading, (baseline, error) in zip(self.found, self._bands, strict=True):
             s = reading.stretch
-            row: dict[str, object] = {
-                "mode": s.mode, "start_s": s.start, "end_s": s.end, "first_row": s.first_row, "last_row": s.last_row,
-                "bit_depth_m": s.bit_depth, "samples": s.samples, "rpm": s.rpm, "speed_m_s": s.speed,
-                "flow_m3_s": s.flow,
-            }  # fmt: skip
-            for name, unit, values in (("weight_indicator", "N", s.hook_load), ("drive_torque", "N_m", s.torque)):
-                row |= {
-                    f"{name}{end}_{unit}": value
-                    for end, value in zip(("_p25", "", "_p75", "_error"), values, strict=True)
-                }
-            row |= {"friction": reading.factor, "friction_low": reading.low, "friction_high": reading.high}
-            row |= {"friction_baseline": baseline, "friction_baseline_error": error, "left_out": reading.left_out}
-            rows.append(row)
-        return pd.DataFrame(rows, columns=None if rows else COLUMNS)
-
-
-COLUMNS = ("mode", "bit_depth_m", "samples", "friction", "friction_low", "friction_high", "left_out")
+            rows.append(
+                (
+                    s.mode, s.start, s.end, s.first_row, s.last_row, s.bit_depth, s.samples, s.rpm, s.speed, s.flow,
+                    *s.hook_load, *s.torque, reading.factor, reading.low, reading.high, baseline, error,
+                    reading.left_out,
+                )
+            )  # fmt: skip
+        return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 @dataclass(frozen=True)

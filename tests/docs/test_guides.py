@@ -37,6 +37,7 @@ SHORT_WINDOW = "--start 5 --duration 1.5"
 PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],
     "adding_a_contact_method.md": ["completed straight_down"],
+    "monitor.md": ["friction_low", "the apparent friction factor is"],
     "references.md": ["valid 42", "settled hook load"],
     "steady.md": ["converged", "trip_out"],
     "time.md": ["completed", "[0.04205]"],

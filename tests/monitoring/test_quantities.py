@@ -5,10 +5,10 @@ import pytest
 from fctd.case.errors import InputError
 from fctd.monitoring.quantities import QUANTITIES, check_columns, count_quantities, find_columns, parse_columns
 
-REAL = (
-    "date,Hole Depth (MD) m,Bit Depth (MD) m,Block Position m,Mud Flow In L/min,Average Hookload kkgf,"
-    "Average Surface Torque kN.m,Average Rotary Speed rpm,Weight on Bit kkgf,Rate of Penetration m/h"
-).split(",")
+REAL = [
+    "date", "Hole Depth (MD) m", "Bit Depth (MD) m", "Block Position m", "Mud Flow In L/min", "Average Hookload kkgf",
+    "Average Surface Torque kN.m", "Average Rotary Speed rpm", "Weight on Bit kkgf", "Rate of Penetration m/h",
+]  # fmt: skip
 
 
 def test_the_headers_of_a_real_file() -> None:

@@ -48,5 +48,5 @@ def test_a_cell_that_is_no_number_is_named() -> None:
 
 def test_an_unknown_operation_is_named() -> None:
     table = read_text("bit_depth_m,operation,hook_load_kN,torque_kN_m\n100,trip_inn,500,2", {})
-    with pytest.raises(InputError, match="row 2, operation.*trip_in"):
+    with pytest.raises(InputError, match=r"row 2, operation.*trip_in"):
         Cleaner().take(table)

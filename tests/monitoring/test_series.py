@@ -22,7 +22,7 @@ def test_kinds(content: str, rows: int, tmp_path: Path) -> None:
 def test_other_files_are_refused_by_name(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / "series.dat"
     path.write_bytes(content)
-    with pytest.raises(InputError, match="series.dat"):
+    with pytest.raises(InputError, match=r"series\.dat"):
         read_series(path)
 
 

@@ -107,7 +107,9 @@ def test_without_hole_depth_weight_on_bit_or_the_deepest_row_tell_the_bottom() -
 
 def test_pieces_give_what_the_whole_gives() -> None:
     table = pd.concat([rows(), rows(0.1, rpm=0.0), rows(-0.1), rows(weight_indicator_N=120e3)])
-    table = table.assign(time_s=4.0 * np.arange(len(table)), block_position_m=np.cumsum(table["block_position_m"].diff().fillna(0)))
+    table = table.assign(
+        time_s=4.0 * np.arange(len(table)), block_position_m=np.cumsum(table["block_position_m"].diff().fillna(0))
+    )
     finder, pieces = Finder(Plain(), Rules()), []
     for k in range(0, len(table), 7):
         pieces += list(finder.feed(table.iloc[k : k + 7]))

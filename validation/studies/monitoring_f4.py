@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -25,8 +26,8 @@ def f4(folder: Path) -> Case:
     """Well 15/9-F-4 with the string of its 12¼ in section.
 
     Survey, casing, mud and drill pipe are recorded.  Collars and block weight are assumed so that the string weighs
-    what the hook carries near 1,400 m, 60 t, and the block what it reads in slips, 66 t.  The torque offset is the reading
-    with no rotation, 0.5 kN m; torque for each rev/min is that between 6.1 kN m at 60 and 8 kN m at 130 rev/min, as the
+    what the hook carries near 1,400 m, 60 t, and the block what it reads in slips, 66 t.  The torque offset is the
+    reading with no rotation, 0.5 kN m; torque for each rev/min is that between 6.1 kN m at 60 and 8 kN m at 130 rev/min, as the
     data's notes say; the friction of the casing, 0.12, is a guess.  None of them enters the medians of stretches, but
     for the limit of slips, half way between block and string.
     """
@@ -63,13 +64,16 @@ def run(context: Context) -> Outcome:
         for row in found.stretch.rows:
             pooled[found.stretch.mode, BIN * np.floor(row[0] / BIN)].append(row)
     bins = pd.read_csv(declare(folder / "offbottom_bins_25m.csv"))
-    rows = [_compared(one, pooled) for one in bins[bins["mode"].isin(list(MODES))].to_dict("records")]
+    rows = [_compared(one, pooled) for _, one in bins[bins["mode"].isin(list(MODES))].iterrows()]
     table = pd.DataFrame(rows)
     within = float(table["within"].mean())
     result = result_of(watch)
     stretches = result.stretches.drop(columns=["start_s", "end_s"])
     return Outcome(
-        tables={"bins": table, "distance": _by_distance(series, table), "stretches": stretches, "alarms": pd.DataFrame([vars(a) for a in result.alarms])},
+        tables={
+            "bins": table, "distance": _by_distance(series, table), "stretches": stretches,
+            "alarms": pd.DataFrame([vars(alarm) for alarm in result.alarms]),
+        },
         checks=[
             Check("bins of rotation and slips whose medians lie within the quartiles or 2 %", within, 0.8, "at_least",
                   "", "target: 80 % of the bins"),
@@ -77,9 +81,9 @@ def run(context: Context) -> Outcome:
         notes=[
             f"{int(table['within'].sum())} of {len(table)} bins. A bin without a stretch counts as missed. The rule "
             "behind the bins is not recorded.",
-            "Torque of the standing, turning string falls with the distance off bottom, up to about a metre: in missed bins "
-            "of standing rotation the other hand has counted rows nearer to the bottom than the 1 m asked for here, or rows "
-            "in which the rotation was not yet settled.",
+            "Torque of the standing, turning string falls with the distance off bottom, up to about a metre: in missed "
+            "bins of standing rotation the other hand has counted rows nearer to the bottom than the 1 m asked for "
+            "here, or rows in which the rotation was not yet settled.",
             *result.told,
             *(f"Alarm: {alarm.sentence}." for alarm in result.alarms),
         ],
@@ -108,7 +112,7 @@ def _by_distance(series: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _compared(one: dict[str, float], pooled: dict[tuple[str, float], list[np.ndarray]]) -> dict[str, object]:
+def _compared(one: "pd.Series[Any]", pooled: dict[tuple[str, float], list[np.ndarray]]) -> dict[str, object]:
     """A bin beside the stretches in it: in slips the hook load is judged, in rotation the torque and the hook load."""
     mode = MODES[str(one["mode"])]
     rows = np.array(pooled.get((mode, float(one["bit_depth_from_m"])), np.empty((0, 3)))).reshape(-1, 3)
