@@ -28,7 +28,7 @@ FIRST: Final = 3  # readings of a kind before its baseline judges others
 LAG: Final = 3
 HUBER: Final = 2.0
 SCATTER_OF: Final = 5  # differences of a kind from which its scatter is estimated
-SPREAD_OF_MEDIAN: Final = 1.17  # times 1/√n: relative standard deviation of a scatter estimated by a median
+CHANCE: Final = 0.6  # times 1/√n: half the relative standard deviation of a scatter estimated by a median
 KINDS: Final = ("rotation", "pick_up", "slack_off")
 
 
@@ -82,11 +82,11 @@ class _Baseline:
 
     @property
     def scale(self) -> float:
-        """How much more the readings scatter than their standard deviations say, at least and by no chance: 1 or more."""
+        """How much more the readings scatter than their standard deviations say: 1 or more, and hardly by chance."""
         if len(self.scatter) < SCATTER_OF:
             return 1.0
         found = 1.4826 * float(np.median(np.abs(self.scatter)))
-        return max(1.0, found / (1 + SPREAD_OF_MEDIAN * len(self.scatter) ** -0.5))
+        return max(1.0, found / (1 + CHANCE * len(self.scatter) ** -0.5))
 
     def take(self, factor: float, noise: float) -> None:
         """Keep a reading back, and let the one that has waited longest enter."""

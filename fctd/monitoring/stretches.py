@@ -91,8 +91,8 @@ class Stretch:
     """A stretch with its readings [SI].
 
     start, end : times [s]; first_row, last_row : in the file; samples : settled rows; torque : of the drive;
-    hook_load : of the weight indicator; rpm, speed (upwards positive), flow : medians; left_out : why no factor is to be
-    found from it, else empty.  rows : the settled rows, with bit depth, hook load and torque.
+    hook_load : of the weight indicator; rpm, speed (upwards positive), flow : medians; left_out : why it tells no
+    friction factor, else empty.  rows : the settled rows, with bit depth, hook load and torque.
     """
 
     mode: Mode

@@ -27,9 +27,9 @@ def f4(folder: Path) -> Case:
 
     Survey, casing, mud and drill pipe are recorded.  Collars and block weight are assumed so that the string weighs
     what the hook carries near 1,400 m, 60 t, and the block what it reads in slips, 66 t.  The torque offset is the
-    reading with no rotation, 0.5 kN m; torque for each rev/min is that between 6.1 kN m at 60 and 8 kN m at 130 rev/min, as the
-    data's notes say; the friction of the casing, 0.12, is a guess.  None of them enters the medians of stretches, but
-    for the limit of slips, half way between block and string.
+    reading with no rotation, 0.5 kN m; torque for each rev/min is that between 6.1 kN m at 60 and 8 kN m at 130
+    rev/min, as the data's notes say; the friction of the casing, 0.12, is a guess.  None of them enters the medians of
+    stretches, but for the limit of slips, half way between block and string.
     """
     stations = pd.read_csv(declare(folder / "survey.csv"))[["md_m", "inc_deg", "azi_deg"]].to_numpy().tolist()
     intervals = [
