@@ -1,7 +1,7 @@
 """``fctd monitor CASE SERIES``: apparent friction factors over depth from the rig's readings, and alarms."""
 
-import time
 from pathlib import Path
+from time import sleep
 from typing import Annotated
 
 import numpy as np
@@ -138,7 +138,7 @@ def _follow(watch: Monitor, tail: Tail, poll: float, units: System) -> None:
                 _print_alarms(watch.feed(rows), units)
         except InputError as error:
             raise error.in_file(tail.path) from None
-        time.sleep(poll)
+        sleep(poll)
 
 
 def _print_alarms(alarms: list[Alarm], units: System) -> None:

@@ -1,6 +1,5 @@
 """``fctd monitor``: tables, alarms, growing files, refusals."""
 
-import time
 from pathlib import Path
 
 import pandas as pd
@@ -8,8 +7,9 @@ import pytest
 
 from fctd.cli import monitor
 from tests.cli.test_main import run
-from tests.monitoring.made import readings, series
+from tests.monitoring.made import readings, series, shared_chart
 
+# That of tests.monitoring.made, whose chart the tests share.
 CASE = """
 name = "inclined"
 [wellbore]
@@ -38,7 +38,8 @@ torque_offset = "500 N*m"
 
 
 @pytest.fixture
-def case_file(tmp_path: Path) -> Path:
+def case_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr("fctd.monitoring.monitor.Chart", shared_chart)
     path = tmp_path / "inclined.toml"
     path.write_text(CASE)
     return path
@@ -125,11 +126,10 @@ def test_a_growing_file_is_followed_until_ctrl_c(
         with series_file.open("a") as file:
             file.write(parts.pop(0))
 
-    monkeypatch.setattr(monitor.time, "sleep", grow)
+    monkeypatch.setattr(monitor, "sleep", grow)
     followed, read = case_file.with_name("followed.csv"), case_file.with_name("read.csv")
     assert run(monkeypatch, "monitor", case_file, series_file, "--follow", "--out", followed, "--quiet") == 130
     alarms = capsys.readouterr().out.splitlines()[0]
-    monkeypatch.setattr(monitor.time, "sleep", time.sleep)
     assert run(monkeypatch, "monitor", case_file, series_file, "--out", read, "--quiet") == 0
     assert capsys.readouterr().out.splitlines()[0] == alarms
     pd.testing.assert_frame_equal(pd.read_csv(followed), pd.read_csv(read))

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from fctd.case.load import Case
-from fctd.monitoring.chart import Chart
+from fctd.monitoring.chart import Chart, Fit
 from fctd.monitoring.synthetic import over_time, raised, steady_readings, with_noise
 from tests.cases import make_case, pipe
 
@@ -34,10 +34,15 @@ def chart() -> Chart:
     return Chart(well())
 
 
+def shared_chart(case: Case, fit: Fit | None) -> Chart:
+    """In place of a chart of a case with the hole of ``well``, so that it is solved once for all tests."""
+    return chart() if fit is None else Chart(case, fit)
+
+
 @cache
 def readings() -> pd.DataFrame:
     """By depth, without noise; the open hole has a half more friction from ``STEP_AT`` on."""
-    depths = np.arange(640.0, 990.0, 20.0)
+    depths = np.arange(640.0, 990.0, 25.0)
     before, behind = list(depths[depths < STEP_AT]), list(depths[depths >= STEP_AT])
     parts = [steady_readings(well(), before), steady_readings(raised(well(), 0.5), behind)]
     return pd.concat(parts, ignore_index=True)

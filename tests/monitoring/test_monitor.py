@@ -7,14 +7,19 @@ import pytest
 import fctd
 from fctd.case.errors import InputError
 from fctd.monitoring.monitor import Monitor, result_of
-from tests.monitoring.made import BLOCK, STEP_AT, readings, series, well
+from tests.monitoring.made import BLOCK, STEP_AT, readings, series, shared_chart, well
+
+
+@pytest.fixture(autouse=True)
+def _one_chart(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("fctd.monitoring.monitor.Chart", shared_chart)
 
 
 def test_a_step_is_found_over_time_and_by_depth() -> None:
     for table in (series(), readings()):
         found = fctd.monitor(well(), table)
         (alarm,) = found.alarms
-        assert STEP_AT - 40 <= alarm.start <= alarm.found <= STEP_AT + 60  # two and three stands of 20 m
+        assert STEP_AT - 40 <= alarm.start <= alarm.found <= STEP_AT + 75  # two and three stands of 25 m
         assert alarm.size == pytest.approx(0.15, abs=0.06)
 
 
@@ -30,8 +35,8 @@ def test_factors_of_a_series_over_time() -> None:
 
 def test_pieces_give_what_the_whole_gives() -> None:
     whole, watch, at_once = fctd.monitor(well(), series()), Monitor(well()), []
-    for k in range(0, len(series()), 97):
-        at_once += watch.feed(series().iloc[k : k + 97])
+    for k in range(0, len(series()), 211):
+        at_once += watch.feed(series().iloc[k : k + 211])
     at_once += watch.finish()
     pieces = result_of(watch)
     assert tuple(at_once) == whole.alarms

@@ -6,7 +6,12 @@ pytest.importorskip("matplotlib")
 
 from fctd.monitoring.monitor import monitor
 from fctd.plots.monitor import monitor_figure
-from tests.monitoring.made import readings, series, well
+from tests.monitoring.made import readings, series, shared_chart, well
+
+
+@pytest.fixture(autouse=True)
+def _one_chart(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("fctd.monitoring.monitor.Chart", shared_chart)
 
 
 def test_panels_curves_bands_and_alarms() -> None:
