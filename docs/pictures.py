@@ -47,6 +47,12 @@ def chart() -> Figure:
     return plots.chart_figure(fctd.torque_drag(case, kinds, range(1750, 2451, 25)), "si", case)
 
 
+def monitor() -> Figure:
+    """The readings of the example, whose open hole has a quarter more friction from 2,200 m on."""
+    case = fctd.load_case(WELL)
+    return plots.monitor_figure(fctd.monitor(case, ROOT / "examples" / "my_readings.csv"), case)
+
+
 def public_well() -> Figure:
     """Well 15/9-F-4 over depth, from the tables of the study `volve_f4`."""
     return volve_f4.chart(_tables("curves", "points"))
@@ -62,7 +68,7 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
 
 
 PICTURES: dict[str, Callable[[], Figure]] = {
-    "overview": overview, "chart": chart, "public_well": public_well, "judged_rows": judged_rows,
+    "overview": overview, "chart": chart, "monitor": monitor, "public_well": public_well, "judged_rows": judged_rows,
 }  # fmt: skip
 # Those drawn from the stored study of a public well, whose data are not part of the project.
 STUDY = ROOT / "validation" / "results" / "volve_f4"

@@ -5,6 +5,7 @@
     for record in fctd.Simulation(case): print(record["hookload_N"])
     point = fctd.equilibrium(case, operation="trip_out", bit_depth="8000 ft")
     chart = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
+    found = fctd.monitor(case, "readings.csv")
     finer = fctd.refine(case, tolerance=0.01).case
     fitted = fctd.calibrate(case, "measured.csv", ["friction.open", "rig.block_weight"]).case
 
@@ -19,6 +20,7 @@ with ends_program():
     from fctd.case.errors import InputError
     from fctd.case.load import Case, load_case
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
+    from fctd.monitoring.monitor import Monitored, monitor
     from fctd.results.tables import SimulationResult, open_result
     from fctd.simulation.simulate import Simulation, simulate
     from fctd.steady.equilibrium import Equilibrium, equilibrium
@@ -31,6 +33,7 @@ __all__ = [
     "Contacts",
     "Equilibrium",
     "InputError",
+    "Monitored",
     "Refinement",
     "Simulation",
     "SimulationResult",
@@ -40,6 +43,7 @@ __all__ = [
     "equilibrium",
     "find_contacts",
     "load_case",
+    "monitor",
     "open_result",
     "predict",
     "refine",

@@ -15,6 +15,7 @@ from fctd.cli.equilibrium import equilibrium_command
 from fctd.cli.init import init_command
 from fctd.cli.interrupts import as_interrupts
 from fctd.cli.manners import HELP, Command, application
+from fctd.cli.monitor import monitor_command
 from fctd.cli.options import (
     BAD_INPUT,
     INTERRUPTED,
@@ -44,6 +45,9 @@ app.command("chart", cls=Command)(naming_options(chart_command, {"bit_depth": "-
 app.command("refine", cls=Command)(naming_options(refine_command, {"bit_depth": "--bit-depth"}))
 app.command("calibrate", cls=Command)(naming_options(calibrate_command, CALIBRATION))
 app.command("predict", cls=Command)(naming_options(predict_command, CALIBRATION))
+app.command("monitor", cls=Command)(
+    naming_options(monitor_command, {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"})
+)
 app.command("compile", cls=Command)(compile_command)
 
 

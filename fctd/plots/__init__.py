@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fctd.plots.calibration import calibration_figure, prediction_figure
     from fctd.plots.chart import chart_figure
+    from fctd.plots.monitor import monitor_figure
     from fctd.plots.page import chart_page, profile_page, save_page
     from fctd.plots.profile import profile_figure
     from fctd.plots.style import RC, save
@@ -19,6 +20,7 @@ __all__ = [
     "calibration_figure",
     "chart_figure",
     "chart_page",
+    "monitor_figure",
     "prediction_figure",
     "profile_figure",
     "profile_page",
@@ -31,6 +33,7 @@ _HOMES = {
     "calibration_figure": "calibration",
     "chart_figure": "chart",
     "chart_page": "page",
+    "monitor_figure": "monitor",
     "prediction_figure": "calibration",
     "profile_figure": "profile",
     "profile_page": "page",

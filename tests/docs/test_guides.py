@@ -39,6 +39,7 @@ PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],
     "calibrate.md": ["friction.cased", "inside95"],
     "adding_a_contact_method.md": ["completed straight_down"],
+    "monitor.md": ["friction_low", "the apparent friction factor is"],
     "references.md": ["valid 42", "settled hook load"],
     "steady.md": ["converged", "trip_out"],
     "time.md": ["completed", "[0.04205]"],

@@ -36,4 +36,6 @@ STUDIES: dict[str, str] = {
     "buckled_wells": "validation.studies.buckled_wells",
     "refine_real": "validation.studies.refine_real",
     "calibration": "validation.studies.calibration",
+    "monitoring": "validation.studies.monitoring",
+    "monitoring_f4": "validation.studies.monitoring_f4",
 }

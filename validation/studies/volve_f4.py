@@ -222,7 +222,8 @@ def notes(tables: Mapping[str, pd.DataFrame], fits: Mapping[str, Frozen]) -> lis
         f"{value('rig', 'rig.block_weight', 1e3, 0)} kN in slips; rotating up against rotating down gives a sheave "
         f"efficiency of {value('rig', 'rig.sheave_efficiency', 1, 3)}; 60 against 130 rev/min give "
         f"{value('rig', 'rig.torque_per_rpm', 1, 0)} N m of torque a rev/min.",
-        "What it does not say is friction: its string hangs nearly straight. Model A has a cased factor of "
+        "What it does not say is cased friction: in all of its rows the same 1351 m of string lie in casing, so that "
+        "friction there and the torque offset have nearly the same effect. Model A has a cased factor of "
         f"{value('A', 'friction.cased')} with a torque offset of {value('A', 'rig.torque_offset', 1e3, 1)} kN m, "
         f"correlation {pair:.2f}; 60 rev/min alone gives {value('A, 60 rpm alone', 'friction.cased')} and 130 rev/min "
         f"{value('A, 130 rpm alone', 'friction.cased')}. It predicts {torques['median'].min():.0f} to "
@@ -234,6 +235,8 @@ def notes(tables: Mapping[str, pd.DataFrame], fits: Mapping[str, Frozen]) -> lis
         "bound: the string as it is described is heavier than what hung on the hook.",
         "Not in the model, and not tried: the lift of running pumps (the reports record no pressure), drag of scraper "
         "springs, cuttings, friction that depends on the sliding speed.",
+        "The frozen values are those of a loss that is linear beyond one standard deviation; the tool's is now linear "
+        "beyond three, and a repeated fit differs (table `repeated`).",
         "The author of the split had seen the series and the torques of F4-06 and F4-10 before the first commit, and "
         "no weight of a daily report.",
         "Data: Volve data village, Equinor and partners: surveys, daily drilling reports, and a 4-second series by way "

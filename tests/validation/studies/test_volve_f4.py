@@ -16,7 +16,8 @@ from validation.parts.volve_f4_fits import Frozen, frozen, setup_of, setup_of_b
 from validation.parts.volve_f4_judging import predict
 from validation.parts.volve_f4_rows import FOLDER, REPORTS, TONNE, report_rows
 
-HEADER = "id,bit_depth_m,rpm,torque_low_kN_m,torque_high_kN_m,up_weight_t,down_weight_t,rotating_weight_t\n"  # those that are read
+# Columns that are read.
+HEADER = "id,bit_depth_m,rpm,torque_low_kN_m,torque_high_kN_m,up_weight_t,down_weight_t,rotating_weight_t\n"
 
 
 def test_no_row_both_fits_and_judges() -> None:
