@@ -10,8 +10,8 @@ ROOT = Path(__file__).parents[2]
 SCRIPTS = sorted((ROOT / "examples").glob("*.py"))
 
 
-def test_there_are_nine() -> None:
-    assert len(SCRIPTS) == 9
+def test_there_are_ten() -> None:
+    assert len(SCRIPTS) == 10
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
