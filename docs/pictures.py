@@ -4,10 +4,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib as mpl
+import pandas as pd
 from matplotlib.figure import Figure
 
 import fctd
 from fctd import plots
+from reports.figures import volve_f4
 
 ROOT = Path(__file__).parents[1]
 WELL = ROOT / "examples" / "my_well.toml"
@@ -45,7 +47,32 @@ def chart() -> Figure:
     return plots.chart_figure(fctd.torque_drag(case, kinds, range(1750, 2451, 25)), "si", case)
 
 
-PICTURES: dict[str, Callable[[], Figure]] = {"overview": overview, "chart": chart}
+def monitor() -> Figure:
+    """The readings of the example, whose open hole has a quarter more friction from 2,200 m on."""
+    case = fctd.load_case(WELL)
+    return plots.monitor_figure(fctd.monitor(case, ROOT / "examples" / "my_readings.csv"), case)
+
+
+def public_well() -> Figure:
+    """Well 15/9-F-4 over depth, from the tables of the study `volve_f4`."""
+    return volve_f4.chart(_tables("curves", "points"))
+
+
+def judged_rows() -> Figure:
+    """The judged rows of well 15/9-F-4 with their predicted bands."""
+    return volve_f4.rows(_tables("rows"))
+
+
+def _tables(*names: str) -> dict[str, pd.DataFrame]:
+    return {name: pd.read_parquet(STUDY / f"{name}.parquet") for name in names}
+
+
+PICTURES: dict[str, Callable[[], Figure]] = {
+    "overview": overview, "chart": chart, "monitor": monitor, "public_well": public_well, "judged_rows": judged_rows,
+}  # fmt: skip
+# Those drawn from the stored study of a public well, whose data are not part of the project.
+STUDY = ROOT / "validation" / "results" / "volve_f4"
+FROM_STUDY = ("public_well", "judged_rows")
 
 
 def draw(name: str, folder: Path) -> Path:

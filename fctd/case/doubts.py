@@ -60,6 +60,7 @@ YIELD: Final = Range("Pa", 50e6, 3e9, "50 to 3000 MPa", (Slip(50, 3000, " MPa"),
 BIT_LOAD: Final = Range("N", 1e3, 2e6, "1 kN to 2 MN", (Slip(1, 999, " kN"),))
 BIT_TORQUE: Final = Range("N*m", 20, 200e3, "20 N*m to 200 kN*m", (Slip(0.5, 19.99, " kN*m"),))
 BLOCK: Final = Range("N", 1e3, 5e6, "1 kN to 5 MN", (Slip(10, 999, " kN"),))
+GUIDES: Final = Range("N", 100, 200e3, "0.1 to 200 kN", (Slip(0.1, 99, " kN"),))
 OFFSET: Final = Range("N*m", 5, 50e3, "5 N*m to 50 kN*m", (Slip(0.1, 4.99, " kN*m"),))
 ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
 NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
@@ -227,8 +228,9 @@ def bit_load(case: Well, kinds: set[str]) -> Doubts:
 
 
 def rig_loads(rig: RigSpec) -> Doubts:
-    """Block weight and torque offset in a wrong unit, and sheaves that lose too much."""
+    """Block weight, friction and torque offset in a wrong unit, and sheaves that lose too much."""
     yield from _outside("rig_load", "rig.block_weight", rig.block_weight, "a block weight", BLOCK)
+    yield from _outside("rig_load", "rig.guide_friction", rig.guide_friction, "friction of the guides", GUIDES)
     yield from _outside("rig_load", "rig.torque_offset", abs(rig.torque_offset), "a torque offset", OFFSET)
     if rig.sheave_efficiency < LEAST_EFFICIENCY:
         yield InputWarning(

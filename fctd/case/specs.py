@@ -297,15 +297,24 @@ class MudSpec(Table):
 
 
 class RigSpec(Table):
-    """Loads that the rig's sensors read in addition to those of the string: block weight [N], torque offset [N*m].
+    """What the rig's sensors read in addition to the loads of the string.
 
-    Friction in the sheaves divides the weight indicator by `sheave_efficiency` while the block is lowered, and
-    multiplies it by `sheave_efficiency` while the block is hoisted.
+    Block weight [N], friction in the guides of the block [N], torque offset [N*m], and `torque_per_rpm`, a torque that
+    grows with the rotation [N*m for each rev/min].  Friction in the guides acts against the block's motion: it adds to
+    the weight indicator while the block is hoisted.  Friction in the sheaves divides the weight indicator by
+    `sheave_efficiency` while the block is lowered, and multiplies it by `sheave_efficiency` while the block is hoisted.
     """
 
     block_weight: units.Force = 0.0
+    guide_friction: units.Force = 0.0
     sheave_efficiency: units.Efficiency = 1.0
     torque_offset: units.Torque = 0.0
+    torque_per_rpm: units.Torque = 0.0
+
+    @property
+    def push(self) -> float:
+        """The largest push on the string [N]: the block's weight without what its guides hold back."""
+        return self.block_weight - self.guide_friction
 
 
 class BitSpec(Table):

@@ -98,6 +98,8 @@ DAMPING: Final = Dimension("a damping coefficient", "N*s/m", "'1e4 N*s/m'", ("N*
 DAMPING_PER_LENGTH: Final = Dimension(
     "a damping coefficient per length", "N*s/m^2", "'5 N*s/m^2'", ("N*s/m^2", "lbf*s/ft^2")
 )
+FLOW: Final = Dimension("a flow rate", "m^3/s", "'2000 L/min' or '500 gpm'", ("m^3/s", "L/s", "L/min", "gpm"),
+                              {"gpm": "(gallon/minute)", "lpm": "(liter/minute)"})  # fmt: skip
 ROTATIONAL_DAMPING: Final = Dimension("a rotational damping per length", "N*s", "'0.1 N*s'", ("N*s", "lbf*s"))
 
 

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 PAGE = ".html"
-PICTURES = (".png", ".svg", ".pdf", PAGE)
+DRAWN = (".png", ".svg", ".pdf")
+PICTURES = (*DRAWN, PAGE)
 PICTURE_HELP = ".png, .svg, .pdf, or .html with values under the pointer"
 # Package and extra by suffix; matplotlib for the others.
 _NEEDS = {PAGE: ("plotly", "html"), ".xlsx": ("xlsxwriter", "excel")}
@@ -46,11 +47,11 @@ def check_package(path: Path | None, key: str) -> None:
         raise InputError(expected, key=key, value=path) from None
 
 
-def check_pictures(targets: Mapping[str, Path | None]) -> None:
+def check_pictures(targets: Mapping[str, Path | None], suffixes: Sequence[str] = PICTURES) -> None:
     """Raise InputError for a picture that cannot be written, before anything is computed."""
     wanted = {key: path for key, path in targets.items() if path is not None}
     for key, path in wanted.items():
-        check_target(path, key, PICTURES)
+        check_target(path, key, suffixes)
     if len({path.resolve() for path in wanted.values()}) < len(wanted):
         raise InputError("a file of its own for each picture", key=key, value=path)
     for key, path in wanted.items():

@@ -1,13 +1,14 @@
 """The schedule of the rig: the operations of a case as phases of constant or ramped feed and rotation."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case
 from fctd.case.operations import KINDS, Operation, RotateOffBottom
+from fctd.case.specs import RigSpec
 from fctd.case.units import FASTEST, MOST_RPM, ROTATION, SPEED, argument
 from fctd.mechanics.topdrive import Motion
 
@@ -77,15 +78,24 @@ def depth_range(case: Case) -> tuple[float, float, float]:
     return depths[0], min(depths), max(depths)
 
 
-def sensors(case: Case, kind: str, hookload: float, torque: float) -> tuple[float, float]:
-    """Weight indicator [N] and drive torque [N m]: readings of the rig for a hook load [N] and a surface torque [N m].
+def weight_indicator(rig: RigSpec, direction: Any, hookload: Any) -> Any:
+    """Reading of the weight indicator [N] for a hook load of the string [N]; scalars, or series of one shape.
 
-    Sheave friction lowers the dead line's tension while the block is hoisted, and raises it while the block is
-    lowered, as in drilling.
+    direction : of the string, 1 down, −1 up, 0 at rest.  Friction of the sheaves lowers the dead line's tension while
+    the block is hoisted, and raises it while the block is lowered, as in drilling; friction of the block's guides acts
+    against its motion.
     """
-    rig = case.rig
-    indicator = (hookload + rig.block_weight) * rig.sheave_efficiency ** -KINDS[kind].direction
-    return indicator, torque + rig.torque_offset
+    return (hookload + rig.block_weight - direction * rig.guide_friction) * rig.sheave_efficiency ** (-direction)
+
+
+def string_load(rig: RigSpec, direction: Any, indicator: Any) -> Any:
+    """The hook load of the string [N] at a reading of the weight indicator [N]: the inverse of it."""
+    return indicator * rig.sheave_efficiency**direction - rig.block_weight + direction * rig.guide_friction
+
+
+def drive_torque(rig: RigSpec, spin: float, torque: float) -> float:
+    """Reading of the top drive's torque [N m] for a surface torque [N m] at a rotation [rad/s]."""
+    return torque + rig.torque_offset + rig.torque_per_rpm * spin / rad_per_s(1.0)
 
 
 class SteadyRates(NamedTuple):

@@ -1,4 +1,4 @@
-"""Pictures and pages of steady strings: the torque-and-drag chart, and the profile of a string from top to bit.
+"""Pictures and pages of steady strings: the torque-and-drag chart, the profile of a string, and calibrations.
 
 Pictures need matplotlib (the package's extra ``plot``), pages plotly (``html``); each is imported where it is asked
 for, and nothing else of the package needs them.
@@ -8,19 +8,36 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fctd.plots.calibration import calibration_figure, prediction_figure
     from fctd.plots.chart import chart_figure
     from fctd.plots.loads import ChartLook
+    from fctd.plots.monitor import monitor_figure
     from fctd.plots.page import chart_page, profile_page, save_page
     from fctd.plots.profile import profile_figure
     from fctd.plots.style import RC, save
 
-__all__ = ["RC", "ChartLook", "chart_figure", "chart_page", "profile_figure", "profile_page", "save", "save_page"]
+__all__ = [
+    "RC",
+    "ChartLook",
+    "calibration_figure",
+    "chart_figure",
+    "chart_page",
+    "monitor_figure",
+    "prediction_figure",
+    "profile_figure",
+    "profile_page",
+    "save",
+    "save_page",
+]
 
 _HOMES = {
     "RC": "style",
     "ChartLook": "loads",
+    "calibration_figure": "calibration",
     "chart_figure": "chart",
     "chart_page": "page",
+    "monitor_figure": "monitor",
+    "prediction_figure": "calibration",
     "profile_figure": "profile",
     "profile_page": "page",
     "save": "style",

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.model.operations import SteadyRates, sensors
+from fctd.model.operations import SteadyRates, weight_indicator
 from fctd.results.measured import measured_column
 from fctd.results.series import Series, frictions_of, in_words
 from fctd.results.status import SteadyStatus
@@ -88,9 +88,9 @@ def groups_of(series: list[Series]) -> list[tuple[str, list[Series]]]:
     return by_operation if len(by_operation) < len(by_friction) else by_friction
 
 
-def block_of(case: Case | None) -> float:
-    """Weight of the block [N]; 0 without a case."""
-    return 0.0 if case is None else case.rig.block_weight
+def push_of(case: Case | None) -> float:
+    """The largest push of the block on the string [N]; 0 without a case."""
+    return 0.0 if case is None else case.rig.push
 
 
 def as_load(case: Case | None, kind: str, hookload: Array, load: Load) -> Array:
@@ -99,12 +99,12 @@ def as_load(case: Case | None, kind: str, hookload: Array, load: Load) -> Array:
         return hookload
     if case is None:
         return np.full_like(hookload, np.nan)
-    return np.array([sensors(case, kind, float(value), 0.0)[0] for value in hookload])
+    return np.array([weight_indicator(case.rig, KINDS[kind].direction, float(value)) for value in hookload])
 
 
 def spent_at(case: Case | None, load: Load) -> float:
     """The load [N] at which slack-off is spent: nothing but the block pulls the string down."""
-    return -block_of(case) if load == "string" else 0.0
+    return -push_of(case) if load == "string" else 0.0
 
 
 def limits_of_load(
@@ -123,7 +123,9 @@ def limits_of_load(
         finite = np.concatenate(visible)
         if np.ptp(finite[np.isfinite(finite)]) == 0 and chart[column].notna().any():
             visible.append(np.array([chart[column].max()]))
-    largest = max(_largest(chart, ["hookload_N"]), block_of(case) if load == "indicator" else 0.0)
+    largest = max(
+        _largest(chart, ["hookload_N"]), case.rig.block_weight if case is not None and load == "indicator" else 0.0
+    )
     return _span(visible, LEAST_SHARE * largest, shown(column, units).factor, cut=bool(locked.any()))
 
 

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.case.operations import KINDS
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.moving_string import Sums
 from fctd.mechanics.query import Walls
-from fctd.model.operations import sensors
+from fctd.model.operations import drive_torque, weight_indicator
 from fctd.results import ledger
 from fctd.results.buckling import NOT_BUCKLED, Buckling, buckling_along, pipe_of
 from fctd.results.notes import Note, string_notes, under_resolved
@@ -71,7 +72,9 @@ class Recorder:
         self.last_time = self.run.time
 
         kind = case.operations[operation].kind
-        indicator, drive = sensors(case, kind, hookload, torque)
+        spin = float(np.linalg.norm(self.run.S[[state.GX, state.GY, state.GZ]]))  # of the top drive, row 0
+        indicator = weight_indicator(case.rig, KINDS[kind].direction, hookload)
+        drive = drive_torque(case.rig, spin, torque)
         before = self.history[-1]["bit_depth_m"] if self.history else self.start_depth
         loads, (_, walls) = self._loads(), self._walls()
         buckling = self._buckling(loads, walls)

@@ -195,7 +195,7 @@ def _next(problem: Problem, path: Climb, step: float, end: float) -> Share:
 
 def _push(problem: Problem, path: Climb) -> float:
     """Push at the top beyond the block's weight in the last balance [N]."""
-    return -path.steps[-1].hookload - problem.case.rig.block_weight
+    return -path.steps[-1].hookload - problem.case.rig.push
 
 
 def _is_locked(problem: Problem, path: Climb) -> bool:
@@ -245,7 +245,7 @@ def _rolls(problem: Problem, share: Share) -> bool:
 def _close(problem: Problem, path: Climb) -> None:
     """Find where slack-off is spent and where the path ends."""
     share = np.array([step.share for step in path.steps])
-    left = np.array([step.hookload for step in path.steps]) + problem.case.rig.block_weight
+    left = np.array([step.hookload for step in path.steps]) + problem.case.rig.push
     if len(left) > 1 and left[0] > 0 > left[-1]:
         from scipy.interpolate import PchipInterpolator  # seldom needed, and slow to import
 

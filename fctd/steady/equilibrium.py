@@ -15,12 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operations import KINDS
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import check_fit, lay_out
 from fctd.model.frames import steady_offsets
-from fctd.model.operations import SteadyRates, sensors, steady_rates
+from fctd.model.operations import SteadyRates, drive_torque, steady_rates, weight_indicator
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along
 from fctd.results.columns import IN_CHART, Column
@@ -196,15 +197,18 @@ class Shape:
 class Solver:
     """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
-    hole : the case's hole, if it has been built already.  work : allowance of a row (problem.py).
+    hole : the case's hole, if it has been built already.  work : arrays that another solver has left.  allowance : work
+    of a row (problem.py).
     """
 
-    def __init__(self, case: Case, hole: Wellbore | None = None, work: float = WORK) -> None:
-        self.case, self.work_of_row = case, work
+    def __init__(
+        self, case: Case, hole: Wellbore | None = None, work: Workspace | None = None, allowance: float = WORK
+    ) -> None:
+        self.case, self.allowance = case, allowance
         self.hole = build_wellbore(case) if hole is None else hole
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
-        self.work = Workspace(0)
+        self.work = Workspace(0) if work is None else work
 
     def lay_out(self, bit_depth: float) -> LaidString:
         """The string with the bit at a depth [m]; raises InputError when string and hole do not fit there."""
@@ -217,14 +221,17 @@ class Solver:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
         return self.solve_string(operation, rates, self.lay_out(bit_depth))
 
-    # Of an iteration that diverged only the status is used; its numbers may overflow.
-    @np.errstate(over="ignore", invalid="ignore")
     def solve_string(self, operation: str, rates: SteadyRates, laid: LaidString) -> Equilibrium:
         """The same of a string that has been laid out, which depends neither on operation nor on friction.
 
         Raises InputError when a resolved string has too many segments.
         """
-        problem = self.problem(operation, rates, laid)
+        return self.solve_problem(self.problem(operation, rates, laid))
+
+    # Of an iteration that diverged only the status is used; its numbers may overflow.
+    @np.errstate(over="ignore", invalid="ignore")
+    def solve_problem(self, problem: Problem) -> Equilibrium:
+        """The same of a problem, which then has the pose of the answer, but for resolved strings."""
         point = self.settle(problem)
         # Of an unstable balance the solver's pose may be another.
         buckled = point.answered and point.status != SteadyStatus.UNSTABLE and point.buckling.mode == "helical"
@@ -273,7 +280,7 @@ class Solver:
         if added.settled:
             says = wound.message and problem.added.any()
             return replace(wound, message=f"{wound.message}; {ANALYTIC}") if says else wound
-        pushed = -wound.hookload > self.case.rig.block_weight
+        pushed = -wound.hookload > self.case.rig.push
         status = SteadyStatus.LOCKED_UP if pushed or added.endless else SteadyStatus.UNSTABLE
         end = f"the push exceeds {BEYOND:g} times the string's weight" if added.endless else "no steady shape was found"
         spent = "slack-off is spent, and " if pushed else ""
@@ -322,7 +329,7 @@ class Solver:
         case = self.case if cut is None else cut
         if self.work.segments < laid.string.segments:
             self.work = Workspace(laid.string.segments * 3 // 2)  # the depths of a chart rise
-        return Problem(case, self.hole, self.work, laid, operation, rates, Allowance(self.work_of_row))
+        return Problem(case, self.hole, self.work, laid, operation, rates, Allowance(self.allowance))
 
     def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
         """The steady string of a problem in its pose.
@@ -336,9 +343,10 @@ class Solver:
             problem.work.owner[1 : n + 1].copy(), -problem.weight_on_bit, problem.bit_torque,
         )  # fmt: skip
         # The hook load of a horizontal string is 0 within rounding.
-        pushed = -found.hookload - case.rig.block_weight > n * problem.allowed
+        pushed = -found.hookload - case.rig.push > n * problem.allowed
         status, message = self._judge(code, negative, pushed, shape, found.imbalance)
-        indicator, drive = sensors(case, problem.operation, found.hookload, found.torque)
+        indicator = weight_indicator(case.rig, KINDS[problem.operation].direction, found.hookload)
+        drive = drive_torque(case.rig, problem.rates.spin, found.torque)
         normal, r_ft, r_mu_n = (float(found.contacts[:, k].sum()) for k in (NORMAL_FORCE, R_FT, R_MU_FN))
         return Equilibrium(
             case, problem.operation, string.bit_depth, status, message, iterations, found.hookload, found.torque,

@@ -35,8 +35,8 @@ def survey_from(out: Path, case: Case) -> str | None:
     return path
 
 
-def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any], out: Path) -> None:
-    """Write the case file ``source``, changed by ``overrides``, with the string and the hole of a refinement."""
+def changed_document(source: Path, overrides: Mapping[str, Any]) -> Any:
+    """The case file ``source`` with its comments and units, changed by ``overrides``, as a document of tomlkit."""
     raw: Any = tomlkit.parse(read_text(source, LARGEST_FILE))
     for key, value in overrides.items():
         if value is None:
@@ -46,6 +46,12 @@ def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any
                 del place[last]
         else:
             apply_override(raw, key, value)
+    return raw
+
+
+def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any], out: Path) -> None:
+    """Write the case file ``source``, changed by ``overrides``, with the string and the hole of a refinement."""
+    raw = changed_document(source, overrides)
     raw["string"]["components"] = _components(raw["string"]["components"], refined.case.string.components)
     hole = refined.case.wellbore
     if hole.geometry == "cylinders":

@@ -49,6 +49,7 @@ MODULES: dict[str, str] = {
     "speed": "reports.figures.speed",
     "refine_real": "reports.figures.refine",
     "real_survey": "reports.figures.real_survey",
+    "volve_f4": "reports.figures.volve_f4",
 }
 
 

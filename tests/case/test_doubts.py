@@ -27,9 +27,9 @@ def case_of(**more: Any) -> Case:
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_our_cases_are_not_doubted(path: Path, tmp_path: Path) -> None:
-    survey = tmp_path / "survey.csv"  # that of one case is public data, and not part of the project
+    survey = tmp_path / "survey.csv"  # those of real wells are public data, and not part of the project
     survey.write_text("md_m,inc_deg,azi_deg\n" + "".join(f"{30 * k},0,0\n" for k in range(274)), encoding="utf-8")
-    changes = {"wellbore.survey": survey} if path.stem == "nlog_k05" else {}
+    changes = {"wellbore.survey": survey} if path.stem.startswith(("nlog_", "volve_")) else {}
     assert load_case(path, changes).warnings == ()
 
 

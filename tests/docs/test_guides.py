@@ -2,6 +2,7 @@
 
 import contextlib
 import re
+import runpy
 import shlex
 import sys
 from collections.abc import Iterator
@@ -38,7 +39,9 @@ SLOW = {"references.md"}
 # What a Python block prints.
 PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],
+    "calibrate.md": ["friction.cased", "inside95"],
     "adding_a_contact_method.md": ["completed straight_down"],
+    "monitor.md": ["friction_low", "the apparent friction factor is"],
     "references.md": ["valid 42", "settled hook load"],
     "steady.md": ["converged", "trip_out"],
     "time.md": ["completed", "[0.04205]"],
@@ -65,10 +68,12 @@ def slow(document: Path) -> Any:
     return pytest.mark.slow if document.name in SLOW else ()
 
 
+# Guides whose commands build on the ones before, and run one after the other in one folder.
+CHAINED = [ROOT / "docs" / "calibrate.md"]
 RUN = [
     pytest.param(document, command, marks=slow(document))
     for document, command in COMMANDS
-    if not command.startswith(tuple(NOT_RUN))
+    if document not in CHAINED and not command.startswith(tuple(NOT_RUN))
 ]
 
 
@@ -78,7 +83,9 @@ def name(value: Path | str) -> str:
 
 
 def shorter(command: str) -> str:
-    """A chart with its last depth alone, and other methods and engines with less time and fewer segments."""
+    """A chart with its last depth alone, a fit from one start, and other methods and engines with less time and fewer
+    segments."""
+    command = re.sub(r"(fctd calibrate .*)", r"\1 --starts 1", command)
     command = re.sub(
         r"(--depths )[\d.]+:([\d.]+:[\d.]+)", lambda m: m[1] + m[2].partition(":")[0] + ":" + m[2], command
     )
@@ -109,16 +116,38 @@ def need_what_it_names(command: str) -> None:
         pytest.importorskip(package)
 
 
-@pytest.mark.parametrize(("document", "command"), RUN, ids=name)
-def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def run_command(command: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Run a command of a guide, and check that it writes what it names."""
     need_what_it_names(command)
     program = next((program for program in PROGRAMS if command.startswith(f".venv/bin/{program} ")), None)
     assert program is not None, f"a program that this test does not know: {command}"
     monkeypatch.setattr(sys, "argv", [program, *shlex.split(shorter(command).removeprefix(f".venv/bin/{program} "))])
     with exit_code_0():
         main.run(PROGRAMS[program])
-    for target in re.findall(r"--(?:out|plot|plot-profile) (\S+)", command):
-        assert (checkout / target).exists()
+    for target in re.findall(r"--(?:out|plot|plot-profile|table) (\S+)", command):
+        assert (folder / target).exists()
+
+
+@pytest.mark.parametrize(("document", "command"), RUN, ids=name)
+def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run_command(command, checkout, monkeypatch)
+
+
+@pytest.mark.parametrize("document", CHAINED, ids=name)
+def test_commands_build_on_each_other(
+    document: Path, checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A script writes to its standard output, which the command redirects."""
+    for command in commands(document):
+        script = re.fullmatch(r"\.venv/bin/python (examples/\w+\.py) (.*?) > (\S+)", command)
+        if script is None:
+            run_command(command, checkout, monkeypatch)
+            continue
+        monkeypatch.setattr(sys, "argv", [script[1], *script[2].split()])
+        capsys.readouterr()
+        runpy.run_path(script[1], run_name="__main__")
+        (checkout / script[3]).write_text(capsys.readouterr().out, encoding="utf-8")
+    run_blocks(document, capsys)
 
 
 def survey_in_feet() -> bytes:
@@ -182,17 +211,27 @@ def test_what_is_not_run_is_named_and_is_there() -> None:
         assert any(command.startswith(prefix) for _, command in COMMANDS), prefix
 
 
-@pytest.mark.parametrize("document", [pytest.param(d, marks=slow(d)) for d in GUIDES if blocks(d, "python")], ids=name)
-def test_the_python_blocks_run(document: Path, checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    pytest.importorskip("matplotlib")
-    if "mujoco" in "".join(blocks(document, "python")):
-        pytest.importorskip("mujoco")
+def run_blocks(document: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Run the Python blocks of a document, and look for what they print."""
+    capsys.readouterr()
     for block in blocks(document, "python"):
         names: dict[str, Any] = {"__name__": "__main__"}
         exec(compile(block, str(document), "exec"), names)
     printed = capsys.readouterr().out
     for part in PRINTED[document.name]:
         assert part in printed
+
+
+@pytest.mark.parametrize(
+    "document",
+    [pytest.param(d, marks=slow(d)) for d in GUIDES if blocks(d, "python") and d not in CHAINED],
+    ids=name,
+)
+def test_the_python_blocks_run(document: Path, checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("matplotlib")
+    if "mujoco" in "".join(blocks(document, "python")):
+        pytest.importorskip("mujoco")
+    run_blocks(document, capsys)
 
 
 def anchors(document: Path) -> set[str]:

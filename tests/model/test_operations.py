@@ -8,7 +8,16 @@ import pytest
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
 from fctd.case.units import FASTEST, MOST_RPM
-from fctd.model.operations import SHORTEST, depth_range, rates_of_all, schedule, sensors, steady_rates
+from fctd.model.operations import (
+    SHORTEST,
+    depth_range,
+    drive_torque,
+    rates_of_all,
+    schedule,
+    steady_rates,
+    string_load,
+    weight_indicator,
+)
 from tests.cases import make_case, rotation, trip
 
 TURN = 2 * np.pi  # 60 rev/min [rad/s]
@@ -72,10 +81,17 @@ def test_depths_of_a_schedule() -> None:
     ],
 )
 def test_the_dead_line_reads_more_when_hoisting(kind: str, power: int) -> None:
-    rig = {"block_weight": 2e5, "sheave_efficiency": 0.9, "torque_offset": 300.0}
-    indicator, torque = sensors(make_case(rig=rig), kind, 5e5, 1e3)
-    assert indicator == pytest.approx(7e5 * 0.9**power)
-    assert torque == 1300.0
+    rig = make_case(rig={"block_weight": 2e5, "sheave_efficiency": 0.9, "guide_friction": 1e4}).rig
+    indicator = weight_indicator(rig, KINDS[kind].direction, 5e5)
+    assert indicator == pytest.approx((7e5 + power * 1e4) * 0.9**power)
+    assert string_load(rig, KINDS[kind].direction, indicator) == pytest.approx(5e5)
+
+
+def test_the_torque_reading_has_an_offset_and_a_part_that_grows_with_the_rotation() -> None:
+    """1 kN m of the string, 0.3 kN m of offset, and 5 N m for each of 60 rev/min."""
+    rig = make_case(rig={"torque_offset": 300.0, "torque_per_rpm": 5.0}).rig
+    assert drive_torque(rig, TURN, 1e3) == pytest.approx(1600.0)
+    assert drive_torque(rig, 0.0, 1e3) == 1300.0
 
 
 def test_documented_kinds() -> None:

@@ -189,11 +189,14 @@ def test_profiles_are_kept_at_the_depths_asked_for() -> None:
 
 
 def test_sensors_add_block_offset_and_sheaves() -> None:
-    rig = {"block_weight": 3e5, "sheave_efficiency": 0.97, "torque_offset": 500}
+    rig = {
+        "block_weight": 3e5, "sheave_efficiency": 0.97, "guide_friction": 1e4, "torque_offset": 500,
+        "torque_per_rpm": 2.0,
+    }  # fmt: skip
     for operation, exponent in ((trip(1000, 995), 1), (trip(1000, 1005), -1), (ROTATE, 0)):
         end = steady(simulate(build_case(operation, rig=rig)), 5)
-        assert end.weight_indicator_N == pytest.approx((end.hookload_N + 3e5) * 0.97**exponent)
-        assert end.drive_torque_N_m == pytest.approx(end.surface_torque_N_m + 500)
+        assert end.weight_indicator_N == pytest.approx((end.hookload_N + 3e5 + exponent * 1e4) * 0.97**exponent)
+        assert end.drive_torque_N_m == pytest.approx(end.surface_torque_N_m + 500 + 2 * operation.get("rpm", 0))
 
 
 def test_true_tension_is_effective_less_buoyancy() -> None:

@@ -57,7 +57,7 @@ def test_a_string_that_is_not_buckled_is_solved_as_it_is() -> None:
 def test_a_row_whose_work_is_spent_has_the_loads_of_the_segments_of_its_case() -> None:
     case = level_case(1.3, 120.0, 12.0, friction=0.1)
     as_it_is = fctd.equilibrium(case, "drill_sliding", 120.0)
-    solver = Solver(with_resolution(case), work=50.0)
+    solver = Solver(with_resolution(case), allowance=50.0)
     cut = solver.solve("drill_sliding", steady_rates(case, "drill_sliding"), 120.0)
     assert (cut.status, cut.shape, cut.hookload) == (as_it_is.status, "none", as_it_is.hookload)
     assert cut.message == f"{TOO_MUCH}; with the segments of the case: {as_it_is.message}"

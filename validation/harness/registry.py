@@ -3,6 +3,7 @@
 STUDIES: dict[str, str] = {
     "paper_well": "validation.studies.paper_well",
     "paper_times": "validation.studies.paper_times",
+    "volve_f4": "validation.studies.volve_f4",
     "well_profile": "validation.studies.well_profile",
     "curved_chain": "validation.studies.curved_chain",
     "scaled_section": "validation.studies.scaled_section",
@@ -34,4 +35,7 @@ STUDIES: dict[str, str] = {
     "real_chart": "validation.studies.real_chart",
     "buckled_wells": "validation.studies.buckled_wells",
     "refine_real": "validation.studies.refine_real",
+    "calibration": "validation.studies.calibration",
+    "monitoring": "validation.studies.monitoring",
+    "monitoring_f4": "validation.studies.monitoring_f4",
 }

@@ -44,7 +44,7 @@ REASONED = (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABL
 
 def solve(case: Case, kind: str, depth: float, work: float = WORK) -> Equilibrium:
     """A row, with an allowance of work."""
-    return Solver(case, work=work).solve(kind, steady_rates(case, kind), depth)
+    return Solver(case, allowance=work).solve(kind, steady_rates(case, kind), depth)
 
 
 def resolving(case: Case) -> Case:

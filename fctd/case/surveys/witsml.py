@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Final
-from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -13,6 +12,7 @@ from fctd.case.errors import InputError, nearest, show
 from fctd.case.surveys.headers import KEYS, accepted_units, unit_of
 from fctd.case.surveys.stations import MOST_STATIONS, UNITS, StationKey, Where, Written
 from fctd.case.surveys.table import read_number
+from fctd.case.xml_file import child, read_xml, tag, text_of
 
 # Status of a station (TrajStationStatus) that is no longer in use; the others are open and position.
 _STATUS, _REJECTED = "statusTrajStation", "rejected"
@@ -23,29 +23,22 @@ def read_witsml(text: str, name: str | None) -> Written:
     """The stations of the named trajectory, else of the only one.
 
     Stations without a direction are left out, and those whose status is ``rejected``.
-    A document type is refused: its entities could fill the memory.  Raises InputError, which names station and element,
-    for what cannot be read.
+    Raises InputError, which names station and element, for what cannot be read.
     """
-    if "<!DOCTYPE" in text:
-        raise InputError("a WITSML trajectory without a document type (DOCTYPE)")
-    try:
-        root = ElementTree.fromstring(text)
-    except (ElementTree.ParseError, ValueError) as error:
-        raise InputError(f"a WITSML trajectory in XML ({error})") from error
-    trajectory = _choose(root, name)
+    trajectory = _choose(read_xml(text, "a WITSML trajectory"), name)
     stations, rejected = [], []
-    for place, station in enumerate((e for e in trajectory if _tag(e) == "trajectoryStation"), start=1):
-        if _text(_child(station, _STATUS)) == _REJECTED:
+    for place, station in enumerate((e for e in trajectory if tag(e) == "trajectoryStation"), start=1):
+        if text_of(child(station, _STATUS)) == _REJECTED:
             rejected.append(place)
         else:
-            stations.append((place, [_child(station, tag) for tag in _ELEMENTS.values()]))
+            stations.append((place, [child(station, element) for element in _ELEMENTS.values()]))
     stations = [(number, cells) for number, cells in stations if cells[1] is not None or cells[2] is not None]
     if len(stations) > MOST_STATIONS:
         raise InputError(f"at most {MOST_STATIONS} stations")
 
     def where(row: int, column: int) -> tuple[str, object]:
         number, cells = stations[row]
-        return f"trajectoryStation {number}, {_ELEMENTS[KEYS[column]]}", _text(cells[column])
+        return f"trajectoryStation {number}, {_ELEMENTS[KEYS[column]]}", text_of(cells[column])
 
     units = [_common_unit(key, [cells[column] for _, cells in stations], where) for column, key in enumerate(KEYS)]
     values = np.empty((len(stations), len(KEYS)))
@@ -63,11 +56,11 @@ def read_witsml(text: str, name: str | None) -> Written:
 def _choose(root: Element, name: str | None) -> Element:
     """The named trajectory, or the only one with stations."""
     trajectories: dict[str, list[Element]] = {}
-    for number, element in enumerate((e for e in root.iter() if _tag(e) == "trajectory"), start=1):
-        if any(_tag(child) == "trajectoryStation" for child in element):
-            trajectories.setdefault(_text(_child(element, "name")) or f"trajectory {number}", []).append(element)
+    for number, element in enumerate((e for e in root.iter() if tag(e) == "trajectory"), start=1):
+        if any(tag(inner) == "trajectoryStation" for inner in element):
+            trajectories.setdefault(text_of(child(element, "name")) or f"trajectory {number}", []).append(element)
     if not trajectories:
-        raise InputError(f"a WITSML trajectory with stations, found the element {show(_tag(root))}")
+        raise InputError(f"a WITSML trajectory with stations, found the element {show(tag(root))}")
     names = ", ".join(map(show, trajectories))
     if name is not None and name not in trajectories:
         raise InputError(nearest(name, trajectories, "name"), key="sheet", value=name)
@@ -94,16 +87,3 @@ def _common_unit(key: StationKey, cells: Sequence[Element | None], where: Where)
             raise InputError(expected, key=f"{where(row, column)[0]}, uom", value=stated)
         first, before = unit, stated
     return first or next(iter(UNITS[key]))
-
-
-def _tag(element: Element) -> str:
-    """The name of an element without its namespace, which is that of the version."""
-    return str(element.tag).rpartition("}")[2]
-
-
-def _child(element: Element, tag: str) -> Element | None:
-    return next((child for child in element if _tag(child) == tag), None)
-
-
-def _text(element: Element | None) -> str:
-    return "" if element is None else (element.text or "").strip()

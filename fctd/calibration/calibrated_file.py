@@ -1,0 +1,77 @@
+"""A calibrated case as a file: the user's file with its comments and units, and the values of the unknowns."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+
+from fctd.calibration.predict import posterior_file
+from fctd.calibration.result import Calibration
+from fctd.calibration.unknowns import intervals_of
+from fctd.case import spellings
+from fctd.case.errors import InputError, look_up, set_key, split_key
+from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension
+from fctd.results.whole_file import whole_file
+from fctd.steady.refined_file import changed_document, survey_from
+
+_DIMENSIONS: dict[str, Dimension | None] = {
+    "block_weight": FORCE, "guide_friction": FORCE, "torque_offset": TORQUE, "torque_per_rpm": TORQUE,
+    "density": DENSITY, "linear_mass": LINEAR_MASS,
+}  # fmt: skip
+
+
+def write_calibrated(found: Calibration, source: Path, overrides: Mapping[str, Any], out: Path) -> list[Path]:
+    """Write the case file ``source``, changed by ``overrides``, with the values of the unknowns, and its posterior.
+
+    Returns both files.  A quantity keeps the unit in which it is written.
+    """
+    raw = changed_document(source, overrides)
+    for name, value in found.values.items():
+        for key in _keys_of(name, found):
+            old, last = look_up(raw, *split_key(key)), str(split_key(key)[-1])
+            set_key(raw, key, _written(value, old, _DIMENSIONS.get(last)))
+            *parents, _ = split_key(key)
+            trivia = look_up(raw, *parents).item(last).trivia  # type: ignore[attr-defined]
+            trivia.comment = trivia.comment_ws = ""  # it described the value before
+    survey = survey_from(out, found.base)
+    if survey is not None:
+        raw["wellbore"]["survey"] = survey
+    beside = posterior_file(out)
+    found.posterior.write(beside)
+    with whole_file(out) as scratch:
+        scratch.write_text(_heading(found, beside) + tomlkit.dumps(raw), encoding="utf-8")
+    return [out, beside]
+
+
+def _keys_of(name: str, found: Calibration) -> list[str]:
+    """The keys of the case's own file that an unknown sets; none for a bias, or for a component of another string."""
+    case = found.base
+    if name.startswith(("rig.", "mud.")):
+        return [name]
+    if name.startswith("mass."):
+        parts = enumerate(case.string.components)
+        return [f"string.components[{i}].linear_mass" for i, part in parts if part.name == name.removeprefix("mass.")]
+    return [f"wellbore.intervals[{i}].friction" for i in intervals_of(name, case)]
+
+
+def _written(value: float, old: object, dimension: Dimension | None) -> object:
+    """A value in the unit of the one before, else in SI."""
+    if dimension is None:
+        return float(f"{value:.6g}")
+    unit = dimension.unit
+    if isinstance(old, str):
+        try:
+            written = spellings.split(old)
+        except InputError:
+            written = None
+        unit = unit if written is None else written.unit
+    return f"{value / dimension.factor(unit):.6g} {unit}"
+
+
+def _heading(found: Calibration, beside: Path) -> str:
+    """The comment at the head of the file: how it was made."""
+    return (
+        f"# Calibrated by fctd calibrate on {len(found.fit.used)} rows: {', '.join(found.values)}.\n"
+        f"# Intervals and covariance are in {beside.name}, which fctd predict reads.\n"
+    )

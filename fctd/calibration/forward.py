@@ -1,0 +1,218 @@
+"""From values of the unknowns to readings: the loads of the strings, then what the rig and the source make of them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.calibration.rows import Load, Range, Row
+from fctd.calibration.setup import Setup
+from fctd.calibration.unknowns import Unknown, with_values
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.specs import RigSpec
+from fctd.model.drillstring import section_of
+from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
+from fctd.steady.equilibrium import Solver
+from fctd.steady.laid_string import LaidString, lay
+from fctd.steady.problem import Workspace
+from fctd.steady.sensitivity import Changed, solve_with_changes
+
+Array = NDArray[np.float64]
+
+# The change of an unknown for the tangent, over its typical size.
+_STEP = 1e-4
+
+
+class Reading(NamedTuple):
+    """A measured load: index of its row, which load, the recorded range [SI] and its noise, one standard deviation.
+
+    The range of a reading that was not measured is NaN.
+    """
+
+    row: int
+    load: Load
+    range: Range
+    noise: float
+
+
+class StringLoads(NamedTuple):
+    """Loads of a row's string: (hook load [N], torque [N m]), their derivatives by the unknowns (2, k), and a reason.
+
+    reason : why there are no loads, "" where there are.
+    """
+
+    loads: Array
+    slopes: Array
+    reason: str
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What the rig would read: value (m,) [SI] of each reading, slopes (m, k) by the unknowns; NaN without loads.
+
+    reasons : of the rows without loads, by index.  loads (r, 2) : of the strings of the rows, hook load [N] and surface
+    torque [N m].
+    """
+
+    value: Array
+    slopes: Array
+    reasons: dict[int, str]
+    loads: Array
+
+
+class Forward:
+    """The readings of rows for values of the unknowns; solved strings are kept for other constants of the rig.
+
+    Raises InputError for a string that does not fit its hole at a row's depth.
+    """
+
+    def __init__(
+        self, rows: Sequence[Row], strings: Mapping[str, Case], unknowns: Sequence[Unknown], setup: Setup
+    ) -> None:
+        self.rows, self.unknowns, self.setup = tuple(rows), tuple(unknowns), setup
+        self.strings = {name: case for name, case in strings.items() if any(row.string == name for row in rows)}
+        self._solvers = {name: Solver(case) for name, case in self.strings.items()}
+        self._laid: dict[tuple[str, float], LaidString] = {}
+        for row in rows:
+            key = row.string, row.bit_depth
+            if row.has_string and key not in self._laid:
+                try:
+                    self._laid[key] = self._solvers[row.string].lay_out(row.bit_depth)
+                except InputError as error:
+                    file = self.strings[row.string].file
+                    named = error if file is None else error.in_file(file)
+                    at = f"{row.bit_depth:g} m"
+                    raise InputError(f"a depth at which the string fits ({named})", key=row.id, value=at) from None
+        for (name, _), laid in self._laid.items():  # one workspace for all strings of a case
+            solver = self._solvers[name]
+            if solver.work.segments < laid.string.segments:
+                solver.work = Workspace(laid.string.segments)
+        self.readings = tuple(self._readings())
+        self.names = tuple(unknown.name for unknown in unknowns)
+        self._by_string = [k for k, unknown in enumerate(unknowns) if unknown.changes_string]
+        self._sizes = np.array([unknown.size for unknown in unknowns])
+        self._kept: dict[bytes, list[StringLoads]] = {}
+
+    def _readings(self) -> list[Reading]:
+        """Both loads of every row, as far as the row can have them."""
+        found = []
+        nothing = Range(float("nan"), float("nan"))
+        for k, row in enumerate(self.rows):
+            source = self.setup.source(row.source)
+            found.append(Reading(k, "hookload", row.hookload or nothing, source.hookload_noise))
+            if row.operation != "in_slips":
+                found.append(Reading(k, "torque", row.torque or nothing, source.torque_noise))
+        return found
+
+    def length_in_hole(self, name: str, row: Row) -> float:
+        """Length of the components that an unknown ``mass.NAME`` names in the string of a row [m]."""
+        string = self._laid[row.string, row.bit_depth]
+        parts = self.strings[row.string].string.components
+        named = [k for k, part in enumerate(parts) if f"mass.{part.name}" == name]
+        return float(string.length[np.isin(string.component, named)].sum())
+
+    def evaluate(self, values: Array) -> Evaluation:
+        """The readings at values (k,) of the unknowns [SI]."""
+        solved = self._solve(values)
+        by_name = dict(zip(self.names, map(float, values), strict=True))
+        rigs = {name: with_values(case, by_name).rig for name, case in self.strings.items()}
+        value, slopes = np.empty(len(self.readings)), np.zeros((len(self.readings), len(values)))
+        for i, reading in enumerate(self.readings):
+            row, loads = self.rows[reading.row], solved[reading.row]
+            value[i], slopes[i] = self._read(row, reading.load, rigs[row.string], by_name, loads)
+        reasons = {k: loads.reason for k, loads in enumerate(solved) if loads.reason}
+        return Evaluation(value, slopes, reasons, np.array([loads.loads for loads in solved]))
+
+    def _read(
+        self, row: Row, load: Load, rig: RigSpec, values: Mapping[str, float], solved: StringLoads
+    ) -> tuple[float, Array]:
+        """A reading and its derivatives."""
+        own = {name: self.names.index(name) for name in self.names}
+        bias, sign = f"bias.{load}.{row.source}", self._sign(row, load)
+        if load == "hookload":
+            d = row.direction
+            gain = rig.sheave_efficiency**-d
+            at_block = float(solved.loads[0]) + rig.block_weight - d * rig.guide_friction
+            value = weight_indicator(rig, d, float(solved.loads[0]))
+            slopes = gain * solved.slopes[0]
+            by_rig = {
+                "rig.block_weight": gain,
+                "rig.guide_friction": -d * gain,
+                "rig.sheave_efficiency": -d * at_block * gain / rig.sheave_efficiency,
+            }
+        else:
+            value = drive_torque(rig, row.rates.spin, float(solved.loads[1]))
+            slopes = solved.slopes[1].copy()
+            by_rig = {"rig.torque_offset": 1.0, "rig.torque_per_rpm": row.rates.spin / rad_per_s(1.0)}
+        for name, slope in {**by_rig, bias: sign}.items():
+            if name in own:
+                slopes[own[name]] += slope
+        return value + sign * values.get(bias, 0.0), slopes
+
+    def _sign(self, row: Row, load: Load) -> float:
+        """How a source's bias enters a reading."""
+        peak = self.setup.source(row.source).reading == "peak"
+        return float(-row.direction) if peak and load == "hookload" else 1.0
+
+    def _solve(self, values: Array) -> list[StringLoads]:
+        """The loads of every row's string, kept for values that change no string."""
+        # The same value may differ by its rounding.
+        key = (np.round(values / self._sizes, 12) + 0.0)[self._by_string].tobytes()
+        if key not in self._kept:
+            if len(self._kept) >= 16:
+                self._kept.pop(next(iter(self._kept)))
+            self._kept[key] = self._solve_rows(values)
+        return self._kept[key]
+
+    def _solve_rows(self, values: Array) -> list[StringLoads]:
+        """The same at other values: the case and the hole of every string once, also for each unknown's step."""
+        steps = _STEP * self._sizes
+        beyond = values + steps > [unknown.high for unknown in self.unknowns]
+        steps[beyond] *= -1
+        moved = [values, *(values + steps[k] * np.eye(len(values))[k] for k in self._by_string)]
+        solvers = {name: [self._solver(name, at) for at in moved] for name in self.strings}
+        nothing = StringLoads(np.zeros(2), np.zeros((2, len(values))), "")
+        found: dict[tuple[object, ...], StringLoads] = {}
+        answers = []
+        for row in self.rows:
+            key = row.string, row.bit_depth, row.operation, row.rates
+            if row.has_string and key not in found:
+                found[key] = self._solve_row(row, solvers[row.string], steps)
+            answers.append(found[key] if row.has_string else nothing)
+        return answers
+
+    def _solver(self, name: str, values: Array) -> Solver:
+        """The solver of a string's case with values of the unknowns."""
+        of = self._solvers[name]
+        case = with_values(of.case, dict(zip(self.names, map(float, values), strict=True)))
+        factors = np.array([interval.friction for interval in case.wellbore.intervals])
+        return Solver(case, of.hole.with_friction(factors), of.work)
+
+    def _solve_row(self, row: Row, solvers: Sequence[Solver], steps: Array) -> StringLoads:
+        """Loads of a row's string; solvers : at the values, and at the step of each unknown that changes the string."""
+        of_case = self._laid[row.string, row.bit_depth]
+        strings: list[LaidString] = []
+        for solver in solvers:
+            parts = solver.case.string.components[: len(of_case.string.sections)]
+            sections = tuple(section_of(part, solver.case.mud.density) for part in parts)
+            same = [laid for laid in (of_case, *strings[:1]) if laid.string.sections == sections]
+            other = replace(of_case.string, sections=sections)
+            strings.append(same[0] if same else lay(solver.case, solver.hole, other))
+        changes = [Changed(solver, laid) for solver, laid in zip(solvers[1:], strings[1:], strict=True)]
+        try:
+            point, by = solve_with_changes(solvers[0], row.operation, row.rates, strings[0], changes)
+        except InputError as error:  # as of a resolved string with too many segments
+            return self._failed(str(error))
+        if not point.answered:
+            return self._failed(f"{point.status}: {point.message}")
+        slopes = np.zeros((2, len(steps)))
+        slopes[:, self._by_string] = (by / steps[self._by_string][:, None]).T
+        if not np.isfinite(slopes).all():
+            return self._failed(f"{point.status}, and none with friction or mass a little larger")
+        return StringLoads(np.array([point.hookload, point.surface_torque]), slopes, "")
+
+    def _failed(self, reason: str) -> StringLoads:
+        return StringLoads(np.full(2, np.nan), np.full((2, len(self.unknowns)), np.nan), reason)

@@ -1,0 +1,153 @@
+"""Predictions of rows with bands, and their scores where the rows are measured."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fctd.calibration.forward import Forward
+from fctd.calibration.rows import Row
+from fctd.calibration.setup import Setup
+from fctd.calibration.unknowns import Unknown
+from fctd.case.errors import InputError
+from fctd.case.input_file import read_text
+from fctd.case.load import Case
+from fctd.results.whole_file import whole_file
+
+Array = NDArray[np.float64]
+
+SAMPLES: Final = 4000
+# Quantiles of the bands: 50 % and 95 %.
+BANDS: Final = {"low95": 0.025, "low50": 0.25, "middle": 0.5, "high50": 0.75, "high95": 0.975}
+_LARGEST: Final = 8  # MiB
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """What a calibration knows: unknowns with their values (k,) and covariance (k, k) [SI], and the setup.
+
+    spread : of each source and load, the root mean square of a uniform distribution over the recorded ranges [SI].
+    """
+
+    unknowns: tuple[Unknown, ...]
+    best: Array
+    covariance: Array
+    setup: Setup
+    spread: Mapping[str, Mapping[str, float]]
+
+    def sample(self, count: int, seed: int) -> Array:
+        """Values (count, k) of a normal distribution, cut at the bounds."""
+        rng = np.random.default_rng(seed)
+        low, high = (np.array([getattr(unknown, end) for unknown in self.unknowns]) for end in ("low", "high"))
+        drawn = rng.multivariate_normal(self.best, self.covariance, count, method="svd")
+        return np.clip(drawn, low, high)
+
+    def write(self, path: Path) -> None:
+        """Write it as JSON."""
+        data = {
+            "unknowns": [
+                {"name": u.name, "low": u.low, "high": u.high, "size": u.size, "unit": u.unit, "value": value}
+                for u, value in zip(self.unknowns, self.best.tolist(), strict=True)
+            ],
+            "covariance": self.covariance.tolist(),
+            "setup": self.setup.model_dump(mode="json", include={"sources", "strings", "model_error"}),
+            "spread": self.spread,
+        }
+        with whole_file(path) as scratch:
+            scratch.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+
+
+def posterior_file(case_file: Path) -> Path:
+    """The posterior's file beside a calibrated case."""
+    return case_file.with_suffix(".fit.json")
+
+
+def read_posterior(path: Path) -> Posterior:
+    """The posterior of a file; raises InputError for a file that cannot be used."""
+    try:
+        data: dict[str, Any] = json.loads(read_text(path, _LARGEST))
+        unknowns = tuple(
+            Unknown(u["name"], u["low"], u["high"], u["value"], u["size"], None, u["unit"]) for u in data["unknowns"]
+        )
+        covariance = np.array(data["covariance"], float).reshape(len(unknowns), len(unknowns))
+        best = np.array([u["value"] for u in data["unknowns"]], float)
+        return Posterior(unknowns, best, covariance, Setup.model_validate(data["setup"]), data["spread"])
+    except OSError as error:
+        raise InputError(
+            f"the posterior beside the case, which fctd calibrate --out writes ({error.strerror})", file=path
+        ) from error
+    except InputError as error:
+        raise error.in_file(path) from None
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(f"a posterior as fctd calibrate --out writes it ({error})", file=path) from error
+
+
+def predict_rows(
+    posterior: Posterior, rows: Sequence[Row], strings: Mapping[str, Case], samples: int = SAMPLES, seed: int = 0
+) -> pd.DataFrame:
+    """A row for each reading that a row can have, with bands, and scores where it was measured.
+
+    Columns: id, string, operation, bit_depth_m, load, unit, predicted (at the calibrated values), the quantiles of
+    ``BANDS``, reason (why there is no prediction, or none); low and high of the recorded range, inside50 and inside95
+    (of its middle, None where not measured), crps [SI] and distance (from the range over its middle, 0 inside).
+
+    The readings are taken as linear in the unknowns, whose values are drawn from a normal distribution cut at their
+    bounds; to each are added the source's noise, a uniform distribution as wide as its recorded ranges, and the
+    declared error of the model, both normal and independent.
+    """
+    setup = posterior.setup
+    forward = Forward(rows, strings, posterior.unknowns, setup)
+    at = forward.evaluate(posterior.best)
+    drawn = posterior.sample(samples, seed) - posterior.best
+    rng = np.random.default_rng([seed, 1])
+    table = []
+    for i, reading in enumerate(forward.readings):
+        row = rows[reading.row]
+        uniform = np.sqrt(3) * posterior.spread.get(row.source, {}).get(reading.load, 0.0)
+        other = np.hypot(reading.noise, getattr(setup.model_error, reading.load))
+        values = at.value[i] + drawn @ at.slopes[i] + other * rng.normal(size=samples)
+        values += uniform * rng.uniform(-1, 1, samples)
+        low, high = reading.range.low, reading.range.high
+        bands = dict(zip(BANDS, np.quantile(values, list(BANDS.values())).tolist(), strict=True))
+        table.append(
+            {
+                "id": row.id, "string": row.string, "operation": row.operation, "bit_depth_m": row.bit_depth,
+                "load": reading.load, "unit": "N" if reading.load == "hookload" else "N*m", "predicted": at.value[i],
+                **bands, "reason": at.reasons.get(reading.row, "none"), "low": low, "high": high,
+                **_scores(values, bands, reading.range.middle, low, high, float(at.value[i])),
+            }
+        )  # fmt: skip
+    return pd.DataFrame(table)
+
+
+def _scores(
+    values: Array, bands: Mapping[str, float], middle: float, low: float, high: float, at: float
+) -> dict[str, Any]:
+    if np.isnan(middle) or np.isnan(at):
+        return {"inside50": None, "inside95": None, "crps": np.nan, "distance": np.nan}
+    off = max(at - high, low - at, 0.0)
+    return {
+        "inside50": bands["low50"] <= middle <= bands["high50"],
+        "inside95": bands["low95"] <= middle <= bands["high95"],
+        "crps": crps(values, middle),
+        "distance": off / abs(middle) if middle else np.nan,
+    }
+
+
+def crps(values: Array, measured: float) -> float:
+    """Continuous ranked probability score of a sample (n,), E|X − y| − E|X − X′|/2 (Gneiting & Raftery 2007)."""
+    x = np.sort(values)
+    n = len(x)
+    between = 2 * float(x @ (2 * np.arange(n) - n + 1)) / n**2
+    return float(np.abs(x - measured).mean() - 0.5 * between)
+
+
+def coverage(table: pd.DataFrame) -> dict[str, tuple[int, int]]:
+    """How many of the measured readings lie inside each band, and how many there are."""
+    scored = table[table["inside95"].notna()]
+    return {name: (int(scored[name].astype(bool).sum()), len(scored)) for name in ("inside50", "inside95")}

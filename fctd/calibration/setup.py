@@ -1,0 +1,104 @@
+"""What a calibration is told beside case and rows: unknowns, sources of readings, override sets, model error."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, ValidationError, model_validator
+
+from fctd.case import units
+from fctd.case.errors import InputError, Table, explain
+from fctd.case.input_file import read_text
+from fctd.case.load import LARGEST_FILE
+
+PositiveForce = Annotated[float, units.Quantity(dimension=units.FORCE, above=0.0)]
+PositiveTorque = Annotated[float, units.Quantity(dimension=units.TORQUE, above=0.0)]
+SignedForce = Annotated[float, units.Quantity(dimension=units.FORCE)]
+Written = float | str  # a quantity whose unit depends on the unknown
+
+
+class PriorSpec(Table):
+    """What is known of an unknown before: its mean and its standard deviation."""
+
+    mean: Written
+    sd: Written
+
+
+class UnknownSpec(Table):
+    """Bounds, prior and first value of an unknown, each optional; quantities with their units."""
+
+    bounds: tuple[Written, Written] | None = Field(default=None, description="a list of the lowest and highest value")
+    prior: PriorSpec | None = None
+    start: Written | None = None
+
+
+class ForceBias(Table):
+    """Prior of a bias of hook load: mean and standard deviation [N]."""
+
+    mean: SignedForce = 0.0
+    sd: PositiveForce
+
+
+class TorqueBias(Table):
+    """Prior of a bias of torque: mean and standard deviation [N m]."""
+
+    mean: units.Torque = 0.0
+    sd: PositiveTorque
+
+
+class SourceSpec(Table):
+    """A source of readings: its rule, its noise, one standard deviation, and its bias, which is then an unknown.
+
+    A median carries its bias as it is.  A peak carries it in the direction in which the block moves: added to the hook
+    load while hoisting, taken from it while lowering, none at rest, and added to the torque.
+    """
+
+    reading: Literal["median", "peak"] = "median"
+    hookload_noise: PositiveForce = 10e3
+    torque_noise: PositiveTorque = 500.0
+    hookload_bias: ForceBias | None = None
+    torque_bias: TorqueBias | None = None
+
+
+class ModelError(Table):
+    """Declared error of the model, one standard deviation: hookload [N], torque [N m]."""
+
+    hookload: units.Force = 0.0
+    torque: units.PositiveOrZeroTorque = 0.0
+
+
+class Setup(Table):
+    """A setup file.  ``strings`` : override sets, keys and values as of ``--set``."""
+
+    unknowns: dict[str, UnknownSpec] = Field(default_factory=dict)
+    sources: dict[str, SourceSpec] = Field(default_factory=dict)
+    strings: dict[str, dict[str, Any]] = Field(default_factory=dict)
+    model_error: ModelError = ModelError()
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if "" in self.strings:
+            raise InputError("a name; rows without a string have the case's", key="strings")
+        return self
+
+    def source(self, name: str) -> SourceSpec:
+        """A source of rows; one that the setup does not name has the defaults."""
+        return self.sources.get(name, SourceSpec())
+
+
+def read_setup(path: Path) -> Setup:
+    """The setup of a TOML file; raises InputError, which names file, key and value."""
+    raw: dict[str, Any] = {}
+    try:
+        raw = tomllib.loads(read_text(path, LARGEST_FILE))
+        return Setup.model_validate(raw)
+    except ValidationError as failure:
+        raise explain(failure, raw, branches=("str", "float")).in_file(path) from None
+    except InputError as error:
+        raise error.in_file(path) from error.__cause__
+    except OSError as error:
+        raise InputError(f"a setup that can be read ({error.strerror})", file=path) from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"a setup in TOML ({error})", file=path) from error

@@ -1,0 +1,202 @@
+"""``fctd calibrate CASE MEASURED.csv``: unknowns of a case from measured rows."""
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import pandas as pd
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from fctd.calibration.calibrate import Order, calibrate
+from fctd.calibration.calibrated_file import write_calibrated
+from fctd.calibration.fit import Loss
+from fctd.calibration.predict import coverage, posterior_file
+from fctd.calibration.result import Calibration
+from fctd.calibration.unknowns import NAMES
+from fctd.case.doubts import warnings_of
+from fctd.case.text import printable
+from fctd.cli.options import (
+    CaseFile,
+    Friction,
+    Overrides,
+    Quiet,
+    Strict,
+    changes_of,
+    check_target,
+    messages,
+    print_written,
+    read_case,
+    refuse_sources,
+    screen,
+    tell,
+)
+from fctd.cli.pictures import DRAWN, check_pictures
+from fctd.cli.steady import file_option
+from fctd.results.tables import write_table
+
+# Units of the screen: label and factor of the SI unit.
+SHOWN = {"N": ("kN", 1e-3), "N*m": ("kN·m", 1e-3), "": ("", 1.0)}
+# Mean square of the residuals over the noise, by degree of freedom, beyond which the intervals are doubtful.
+MISFIT = 2.0
+LOADS = {"hookload": "N", "torque": "N*m"}
+
+
+def calibrate_command(
+    case_file: CaseFile,
+    measured: Annotated[Path, typer.Argument(metavar="MEASURED.csv", help="Measured rows.", show_default=False)],
+    fits: Annotated[
+        list[str],
+        typer.Option(
+            "--fit",
+            metavar="NAME[=LOW:HIGH]",
+            help=f"An unknown, with bounds; may be repeated: {', '.join(NAMES)}.",
+        ),
+    ] = [],  # noqa: B006 (typer copies it)
+    priors: Annotated[
+        list[str], typer.Option("--prior", metavar="NAME=MEAN+-SD", help="What is known before; may be repeated.")
+    ] = [],  # noqa: B006
+    setup: Annotated[
+        Path | None, file_option("--setup", "Unknowns, sources, override sets and model error, .toml.")
+    ] = None,
+    order: Annotated[
+        Order, typer.Option("--order", help="Fit all rows, or those of the first hole section and predict the deeper.")
+    ] = "all",
+    loss: Annotated[Loss, typer.Option("--loss", help="Of a residual: robust, or its square.")] = "soft_l1",
+    starts: Annotated[int, typer.Option("--starts", metavar="N", help="Number of starts of the search.")] = 4,
+    seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of the starts.")] = 0,
+    overrides: Overrides = [],  # noqa: B006
+    friction: Friction = None,
+    out: Annotated[
+        Path | None, file_option("--out", "The calibrated case, .toml, and beside it its posterior, .fit.json.")
+    ] = None,
+    table: Annotated[Path | None, file_option("--table", "Residuals of the rows, .csv, .parquet or .xlsx.")] = None,
+    plot: Annotated[
+        Path | None, file_option("--plot", "Measured and fitted readings, residuals, correlations.")
+    ] = None,
+    quiet: Quiet = False,
+    strict: Strict = False,
+) -> None:
+    """Find friction, constants of the rig and unknown masses from measured hook loads and torques."""
+    check_target(out, "--out", (".toml",))
+    if out is not None:
+        check_target(posterior_file(out), "--out", (".json",))
+    check_target(table, "--table", (".csv", ".parquet", ".xlsx"))
+    check_pictures({"--plot": plot}, DRAWN)
+    changes = changes_of(overrides, friction)
+    case = read_case(case_file, changes)
+    for key, path in {"--out": out, "--table": table, "--plot": plot}.items():
+        refuse_sources(case, path, key)
+    tell(case, warnings_of(case), strict=strict)
+    with messages.status("fitting") as status:
+        if quiet:
+            status.stop()
+        found = calibrate(
+            case, measured, fits, priors=priors, setup=setup, loss=loss, order=order, starts=starts, seed=seed,
+            overrides=changes,
+        )  # fmt: skip
+        status.update("intervals")
+        _ = found.intervals
+        status.update("leaving out each row")
+        _ = found.leave_one_out
+    written: list[Path] = []
+    try:
+        if out is not None:
+            written += write_calibrated(found, case_file, changes, out)
+        if table is not None:
+            written += write_table(found.residuals, table, {})
+        if plot is not None:
+            from fctd import plots  # needs matplotlib
+
+            written += plots.save(plots.calibration_figure(found), plot)
+    finally:
+        print_calibration(found)
+    print_written(written)
+
+
+def print_calibration(found: Calibration) -> None:
+    """Print unknowns, strong correlations, residuals, rows left out, and predictions of deeper sections."""
+    screen.print(printable(f"{found.base.name}: {len(found.fit.used)} rows fitted"), style="bold", soft_wrap=True)
+    unknowns = _table(["unknown", ""], ["value", "95 %", "interval"], ["interval from"])
+    for row in found.table.to_dict("records"):
+        label, factor = SHOWN.get(str(row["unit"]), (str(row["unit"]), 1.0))
+        numbers = [f"{row[key] * factor:.4g}" for key in ("value", "low", "high")]
+        unknowns.add_row(str(row["name"]), label, *numbers, f"{row['how']}{', at a bound' if row['at_bound'] else ''}")
+    screen.print(unknowns)
+    names, matrix = found.forward.names, found.correlations.to_numpy(float)
+    for i, one in enumerate(names):
+        for other, value in zip(names[:i], matrix[i], strict=False):
+            if abs(value) >= 0.9:
+                screen.print(f"correlation of {other} and {one}: {value:.3f}", soft_wrap=True)
+    rows = _table(["row", "load"], ["measured", "fitted", "off", "off/noise", "left out"], [])
+    table = found.leave_one_out
+    without = dict(zip(zip(table["id"], table["load"], strict=True), table["predicted"], strict=True))
+    for row in found.residuals.to_dict("records"):
+        label, factor = SHOWN[LOADS[str(row["load"])]]
+        key = str(row["id"]), str(row["load"])
+        numbers = [_span(row["low"] * factor, row["high"] * factor)]
+        numbers += [f"{row[name] * factor:z.1f}" for name in ("fitted", "residual")]
+        alone = f"{float(without[key]) * factor:z.1f}" if key in without else "–"
+        name = str(row["id"]) if row["used"] else f"({row['id']})"
+        rows.add_row(name, f"{row['load']}, {label}", *numbers, f"{row['in_noise']:z.1f}", alone)
+    screen.print(rows)
+    screen.print("off: beyond the recorded range; left out: predicted by a fit without the row", soft_wrap=True)
+    if found.misfit > MISFIT:
+        messages.print(
+            f"warning: the residuals are {np.sqrt(found.misfit):.2g} times the noise of the sources: the noise is "
+            "declared too small, or the model lacks something; the intervals are too narrow",
+            soft_wrap=True,
+        )  # fmt: skip
+    for name, reason in found.left_out.items():
+        messages.print(printable(f"not fitted: {name}: {reason}"), soft_wrap=True)
+    if found.predicted is not None:
+        print_prediction(found.predicted)
+
+
+def print_prediction(table: pd.DataFrame) -> None:
+    """Print predicted readings with their bands, and how many measured ones lie inside."""
+    shown = _table(["row", "load"], ["predicted", "50 %", "95 %", "measured"], ["inside"])
+    for row in table.to_dict("records"):
+        label, factor = SHOWN[str(row["unit"])]
+        if row["reason"] != "none":
+            shown.add_row(str(row["id"]), f"{row['load']}, {label}", *["–"] * 4, "")
+            continue
+        numbers = [f"{row['predicted'] * factor:z.1f}"]
+        numbers += [_span(row[f"low{band}"] * factor, row[f"high{band}"] * factor) for band in (50, 95)]
+        inside, measured = "", "–"
+        if row["inside95"] is not None:
+            inside = "50 %" if row["inside50"] else "95 %" if row["inside95"] else "no"
+            measured = _span(row["low"] * factor, row["high"] * factor)
+        shown.add_row(str(row["id"]), f"{row['load']}, {label}", *numbers, measured, inside)
+    screen.print(shown)
+    for name, reason in (
+        table[table["reason"] != "none"].drop_duplicates("id")[["id", "reason"]].itertuples(index=False)
+    ):
+        messages.print(printable(f"no prediction: {name}: {reason}"), soft_wrap=True)
+    counts = coverage(table)
+    if counts["inside95"][1]:
+        half, most = (f"{got} of {of}" for got, of in counts.values())
+        screen.print(f"inside the band of 50 %: {half}, of 95 %: {most}", soft_wrap=True)
+        for load, unit in LOADS.items():
+            label, factor = SHOWN[unit]
+            scores = table.loc[(table["load"] == load) & table["crps"].notna(), "crps"]
+            if len(scores):
+                screen.print(f"mean CRPS of {load}: {scores.mean() * factor:.3g} {label}", soft_wrap=True)
+
+
+def _span(low: float, high: float) -> str:
+    """A range, or the value that both ends are, to a tenth."""
+    ends = f"{low:z.1f}", f"{high:z.1f}"
+    return ends[0] if ends[0] == ends[1] else "–".join(ends).replace("-", "−")
+
+
+def _table(texts: list[str], numbers: list[str], last: list[str]) -> Table:
+    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
+    for heading in texts:
+        table.add_column(heading, overflow="fold")
+    for heading in numbers:
+        table.add_column(heading, justify="right", overflow="fold")
+    for heading in last:
+        table.add_column(heading, overflow="fold")
+    return table

@@ -1,0 +1,206 @@
+"""``fctd monitor CASE SERIES``: apparent friction factors over depth from the rig's readings, and alarms."""
+
+from pathlib import Path
+from time import sleep
+from typing import Annotated
+
+import numpy as np
+import pandas as pd
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from fctd.case.errors import InputError
+from fctd.case.load import Case, naming_file
+from fctd.case.text import printable
+from fctd.cli.options import (
+    CaseFile,
+    Overrides,
+    Quiet,
+    Strict,
+    changes_of,
+    check_target,
+    finish,
+    messages,
+    print_written,
+    read_case,
+    read_share,
+    refuse_sources,
+    screen,
+    tell,
+)
+from fctd.cli.pictures import check_package
+from fctd.cli.steady import Units, check_table, file_option, in_units
+from fctd.monitoring.alarm import Alarm
+from fctd.monitoring.chart import Fit
+from fctd.monitoring.friction import parse_uncertainty
+from fctd.monitoring.monitor import Monitor, Monitored, result_of
+from fctd.monitoring.quantities import QUANTITIES, parse_columns
+from fctd.monitoring.series import read_series
+from fctd.monitoring.text_series import Tail
+from fctd.results.tables import versions, write_table
+from fctd.results.unit_systems import System, reworded, shown
+
+PICTURES = (".png", ".svg", ".pdf")
+SCREEN_ROWS = 30
+
+
+def monitor_command(
+    case_file: CaseFile,
+    series: Annotated[
+        Path,
+        typer.Argument(
+            help="Readings of the rig over time or depth: text, Parquet, LAS, WITSML log.", show_default=False
+        ),
+    ],
+    columns: Annotated[
+        list[str],
+        typer.Option(
+            "--columns",
+            metavar="QUANTITY=HEADER",
+            help=f"Header of a quantity, 'torque=TQA [kN.m]'; quantities: {', '.join(QUANTITIES)}; may be repeated.",
+        ),
+    ] = [],  # noqa: B006 (typer copies it)
+    fit: Annotated[
+        Fit | None,
+        typer.Option(
+            "--fit",
+            help="Intervals whose factor is inferred; default: open where the case names kinds.",
+            show_default=False,
+        ),
+    ] = None,
+    uncertainty: Annotated[
+        list[str],
+        typer.Option(
+            "--uncertainty",
+            metavar="NAME=VALUE",
+            help="Standard deviation of hook_load, torque, cased, block_weight or torque_offset; default: "
+            "'hook_load=1 t', torque=4%; may be repeated.",
+        ),
+    ] = [],  # noqa: B006 (typer copies it)
+    step: Annotated[str, typer.Option("--step", metavar="SHARE", help="Change of the factor to be found.")] = "25%",
+    readings: Annotated[
+        float, typer.Option("--false-alarm-in", metavar="N", help="Readings in which one false alarm is accepted.")
+    ] = 50.0,
+    follow: Annotated[
+        bool, typer.Option("--follow", help="Wait for rows of a growing text file, until Ctrl-C.")
+    ] = False,
+    poll: Annotated[float, typer.Option("--poll", metavar="SECONDS", help="With --follow: between two looks.")] = 1.0,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    out: Annotated[Path | None, file_option("--out", "The stretches, a row for each, .csv, .parquet or .xlsx.")] = None,
+    plot: Annotated[
+        Path | None, file_option("--plot", "Stretches and apparent friction over depth, .png, .svg or .pdf.")
+    ] = None,
+    units: Units = "si",
+    quiet: Quiet = False,
+    strict: Strict = False,
+) -> None:
+    """Infer friction factors over depth from the rig's readings, and say where they change."""
+    check_table(out)
+    if plot is not None:
+        check_target(plot, "--plot", PICTURES)
+        check_package(plot, "--plot")
+    case = read_case(case_file, changes_of(overrides))
+    for key, path in {"--out": out, "--plot": plot}.items():
+        refuse_sources(case, path, key)
+        if path is not None and path.exists() and series.exists() and path.samefile(series):
+            raise InputError("another file than the series", key=key, value=path)
+    said = parse_columns(columns)
+    with naming_file(case):
+        watch = Monitor(
+            case, fit, parse_uncertainty(uncertainty, "--uncertainty"), None, read_share(step, "--step"), readings
+        )
+    if poll <= 0:
+        raise InputError("seconds above 0", key="--poll", value=poll)
+    tell(case, case.warnings, strict=strict, units=units)
+    if follow:
+        try:
+            _follow(watch, Tail(series, said), poll, units)
+        except KeyboardInterrupt:
+            _print_alarms(watch.finish(), units)
+            _report(watch, case, out, plot, units, quiet)
+            raise
+    table = read_series(series, said)
+    try:
+        _print_alarms([*watch.feed(table), *watch.finish()], units)
+    except InputError as error:
+        raise error.in_file(series) from None
+    _report(watch, case, out, plot, units, quiet)
+    finish(any(np.isfinite(found.factor) for found in watch.found), ["alarm"] if watch.alarms else [], strict)
+
+
+def _follow(watch: Monitor, tail: Tail, poll: float, units: System) -> None:
+    """Print alarms as their rows come; ends by KeyboardInterrupt alone."""
+    while True:
+        try:
+            rows = tail.rows()
+            if rows is not None:
+                _print_alarms(watch.feed(rows), units)
+        except InputError as error:
+            raise error.in_file(tail.path) from None
+        sleep(poll)
+
+
+def _print_alarms(alarms: list[Alarm], units: System) -> None:
+    for alarm in alarms:
+        screen.print(f"alarm: {reworded(alarm.sentence, units)}", soft_wrap=True, style="bold")
+
+
+def _report(watch: Monitor, case: Case, out: Path | None, plot: Path | None, units: System, quiet: bool) -> None:
+    """Print what was found, and write table and picture."""
+    found = result_of(watch)
+    written = []
+    if out is not None:
+        metadata = {
+            "case": case.model_dump(mode="json"), "units": units, "fit": watch.chart.fit, "told": list(found.told),
+            "alarms": [alarm.sentence for alarm in found.alarms], "versions": versions(),
+        }  # fmt: skip
+        written += write_table(in_units(units, found.stretches), out, metadata)
+    if plot is not None:
+        from fctd import plots
+
+        written += plots.save(plots.monitor_figure(found, case, units=units), plot)
+    if not quiet:
+        _print(found, case, units)
+    for line in found.told:
+        messages.print(line, soft_wrap=True)
+    print_written(written)
+
+
+def _print(found: Monitored, case: Case, units: System) -> None:
+    """Print a line for each stretch with a factor, evenly picked, and what else there is."""
+    stretches = found.stretches
+    inferred = stretches[stretches["friction"].notna()]
+    screen.print(printable(f"{case.name}; friction factor of {found.chart.fit} hole"), style="bold", soft_wrap=True)
+    depth, force, torque = (shown(name, units) for name in ("bit_depth_m", "weight_indicator_N", "drive_torque_N_m"))
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    table.add_column("stretch", no_wrap=True)
+    for name in (
+        f"bit\n{depth.label}",
+        "rows",
+        f"weight ind.\n{force.label}",
+        f"torque\n{torque.label}",
+        "μ",
+        "95 % band",
+    ):
+        table.add_column(name, justify="right")
+    for row in _picked(inferred).to_dict("records"):
+        table.add_row(
+            row["mode"], f"{row['bit_depth_m'] * depth.factor:.0f}", str(row["samples"]),
+            f"{row['weight_indicator_N'] * force.factor:.1f}", f"{row['drive_torque_N_m'] * torque.factor:.2f}",
+            f"{row['friction']:.2f}", f"{row['friction_low']:.2f} to {row['friction_high']:.2f}",
+        )  # fmt: skip
+    screen.print(table)
+    left = stretches.loc[stretches["friction"].isna(), "left_out"].value_counts()
+    reasons = "".join(f"; {count}: {why}" for why, count in left.items())
+    alarms = f"{len(found.alarms)} alarm{'s' if len(found.alarms) != 1 else ''}"
+    screen.print(
+        f"{len(stretches)} stretches, {len(inferred)} with a friction factor{reasons}; {alarms}", soft_wrap=True
+    )
+
+
+def _picked(rows: pd.DataFrame) -> pd.DataFrame:
+    """At most `SCREEN_ROWS` rows, evenly spread."""
+    if len(rows) <= SCREEN_ROWS:
+        return rows
+    return rows.iloc[[round(k * (len(rows) - 1) / (SCREEN_ROWS - 1)) for k in range(SCREEN_ROWS)]]

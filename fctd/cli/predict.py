@@ -1,0 +1,50 @@
+"""``fctd predict CASE ROWS.csv``: readings of rows with bands, and scores of those that are measured."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fctd.calibration.calibrate import predict
+from fctd.calibration.predict import posterior_file
+from fctd.case.text import printable
+from fctd.cli.calibrate import print_prediction
+from fctd.cli.options import CaseFile, Overrides, changes_of, print_written, read_case, refuse_sources, screen
+from fctd.cli.pictures import DRAWN, check_pictures
+from fctd.cli.steady import check_table, file_option
+from fctd.results.tables import write_table
+
+
+def predict_command(
+    case_file: CaseFile,
+    rows: Annotated[
+        Path, typer.Argument(metavar="ROWS.csv", help="Rows to predict, measured or not.", show_default=False)
+    ],
+    posterior: Annotated[
+        Path | None, file_option("--posterior", "Of the calibration, .fit.json; default: the one beside the case.")
+    ] = None,
+    samples: Annotated[int, typer.Option("--samples", metavar="N", help="Draws of the bands.", min=100)] = 4000,
+    seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of the draws.")] = 0,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    out: Annotated[
+        Path | None, file_option("--out", "A row for every reading, with bands and scores, .csv, .parquet or .xlsx.")
+    ] = None,
+    plot: Annotated[Path | None, file_option("--plot", "Predicted and measured readings with bands.")] = None,
+) -> None:
+    """Predict hook loads and torques of a calibrated case with 50 and 95 % bands, and score measured ones."""
+    check_table(out)
+    check_pictures({"--plot": plot}, DRAWN)
+    changes = changes_of(overrides)
+    case = read_case(case_file, changes)
+    for key, path in {"--out": out, "--plot": plot}.items():
+        refuse_sources(case, path, key)
+    beside = posterior_file(case_file) if posterior is None else posterior
+    table = predict(case, rows, beside, samples=samples, seed=seed, overrides=changes)
+    written = [] if out is None else write_table(table, out, {})
+    if plot is not None:
+        from fctd import plots  # needs matplotlib
+
+        written += plots.save(plots.prediction_figure(table, f"{case.name}: predicted readings"), plot)
+    screen.print(printable(f"{case.name}: predicted readings"), style="bold", soft_wrap=True)
+    print_prediction(table)
+    print_written(written)

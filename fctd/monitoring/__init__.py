@@ -1,0 +1,1 @@
+"""Friction monitoring: from the rig's readings over time to apparent friction factors and alarms."""

@@ -1,0 +1,218 @@
+"""Loads of the steady string over bit depth and friction factor: solved at nodes when needed, and interpolated."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.errors import InputError
+from fctd.case.friction import FrictionSet
+from fctd.case.load import Case
+from fctd.case.operations import KINDS as OPERATIONS
+from fctd.model.drillstring import section_of
+from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, weight_indicator
+from fctd.model.wellbore import build_wellbore
+from fctd.monitoring.stretches import OF_KIND, Mode
+from fctd.steady.equilibrium import Solver
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
+
+Array = NDArray[np.float64]
+Fit = Literal["open", "cased", "all"]
+
+FACTORS: Final = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65])
+NODES: Final = 30.0  # [m] between bit depths, about a stand
+COARSE: Final = 120.0  # [m] between bit depths of the loads that the rules of stretches need
+CASED_STEP: Final = 0.05  # of the held factor, for the derivative by it
+KIND_OF: Final[Mapping[Mode, str]] = {mode: kind for kind, mode in OF_KIND.items()} | {
+    "rotating_up": "rotate_off_bottom", "rotating_down": "rotate_off_bottom",
+}  # fmt: skip
+
+
+class Inverse(NamedTuple):
+    """A friction factor, its derivative by the reading [1/N or 1/(N m)], and by the factor of the other kind."""
+
+    factor: float
+    per_reading: float
+    per_other: float
+
+
+def fit_of(case: Case, fit: Fit | None) -> Fit:
+    """The intervals whose factor is inferred: open hole where the case names kinds, else all."""
+    kinds = {interval.kind for interval in case.wellbore.intervals}
+    if fit is None:
+        return "open" if "open" in kinds and None not in kinds else "all"
+    if fit not in ("open", "cased", "all"):
+        raise InputError("open, cased or all", key="fit", value=fit)
+    if fit != "all":
+        FrictionSet(**{fit: 0.0}).of(case.wellbore.intervals)  # raises InputError for kinds that are not there
+    return fit
+
+
+class Chart:
+    """Readings of the rig for the operations of a case at any bit depth, by the friction factor of some intervals.
+
+    fit : the intervals; the others keep the factors of the case.  The factor is interpolated by Fritsch and Carlson's
+    monotone cubics (1980) over the load, and the load linearly over depth between nodes of `NODES`.
+    """
+
+    def __init__(self, case: Case, fit: Fit | None = None) -> None:
+        self.case, self.fit = case, fit_of(case, fit)
+        self.deepest = case.depths[1]
+        hole = build_wellbore(case)
+        intervals = case.wellbore.intervals
+
+        def solver(factors: tuple[float, ...]) -> Solver:
+            changed = [i.model_copy(update={"friction": f}) for i, f in zip(intervals, factors, strict=True)]
+            wellbore = case.wellbore.model_copy(update={"intervals": tuple(changed)})
+            return Solver(case.model_copy(update={"wellbore": wellbore}), hole.with_friction(np.array(factors)))
+
+        self._own = Solver(case, hole)
+        self._solvers = [solver(self._set(float(factor)).of(intervals)) for factor in FACTORS]
+        held = tuple(
+            factor + (CASED_STEP if self.fit != "all" and interval.kind != self.fit else 0.0)
+            for factor, interval in zip(self._set(FACTORS[2]).of(intervals), intervals, strict=True)
+        )
+        self._other = solver(held)
+        self._rates = rates_of_all(case, list(OF_KIND))
+        self._nodes: dict[tuple[str, float], Array] = {}
+        self._coarse: dict[float, Array] = {}
+        self._inverses: dict[tuple[Mode, float, float], tuple[PchipInterpolator, float] | None] = {}
+        self._stiffness = section_of(case.string.components[-1], case.mud.density).EA
+
+    def _set(self, factor: float) -> FrictionSet:
+        return FrictionSet(every=factor) if self.fit == "all" else FrictionSet(**{self.fit: factor})
+
+    def loads(self, kind: str, depth: float) -> Array:
+        """Hook load [N] of a trip, or surface torque [N m] of rotation, at `FACTORS` and at the other kind's step.
+
+        NaN where there is no balance, or where string and hole do not fit.
+        """
+        low = np.floor(depth / NODES) * NODES
+        high = low + NODES
+        low, high = max(low, min(NODES, self.deepest)), min(high, self.deepest)
+        below, above = self._node(kind, float(low)), self._node(kind, float(high))
+        share = (depth - low) / (high - low) if high > low else 0.0
+        loads: Array = below + share * (above - below)
+        return loads
+
+    def readings(self, mode: Mode, depth: float, rpm: float) -> Array:
+        """What the rig's sensor reads at these loads: weight indicator [N], or drive torque [N m] while rotating."""
+        kind = KIND_OF[mode]
+        loads = self.loads(kind, depth)
+        if kind == "rotate_off_bottom":
+            spin = rad_per_s(0.0 if np.isnan(rpm) else rpm)
+            return np.array([drive_torque(self.case.rig, spin, load) for load in loads])
+        direction = OPERATIONS[kind].direction
+        return np.array([weight_indicator(self.case.rig, direction, load) for load in loads])
+
+    def curve(self, mode: Mode, depth: float, factor: float, rpm: float = float("nan")) -> float:
+        """The reading at a depth and a factor within `FACTORS`; NaN without a balance."""
+        x, y = _monotone(FACTORS, self.readings(mode, depth, rpm)[:-1])
+        return float(_cubic(x, y)(factor, extrapolate=False)) if len(x) > 1 else float("nan")
+
+    def invert(self, mode: Mode, depth: float, reading: float, rpm: float) -> Inverse | None:
+        """The factor of a reading; None where the chart has no two loads there or the load does not depend on it.
+
+        Beyond the loads of `FACTORS` the factor continues on a straight line: a reading below that of a frictionless
+        string has a negative one.
+        """
+        key = (mode, depth, rpm)
+        if key not in self._inverses:  # a reading is often repeated at the same depth, as in trials
+            self._inverses[key] = self._inverse_at(*key)
+        found = self._inverses[key]
+        if found is None:
+            return None
+        cubic, by_other = found
+        inside = float(np.clip(reading, cubic.x[0], cubic.x[-1]))
+        slope = float(cubic(inside, 1))
+        return Inverse(float(cubic(inside)) + slope * (reading - inside), slope, -slope * by_other)
+
+    def _inverse_at(self, mode: Mode, depth: float, rpm: float) -> tuple[PchipInterpolator, float] | None:
+        """Factor by reading, and derivative of the reading by the factor that is held."""
+        found = self.readings(mode, depth, rpm)
+        factors, loads = _monotone(FACTORS, found[:-1])
+        if len(factors) < 2:
+            return None
+        if loads[0] > loads[-1]:
+            factors, loads = factors[::-1], loads[::-1]
+        by_other = (found[-1] - found[2]) / CASED_STEP if self.fit != "all" else 0.0
+        return _cubic(loads, factors), float(np.nan_to_num(by_other))
+
+    def slips_below(self, depth: Array) -> Array:
+        """Weight indicator below which the string hangs in the slips: the block and half the string's weight [N]."""
+        depth = np.clip(depth, 0.0, self.deepest)
+        low, high = float(np.floor(depth.min() / COARSE)), float(np.ceil(depth.max() / COARSE))
+        at = np.arange(low, high + 1) * COARSE
+        weights = np.array([self._coarse_node(float(d))[0] for d in at])
+        limits: Array = self.case.rig.block_weight + 0.5 * np.interp(depth, at, weights)
+        return limits
+
+    def reversal(self, depth: float) -> float:
+        """Stretch at reversal: difference of hook loads up and down, which falls to 0 at the bit, over EA [m]."""
+        spread = self._coarse_at(depth)[1]
+        return float(spread * depth / (2 * self._stiffness))
+
+    def locked_share(self, depth: float, torque: float, rpm: float) -> float:
+        """Share of the rotating torque of the case's own friction that a reading [N m] is."""
+        turning = float(self._coarse_at(depth)[2])
+        held = torque - drive_torque(self.case.rig, rad_per_s(rpm), 0.0)
+        return held / turning if turning > 0 else 0.0
+
+    def _coarse_at(self, depth: float) -> Array:
+        depth = min(depth, self.deepest)
+        low = np.floor(depth / COARSE) * COARSE
+        share = (depth - low) / COARSE
+        loads: Array = (1 - share) * self._coarse_node(float(low)) + share * self._coarse_node(float(low + COARSE))
+        return loads
+
+    def _coarse_node(self, depth: float) -> Array:
+        """Rotating hook load, hook load up minus down [N] and rotating torque [N m] at the case's own friction.
+
+        Each is 0 where there is no steady string.
+        """
+        depth = min(max(depth, NODES), self.deepest)
+        if depth not in self._coarse:
+            turning, out, down = (self._solve(self._own, kind, depth) for kind in OF_KIND)
+            self._coarse[depth] = np.nan_to_num([turning[0], max(out[0] - down[0], 0.0), turning[1]])
+        return self._coarse[depth]
+
+    def _node(self, kind: str, depth: float) -> Array:
+        key = (kind, depth)
+        if key not in self._nodes:
+            column = 1 if kind == "rotate_off_bottom" else 0
+            solvers = [*self._solvers, self._other]
+            self._nodes[key] = np.array([self._solve(solver, kind, depth)[column] for solver in solvers])
+        return self._nodes[key]
+
+    def _solve(self, solver: Solver, kind: str, depth: float) -> tuple[float, float]:
+        """Hook load and surface torque, NaN without a balance."""
+        try:
+            point = solver.solve(kind, self._rates[kind], depth)
+        except InputError:
+            return float("nan"), float("nan")
+        return (point.hookload, point.surface_torque) if point.answered else (float("nan"), float("nan"))
+
+
+def _cubic(x: Array, y: Array) -> PchipInterpolator:
+    from scipy.interpolate import PchipInterpolator  # slow to import, and other commands do without
+
+    return PchipInterpolator(x, y)
+
+
+def _monotone(factors: Array, loads: Array) -> tuple[Array, Array]:
+    """The factors whose loads go on in one direction, from the first on."""
+    known = np.isfinite(loads)
+    factors, loads = factors[known], loads[known]
+    if len(loads) < 2 or loads[-1] == loads[0]:
+        return factors[:0], loads[:0]
+    sign = np.sign(loads[-1] - loads[0])
+    keep = [0]
+    for k in range(1, len(loads)):
+        if sign * (loads[k] - loads[keep[-1]]) > 0:
+            keep.append(k)
+    return factors[keep], loads[keep]

@@ -1,0 +1,90 @@
+"""Readings of rows: the engine's own answers, the rig's constants, and derivatives against differences."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fctd.calibration.forward import Forward
+from fctd.calibration.rows import Row
+from fctd.calibration.setup import Setup
+from fctd.calibration.unknowns import find_unknowns, parse_fits
+from fctd.model.operations import SteadyRates
+from fctd.steady.equilibrium import equilibrium
+from tests.calibration.wells import TRUTH, TURN, blank_rows, well
+from tests.cases import make_case, pipe
+
+ALL = [*TRUTH, "rig.guide_friction", "mass.collars", "mud.density", "bias.hookload.DDR", "bias.torque.DDR"]
+SETUP = Setup.model_validate({"sources": {"DDR": {"reading": "peak"}}})
+
+
+def forward_of(rows: list[Row], names: list[str], setup: Setup = SETUP) -> Forward:
+    return Forward(rows, {"": well()}, find_unknowns(parse_fits(names), setup, [well()]), setup)
+
+
+def test_readings_are_those_of_the_engine() -> None:
+    case = well(rig={"block_weight": 230e3, "sheave_efficiency": 0.97, "torque_offset": 800.0, "torque_per_rpm": 8.0})
+    rows = blank_rows(case)[:3]
+    forward = forward_of(rows, ["rig.block_weight", "rig.sheave_efficiency", "rig.torque_offset", "rig.torque_per_rpm"])
+    found = forward.evaluate(np.array([230e3, 0.97, 800.0, 8.0]))
+    for reading, value in zip(forward.readings, found.value, strict=True):
+        row = rows[reading.row]
+        point = equilibrium(case, row.operation, row.bit_depth, rpm=row.rates.spin / TURN or None)
+        expected = point.weight_indicator if reading.load == "hookload" else point.drive_torque
+        assert value == pytest.approx(expected, rel=1e-9)
+
+
+def test_in_slips_the_block_hangs_alone_and_a_tare_turns_the_free_drive() -> None:
+    rows = [replace(row, source="DDR") for row in blank_rows(well())[-2:]]
+    forward = forward_of(rows, ALL)
+    values = np.array([u.start for u in forward.unknowns])
+    values[forward.names.index("rig.torque_offset")] = 800.0
+    values[forward.names.index("rig.torque_per_rpm")] = 8.0
+    values[-2:] = 5e3, 50.0
+    # At rest a peak has no bias of the hook load.
+    assert forward.evaluate(values).value == pytest.approx([250e3, 250e3, 800.0 + 8.0 * 60 + 50.0])
+
+
+def test_a_peak_carries_its_bias_in_the_direction_of_motion() -> None:
+    rows = [replace(row, source="DDR") for row in blank_rows(well())[:3]]
+    forward = forward_of(rows, ["bias.hookload.DDR"])
+    by_bias = forward.evaluate(np.zeros(1)).slopes[::2, 0]
+    assert by_bias.tolist() == [1.0, -1.0, 0.0]  # up, down, rotating
+    median = forward_of(rows, ["bias.hookload.DDR"], Setup())
+    assert median.evaluate(np.zeros(1)).slopes[::2, 0].tolist() == [1.0, 1.0, 1.0]
+
+
+def test_derivatives_equal_central_differences_of_full_solves() -> None:
+    rows = [replace(row, source="DDR") for row in (*blank_rows(well())[-5:-2], blank_rows(well())[-1])]
+    forward = forward_of(rows, ALL)
+    values = np.array([u.start for u in forward.unknowns])
+    values[forward.names.index("rig.sheave_efficiency")] = 0.96
+    slopes = forward.evaluate(values).slopes
+    for k, unknown in enumerate(forward.unknowns):
+        ends = []
+        for side in (1, -1):
+            moved = values.copy()
+            moved[k] += side * 1e-3 * unknown.size
+            ends.append(forward.evaluate(moved).value)
+        expected = (ends[0] - ends[1]) / (2e-3 * unknown.size)
+        # Readings of other loads than the unknown's own do not change beyond the solver's tolerance.
+        assert slopes[:, k] == pytest.approx(expected, rel=2e-4, abs=1e-4 * np.abs(expected).max()), unknown.name
+
+
+def test_a_string_without_loads_has_a_reason_and_no_numbers() -> None:
+    """A wall so soft that the string lies deeper in it than the hole's radius."""
+    soft = make_case([[0, 90, 0], [200, 90, 0]], [pipe(None, None, segment_length=20.0)], wellbore={"stiffness": 1e3})
+    row = Row("down", "", 200.0, "trip_in", SteadyRates(0.3, 0.0))
+    forward = Forward([row], {"": soft}, find_unknowns(parse_fits(["friction"]), SETUP, [soft]), SETUP)
+    found = forward.evaluate(np.array([0.2]))
+    assert found.reasons[0].startswith("diverged: segment")
+    assert np.isnan(found.value).all()
+
+
+def test_constants_of_the_rig_solve_nothing_again() -> None:
+    forward = forward_of(blank_rows(well())[:1], ["friction", "rig.block_weight"])
+    first = forward.evaluate(np.array([0.2, 250e3]))
+    kept = dict(forward._kept)
+    second = forward.evaluate(np.array([0.2, 260e3]))
+    assert forward._kept == kept
+    assert second.value[0] - first.value[0] == pytest.approx(10e3)

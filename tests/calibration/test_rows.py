@@ -1,0 +1,107 @@
+"""Rows of a calibration: every column, and messages that name file, row and column."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fctd.calibration.rows import OPERATIONS, Range, read_rows
+from fctd.case.errors import InputError
+from tests.calibration.wells import well
+
+HEADERS = "id,bit_depth_m,operation,hookload_kN,torque_low_kN_m,torque_high_kN_m,rpm,speed_m_s"
+
+
+def written(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "rows.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_row_has_all_that_its_columns_say(tmp_path: Path) -> None:
+    text = (
+        "id,string,Bit depth (ft),operation,speed_ft/min,rpm,flow (L/min),Hook load low (klbf),hookload high (klbf),"
+        "torque_kft_lbf,weight,source,stroke_m,locked torque (kN*m)\n"
+        "A,wiper,3000,back_ream,30,90,1800,100,110,4,0.5,DDR,12,1.5\n"
+    )
+    (row,), strings = read_rows(written(tmp_path, text), well(), {"wiper": well()}, measured=True)
+    assert (row.id, row.string, row.operation, row.source, row.weight) == ("A", "wiper", "back_ream", "DDR", 0.5)
+    assert row.bit_depth == pytest.approx(914.4)
+    assert row.rates == pytest.approx((-0.1524, 90 * np.pi / 30))
+    assert row.hookload == Range(pytest.approx(444822.16152605), pytest.approx(489304.377678655))  # lbf: NIST SP 811
+    assert row.torque == Range(pytest.approx(5423.2719), pytest.approx(5423.2719))
+    assert (row.flow, row.stroke, row.locked_torque) == (pytest.approx(0.03), 12.0, 1500.0)
+    assert set(strings) == {"", "wiper"}
+
+
+def test_rows_without_a_string_need_no_depth(tmp_path: Path) -> None:
+    text = f"{HEADERS}\n,,in_slips,230,,,,\n,,tare,231,1,2,60,\n"
+    rows, _ = read_rows(written(tmp_path, text), well(), {}, measured=True)
+    assert [row.operation for row in rows] == ["in_slips", "tare"]
+    assert [row.id for row in rows] == ["row 2", "row 3"]
+    assert rows[1].rates.spin == pytest.approx(2 * np.pi)
+    assert [row.direction for row in rows] == [0, 0]
+    assert OPERATIONS[-2:] == ("in_slips", "tare")
+
+
+def test_a_string_may_be_another_case_beside_the_rows(tmp_path: Path) -> None:
+    (tmp_path / "wiper.toml").write_text(
+        'name = "wiper"\n[wellbore]\nstations = [[0, 0, 0], [800, 0, 0]]\n'
+        "[[wellbore.intervals]]\nto_md = 800\ndiameter = 0.3\nfriction = 0.2\n"
+        '[[string.components]]\nname = "pipe"\nouter_diameter = 0.127\ninner_diameter = 0.1\n',
+        encoding="utf-8",
+    )
+    text = "string,bit_depth_m,operation,hookload_kN\nwiper.toml,700,trip_in,300\n"
+    rows, strings = read_rows(written(tmp_path, text), well(), {}, measured=True)
+    assert strings[rows[0].string].name == "wiper"
+    with pytest.raises(InputError, match=r"row 2, bit_depth_m = \"900\": expected a depth in the well.*800 m"):
+        read_rows(written(tmp_path, text.replace("700", "900")), well(), {}, measured=True)
+
+
+@pytest.mark.parametrize(
+    ("row", "expected"),
+    [
+        (",1000,trip_inn,1,,,,", ['row 3, operation = "trip_inn"', "trip_in"]),
+        (",1000,trip_in,heavy,,,,", ['row 3, hookload_kN = "heavy"', "a number"]),
+        (",1000,rotate_off_bottom,,5,4,60,", ["row 3, torque", "that rise"]),
+        (",1000,rotate_off_bottom,,5,,60,", ["row 3, torque", "both ends"]),
+        (",1600,trip_in,1,,,,", ['row 3, bit_depth_m = "1600"', "down to 1500 m"]),
+        (",,trip_in,1,,,,", ["row 3, bit_depth_m", "a depth in the well"]),
+        (",1000,trip_in,-5,,,,", ["row 3, hookload_kN", "at least 0"]),
+        (",1000,trip_in,,,,,", ["row 3", "a hook load or a torque"]),
+        (",,in_slips,1,1,2,,", ["row 3", "no torque for in_slips"]),
+        (",1000,drill_sliding,1,,,60,", ['row 3, rpm = "60"', "rev/min of 0 for drill_sliding"]),
+        (",1000,rotate_off_bottom,1,,,60,0.3", ["row 3, speed_m_s", "a speed of 0"]),
+        ("first,1000,trip_in,1,,,,", ["row 3, id", "no row above"]),
+    ],
+)
+def test_a_bad_row_is_answered_with_file_row_and_column(row: str, expected: list[str], tmp_path: Path) -> None:
+    with pytest.raises(InputError) as raised:
+        read_rows(written(tmp_path, f"{HEADERS}\nfirst,1000,trip_in,500,,,,\n{row}\n"), well(), {}, measured=True)
+    for part in ("rows.csv", *expected):
+        assert part in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("bit_depth,operation,hookload_kN\n1,trip_in,1\n", ['"bit_depth"', "ends in its unit"]),
+        ("bit_depth_m,operation,speed\n1,trip_in,1\n", ['"speed"', "ends in its unit"]),
+        ("bit_depth_m,hookload_kN\n1,1\n", ["a column of operation"]),
+        ("bit_depth_m,operation\n1,trip_in\n", ["a column of hook load or torque"]),
+        ("bit_depth_m,operation,hookload_kN,weight\n900,trip_in,1,0\n", ["row 2, weight", "above 0"]),
+        ("bit_depth_m,operation,hookload_kN,string\n900,trip_in,1,x\n", ["row 2, string", "case file that exists"]),
+    ],
+)
+def test_bad_headers(text: str, expected: list[str], tmp_path: Path) -> None:
+    with pytest.raises(InputError) as raised:
+        read_rows(written(tmp_path, text), well(), {}, measured=True)
+    for part in expected:
+        assert part in str(raised.value)
+
+
+def test_a_prediction_needs_no_loads(tmp_path: Path) -> None:
+    rows, _ = read_rows(written(tmp_path, "bit_depth_m,operation\n900,trip_in\n"), well(), {}, measured=False)
+    assert rows[0].hookload is None
+    assert rows[0].torque is None
+    assert Range(1.0, 3.0).middle == 2.0

@@ -1,0 +1,72 @@
+"""``fctd calibrate``: what it prints and writes, and how it refuses."""
+
+from pathlib import Path
+
+import pytest
+
+from fctd.case.load import load_case
+from tests.calibration.test_calibrate import CASE
+from tests.cli.test_main import run
+
+HANG = 500 * 30 * 9.80665e-3  # [kN]
+ROWS = (
+    "id,bit_depth_m,operation,rpm,hookload_low_kN,hookload_high_kN,torque_kN_m\n"
+    f"turn,500,rotate_off_bottom,60,{HANG + 195},{HANG + 205},\n"
+    "slips,,in_slips,,190,201,\n,,tare,60,,,1.5\n"
+)
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> tuple[Path, Path]:
+    case, rows = tmp_path / "small.toml", tmp_path / "rows.csv"
+    case.write_text(CASE, encoding="utf-8")
+    rows.write_text(ROWS, encoding="utf-8")
+    return case, rows
+
+
+def test_a_calibration_and_its_files(
+    files: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out, table, plot = tmp_path / "new.toml", tmp_path / "rows_fitted.csv", tmp_path / "fit.png"
+    options = ("--fit", "rig.block_weight", "--fit", "rig.torque_offset", "--starts", "1", "--quiet")
+    assert run(monkeypatch, "calibrate", *files, *options, "--out", out, "--table", table, "--plot", plot) == 0
+    printed = capsys.readouterr().out
+    for part in (
+        "small: 3 rows fitted",
+        "rig.block_weight",
+        "profile (ranges)",
+        "rig.torque_offset",
+        "1.5",
+        "Written:",
+    ):
+        assert part in printed
+    assert load_case(out).rig.torque_offset == pytest.approx(1500.0, rel=1e-4)
+    assert len(table.read_text(encoding="utf-8").splitlines()) == 4
+    assert plot.read_bytes().startswith(b"\x89PNG")
+    assert run(monkeypatch, "predict", out, files[1]) == 0
+    assert "inside the band of 50 %" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("rows", "options", "expected"),
+    [
+        (ROWS.replace("rotate_off", "rotat_off"), ("--fit", "friction"), "rows.csv: row 2, operation"),
+        (ROWS.replace(",500,", ",900,"), ("--fit", "friction"), "row 2, bit_depth_m"),
+        (ROWS.replace(",190,201", ",201,190"), ("--fit", "friction"), "row 3, hookload"),
+        (ROWS, (), "--fit is missing: expected at least one unknown"),
+        (ROWS, ("--fit", "frictn"), '--fit = "frictn": expected the unknown friction'),
+        (ROWS, ("--fit", "friction", "--prior", "friction"), "--prior"),
+        (ROWS, ("--fit", "rig.torque_offset", "--fit", "rig.torque_per_rpm"), "--fit"),
+        (ROWS, ("--fit", "friction", "--setup", "none.toml"), "none.toml"),
+        (ROWS, ("--fit", "friction", "--starts", "0"), "--starts"),
+        (ROWS, ("--fit", "friction", "--out", "new.json"), "--out"),
+        (ROWS, ("--fit", "friction", "--plot", "new.html"), "--plot"),
+    ],
+)
+def test_wrong_inputs_end_with_exit_code_2(
+    rows: str, options: tuple[str, ...], expected: str, files: tuple[Path, Path], monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    files[1].write_text(rows, encoding="utf-8")
+    assert run(monkeypatch, "calibrate", *files, *options) == 2
+    assert expected in capsys.readouterr().err

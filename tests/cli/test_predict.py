@@ -1,0 +1,34 @@
+"""``fctd predict``: bands, tables, pictures, and a posterior that is not there."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from tests.calibration.test_calibrate import CASE
+from tests.cli.test_calibrate import ROWS
+from tests.cli.test_main import run
+
+
+def test_rows_without_readings_have_bands_and_no_scores(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, rows, plan = tmp_path / "small.toml", tmp_path / "rows.csv", tmp_path / "plan.csv"
+    case.write_text(CASE, encoding="utf-8")
+    rows.write_text(ROWS, encoding="utf-8")
+    plan.write_text("id,bit_depth_m,operation\nlater,700,trip_out\n", encoding="utf-8")
+    assert run(monkeypatch, "predict", case, plan) == 2
+    assert "small.fit.json" in capsys.readouterr().err
+    new, out, plot = tmp_path / "new.toml", tmp_path / "bands.csv", tmp_path / "bands.png"
+    assert run(monkeypatch, "calibrate", case, rows, "--fit", "rig.block_weight", "--out", new, "--quiet") == 0
+    capsys.readouterr()
+    assert run(monkeypatch, "predict", new, plan, "--out", out, "--plot", plot) == 0
+    printed = capsys.readouterr().out
+    assert "later" in printed
+    assert "inside the band" not in printed
+    table = pd.read_csv(out, keep_default_na=False)
+    assert table["load"].tolist() == ["hookload", "torque"]
+    assert table["inside95"].tolist() == ["", ""]
+    hang = 700 * 30 * 9.80665  # [N]; the hole is vertical
+    assert float(table["predicted"][0]) - hang == pytest.approx(200e3, rel=0.02)
+    assert plot.read_bytes().startswith(b"\x89PNG")

@@ -1,0 +1,56 @@
+"""Apparent factors and their bands."""
+
+from dataclasses import replace
+
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.monitoring.friction import TWO_SIDED_95, Uncertainty, apparent, parse_uncertainty
+from fctd.monitoring.stretches import Stretch, by_depth
+from tests.monitoring.made import chart, readings
+
+
+def stretch(mode: str, depth: float) -> Stretch:
+    return next(s for s in by_depth(readings()) if s.mode == mode and s.bit_depth == depth)
+
+
+@pytest.mark.parametrize("mode", ["rotating", "pick_up", "slack_off"])
+def test_the_factor_of_a_reading(mode: str) -> None:
+    """0.3 above the step, 0.45 below it."""
+    for depth, factor in ((765.0, 0.3), (890.0, 0.45)):
+        assert apparent(stretch(mode, depth), chart(), Uncertainty()).factor == pytest.approx(factor, abs=3e-3)
+
+
+def test_the_band_adds_what_is_held() -> None:
+    one = stretch("pick_up", 890.0)
+    alone = apparent(one, chart(), Uncertainty())
+    per_newton = alone.noise / Uncertainty().hook_load
+    assert alone.high - alone.factor == pytest.approx(TWO_SIDED_95 * alone.noise)
+    held = apparent(one, chart(), Uncertainty(block_weight=Uncertainty().hook_load))
+    assert held.noise == alone.noise
+    assert held.high - held.low == pytest.approx(2**0.5 * (alone.high - alone.low))
+    assert apparent(one, chart(), Uncertainty(cased=0.05)).high > alone.high
+    assert per_newton > 0
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        ({"left_out": "torque locked in"}, "torque locked in"),
+        ({"mode": "in_slips"}, "slips"),
+        ({"bit_depth": 1200.0}, "outside"),
+        ({"bit_depth": 605.0}, "does not depend"),
+    ],
+)
+def test_no_factor_is_inferred(change: dict[str, object], why: str) -> None:
+    found = apparent(replace(stretch("pick_up", 890.0), **change), chart(), Uncertainty())  # type: ignore[arg-type]
+    assert found.factor != found.factor
+    assert why in found.left_out
+
+
+def test_uncertainties_of_options() -> None:
+    found = parse_uncertainty(["torque=5%", "hook_load=2 t", "cased=0.02"], "--uncertainty")
+    assert found == Uncertainty(torque=0.05, hook_load=19613.3, cased=0.02)
+    for text in ("torque", "twist=5%", "torque=much", "hook_load=2 m"):
+        with pytest.raises(InputError, match="--uncertainty"):
+            parse_uncertainty([text], "--uncertainty")

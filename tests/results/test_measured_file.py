@@ -1,0 +1,51 @@
+"""Columns by their headers: units in brackets, as products and as quotients."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.case.units import ROTATION, SPEED, TORQUE
+from fctd.results.measured_file import Field, Text, read_lines, require
+
+FIELDS = (
+    Field("speed", "m_s", SPEED, "speed", "m_s", at_least=0.0),
+    Field("torque", "N_m", TORQUE, "torque", "kN_m", ranged=True),
+    Field("rpm", "", ROTATION, "rpm", "rpm", bare="rpm"),
+)
+
+
+def read(tmp_path: Path, text: str) -> list[dict[str, object]]:
+    path = tmp_path / "rows.csv"
+    path.write_text(text, encoding="utf-8")
+    return [line.cells for line in read_lines(path, FIELDS, [Text("name", "name|id")], "such as speed_m_s")]
+
+
+@pytest.mark.parametrize("header", ["speed_m_s", "Speed (m/s)", "speed [m/s]", "speed_m/s"])
+def test_a_quotient_of_units(header: str, tmp_path: Path) -> None:
+    assert read(tmp_path, f"{header}\n0.3\n") == [{"speed_m_s": 0.3}]
+
+
+def test_products_ranges_bare_units_texts_and_empty_cells(tmp_path: Path) -> None:
+    (row,) = read(tmp_path, "id,torque_low_kN_m,torque_high (kN*m),rpm,remark\nA,1,2,\n")
+    assert row["name"] == "A"
+    assert (row["torque_low_N_m"], row["torque_high_N_m"]) == (1e3, 2e3)
+    assert np.isnan(float(str(row["rpm"])))
+    assert "remark" not in row
+
+
+def test_no_known_header(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="such as speed_m_s"):
+        read(tmp_path, "a,b\n1,2\n")
+
+
+def test_a_column_that_is_required(tmp_path: Path) -> None:
+    path = tmp_path / "rows.csv"
+    path.write_text("speed_m_s\n1\n", encoding="utf-8")
+    lines = read_lines(path, FIELDS, [], "such as speed_m_s")
+    require(lines, "speed", ["speed_m_s"], "such as speed_m_s")
+    with pytest.raises(InputError, match="a column of torque among the headers, such as speed_m_s"):
+        require(lines, "torque", ["torque_N_m"], "such as speed_m_s")
+    error = lines[0].error("speed_m_s", "more")
+    assert (error.key, error.value) == ("row 2, speed_m_s", "1")

@@ -1,0 +1,139 @@
+"""Stretches of a real four-second series against medians of 25 m bins that someone else made of it."""
+
+from collections import defaultdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fctd import Case
+from fctd.monitoring.monitor import Monitor, result_of
+from fctd.monitoring.series import read_series
+from fctd.monitoring.stretches import Mode
+from validation.harness.files import declare
+from validation.harness.study import Check, Context, Outcome, Study
+
+MODES: dict[str, Mode] = {
+    "in_slips": "in_slips", "rot_static": "rotating", "rot_up": "rotating_up", "rot_dn": "rotating_down",
+}  # fmt: skip
+BIN = 25.0  # [m]
+SLACK = 0.02
+TONNE = 9806.65  # [N], 1,000 kgf
+
+
+def f4(folder: Path) -> Case:
+    """Well 15/9-F-4 with the string of its 12¼ in section.
+
+    Survey, casing, mud and drill pipe are recorded.  Collars and block weight are assumed so that the string weighs
+    what the hook carries near 1,400 m, 60 t, and the block what it reads in slips, 66 t.  The torque offset is the
+    reading with no rotation, 0.5 kN m; torque for each rev/min is that between 6.1 kN m at 60 and 8 kN m at 130
+    rev/min, as the data's notes say; the friction of the casing, 0.12, is a guess.  None of them enters the medians of
+    stretches, but for the limit of slips, half way between block and string.
+    """
+    stations = pd.read_csv(declare(folder / "survey.csv"))[["md_m", "inc_deg", "azi_deg"]].to_numpy().tolist()
+    intervals = [
+        {"to_md": 1351, "diameter": "12.415 in", "friction": 0.12, "kind": "cased"},
+        {"to_md": 2770, "diameter": "12.25 in", "friction": 0.25, "kind": "open"},
+    ]
+    pipe = {"name": "5 1/2 in drill pipe", "outer_diameter": 0.1397, "inner_diameter": 0.12136, "segment_length": 25,
+            "contact_diameter": 0.18415, "linear_mass": 36.76}  # fmt: skip
+    collars = {"name": "collars", "length": 110, "outer_diameter": "8.25 in", "inner_diameter": "2.8125 in",
+               "segment_length": 10}  # fmt: skip
+    return Case.model_validate(
+        {
+            "name": "15/9-F-4, 12 1/4 in",
+            "wellbore": {"stations": stations, "geometry": "arcs", "stiffness": 5e7, "intervals": intervals},
+            "string": {"components": [collars, pipe]},
+            "mud": {"density": 1400},
+            "rig": {"block_weight": "66 t", "torque_offset": "0.5 kN*m", "torque_per_rpm": 27},
+        }
+    )
+
+
+def run(context: Context) -> Outcome:
+    """Every row of the settled stretches by the bin of its bit depth; the rules were fixed before the comparison."""
+    assert context.data is not None  # the runner has checked that the data are there
+    folder = context.data / "volve-15-9-F-4"
+    watch = Monitor(f4(folder))
+    series = read_series(declare(folder / "timeseries_12.25in_2007-10-23.csv"))
+    watch.feed(series)
+    watch.finish()
+    pooled: dict[tuple[str, float], list[np.ndarray]] = defaultdict(list)
+    for found in watch.found:
+        for row in found.stretch.rows:
+            pooled[found.stretch.mode, BIN * np.floor(row[0] / BIN)].append(row)
+    bins = pd.read_csv(declare(folder / "offbottom_bins_25m.csv"))
+    rows = [_compared(one, pooled) for _, one in bins[bins["mode"].isin(list(MODES))].iterrows()]
+    table = pd.DataFrame(rows)
+    within = float(table["within"].mean())
+    result = result_of(watch)
+    stretches = result.stretches.drop(columns=["start_s", "end_s"])
+    return Outcome(
+        tables={
+            "bins": table, "distance": _by_distance(series, table), "stretches": stretches,
+            "alarms": pd.DataFrame([vars(alarm) for alarm in result.alarms]),
+        },
+        checks=[
+            Check("bins of rotation and slips whose medians lie within the quartiles or 2 %", within, 0.8, "at_least",
+                  "", "target: 80 % of the bins"),
+        ],
+        notes=[
+            f"{int(table['within'].sum())} of {len(table)} bins. A bin without a stretch counts as missed. The rule "
+            "behind the bins is not recorded.",
+            "Torque of the standing, turning string falls with the distance off bottom, up to about a metre: in missed "
+            "bins of standing rotation the other hand has counted rows nearer to the bottom than the 1 m asked for "
+            "here, or rows in which the rotation was not yet settled.",
+            *result.told,
+            *(f"Alarm: {alarm.sentence}." for alarm in result.alarms),
+        ],
+        display={
+            "bins": "Medians of stretches against the bins",
+            "distance": "Standing rotation in the missed bins, every row, by the least distance off bottom",
+        },
+    )  # fmt: skip
+
+
+def _by_distance(series: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
+    """Rows with standing block and 20 rev/min or more in missed bins, by the least distance off bottom [m]."""
+    missed = table.loc[~table["within"] & (table["mode"] == "rotating"), "bit_depth_from_m"]
+    speed = series["block_position_m"].diff() / series["time_s"].diff()
+    standing = series[(series["rpm"] >= 20) & (speed.abs() < 0.01)]
+    off = standing["hole_depth_m"] - standing["bit_depth_m"]
+    rows = []
+    for start in missed:
+        inside = (standing["bit_depth_m"] >= start) & (standing["bit_depth_m"] < start + BIN)
+        for least in (0.1, 0.3, 0.5, 0.8, 1.0):
+            here = standing[inside & (off > least)]
+            rows.append(
+                {"bit_depth_from_m": start, "off_bottom_m": least, "rows": len(here), "rpm": here["rpm"].median(),
+                 "torque_kN_m": here["drive_torque_N_m"].median() / 1e3}
+            )  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def _compared(one: "pd.Series[Any]", pooled: dict[tuple[str, float], list[np.ndarray]]) -> dict[str, object]:
+    """A bin beside the stretches in it: in slips the hook load is judged, in rotation the torque and the hook load."""
+    mode = MODES[str(one["mode"])]
+    rows = np.array(pooled.get((mode, float(one["bit_depth_from_m"])), np.empty((0, 3)))).reshape(-1, 3)
+    row: dict[str, object] = {"bit_depth_from_m": one["bit_depth_from_m"], "mode": mode, "rows": len(rows),
+                              "rows_of_bin": one["samples"]}  # fmt: skip
+    within = len(rows) > 0
+    judged = {"hookload": (1, TONNE, "t")} | ({} if mode == "in_slips" else {"torque": (2, 1e3, "kN_m")})
+    for name, (column, unit, ending) in judged.items():
+        middle = float(np.median(rows[:, column])) / unit if len(rows) else float("nan")
+        low, median, high = (one[f"{name}_{part}_{ending}"] for part in ("p25", "median", "p75"))
+        inside = low <= middle <= high or abs(middle / median - 1) <= SLACK
+        row |= {f"{name}_{ending}": middle, f"{name}_p25_{ending}": low, f"{name}_median_{ending}": median,
+                f"{name}_p75_{ending}": high, f"{name}_within": inside}  # fmt: skip
+        within = within and inside
+    return row | {"within": within}
+
+
+STUDY = Study(
+    "monitoring_f4",
+    "Are the stretches that monitoring finds in a real series those of another hand?",
+    run,
+    reproduce=False,
+    needs=("data",),
+)
