@@ -109,7 +109,7 @@ class Forward:
 
     def length_in_hole(self, name: str, row: Row) -> float:
         """Length of the components that an unknown ``mass.NAME`` names in the string of a row [m]."""
-        string = self._laid[row.string, row.bit_depth]
+        string = self._laid[row.string, row.bit_depth].string
         parts = self.strings[row.string].string.components
         named = [k for k, part in enumerate(parts) if f"mass.{part.name}" == name]
         return float(string.length[np.isin(string.component, named)].sum())

@@ -89,6 +89,13 @@ def read_depth(text: str, case: Case, key: str, units: System = "si", *, given: 
     return read_quantity(text, LENGTH, key, units)
 
 
+def check_table(out: Path | None, suffixes: Sequence[str] = TABLES) -> None:
+    """Raise InputError for ``--out`` where no table can be written there; suffixes : that it may have."""
+    check_target(out, "--out", suffixes)
+    if out is not None and out.suffix.lower() == ".xlsx":
+        check_package(out, "--out")
+
+
 def check_targets(
     out: Path | None, plot: Path | None, plot_profile: Path | None = None
 ) -> tuple[Path | None, Path | None]:
@@ -97,9 +104,7 @@ def check_targets(
     Raises InputError for a file that cannot be written, before anything is computed.
     """
     if out is None or out.suffix.lower() not in PICTURES:
-        check_target(out, "--out", (*TABLES, *PICTURES))
-        if out is not None and out.suffix.lower() == ".xlsx":
-            check_package(out, "--out")
+        check_table(out, (*TABLES, *PICTURES))
         check_pictures({"--plot": plot, "--plot-profile": plot_profile})
         return out, plot
     if plot is not None:

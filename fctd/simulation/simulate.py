@@ -3,10 +3,9 @@
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-import pandas as pd
 
 from fctd.case.load import Case, naming_file
 from fctd.mechanics import topdrive
@@ -23,6 +22,9 @@ from fctd.simulation.intervals import Window, whole_schedule, within
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.ringing import expected_ringing
 from fctd.simulation.run import Run, Settling, prepare, settle, start_from_rest
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
@@ -197,7 +199,7 @@ class Simulation(Iterator[Record]):
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
 
-    def _swings(self, history: pd.DataFrame) -> notes.Note | None:
+    def _swings(self, history: "pd.DataFrame") -> notes.Note | None:
         """The note on the surface torque at the end of a run whose string turns there."""
         if not self.case.operations[-1].rpm:
             return None
