@@ -52,14 +52,12 @@ class StringLoads(NamedTuple):
 class Evaluation:
     """What the rig would read: value (m,) [SI] of each reading, slopes (m, k) by the unknowns; NaN without loads.
 
-    reasons : of the rows without loads, by index.  loads (r, 2) : of the strings of the rows, hook load [N] and surface
-    torque [N m].
+    reasons : of the rows without loads, by index.
     """
 
     value: Array
     slopes: Array
     reasons: dict[int, str]
-    loads: Array
 
 
 class Forward:
@@ -123,7 +121,7 @@ class Forward:
             row, loads = self.rows[reading.row], solved[reading.row]
             value[i], slopes[i] = self._read(row, reading.load, rigs[row.string], by_name, loads)
         reasons = {k: loads.reason for k, loads in enumerate(solved) if loads.reason}
-        return Evaluation(value, slopes, reasons, np.array([loads.loads for loads in solved]))
+        return Evaluation(value, slopes, reasons)
 
     def _read(
         self, row: Row, load: Load, rig: RigSpec, values: Mapping[str, float], solved: StringLoads

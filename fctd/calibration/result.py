@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 
-from fctd.calibration.fit import Fit, Loss, residuals_of
+from fctd.calibration.fit import Fit, Loss
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import Undetermined
 from fctd.calibration.intervals import Intervals, find_intervals, leave_one_out
@@ -138,8 +138,3 @@ class Calibration:
             if value <= unknown.low + near or value >= unknown.high - near:
                 found[unknown.name] = "lowest" if value <= unknown.low + near else "highest"
         return found
-
-    @property
-    def jacobian(self) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-        """Derivatives of the residuals, in standard deviations, by the unknowns (n, k), those of the priors last."""
-        return residuals_of(self.forward, self.fit.evaluation, self.fit.best, self.fit.used).jacobian
