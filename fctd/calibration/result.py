@@ -87,6 +87,12 @@ class Calibration:
         free = len(table) - sum(unknown.prior is None for unknown in self.unknowns)
         return float((table["in_noise"] ** 2).sum() / free) if free > 0 else float("nan")
 
+    @property
+    def doubts(self) -> dict[str, str]:
+        """Status and message of the fitted rows whose string is not ``converged``, by id."""
+        found = self.fit.evaluation.doubts
+        return {self.forward.rows[k].id: found[k] for k in self.fit.used if k in found}
+
     @cached_property
     def intervals(self) -> Intervals:
         """The 95 % intervals of the unknowns, which take some fits."""
