@@ -59,7 +59,7 @@ RULES: list[tuple[str, Any, str]] = [
     ("muds", {"density": 3}, "the key mud"),
     ("file", "x.toml", "one of the keys name, wellbore"),
     ("wellbore.overlp", "2 mm", "the key overlap"),
-    ("rig.xyz", 1, "one of the keys block_weight, sheave_efficiency, torque_offset"),
+    ("rig.xyz", 1, "one of the keys block_weight, guide_friction, sheave_efficiency, torque_offset, torque_per_rpm"),
     ("wellbore.survey", "a.csv", "a survey file that exists"),
     ("wellbore.survey", 3, "a file name in quotes"),
     ("wellbore.columns", {"md": "D"}, "columns only beside survey"),

@@ -65,9 +65,8 @@ def residuals_of(forward: Forward, evaluation: Evaluation, values: Array, used: 
         value = evaluation.value[i]
         off = max(value - high, 0.0) + min(value - low, 0.0)
         found.append(_NO_LOADS if np.isnan(value) else scale * off)
-        slopes.append(scale * evaluation.slopes[i] if off else np.zeros(len(values)))
-        if low == high and not np.isnan(value):
-            slopes[-1] = scale * evaluation.slopes[i]
+        # Within a range nothing changes the residual, nor where there are no loads.
+        slopes.append(scale * evaluation.slopes[i] if off or low == high else np.zeros(len(values)))
         rows.append(reading.row)
     for k, unknown in enumerate(forward.unknowns):
         if unknown.prior is not None:
@@ -166,7 +165,7 @@ def _minimise(
     )  # fmt: skip
     values = start.copy()
     x = np.where(found.x - low <= 2 * margin, low, np.where(high - found.x <= 2 * margin, high, found.x))
-    values[free] = x * scale
+    values[free] = np.where(np.abs(x) < 1e-9, 0.0, x) * scale  # no remainder of 1e-20 in place of 0
     return values, float(found.cost)
 
 

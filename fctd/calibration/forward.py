@@ -15,6 +15,7 @@ from fctd.case.load import Case
 from fctd.case.specs import RigSpec
 from fctd.model.drillstring import section_of
 from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
+from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString, lay
 from fctd.steady.problem import Workspace
@@ -41,26 +42,27 @@ class Reading(NamedTuple):
 class StringLoads(NamedTuple):
     """Loads of a row's string: (hook load [N], torque [N m]), their derivatives by the unknowns (2, k), and a reason.
 
-    reason : why there are no loads, "" where there are.
+    reason : why there are no loads, "" where there are.  doubt : status and message where the string has
+    loads but is not ``converged``, else "".
     """
 
     loads: Array
     slopes: Array
-    reason: str
+    reason: str = ""
+    doubt: str = ""
 
 
 @dataclass(frozen=True)
 class Evaluation:
     """What the rig would read: value (m,) [SI] of each reading, slopes (m, k) by the unknowns; NaN without loads.
 
-    reasons : of the rows without loads, by index.  loads (r, 2) : of the strings of the rows, hook load [N] and surface
-    torque [N m].
+    reasons, doubts : of the rows without loads, and with loads of a string that is not ``converged``, by index.
     """
 
     value: Array
     slopes: Array
     reasons: dict[int, str]
-    loads: Array
+    doubts: dict[int, str]
 
 
 class Forward:
@@ -124,7 +126,8 @@ class Forward:
             row, loads = self.rows[reading.row], solved[reading.row]
             value[i], slopes[i] = self._read(row, reading.load, rigs[row.string], by_name, loads)
         reasons = {k: loads.reason for k, loads in enumerate(solved) if loads.reason}
-        return Evaluation(value, slopes, reasons, np.array([loads.loads for loads in solved]))
+        doubts = {k: loads.doubt for k, loads in enumerate(solved) if loads.doubt}
+        return Evaluation(value, slopes, reasons, doubts)
 
     def _read(
         self, row: Row, load: Load, rig: RigSpec, values: Mapping[str, float], solved: StringLoads
@@ -174,7 +177,7 @@ class Forward:
         steps[beyond] *= -1
         moved = [values, *(values + steps[k] * np.eye(len(values))[k] for k in self._by_string)]
         solvers = {name: [self._solver(name, at) for at in moved] for name in self.strings}
-        nothing = StringLoads(np.zeros(2), np.zeros((2, len(values))), "")
+        nothing = StringLoads(np.zeros(2), np.zeros((2, len(values))))
         found: dict[tuple[object, ...], StringLoads] = {}
         answers = []
         for row in self.rows:
@@ -212,7 +215,8 @@ class Forward:
         slopes[:, self._by_string] = (by / steps[self._by_string][:, None]).T
         if not np.isfinite(slopes).all():
             return self._failed(f"{point.status}, and none with friction or mass a little larger")
-        return StringLoads(np.array([point.hookload, point.surface_torque]), slopes, "")
+        doubt = "" if point.status == SteadyStatus.CONVERGED else f"{point.status}: {point.message}"
+        return StringLoads(np.array([point.hookload, point.surface_torque]), slopes, doubt=doubt)
 
     def _failed(self, reason: str) -> StringLoads:
         return StringLoads(np.full(2, np.nan), np.full((2, len(self.unknowns)), np.nan), reason)

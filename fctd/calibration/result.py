@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 
-from fctd.calibration.fit import Fit, Loss, residuals_of
+from fctd.calibration.fit import Fit, Loss
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import Undetermined
 from fctd.calibration.intervals import Intervals, find_intervals, leave_one_out
@@ -87,6 +87,12 @@ class Calibration:
         free = len(table) - sum(unknown.prior is None for unknown in self.unknowns)
         return float((table["in_noise"] ** 2).sum() / free) if free > 0 else float("nan")
 
+    @property
+    def doubts(self) -> dict[str, str]:
+        """Status and message of the fitted rows whose string is not ``converged``, by id."""
+        found = self.fit.evaluation.doubts
+        return {self.forward.rows[k].id: found[k] for k in self.fit.used if k in found}
+
     @cached_property
     def intervals(self) -> Intervals:
         """The 95 % intervals of the unknowns, which take some fits."""
@@ -138,8 +144,3 @@ class Calibration:
             if value <= unknown.low + near or value >= unknown.high - near:
                 found[unknown.name] = "lowest" if value <= unknown.low + near else "highest"
         return found
-
-    @property
-    def jacobian(self) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-        """Derivatives of the residuals, in standard deviations, by the unknowns (n, k), those of the priors last."""
-        return residuals_of(self.forward, self.fit.evaluation, self.fit.best, self.fit.used).jacobian

@@ -148,6 +148,8 @@ def print_calibration(found: Calibration) -> None:
             "declared too small, or the model lacks something; the intervals are too narrow",
             soft_wrap=True,
         )  # fmt: skip
+    for name, doubt in found.doubts.items():
+        messages.print(printable(f"with care: {name}: {doubt}"), soft_wrap=True)
     for name, reason in found.left_out.items():
         messages.print(printable(f"not fitted: {name}: {reason}"), soft_wrap=True)
     if found.predicted is not None:

@@ -9,7 +9,17 @@ from fctd.calibration.calibrate import predict
 from fctd.calibration.predict import posterior_file
 from fctd.case.text import printable
 from fctd.cli.calibrate import print_prediction
-from fctd.cli.options import CaseFile, Overrides, changes_of, print_written, read_case, refuse_sources, screen
+from fctd.cli.options import (
+    CaseFile,
+    Overrides,
+    Quiet,
+    changes_of,
+    messages,
+    print_written,
+    read_case,
+    refuse_sources,
+    screen,
+)
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import check_table, file_option
 from fctd.results.tables import write_table
@@ -30,6 +40,7 @@ def predict_command(
         Path | None, file_option("--out", "A row for every reading, with bands and scores, .csv, .parquet or .xlsx.")
     ] = None,
     plot: Annotated[Path | None, file_option("--plot", "Predicted and measured readings with bands.")] = None,
+    quiet: Quiet = False,
 ) -> None:
     """Predict hook loads and torques of a calibrated case with 50 and 95 % bands, and score measured ones."""
     check_table(out)
@@ -39,7 +50,10 @@ def predict_command(
     for key, path in {"--out": out, "--plot": plot}.items():
         refuse_sources(case, path, key)
     beside = posterior_file(case_file) if posterior is None else posterior
-    table = predict(case, rows, beside, samples=samples, seed=seed, overrides=changes)
+    with messages.status("predicting") as status:
+        if quiet:
+            status.stop()
+        table = predict(case, rows, beside, samples=samples, seed=seed, overrides=changes)
     written = [] if out is None else write_table(table, out, {})
     if plot is not None:
         from fctd import plots  # needs matplotlib

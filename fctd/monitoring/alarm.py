@@ -86,7 +86,7 @@ class _Baseline:
         if len(self.scatter) < SCATTER_OF:
             return 1.0
         found = 1.4826 * float(np.median(np.abs(self.scatter)))
-        return max(1.0, found / (1 + CHANCE * len(self.scatter) ** -0.5))
+        return max(1.0, found / (1 + CHANCE / float(np.sqrt(len(self.scatter)))))
 
     def take(self, factor: float, noise: float) -> None:
         """Keep a reading back, and let the one that has waited longest enter."""

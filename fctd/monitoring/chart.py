@@ -24,9 +24,12 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Fit = Literal["open", "cased", "all"]
 
-FACTORS: Final = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65])
-NODES: Final = 30.0  # [m] between bit depths, about a stand
+FACTORS: Final = np.array([0.0, 0.1, 0.2, 0.3, 0.45, 0.65])
+# [m] between bit depths: within half of it hook load changes by less than 100 N, a hundredth of its noise.  Linear
+# interpolation over a stand is worse: loads of a string in segments ripple with the place of its joints.
+NODES: Final = 0.5
 COARSE: Final = 120.0  # [m] between bit depths of the loads that the rules of stretches need
+HELD: Final = 2  # place of the factor at which the derivative by the held one is taken
 CASED_STEP: Final = 0.05  # of the held factor, for the derivative by it
 KIND_OF: Final[Mapping[Mode, str]] = {mode: kind for kind, mode in OF_KIND.items()} | {
     "rotating_up": "rotate_off_bottom", "rotating_down": "rotate_off_bottom",
@@ -34,11 +37,10 @@ KIND_OF: Final[Mapping[Mode, str]] = {mode: kind for kind, mode in OF_KIND.items
 
 
 class Inverse(NamedTuple):
-    """A friction factor, its derivative by the reading [1/N or 1/(N m)], and by the factor of the other kind."""
+    """A friction factor, and its derivative by the reading [1/N or 1/(N m)]."""
 
     factor: float
     per_reading: float
-    per_other: float
 
 
 def fit_of(case: Case, fit: Fit | None) -> Fit:
@@ -57,7 +59,7 @@ class Chart:
     """Readings of the rig for the operations of a case at any bit depth, by the friction factor of some intervals.
 
     fit : the intervals; the others keep the factors of the case.  The factor is interpolated by Fritsch and Carlson's
-    monotone cubics (1980) over the load, and the load linearly over depth between nodes of `NODES`.
+    monotone cubics (1980) over the load; the load is that of the nearest of depths `NODES` apart.
     """
 
     def __init__(self, case: Case, fit: Fit | None = None) -> None:
@@ -75,30 +77,31 @@ class Chart:
         self._solvers = [solver(self._set(float(factor)).of(intervals)) for factor in FACTORS]
         held = tuple(
             factor + (CASED_STEP if self.fit != "all" and interval.kind != self.fit else 0.0)
-            for factor, interval in zip(self._set(FACTORS[2]).of(intervals), intervals, strict=True)
+            for factor, interval in zip(self._set(float(FACTORS[HELD])).of(intervals), intervals, strict=True)
         )
         self._other = solver(held)
         self._rates = rates_of_all(case, list(OF_KIND))
         self._nodes: dict[tuple[str, float], Array] = {}
         self._coarse: dict[float, Array] = {}
-        self._inverses: dict[tuple[Mode, float, float], tuple[PchipInterpolator, float] | None] = {}
+        self._inverses: dict[tuple[Mode, float, float], PchipInterpolator | None] = {}
         self._stiffness = section_of(case.string.components[-1], case.mud.density).EA
 
     def _set(self, factor: float) -> FrictionSet:
         return FrictionSet(every=factor) if self.fit == "all" else FrictionSet(**{self.fit: factor})
 
     def loads(self, kind: str, depth: float) -> Array:
-        """Hook load [N] of a trip, or surface torque [N m] of rotation, at `FACTORS` and at the other kind's step.
+        """Hook load [N] of a trip, or surface torque [N m] of rotation, at `FACTORS`.
 
         NaN where there is no balance, or where string and hole do not fit.
         """
-        low = np.floor(depth / NODES) * NODES
-        high = low + NODES
-        low, high = max(low, min(NODES, self.deepest)), min(high, self.deepest)
-        below, above = self._node(kind, float(low)), self._node(kind, float(high))
-        share = (depth - low) / (high - low) if high > low else 0.0
-        loads: Array = below + share * (above - below)
-        return loads
+        key = (kind, self._near(depth))
+        if key not in self._nodes:
+            column = 1 if kind == "rotate_off_bottom" else 0
+            self._nodes[key] = np.array([self._solve(solver, *key)[column] for solver in self._solvers])
+        return self._nodes[key]
+
+    def _near(self, depth: float) -> float:
+        return float(np.clip(round(depth / NODES) * NODES, NODES, self.deepest))
 
     def readings(self, mode: Mode, depth: float, rpm: float) -> Array:
         """What the rig's sensor reads at these loads: weight indicator [N], or drive torque [N m] while rotating."""
@@ -112,7 +115,7 @@ class Chart:
 
     def curve(self, mode: Mode, depth: float, factor: float, rpm: float = float("nan")) -> float:
         """The reading at a depth and a factor within `FACTORS`; NaN without a balance."""
-        x, y = _monotone(FACTORS, self.readings(mode, depth, rpm)[:-1])
+        x, y = _monotone(FACTORS, self.readings(mode, depth, rpm))
         return float(_cubic(x, y)(factor, extrapolate=False)) if len(x) > 1 else float("nan")
 
     def invert(self, mode: Mode, depth: float, reading: float, rpm: float) -> Inverse | None:
@@ -124,24 +127,29 @@ class Chart:
         key = (mode, depth, rpm)
         if key not in self._inverses:  # a reading is often repeated at the same depth, as in trials
             self._inverses[key] = self._inverse_at(*key)
-        found = self._inverses[key]
-        if found is None:
+        cubic = self._inverses[key]
+        if cubic is None:
             return None
-        cubic, by_other = found
         inside = float(np.clip(reading, cubic.x[0], cubic.x[-1]))
         slope = float(cubic(inside, 1))
-        return Inverse(float(cubic(inside)) + slope * (reading - inside), slope, -slope * by_other)
+        return Inverse(float(cubic(inside)) + slope * (reading - inside), slope)
 
-    def _inverse_at(self, mode: Mode, depth: float, rpm: float) -> tuple[PchipInterpolator, float] | None:
-        """Factor by reading, and derivative of the reading by the factor that is held."""
-        found = self.readings(mode, depth, rpm)
-        factors, loads = _monotone(FACTORS, found[:-1])
+    def _inverse_at(self, mode: Mode, depth: float, rpm: float) -> PchipInterpolator | None:
+        """Factor by reading."""
+        factors, loads = _monotone(FACTORS, self.readings(mode, depth, rpm))
         if len(factors) < 2:
             return None
         if loads[0] > loads[-1]:
             factors, loads = factors[::-1], loads[::-1]
-        by_other = (found[-1] - found[2]) / CASED_STEP if self.fit != "all" else 0.0
-        return _cubic(loads, factors), float(np.nan_to_num(by_other))
+        return _cubic(loads, factors)
+
+    def by_held(self, mode: Mode, depth: float) -> float:
+        """Derivative of the string's load by the factor of the other kind of interval [N or N m]; 0 without one."""
+        if self.fit == "all":
+            return 0.0
+        kind = KIND_OF[mode]
+        more = self._solve(self._other, kind, self._near(depth))[1 if kind == "rotate_off_bottom" else 0]
+        return float(np.nan_to_num((more - self.loads(kind, depth)[HELD]) / CASED_STEP))
 
     def slips_below(self, depth: Array) -> Array:
         """Weight indicator below which the string hangs in the slips: the block and half the string's weight [N]."""
@@ -175,19 +183,11 @@ class Chart:
 
         Each is 0 where there is no steady string.
         """
-        depth = min(max(depth, NODES), self.deepest)
+        depth = min(max(depth, COARSE / 4), self.deepest)
         if depth not in self._coarse:
             turning, out, down = (self._solve(self._own, kind, depth) for kind in OF_KIND)
             self._coarse[depth] = np.nan_to_num([turning[0], max(out[0] - down[0], 0.0), turning[1]])
         return self._coarse[depth]
-
-    def _node(self, kind: str, depth: float) -> Array:
-        key = (kind, depth)
-        if key not in self._nodes:
-            column = 1 if kind == "rotate_off_bottom" else 0
-            solvers = [*self._solvers, self._other]
-            self._nodes[key] = np.array([self._solve(solver, kind, depth)[column] for solver in solvers])
-        return self._nodes[key]
 
     def _solve(self, solver: Solver, kind: str, depth: float) -> tuple[float, float]:
         """Hook load and surface torque, NaN without a balance."""

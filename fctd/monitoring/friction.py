@@ -99,7 +99,8 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
     else:
         spread, held = uncertainty.hook_load, uncertainty.block_weight
     noise = abs(found.per_reading) * float(np.hypot(spread, reading.error))
-    total = float(np.sqrt(noise**2 + (found.per_reading * held) ** 2 + (found.per_other * uncertainty.cased) ** 2))
+    cased = chart.by_held(mode, depth) * uncertainty.cased if uncertainty.cased > 0 else 0.0
+    total = float(np.sqrt(noise**2 + found.per_reading**2 * (held**2 + cased**2)))
     if not noise < WIDEST:
         return none("the reading does not depend on this friction factor enough")
     low, high = (found.factor + sign * TWO_SIDED_95 * total for sign in (-1, 1))

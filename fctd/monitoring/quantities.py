@@ -169,7 +169,9 @@ def check_columns(found: Mapping[str, Column], headers: Sequence[str], *, text_t
 
 
 def _recognise(header: str) -> tuple[str, str | None] | None:
-    """Quantity and unit that a header names; None for another header."""
+    """Quantity and unit that a header names; None for another header, such as a number."""
+    if not any(letter.isalpha() for letter in header):
+        return None
     for name, unit in _readings(header):
         words = [word for word in _SIGNS.split(name.casefold()) if word]
         while len(words) > 1 and words[0] in _BEFORE:

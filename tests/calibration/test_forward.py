@@ -81,6 +81,16 @@ def test_a_string_without_loads_has_a_reason_and_no_numbers() -> None:
     assert np.isnan(found.value).all()
 
 
+def test_loads_of_a_string_that_is_not_converged_carry_a_doubt() -> None:
+    """At a friction of 1 a level string must be pushed with more than the block weighs."""
+    level = make_case([[0, 90, 0], [200, 90, 0]], [pipe(None, None, segment_length=20.0)])
+    row = Row("down", "", 200.0, "trip_in", SteadyRates(0.3, 0.0))
+    forward = Forward([row], {"": level}, find_unknowns(parse_fits(["friction=0:2"]), SETUP, [level]), SETUP)
+    found = forward.evaluate(np.array([1.0]))
+    assert found.doubts[0].startswith("locked_up: ")
+    assert np.isfinite(found.value).all()
+
+
 def test_constants_of_the_rig_solve_nothing_again() -> None:
     forward = forward_of(blank_rows(well())[:1], ["friction", "rig.block_weight"])
     first = forward.evaluate(np.array([0.2, 250e3]))

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from fctd.calibration.calibrate import calibrate
@@ -27,7 +26,5 @@ def test_a_calibrated_case_and_its_residuals() -> None:
     assert not table.loc[("trip_out 1500", "hookload")].used
     assert table["used"].sum() == len(table) - 2
     assert repr(found).startswith("Calibration('test', 4 rows: rig.block_weight 2.26e+05")
-    assert found.jacobian.shape == (7, 2)
-    assert np.isfinite(found.jacobian).all()
     used = table[table["used"]]["in_noise"]
     assert found.misfit == pytest.approx((used**2).sum() / (len(used) - 2))

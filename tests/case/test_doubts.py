@@ -65,6 +65,7 @@ def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = N
         ("bit_load", {"bit": {"weight_on_bit": 2e6}}, {"bit": {"weight_on_bit": 2.1e6}}),
         ("bit_load", {"bit": {"torque": 20.0}}, {"bit": {"torque": 19.0}}),
         ("rig_load", {"rig": {"block_weight": 1e3}}, {"rig": {"block_weight": 999.0}}),
+        ("rig_load", {"rig": {"guide_friction": 100.0}}, {"rig": {"guide_friction": 99.0}}),
         ("rig_load", {"rig": {"torque_offset": -5.0}}, {"rig": {"torque_offset": -4.0}}),
         ("sheave_efficiency", {"rig": {"sheave_efficiency": 0.7}}, {"rig": {"sheave_efficiency": 0.69}}),
         (

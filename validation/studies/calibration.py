@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import least_squares
 
-from fctd import Case, calibrate
+from fctd import Case, calibrate, predict
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import covariance_of, information, undetermined
 from fctd.calibration.intervals import Z95
@@ -101,8 +101,8 @@ def read(rows: Sequence[Row], forward: Forward, values: Any) -> list[Row]:
     return found
 
 
-def recovery(context: Context, case: Case) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Trials with noise (values, intervals), and their summary: intervals that hold the truth, and their width."""
+def recovery(context: Context, case: Case) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
+    """Trials with noise, their summary (intervals that hold the truth, and widths), and predictions of other rows."""
     rows = [row for row in blank_rows(case) if row.bit_depth != SHALLOW]
     forward = forward_of(case, rows, list(TRUTH))
     truth = np.array(list(TRUTH.values()))
@@ -114,13 +114,19 @@ def recovery(context: Context, case: Case) -> tuple[pd.DataFrame, pd.DataFrame]:
     C = covariance_of(J, sizes)
     least = np.sqrt(np.diag(C))
     measured = [not np.isnan(reading.range.low) for reading in known.readings]
-    trials, linear = [], np.zeros(len(truth), int)
+    trials, linear, predictions = [], np.zeros(len(truth), int), []
+    shallow = [row for row in blank_rows(case) if row.bit_depth == SHALLOW]
+    others = forward_of(case, shallow, list(TRUTH))
+    later = others.evaluate(truth).value
     for trial in context.progress(range(QUICK if context.quick else TRIALS), "trials"):
         drawn = np.random.default_rng([2026, trial]).normal(size=len(noise))
         linear += np.abs(C @ J.T @ drawn[measured]) <= Z95 * least
         found = calibrate(
             case, read(rows, forward, exact.value + noise * drawn), list(TRUTH), setup=SETUP, loss="linear", starts=1
         )
+        more = np.random.default_rng([2026, trial, 1]).normal(size=len(later))
+        noisy = read(shallow, others, later + more * [reading.noise for reading in others.readings])
+        predictions.append(predict(found.case, noisy, found.posterior, seed=trial).assign(trial=trial))
         for row in found.table.to_dict("records"):
             made = TRUTH[str(row["name"])]
             held = row["low"] <= made <= row["high"]
@@ -134,7 +140,7 @@ def recovery(context: Context, case: Case) -> tuple[pd.DataFrame, pd.DataFrame]:
     summary["held_by_linear_estimate"] = linear
     summary["cramer_rao_width"] = 2 * Z95 * least
     summary["width_over_cramer_rao"] = summary["width"] / summary["cramer_rao_width"]
-    return table, summary
+    return table, summary, pd.concat(predictions, ignore_index=True)
 
 
 def flags(case: Case) -> pd.DataFrame:
@@ -213,7 +219,9 @@ def model_error(case: Case) -> pd.DataFrame:
 def run(context: Context) -> Outcome:
     """Trials, flags and model error."""
     case = well()
-    trials, summary = recovery(context, case)
+    trials, summary, predictions = recovery(context, case)
+    scored = predictions[predictions["inside95"].notna()]
+    half, most = (float(scored[name].astype(bool).mean()) for name in ("inside50", "inside95"))
     flagged, models = flags(case), model_error(case)
     planted = flagged["planted"] != "none"
     low, high = int(summary["held"].min()), int(summary["held"].max())
@@ -235,14 +243,39 @@ def run(context: Context) -> Outcome:
         source = "99.7 % of the binomial distribution of 400 intervals of 95 %"
         checks += [
             Check("trials whose interval holds the truth, fewest", low, HELD[0], "at_least", f"of {TRIALS}", source),
+            Check(
+                "predicted readings inside their band of 95 %",
+                100 * most,
+                (93.0, 97.0),
+                "within",
+                "%",
+                "95 %, and some four standard errors of 1,600 readings",
+            ),
+            Check(
+                "predicted readings inside their band of 50 %",
+                100 * half,
+                (45.0, 55.0),
+                "within",
+                "%",
+                "50 %, and four standard errors of 1,600 readings",
+            ),
             Check("trials whose interval holds the truth, most", high, HELD[1], "at_most", f"of {TRIALS}", source),
         ]
     return Outcome(
-        tables={"trials": trials, "intervals": summary, "flags": flagged, "model_error": models, "models": by_model},
+        tables={
+            "trials": trials,
+            "predictions": predictions,
+            "intervals": summary,
+            "flags": flagged,
+            "model_error": models,
+            "models": by_model,
+        },
         checks=checks,
         notes=[
             f"{summary['trials'].iloc[0]} trials of nine rows with normal noise of 8 kN and 0.2 kN·m; "
             f"{int(summary['profiles'].sum())} of {len(trials)} intervals are those of the profile likelihood.",
+            f"Of {len(scored)} readings at {SHALLOW:g} m, which no trial fits, {100 * half:.1f} % lie in the band of "
+            f"50 % and {100 * most:.1f} % in that of 95 %.",
             f"The linear estimate of the same draws holds the truth {summary['held_by_linear_estimate'].min()} to "
             f"{summary['held_by_linear_estimate'].max()} times: that scatter is the draws' own.",
             f"A string that the other one made is off by up to {by_model['hookload_off_percent'].max():.2g} % of hook "

@@ -8,13 +8,14 @@ import pytest
 
 from fctd.calibration.rows import Range, Row
 from fctd.calibration.setup import Setup
-from fctd.calibration.unknowns import find_unknowns
+from fctd.calibration.unknowns import find_unknowns, parse_fits
 from fctd.model.operations import SteadyRates, rad_per_s
-from tests.cases import make_case
+from tests.cases import make_case, pipe
 from validation.parts import volve_f4 as split
 from validation.parts.volve_f4_fits import Frozen, frozen, setup_of, setup_of_b
 from validation.parts.volve_f4_judging import predict
 from validation.parts.volve_f4_rows import FOLDER, REPORTS, TONNE, report_rows
+from validation.parts.volve_f4_soft import SoftForward
 
 # Columns that are read.
 HEADER = "id,bit_depth_m,rpm,torque_low_kN_m,torque_high_kN_m,up_weight_t,down_weight_t,rotating_weight_t\n"
@@ -88,3 +89,14 @@ def test_a_spread_is_scored_with_the_errors_of_its_two_readings() -> None:
     assert found["measured_low"] == pytest.approx(10.0)
     assert (found["in_50"], found["in_95"]) == (False, True)
     assert found["distance_percent"] == pytest.approx(100.0, abs=1.0)
+
+
+def test_the_soft_string_gives_readings_and_their_slopes() -> None:
+    """Pulled along a level hole it weighs μ times its weight in air."""
+    case = make_case([[0, 90, 0], [500, 90, 0]], [pipe(None, None, segment_length=25.0)])
+    row = Row("up", "", 500.0, "trip_out", SteadyRates(-0.1, 0.0), Range(0.0, 0.0))
+    unknowns = find_unknowns(parse_fits(["friction"]), Setup(), [case])
+    found = SoftForward([row], {"": case}, unknowns, Setup()).evaluate(np.array([0.3]))
+    weight = 500 * 7850 * 9.80665 * 0.25 * np.pi * (0.127**2 - 0.07**2)
+    assert found.value[0] == pytest.approx(0.3 * weight, rel=1e-6)
+    assert found.slopes[0, 0] == pytest.approx(weight, rel=1e-6)
