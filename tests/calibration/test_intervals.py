@@ -69,12 +69,3 @@ def test_a_fit_without_each_row_predicts_it() -> None:
     assert table["predicted"].to_numpy() == pytest.approx([245e3, 240e3, 225e3])
     assert table["off"].to_numpy() == pytest.approx([2.5, 1.0, -3.5])
     assert table["rig.block_weight"].to_numpy() == pytest.approx([245e3, 240e3, 225e3])
-
-
-def test_profiles_of_a_string_follow_the_friction() -> None:
-    """Torque is nearly linear in the friction factor: both intervals agree, and a refit holds the profile."""
-    rows = measured_rows(CASE, TRUTH, [blank_rows(CASE)[2], blank_rows(CASE)[5]])
-    found = calibrate(CASE, rows, ["friction.cased", "friction.open"], loss="linear", starts=1)
-    assert found.values["friction.open"] == pytest.approx(0.31, rel=0.5)
-    assert (found.intervals.low < found.fit.best).all()
-    assert (found.intervals.high > found.fit.best).all()
