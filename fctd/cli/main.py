@@ -2,53 +2,74 @@
 
 import sys
 from contextlib import suppress
+from functools import cache
+from importlib import import_module
+from typing import Any
 
 import typer
+from typer.core import TyperGroup
+from typer.main import get_command_from_info
+from typer.models import CommandInfo
 
 from fctd.case.errors import InputError
 from fctd.case.text import degrade_output
-from fctd.cli.calibrate import calibrate_command
-from fctd.cli.chart import chart_command
-from fctd.cli.check import check_command
-from fctd.cli.compile import announcing, compile_command
-from fctd.cli.equilibrium import equilibrium_command
-from fctd.cli.init import init_command
+from fctd.cli.compile import announcing
 from fctd.cli.interrupts import as_interrupts
 from fctd.cli.manners import HELP, Command, application
-from fctd.cli.monitor import monitor_command
 from fctd.cli.options import (
     BAD_INPUT,
     INTERRUPTED,
     messages,
 )
-from fctd.cli.predict import predict_command
-from fctd.cli.refine import refine_command
 from fctd.cli.refusals import naming_options
-from fctd.cli.schema import schema_command
-from fctd.cli.simulate import simulate_command
 
 # Arguments of ``fctd.calibrate`` and ``fctd.predict``, and their options.
 CALIBRATION = {name: f"--{name}" for name in ("fit", "prior", "starts", "seed", "samples")}
+# The commands, each in the module of its name, and options of which messages of the library name the argument.
+COMMANDS: dict[str, dict[str, str]] = {
+    "init": {},
+    "check": {},
+    "schema": {},
+    "simulate": {},
+    "equilibrium": {},
+    "chart": {"bit_depth": "--depths"},
+    "refine": {"bit_depth": "--bit-depth"},
+    "calibrate": CALIBRATION,
+    "predict": CALIBRATION,
+    "monitor": {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"},
+    "compile": {},
+}
+
+
+class Commands(TyperGroup):
+    """The group of all commands; it imports the one that is asked for, since a chart needs no calibration."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        names: Any = dict.fromkeys(COMMANDS)
+        self.commands = names  # the message of an unknown command compares them
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Names in the order of the help."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """A command by its name, or None."""
+        return _command(cmd_name) if cmd_name in COMMANDS else None
+
+
+@cache
+def _command(name: str) -> Any:
+    function = getattr(import_module(f"fctd.cli.{name}"), f"{name}_command")
+    info = CommandInfo(name, cls=Command, callback=naming_options(function, COMMANDS[name]))
+    return get_command_from_info(info, pretty_exceptions_short=False, rich_markup_mode="rich")
+
 
 app = typer.Typer(
-    no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, context_settings=HELP,
+    cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, context_settings=HELP,
 )  # fmt: skip
 
 app.callback()(application)
-
-app.command("init", cls=Command)(init_command)
-app.command("check", cls=Command)(naming_options(check_command))
-app.command("schema", cls=Command)(schema_command)
-app.command("simulate", cls=Command)(naming_options(simulate_command))
-app.command("equilibrium", cls=Command)(naming_options(equilibrium_command))
-app.command("chart", cls=Command)(naming_options(chart_command, {"bit_depth": "--depths"}))
-app.command("refine", cls=Command)(naming_options(refine_command, {"bit_depth": "--bit-depth"}))
-app.command("calibrate", cls=Command)(naming_options(calibrate_command, CALIBRATION))
-app.command("predict", cls=Command)(naming_options(predict_command, CALIBRATION))
-app.command("monitor", cls=Command)(
-    naming_options(monitor_command, {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"})
-)
-app.command("compile", cls=Command)(compile_command)
 
 
 def main() -> None:

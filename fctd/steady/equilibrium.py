@@ -18,16 +18,15 @@ from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.operations import KINDS
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
-from fctd.mechanics.query import Walls
 from fctd.model.drillstring import check_fit, lay_out
 from fctd.model.frames import steady_offsets
 from fctd.model.operations import SteadyRates, drive_torque, steady_rates, weight_indicator
 from fctd.model.wellbore import Wellbore, build_wellbore
-from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling, buckling_along
+from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, string_notes
-from fctd.results.profile import Loads, profile_table
+from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
 from fctd.steady.climb import BEYOND, SOUND, Climb, climb, lock_up
@@ -36,15 +35,8 @@ from fctd.steady.helical_force import add_helical_force
 from fctd.steady.laid_string import LaidString, lay
 from fctd.steady.post_buckling import resolve
 from fctd.steady.problem import WORK, Allowance, Problem, Workspace
-from fctd.steady.tangent import (
-    JOINT_BENDING,
-    JOINT_TENSION,
-    JOINT_TORQUE,
-    NORMAL_FORCE,
-    PLACE,
-    R_FT,
-    R_MU_FN,
-)
+from fctd.steady.shape import Shape
+from fctd.steady.tangent import NORMAL_FORCE, PLACE, R_FT, R_MU_FN
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -149,49 +141,6 @@ class Equilibrium:
         shape, in_hole = self._shape, self.case.contact.enabled
         string, radius = shape.laid.string, shape.radius
         return string_notes(string, shape.loads, self.hookload, shape.walls, radius, in_hole=in_hole)
-
-
-@dataclass(frozen=True)
-class Shape:
-    """The data of a profile: rows of ``tangent.read_loads`` (n, ...), and the place of the string's top.
-
-    top (3,) [m].
-    """
-
-    hole: Wellbore
-    laid: LaidString
-    top: Array
-    joints: Array
-    contacts: Array
-    owner: NDArray[np.int64]
-    bit_tension: float
-    bit_torque: float
-
-    @property
-    def radius(self) -> Array:
-        """Radii (n,) at the contact points [m]."""
-        return self.laid.pipe.radius
-
-    @cached_property
-    def walls(self) -> Walls:
-        """Walls beside the contact points."""
-        return self.hole.walls(self.contacts[:, PLACE], self.owner)
-
-    @property
-    def loads(self) -> Loads:
-        """Loads of the string."""
-        tension, torque, bending = (self.joints[:, column] for column in (JOINT_TENSION, JOINT_TORQUE, JOINT_BENDING))
-        return Loads(tension, torque, bending, self.contacts[:, NORMAL_FORCE], self.bit_tension, self.bit_torque)
-
-    @cached_property
-    def buckling(self) -> Buckling:
-        """Where the string is buckled, in a hole with a wall."""
-        tension = self.joints[:, JOINT_TENSION]
-        if min(tension.min(), self.bit_tension) >= 0:
-            return NOT_BUCKLED
-        md, radius = self.walls.md, self.walls.radius
-        pipe, top_md = self.laid.pipe, self.laid.string.top_md
-        return buckling_along(self.hole, pipe, top_md, md, radius, tension, self.bit_tension)[1]
 
 
 class Solver:

@@ -6,10 +6,8 @@ from pathlib import Path
 import pytest
 import typer
 
-from fctd.cli.main import app
+from fctd.cli.main import COMMANDS, app
 from tests.cli.test_main import CASE, run
-
-COMMANDS = sorted(str(command.name) for command in app.registered_commands)
 
 
 @pytest.fixture(autouse=True)

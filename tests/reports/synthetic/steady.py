@@ -147,3 +147,38 @@ def post_buckling() -> dict[str, pd.DataFrame]:
             {"length_m": length, "push_kN": 0.7 * length, "reciprocal_kN": 0.71 * length, "tan_kN": length}
         ),
     }
+
+
+def volve_f4() -> dict[str, pd.DataFrame]:
+    depth = np.arange(500.0, 2700.0, 200.0)
+    curves = pd.concat(
+        pd.DataFrame(
+            {
+                "string": "12 1/4 in", "operation": kind, "bit_depth_m": depth,
+                "weight_indicator_N": (300 + 20 * k) * depth, "drive_torque_N_m": 3 * depth,
+            }
+        )
+        for k, kind in enumerate(OPERATIONS)
+    )  # fmt: skip
+    points = pd.DataFrame(
+        {
+            "load": ["torque", "hookload", "hookload"],
+            "operation": ["rotate_off_bottom", "rotate_off_bottom", "trip_out"],
+            "source": ["series", "series", "report"],
+            "rad_per_s": [13.6, 13.6, 0.0],
+            "low": [7.0, 1200.0, 1500.0],
+            "high": [8.0, 1250.0, 1500.0],
+            "bit_depth_m": [1400.0, 1400.0, 2650.0],
+        }
+    )
+    rows = pd.DataFrame(
+        {
+            "row": ["F4-06", "F4-07", "F4-07"],
+            "model": ["A", "A", "B"],
+            "quantity": ["torque", "half spread", "half spread"],
+            "low_95": [4.0, 80.0, 85.0], "low_50": [6.0, 100.0, 95.0],
+            "high_50": [9.0, 120.0, 115.0], "high_95": [12.0, 140.0, 130.0],
+            "measured_low": [7.0, 132.0, 132.0], "measured_high": [7.0, 132.0, 132.0],
+        }
+    )  # fmt: skip
+    return {"curves": curves, "points": points, "rows": rows}
