@@ -277,7 +277,8 @@ class Solver:
         """A laid-out string as a problem; cut : the case with other segments, of which it has been laid out."""
         case = self.case if cut is None else cut
         if self.work.segments < laid.string.segments:
-            self.work = Workspace(laid.string.segments * 3 // 2)  # the depths of a chart rise
+            # The depths of a chart rise.
+            self.work = Workspace(min(laid.string.segments * 3 // 2, state.MAX_SEGMENTS))
         return Problem(case, self.hole, self.work, laid, operation, rates, Allowance(self.allowance))
 
     def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:

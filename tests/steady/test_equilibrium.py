@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import fctd
 from fctd import Case, InputError, equilibrium
 from fctd.case.operations import KINDS
+from fctd.mechanics import state
 from fctd.mechanics.laws import CODES
 from fctd.model.operations import steady_rates
 from fctd.model.wellbore import build_wellbore, hole_frame
@@ -288,3 +289,13 @@ def test_string_and_hole_have_to_fit() -> None:
     case = make_case([[0, 0, 0], [300, 0, 0]], [pipe(None, 5, contact_diameter=0.3)])
     with pytest.raises(InputError, match=r"string.components\[0\].contact_diameter"):
         equilibrium(case, "trip_in", 300.0)
+
+
+def test_arrays_for_deeper_strings_are_no_larger_than_the_buffer() -> None:
+    """They have room for half as many segments again."""
+    case = make_case([[0, 0, 0], [800, 0, 0]], [pipe(None, None, segment_length=0.1)])
+    solver = Solver(case)
+    laid = solver.lay_out(700.0)
+    assert laid.string.segments == 7000
+    solver.problem("trip_in", steady_rates(case, "trip_in"), laid)
+    assert solver.work.segments == state.MAX_SEGMENTS

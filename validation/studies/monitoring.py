@@ -29,7 +29,7 @@ BUILD: Stations = [[0, 0, 0], [400, 0, 0], [1000, 50, 0], [2800, 50, 0]]
 
 def wells(context: Context) -> dict[str, tuple[Case, float]]:
     """Cases with the casing shoe [m]: build and hold; a well that turns and builds to 85°; an S."""
-    stations = [*BUILD[:-1], [2200, 50, 0]] if context.quick else BUILD
+    stations: Stations = [*BUILD[:-1], [2200, 50, 0]] if context.quick else BUILD
     found = {"build and hold": (case_of("build and hold", stations, 1400.0), 1400.0)}
     if not context.quick:
         found["turn"] = (case_of("turn", TURN, 1500.0), 1500.0)
