@@ -203,7 +203,7 @@ class Forward:
             sections = tuple(section_of(part, solver.case.mud.density) for part in parts)
             same = [laid for laid in (of_case, *strings[:1]) if laid.string.sections == sections]
             other = replace(of_case.string, sections=sections)
-            strings.append(same[0] if same else lay(solver.case, solver.hole, other))
+            strings.append(same[0] if same else lay(solver.case, solver.hole, other, solver.work.S))
         changes = [Changed(solver, laid) for solver, laid in zip(solvers[1:], strings[1:], strict=True)]
         try:
             point, by = solve_with_changes(solvers[0], row.operation, row.rates, strings[0], changes)

@@ -164,7 +164,7 @@ class Solver:
         check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
         string = lay_out(self.case, bit_depth)
         check_fit(self.case, string, self.hole, bit_depth)
-        return lay(self.case, self.hole, string)
+        return lay(self.case, self.hole, string, self.work.S)
 
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
@@ -242,7 +242,7 @@ class Solver:
         coarse.iterations += iterations
 
         def lay_finer(case: Case) -> Problem:
-            laid = lay(case, self.hole, lay_out(case, problem.string.bit_depth))
+            laid = lay(case, self.hole, lay_out(case, problem.string.bit_depth), self.work.S)
             finer = self.problem(problem.operation, problem.rates, laid, case)
             finer.at_axis, finer.allowance = 1, problem.allowance
             return finer

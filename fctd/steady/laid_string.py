@@ -43,10 +43,12 @@ class LaidString:
 
 # Absurd stiffnesses overflow; ``not_finite`` is their steady status.
 @np.errstate(over="ignore", invalid="ignore")
-def lay(case: Case, hole: Wellbore, string: String) -> LaidString:
-    """A laid-out string with what follows from it; the friction factors of the hole do not matter."""
+def lay(case: Case, hole: Wellbore, string: String, S: Array) -> LaidString:
+    """A laid-out string with what follows from it; the friction factors of the hole do not matter.
+
+    S : a buffer of the engine, in which the constants are computed: a new one takes as long as a third of a solve.
+    """
     n = string.segments
-    S = state.new_state(n)
     fed = fill(S, string, case)
     weight = float(string.of("weight") @ string.length)
     stiffest = float(state.row(S, state.K_AXIAL, n).max())

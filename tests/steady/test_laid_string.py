@@ -64,7 +64,7 @@ def test_the_string_is_laid_out_once_a_depth(monkeypatch: pytest.MonkeyPatch) ->
 def test_the_constants_are_those_of_a_filled_buffer() -> None:
     case = bent_case()
     string = lay_out(case, 700.0)
-    laid = lay(case, build_wellbore(case), string)
+    laid = lay(case, build_wellbore(case), string, state.new_state(string.segments))
     S, filled = state.new_state(string.segments), state.new_state(string.segments)
     assert laid.fed == fill(filled, string, case)
     laid.put(S)
