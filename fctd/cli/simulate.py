@@ -29,11 +29,14 @@ from fctd.cli.options import (
     print_written,
     read_case,
     refuse_source_files,
+    refuse_sources,
     screen,
     tell,
 )
+from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.results.columns import BUCKLED, COLUMNS
 from fctd.results.status import RunStatus
+from fctd.results.swings import ENOUGH_PERIODS
 from fctd.results.tables import SimulationResult, check_result_folder, own_files, result_files
 from fctd.results.unit_systems import System, shown
 from fctd.simulation.external_contact import WallQuery
@@ -52,11 +55,17 @@ def simulate_command(
     friction: Friction = None,
     csv: Csv = False,
     units: ShownUnits = "si",
+    plot: Annotated[
+        Path | None,
+        typer.Option(
+            "--plot", metavar="FILE", help="Picture of the run over time, .png, .svg or .pdf.", show_default=False
+        ),
+    ] = None,
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
-    """Run the operations of a case and write history, profile and energy tables."""
-    simulate_file(case_file, out, overrides, friction, csv, quiet, units=units, strict=strict)
+    """Run the operations of a case and write its tables: history, profile, energy, operations, segments."""
+    simulate_file(case_file, out, overrides, friction, csv, quiet, units=units, strict=strict, plot=plot)
 
 
 def simulate_file(
@@ -70,9 +79,13 @@ def simulate_file(
     *,
     units: System = "si",
     strict: bool = False,
+    plot: Path | None = None,
 ) -> None:
     """Run ``fctd simulate``; ``contact`` builds another contact method for the case (see fctd.simulate)."""
+    if plot is not None:
+        check_pictures({"--plot": plot}, DRAWN)
     case = read_case(case_file, changes_of(overrides, friction))
+    refuse_sources(case, plot, "--plot")
     tell(case, case.warnings, strict=strict, units=units)
     method = None if contact is None else contact(case)
     folder = out or Path(file_name(case.name, "-result"))
@@ -101,6 +114,10 @@ def simulate_file(
             # The files are written before anything is printed: the terminal may have been closed.
             with deferred():
                 written = result.save(folder, csv=csv, units=units)
+                if plot is not None and len(result.history):
+                    from fctd import plots
+
+                    written += plots.save(plots.run_figure(result, units), plot)
     finally:  # printed also where a file cannot be written, or a signal came meanwhile
         if result is not None:
             _summarise(result, units)
@@ -133,6 +150,7 @@ def _summarise(result: SimulationResult, units: System) -> None:
             mode = "helical" if (buckled["buckling"] == "helical").any() else "sinusoidal"
             where = f"between {first * depth.factor:.0f} and {last * depth.factor:.0f} {depth.label}"
             screen.print(f"buckled in {len(buckled)} of {len(result.history)} records, at worst {mode}, {where}")
+    _print_operations(result, units)
     run = result.run
     parts = [
         f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms, {run['steps']} steps",
@@ -144,3 +162,39 @@ def _summarise(result: SimulationResult, units: System) -> None:
     if np.isfinite(run["energy_error"]):
         parts.append(f"energy error {run['energy_error']:.1e}")
     screen.print(", ".join(parts), soft_wrap=True)
+
+
+def _print_operations(result: SimulationResult, units: System) -> None:
+    """Print mean and swing of hook load and torque of every operation, and the time for which the bit stood still."""
+    if not len(result.operations):
+        return
+    table = Table(title="mean ± swing over whole periods, peak of the whole operation")
+    for heading in ("operation", "load", "mean ± swing", "peak", "periods"):
+        table.add_column(heading, justify="left" if heading in ("operation", "load") else "right")
+    short = []
+    for row in result.operations.to_dict("records"):
+        turns = row["bit_still_share"] >= 0
+        names = [row["operation"], f"{row['start_s']:.0f} to {row['end_s']:.0f} s"]
+        if turns:
+            names[1] += f", bit at rest {100 * row['bit_still_share']:.0f} %"
+        for name, column in zip(names, ("hookload_N", "surface_torque_N_m"), strict=True):
+            unit, digits, stem = shown(column, units), COLUMNS[column].digits, COLUMNS[column].stem
+            mean, swing, peak = (
+                row[column.replace(stem, f"{stem}_{part}")] * unit.factor for part in ("mean", "swing", "peak")
+            )
+            periods = row[f"{stem}_periods"]
+            table.add_row(
+                name,
+                f"{COLUMNS[column].heading} {unit.label}",
+                f"{mean:z.{digits}f} ± {swing:z.{digits}f}",
+                f"{peak:z.{digits}f}",
+                f"{periods} × {row[f'{stem}_period_s']:.3g} s",
+            )
+            if periods < ENOUGH_PERIODS and (turns or column == "hookload_N"):
+                short.append(f"{row['operation']} ({COLUMNS[column].label})")
+    screen.print(table)
+    if short:
+        text = (
+            f"means over less than {ENOUGH_PERIODS} whole periods: {', '.join(short)}; let these operations last longer"
+        )
+        screen.print(text, soft_wrap=True)

@@ -13,8 +13,10 @@ from fctd.mechanics.friction import Law, approach, normal_impulse, wall_normal
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.laws import LAWS, chain
+from fctd.mechanics.readings import read_step
 from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import (
+    ADDED_MASS,
     ARM_CONTACT,
     AX,
     AY,
@@ -24,6 +26,7 @@ from fctd.mechanics.state import (
     GX,
     GY,
     GZ,
+    HELD_BACK,
     HOLE,
     INVERSE_JA,
     INVERSE_JT,
@@ -65,12 +68,13 @@ from fctd.mechanics.state import (
     Y,
     Z,
     joint_force,
+    lateral_inverse_mass,
     quaternion,
     radial,
     spin,
     velocity,
 )
-from fctd.mechanics.topdrive import drive_top, move_top_drive
+from fctd.mechanics.topdrive import SUM_HOOKLOAD, SUM_TOP_TORQUE, drive_top, move_top_drive
 
 # Share of the clearance within which a string certainly does not touch; 1 − NEARLY is far above rounding.
 NEARLY = 1 - 1e-6
@@ -99,20 +103,21 @@ def update_axes(S, n):
 def free_motion(S, j, dt):
     """Velocity and spin of body j in its own frame after springs and weight act, before mud and wall.
 
-    Newton–Euler (Eqs 1–2) without the gyroscopic term, which ``move_bodies`` applies.  Returns velocity and
-    spin (6).
+    Newton–Euler (Eqs 1–2) without the gyroscopic term, which ``move_bodies`` applies; sideways a body takes mud along.
+    Returns velocity and spin (6).
     """
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(*quaternion(S, j))
     fx, fy, fz = joint_force(S, j)
     gx, gy, gz = joint_force(S, j + 1)
     im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
-    k = dt * im
+    k, held = dt * im, dt * S[HELD_BACK + j]
+    fx, fy, fz = fx - gx, fy - gy, fz - gz + S[WEIGHT + j]
     vx, vy, vz = velocity(S, j)
-    vx += k * (fx - gx)
-    vy += k * (fy - gy)
-    vz += k * (fz - gz + S[WEIGHT + j])
-    u = xx * vx + xy * vy + xz * vz
-    v = yx * vx + yy * vy + yz * vz
+    vx += k * fx
+    vy += k * fy
+    vz += k * fz
+    u = xx * vx + xy * vy + xz * vz - held * (xx * fx + xy * fy + xz * fz)
+    v = yx * vx + yy * vy + yz * vz - held * (yx * fx + yy * fy + yz * fz)
     w = zx * vx + zy * vy + zz * vz
 
     mx = S[LX + j] + S[UX + j + 1]
@@ -129,7 +134,7 @@ def free_motion(S, j, dt):
 def mud_factors(S, j, settling, dt):
     """Factors by which mud and artificial settling damping multiply lateral, axial and spin velocity."""
     slow = 1 + dt * settling
-    lateral = slow + dt * S[INVERSE_MASS + j] * S[MUD_LATERAL + j]
+    lateral = slow + dt * lateral_inverse_mass(S, j) * S[MUD_LATERAL + j]
     axial = slow + dt * S[INVERSE_MASS + j] * S[MUD_AXIAL + j]
     rotational = slow + dt * S[INVERSE_JA + j] * S[MUD_SPIN + j]
     # One division in place of three: division is the slowest packed operation.
@@ -142,7 +147,8 @@ def brake(S, j, u, v, w, a, b, c, settling, dt):
     """Apply mud and settling damping to body j; returns its velocity and spin."""
     lateral, axial, rotational = mud_factors(S, j, settling, dt)
     swing = 1 / (1 + dt * settling)
-    lost = S[MASS + j] * ((u * u + v * v) * lateral * (1 - lateral) + w * w * axial * (1 - axial))
+    sideways = (u * u + v * v) * lateral * (1 - lateral)
+    lost = S[MASS + j] * (sideways + w * w * axial * (1 - axial)) + S[ADDED_MASS + j] * sideways
     S[LOST_MUD + j] += lost + S[J_AXIAL + j] * c * c * rotational * (1 - rotational)
     S[SUM_MUD_TORQUE + j] += S[J_AXIAL + j] * c * (1 - rotational)
     return u * lateral, v * lateral, w * axial, a * swing, b * swing, c * rotational
@@ -153,8 +159,9 @@ def touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt):
     """Apply the wall's normal and friction impulses and the mud to body j; returns its velocity and spin."""
     penetration, nx, ny, nz = wall_normal(S, j)
     normal, damper = normal_impulse(S, j, u, v, w, a, b, nx, ny, nz, penetration, laws.contact_damping, dt)
-    k, q = normal * S[INVERSE_MASS + j], normal * S[ARM_CONTACT + j] * S[INVERSE_JT + j]
-    u, v, w, a, b = u - k * nx, v - k * ny, w - k * nz, a + q * ny, b - q * nx
+    h, k = normal * lateral_inverse_mass(S, j), normal * S[INVERSE_MASS + j]
+    q = normal * S[ARM_CONTACT + j] * S[INVERSE_JT + j]
+    u, v, w, a, b = u - h * nx, v - h * ny, w - k * nz, a + q * ny, b - q * nx
     limit = laws.friction_scale * S[FRICTION + j] * normal
     du, dv, dw, da, db, dc = friction_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit)
     u, v, w, a, b, c = brake(S, j, u + du, v + dv, w + dw, a + da, b + db, c + dc, laws.settling, dt)
@@ -164,6 +171,7 @@ def touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt):
     S[SUM_FRICTION_TORQUE + j] -= ja * dc
     S[LOST_CONTACT + j] += damper * approach(S, j, u, v, w, a, b, nx, ny, nz)
     S[LOST_FRICTION + j] -= m * (du * u + dv * v + dw * w) + jt * (da * a + db * b) + ja * dc * c
+    S[LOST_FRICTION + j] -= S[ADDED_MASS + j] * (du * u + dv * v)
     return u, v, w, a, b, c
 
 
@@ -289,7 +297,9 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     packed = padded_columns(n)
     # 1: loads of the joints and of the top drive at the present positions.
     update_joint_loads(S, packed, laws.joint_damping, dt)
+    hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
     feed, rate = drive_top(S, top, motion, pipe, dt)
+    read_step(S, top, n, hookload, torque, rate, dt)
     # 2 and 3: the piece of hole that owns each contact point, and the point's distance from its axis and wall.
     find_walls(S, owner, n, packed, C, laws.geometry)
     # 4: impulses of the wall, normal and friction, and those of springs, weight and mud.

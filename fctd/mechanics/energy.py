@@ -8,11 +8,28 @@ import numpy as np
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry
 from fctd.mechanics.joints import strain_energy
-from fctd.mechanics.state import HOLE, J_AXIAL, J_TRANSVERSE, K_WALL, MASS, RADIUS, WEIGHT, Z, radial, spin, velocity
+from fctd.mechanics.state import (
+    ADDED_MASS,
+    HOLE,
+    J_AXIAL,
+    J_TRANSVERSE,
+    K_WALL,
+    MASS,
+    RADIUS,
+    WEIGHT,
+    Z,
+    axis,
+    radial,
+    spin,
+    velocity,
+)
 
 
 class Energy(NamedTuple):
-    """Energies of a state [J]; gravity is zero at the rotary table; contact is the energy of the wall's springs."""
+    """Energies of a state [J]; gravity is zero at the rotary table; contact is the energy of the wall's springs.
+
+    The mud that moves sideways with the string has kinetic energy too.
+    """
 
     kinetic: float
     gravity: float
@@ -26,7 +43,10 @@ def _energies(S, n):
     for j in range(1, n + 1):
         vx, vy, vz = velocity(S, j)
         wx, wy, wz = spin(S, j)
+        ax, ay, az = axis(S, j)
+        along = vx * ax + vy * ay + vz * az
         kinetic += 0.5 * S[MASS + j] * (vx * vx + vy * vy + vz * vz)
+        kinetic += 0.5 * S[ADDED_MASS + j] * (vx * vx + vy * vy + vz * vz - along * along)
         kinetic += 0.5 * (S[J_TRANSVERSE + j] * (wx * wx + wy * wy) + S[J_AXIAL + j] * wz * wz)
         gravity -= S[WEIGHT + j] * S[Z + j]
         strain += strain_energy(S, j)

@@ -8,6 +8,7 @@ from fctd.mechanics.jit import inlined
 from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.state import (
     ARM_CONTACT,
+    HELD_BACK,
     HOLE,
     INVERSE_JT,
     INVERSE_MASS,
@@ -50,7 +51,7 @@ def normal_impulse(S, j, u, v, w, a, b, nx, ny, nz, penetration, damping, dt):
     The damper is implicit in the velocity it changes.  The wall never pulls.
     """
     arm = S[ARM_CONTACT + j]
-    response = (nx * nx + ny * ny + nz * nz) * S[INVERSE_MASS + j]
+    response = (nx * nx + ny * ny + nz * nz) * S[INVERSE_MASS + j] - (nx * nx + ny * ny) * S[HELD_BACK + j]
     response += arm * arm * (nx * nx + ny * ny) * S[INVERSE_JT + j]
     speed = approach(S, j, u, v, w, a, b, nx, ny, nz)
     elastic = dt * S[K_WALL + j] * penetration

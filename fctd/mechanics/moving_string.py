@@ -9,7 +9,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.mechanics import dynamics, state, topdrive
+from fctd.mechanics import dynamics, readings, state, topdrive
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.faults import check
@@ -117,6 +117,7 @@ class MovingString:
         self.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
         top = topdrive
         self.top[[top.SUM_HOOKLOAD, top.SUM_TOP_TORQUE, top.TOP_WORK, top.FED_ENERGY]] = 0.0
+        readings.clear(self.top)
         self.steps = 0
 
 

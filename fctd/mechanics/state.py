@@ -77,8 +77,11 @@ SUM_NORMAL, SUM_FRICTION_TORQUE, SUM_R_MU_N = 69 * STRIDE, 70 * STRIDE, 71 * STR
 SUM_MUD_TORQUE, SUM_TENSION, SUM_TORQUE = 72 * STRIDE, 73 * STRIDE, 74 * STRIDE
 # Energy lost since the start of the run [J]: friction, contact damping, mud, joint damping.
 LOST_FRICTION, LOST_CONTACT, LOST_MUD, LOST_JOINT = 75 * STRIDE, 76 * STRIDE, 77 * STRIDE, 78 * STRIDE
+# Mud that moves sideways with a body: its mass a [kg], and by how much it lowers the inverse mass m⁻¹ sideways,
+# m⁻¹ − (m + a)⁻¹ [1/kg].  Both are 0 without such mud, and then change no result.
+ADDED_MASS, HELD_BACK = 79 * STRIDE, 80 * STRIDE
 
-ROWS = 79
+ROWS = 99
 
 
 class Laws(NamedTuple):
@@ -173,6 +176,12 @@ def axis(S, j):
 def global_spin(S, j):
     """Spin of body j [rad/s], global."""
     return S[GX + j], S[GY + j], S[GZ + j]
+
+
+@inlined
+def lateral_inverse_mass(S, j):
+    """Inverse of the mass of body j, mud included, that moves sideways [1/kg]."""
+    return S[INVERSE_MASS + j] - S[HELD_BACK + j]
 
 
 @inlined

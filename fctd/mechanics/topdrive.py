@@ -7,10 +7,12 @@ from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import hinge_gap, joint_loads, strain_energy
 from fctd.mechanics.rotations import half_twist, turned
 from fctd.mechanics.state import (
+    ADDED_MASS,
     ARM_TOP,
     GX,
     GY,
     GZ,
+    HELD_BACK,
     INVERSE_JA,
     INVERSE_JT,
     INVERSE_MASS,
@@ -67,7 +69,7 @@ class PerMetre(NamedTuple):
     """Properties per metre of the pipe fed in at the top, from which the long segment's follow by its length.
 
     mass [kg/m], weight (buoyed) [N/m], axial_inertia [kg m], EA [N], GJ, EI [N m^2], shear (κGA) [N],
-    mud damping axial, lateral [N s/m^2], rotational [N s].
+    mud damping axial, lateral [N s/m^2], rotational [N s]; added_mass of the mud that moves sideways with it [kg/m].
     """
 
     mass: float
@@ -80,13 +82,16 @@ class PerMetre(NamedTuple):
     mud_axial: float
     mud_lateral: float
     mud_spin: float
+    added_mass: float = 0.0
 
 
 # Top drive's own numbers, shape (TOP_SIZE,): length of the long segment [m] (0: none), simulated time [s];
 # sums since the last record of hook load [N s] and torque [N m s]; work done by the top drive and energy
-# brought in by fed pipe since the start [J].
+# brought in by fed pipe since the start [J]; of the steps since the last record the extremes of hook load [N] and
+# torque [N m], the angles by which top and bit turned [rad], and the time for which the bit stood still [s].
 TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(6)
-TOP_SIZE = 6
+HOOKLOAD_MIN, HOOKLOAD_MAX, TORQUE_MIN, TORQUE_MAX, TOP_ANGLE, BIT_ANGLE, BIT_STILL = range(6, 13)
+TOP_SIZE = 13
 
 
 @inlined
@@ -110,6 +115,8 @@ def set_long_segment(S, length, pipe):
     S[J_AXIAL + 1] = pipe.axial_inertia * half
     S[J_TRANSVERSE + 1] = pipe.mass * half * length * length / 3
     S[INVERSE_MASS + 1] = 1 / S[MASS + 1]
+    S[ADDED_MASS + 1] = pipe.added_mass * half
+    S[HELD_BACK + 1] = S[INVERSE_MASS + 1] - 1 / (S[MASS + 1] + S[ADDED_MASS + 1])
     S[INVERSE_JA + 1] = 1 / S[J_AXIAL + 1]
     S[INVERSE_JT + 1] = 1 / S[J_TRANSVERSE + 1]
     S[MUD_AXIAL + 1] = pipe.mud_axial * half
@@ -132,7 +139,10 @@ def long_segment_energy(S):
     """Kinetic, gravity and strain energy that depend on the long segment's length [J]."""
     vx, vy, vz = velocity(S, 1)
     wx, wy, wz = spin(S, 1)
+    ax, ay, az = axis(S, 1)
+    along = vx * ax + vy * ay + vz * az
     kinetic = 0.5 * S[MASS + 1] * (vx * vx + vy * vy + vz * vz)
+    kinetic += 0.5 * S[ADDED_MASS + 1] * (vx * vx + vy * vy + vz * vz - along * along)
     kinetic += 0.5 * (S[J_TRANSVERSE + 1] * (wx * wx + wy * wy) + S[J_AXIAL + 1] * wz * wz)
     return kinetic - S[WEIGHT + 1] * S[Z + 1] + strain_energy(S, 1)
 

@@ -1,4 +1,4 @@
-"""Torsional vibration of a string: its slowest period, over which the surface torque of a turning string is read.
+"""Vibration of a string: its slowest torsional and axial periods, over which surface torque and hook load are read.
 
 Coulomb friction against a turning string is a constant torque.  Nothing damps the torsion of a string that only
 rotates, and after its start the surface torque swings about its mean for minutes.
@@ -20,6 +20,7 @@ def torsional_period(length: ArrayLike, inertia: ArrayLike, stiffness: ArrayLike
     """The slowest period [s] of a string that is held at the top and free at the bit.
 
     length [m], polar inertia [kg m] and torsional stiffness GJ [N m^2] per metre of its parts (n,), from the top down.
+    With mass [kg/m] and EA [N] in their places it is the slowest axial period.
     """
     length, inertia, stiffness = (np.atleast_1d(np.asarray(part, float)) for part in (length, inertia, stiffness))
     count = np.ceil(length / PIECE).astype(int)
@@ -38,3 +39,8 @@ def torsional_period(length: ArrayLike, inertia: ArrayLike, stiffness: ArrayLike
 def period_of(string: String) -> float:
     """The slowest torsional period [s] of a laid-out string."""
     return torsional_period(string.length, string.of("axial_inertia"), string.of("GJ"))
+
+
+def axial_period_of(string: String) -> float:
+    """The slowest axial period [s] of a laid-out string."""
+    return torsional_period(string.length, string.of("mass"), string.of("EA"))

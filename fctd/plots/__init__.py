@@ -1,4 +1,4 @@
-"""Pictures and pages of steady strings: the torque-and-drag chart, the profile of a string, and calibrations.
+"""Pictures and pages: the torque-and-drag chart, the profile of a string, runs in time, and calibrations.
 
 Pictures need matplotlib (the package's extra ``plot``), pages plotly (``html``); each is imported where it is asked
 for, and nothing else of the package needs them.
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from fctd.plots.monitor import monitor_figure
     from fctd.plots.page import chart_page, profile_page, save_page
     from fctd.plots.profile import profile_figure
+    from fctd.plots.run import run_figure
     from fctd.plots.style import RC, save
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "prediction_figure",
     "profile_figure",
     "profile_page",
+    "run_figure",
     "save",
     "save_page",
 ]
@@ -40,6 +42,7 @@ _HOMES = {
     "prediction_figure": "calibration",
     "profile_figure": "profile",
     "profile_page": "page",
+    "run_figure": "run",
     "save": "style",
     "save_page": "page",
 }

@@ -34,8 +34,14 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Rows = list[dict[str, Any]]
-TABLES = ("history", "profile", "energy")
+TABLES = ("history", "profile", "energy", "operations", "segments")
 ATTEMPTS = 20  # to read a folder that another process may be replacing
+
+
+def _no_rows() -> pd.DataFrame:
+    import pandas as pd
+
+    return pd.DataFrame()
 
 
 @dataclass(frozen=True)
@@ -46,7 +52,9 @@ class SimulationResult:
     interval; loads are means over the interval, depths and energies values at its end.  profile : a row per contact
     point from the top to the bit, for every recorded bit depth.  energy : the ledger, a row per record interval.  run :
     segments, step, counts and timing.  notes : warnings about the numbers, each code once, where it was worst.
-    warnings : probable mistakes of the case.  identity : of the run, the same in all of its files.
+    warnings : probable mistakes of the case.  operations : a row for each operation, with mean and swing of hook load
+    and torque over whole periods (``fctd.results.swings``).  segments : a row per contact point at the records, every
+    record of a short run and evenly chosen ones of a long run.  identity : of the run, the same in all of its files.
     """
 
     case: Case
@@ -58,6 +66,8 @@ class SimulationResult:
     run: dict[str, Any]
     notes: tuple[Note, ...] = ()
     warnings: tuple[InputWarning, ...] = ()
+    operations: pd.DataFrame = field(default_factory=_no_rows)
+    segments: pd.DataFrame = field(default_factory=_no_rows)
     identity: str = field(default_factory=lambda: uuid4().hex)
 
     def __repr__(self) -> str:
@@ -76,7 +86,7 @@ class SimulationResult:
         return f", {last['operation']} at {last['bit_depth_m']:.1f} m"
 
     def save(self, folder: Path, csv: bool = False, units: System = "si") -> list[Path]:
-        """Write history, profile and energy tables as the results in ``folder``; returns the files written.
+        """Write the tables of ``TABLES`` as the results in ``folder``; returns the files written.
 
         They take the place of an earlier run's tables all at once; other files in the folder stay.  units : of the CSV
         files; the Parquet files are SI, as ``open_result`` reads them.  Raises InputError where the folder cannot be

@@ -15,8 +15,9 @@ from fctd.mechanics.dynamics import move_bodies, padded_columns, update_axes, up
 from fctd.mechanics.jit import entry
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.moving_string import MovingString
+from fctd.mechanics.readings import read_step
 from fctd.mechanics.state import Laws
-from fctd.mechanics.topdrive import Motion, drive_top, move_top_drive
+from fctd.mechanics.topdrive import SUM_HOOKLOAD, SUM_TOP_TORQUE, Motion, drive_top, move_top_drive
 from fctd.model.wellbore import FRICTION, RADIUS, STIFFNESS, TO_MD, Contacts, Wellbore
 
 Array = NDArray[np.float64]
@@ -72,7 +73,9 @@ def _store(S, n, radii, penetration, normal, md, wall):
 def _before(S, top, n, laws, motion, pipe, dt, points):
     """Stage 1 of ``dynamics.step``, and the points (n, 3) to query; returns feed [m/s] and rotation [rad/s]."""
     update_joint_loads(S, padded_columns(n), laws.joint_damping, dt)
+    hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
     feed, rate = drive_top(S, top, motion, pipe, dt)
+    read_step(S, top, n, hookload, torque, rate, dt)
     _points(S, n, points)
     return feed, rate
 

@@ -10,18 +10,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case.operations import KINDS
-from fctd.mechanics import state, topdrive
+from fctd.mechanics import readings, state, topdrive
 from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.moving_string import Sums
 from fctd.mechanics.query import Walls
+from fctd.mechanics.readings import Readings
 from fctd.model.operations import drive_torque, weight_indicator
 from fctd.results import ledger
 from fctd.results.buckling import NOT_BUCKLED, Buckling, buckling_along, pipe_of
 from fctd.results.notes import Note, string_notes, under_resolved
-from fctd.results.profile import Loads, profile_table
+from fctd.results.profile import Loads, at_contacts, profile_table
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
 from fctd.simulation.run import Run, contact_points
+from fctd.simulation.series import SegmentSeries
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,13 +46,14 @@ class Recorder:
         self.start_length = float(run.top[topdrive.TOP_LENGTH])
         fed = self.start_length - float(run.string.length[0]) if run.string.long_segment else 0.0
         self.start_depth = run.string.bit_depth + fed
-        self.last_time = time
+        self.start_time = self.last_time = time
         self.history: list[dict[str, Any]] = []
         self.ledger: list[dict[str, float]] = []
         self.profiles: dict[float, pd.DataFrame] = {}  # by time
         self.wanted = list(run.case.record.profile_at)
         self.notes: dict[str, Note] = {}  # by code, the one with the largest excess
         self.pipe = pipe_of(run.string)
+        self.series = SegmentSeries()
 
     def rows(self, offset: int) -> Array:
         """One quantity of every segment (n,)."""
@@ -69,10 +72,11 @@ class Recorder:
         case = self.run.case
         self.mean = mean = sums.over(self.run.time - self.last_time)
         hookload, torque = mean.hookload, mean.top_torque
-        self.last_time = self.run.time
+        span, self.last_time = self.run.time - self.last_time, self.run.time
 
         kind = case.operations[operation].kind
         spin = float(np.linalg.norm(self.run.S[[state.GX, state.GY, state.GZ]]))  # of the top drive, row 0
+        steps = readings.drain(self.run.top)
         indicator = weight_indicator(case.rig, KINDS[kind].direction, hookload)
         drive = drive_torque(case.rig, spin, torque)
         before = self.history[-1]["bit_depth_m"] if self.history else self.start_depth
@@ -94,11 +98,14 @@ class Recorder:
                 "total_contact_force_N": float(mean.normal.sum()),
                 "contact_count": int((penetration(self.run.S, self.run.segments) > 0).sum()),
                 **buckling.columns(),
+                **_of_steps(steps, hookload, torque, span),
             }
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
         self._keep_notes(hookload, loads, walls, buckling)
+        tension, twist, _ = at_contacts(self.run.string, loads)
+        self.series.add(self.last_time, self.bit_depth, walls.md, tension[1:], twist[1:], loads.normal)
         low, high = sorted((before, self.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]
         if passed:
@@ -128,7 +135,8 @@ class Recorder:
         profile = pd.concat(list(profiles.values()), ignore_index=True) if profiles else pd.DataFrame()
         history, notes = pd.DataFrame(self.history), tuple(self.notes.values())
         return SimulationResult(
-            run.case, status, message, history, profile, energy, numbers, notes, run.case.warnings
+            run.case, status, message, history, profile, energy, numbers, notes, run.case.warnings,
+            segments=self.series.table(),
         )  # fmt: skip
 
     def _bit_md(self) -> float:
@@ -188,3 +196,19 @@ class Recorder:
         table.insert(0, "operation", self.history[-1]["operation"])
         table.insert(0, "bit_depth_m", self.bit_depth)
         return table
+
+
+def _of_steps(steps: Readings, hookload: float, torque: float, span: float) -> dict[str, float]:
+    """Columns of the readings of all steps; an engine that keeps none has its means, and no rotation of the bit."""
+    low, high = steps.hookload if steps.known else (hookload, hookload)
+    least, most = steps.torque if steps.known else (torque, torque)
+    turns = 60 / (2 * np.pi * span)
+    return {
+        "hookload_min_N": low,
+        "hookload_max_N": high,
+        "surface_torque_min_N_m": least,
+        "surface_torque_max_N_m": most,
+        "top_rpm": steps.top_angle * turns if steps.known else np.nan,
+        "bit_rpm": steps.bit_angle * turns if steps.known else np.nan,
+        "bit_still_s": steps.bit_still if steps.known else np.nan,
+    }

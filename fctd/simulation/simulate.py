@@ -13,9 +13,10 @@ from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
-from fctd.model.torsion import period_of
+from fctd.model.torsion import axial_period_of, period_of
 from fctd.results import notes
 from fctd.results.status import RunStatus
+from fctd.results.swings import Span, operations_table
 from fctd.results.tables import SimulationResult
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.intervals import Window, whole_schedule, within
@@ -111,7 +112,7 @@ class Simulation(Iterator[Record]):
         start = 0.0 if self.window is None else self.window.start
         if start > 0:
             for motion, _, end in within(self.phases, Window(0.0, start), float("inf")):
-                self.run.advance(motion, end - self.run.time)
+                    self.run.advance(motion, end - self.run.time)
             self.run.refresh()
             self.run.clear()
         if self._begin is not None:
@@ -167,6 +168,8 @@ class Simulation(Iterator[Record]):
             return Recorder(self.run).result(self.status, self.message, 0.0, float("nan"))
         message = f"at {self.run.time:.4g} s" if self.status == RunStatus.INTERRUPTED else self.message
         result = self._recorder.result(self.status, message, self.wall_s, self.settling_residual)
+        table = operations_table(result.history, self._recorder.start_time, self._recorder.start_depth, self._spans())
+        result = replace(result, operations=table)
         return self._judged(result) if self.status == RunStatus.COMPLETED and self.window is None else result
 
     def _complete(self) -> None:
@@ -199,11 +202,28 @@ class Simulation(Iterator[Record]):
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
 
+    def _spans(self) -> list[Span]:
+        """When the operations begin, are steady and end, with the periods of the string at their end."""
+        spans = []
+        for k, operation in enumerate(self.case.operations):
+            motions = [motion for motion, index in self.phases if index == k]
+            start, end = motions[0].start, motions[-1].start + motions[-1].duration
+            steady_from, steady_to = start, end
+            for motion in motions:
+                if motion.feed_from == motion.feed_to and motion.spin_from == motion.spin_to:
+                    steady_from, steady_to = motion.start, motion.start + motion.duration
+            string = self.run.string
+            if string.long_segment:
+                string = string.lengthened(operation.end_md - string.bit_depth)
+            periods = axial_period_of(string), period_of(string)
+            spans.append(Span(operation.kind, start, steady_from, steady_to, end, *periods))
+        return spans
+
     def _swings(self, history: "pd.DataFrame") -> notes.Note | None:
         """The note on the surface torque at the end of a run whose string turns there."""
         if not self.case.operations[-1].rpm:
             return None
-        period, time_s = period_of(self.run.string), np.append(0.0, history["time_s"])
+        period, time_s = self._spans()[-1].torsional_period, np.append(0.0, history["time_s"])
         torque = history["surface_torque_N_m"].to_numpy(float)
         impulse = np.append(0.0, np.cumsum(torque * np.diff(time_s)))
         before, middle, end = np.interp(time_s[-1] - period * np.array([2.0, 1.0, 0.0]), time_s, impulse)

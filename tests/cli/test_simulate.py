@@ -13,7 +13,7 @@ import pytest
 from fctd import open_result
 from fctd.case.load import Case
 from fctd.cli import simulate
-from fctd.results.tables import SimulationResult
+from fctd.results.tables import TABLES, SimulationResult
 from fctd.simulation.simulate import Simulation
 from tests.cli.test_main import CASE, run
 
@@ -33,9 +33,11 @@ def test_simulate_writes_tables_with_metadata(
     printed = capsys.readouterr().out
     assert "small: rotate_off_bottom" in printed
     assert "32 segments" in printed
-    for name in ("history", "profile", "energy"):
+    assert "mean ± swing" in printed
+    assert "means over less than 2 whole periods: rotate_off_bottom (surface torque)" in printed
+    for name in TABLES:
         table = pd.read_parquet(out / f"{name}.parquet")
-        assert len(table) > 3
+        assert len(table) > 3 or name == "operations"
         pd.testing.assert_frame_equal(table, pd.read_csv(out / f"{name}.csv"), check_dtype=False)
     metadata = pq.read_schema(out / "history.parquet").metadata
     case = json.loads(metadata[b"case"])
@@ -128,7 +130,8 @@ def test_a_case_in_its_own_result_folder_stays(case_file: Path, monkeypatch: pyt
     assert case.read_text() == CASE
     assert open_result(out).identity != first.identity
     assert {path.name for path in out.iterdir()} == {
-        "energy.toml", "history.parquet", "profile.parquet", "energy.parquet",
+        "energy.toml", "history.parquet", "profile.parquet", "energy.parquet", "operations.parquet",
+        "segments.parquet",
     }  # fmt: skip
     assert [path.name for path in out.parent.iterdir()] == ["out"]
 
@@ -154,3 +157,19 @@ def test_a_folder_that_cannot_be_replaced_is_refused_before(
     message = capsys.readouterr().err
     assert message.startswith("--out = ")
     assert f"expected {expected}" in message
+
+
+def test_a_picture_of_the_run(case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "run.png"
+    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet", "--plot", picture) == 0
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_picture_of_another_kind_is_refused_before(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(simulate, "simulate", lambda *_, **__: pytest.fail("the case was computed"))
+    assert run(monkeypatch, "simulate", case_file, "--plot", "run.html", "--quiet") == 2
+    assert "--plot" in (message := capsys.readouterr().err)
+    assert "a file name that ends in .png or .svg or .pdf" in message

@@ -28,9 +28,11 @@ TABLE = pd.DataFrame({"time_s": [1.0, 2.5], "operation": ["trip_in", "trip_in"]}
 @pytest.mark.parametrize("csv", [False, True])
 def test_a_result_is_a_table_per_file_with_its_case(csv: bool, tmp_path: Path) -> None:
     case = make_case(operations=[rotation(1000, 1)])
-    result = SimulationResult(case, "completed", "a word", TABLE, TABLE * 2, TABLE[:1], {"steps": 7, "step_s": 0.5})
+    frames = {
+        "history": TABLE, "profile": TABLE * 2, "energy": TABLE[:1], "operations": TABLE * 3, "segments": TABLE * 4,
+    }  # fmt: skip
+    result = SimulationResult(case, "completed", "a word", **frames, run={"steps": 7, "step_s": 0.5})
     written = result.save(tmp_path, csv=csv)
-    frames = {"history": TABLE, "profile": TABLE * 2, "energy": TABLE[:1]}
     suffixes = ("parquet", "csv") if csv else ("parquet",)
     assert written == [tmp_path / f"{name}.{suffix}" for name in frames for suffix in suffixes]
     assert sorted(written) == sorted(tmp_path.iterdir())

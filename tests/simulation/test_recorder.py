@@ -75,7 +75,13 @@ def test_a_row_of_history_is_sums_over_its_span() -> None:
             "mud_torque_N_m": 7 * n / span, "total_contact_force_N": 11 * n / span, "contact_count": 0,
         }  # fmt: skip
         assert row["buckling"] == "none"
-        others = {"operation", *NOT_BUCKLED.columns()}
+        # No step was taken: the extremes are the means, and the bit's rotation is unknown.
+        assert row["hookload_min_N"] == row["hookload_max_N"] == row["hookload_N"]
+        assert row["surface_torque_min_N_m"] == row["surface_torque_max_N_m"] == row["surface_torque_N_m"]
+        unknown = ("top_rpm", "bit_rpm", "bit_still_s")
+        assert np.isnan([row[name] for name in unknown]).all()
+        extremes = {name for name in row if "_min_" in name or "_max_" in name}
+        others = {"operation", *NOT_BUCKLED.columns(), *unknown, *extremes}
         assert {name: row[name] for name in row if name not in others} == pytest.approx(expected)
 
 
@@ -209,3 +215,17 @@ def test_every_record_says_where_the_string_is_buckled(friction: float, mode: st
     kept = open_result(tmp_path)
     assert kept.notes == result.notes
     assert kept.history["buckling"].tolist() == result.history["buckling"].tolist()
+
+
+def test_the_steps_of_a_record() -> None:
+    """Turned at 60 rev/min for 20 s in hole without a wall: top and bit turn alike but for the swing of the torsion."""
+    result = simulate(make_case(operations=[rotation(1000, 20, ramp=5)], contact={"enabled": False}))
+    history = result.history
+    for load, unit in (("hookload", "N"), ("surface_torque", "N_m")):
+        mean, low, high = (history[f"{load}{end}_{unit}"] for end in ("", "_min", "_max"))
+        assert ((low <= mean) & (mean <= high)).all()
+        assert (low < high).any()
+    assert history["top_rpm"].iloc[-10:].to_numpy() == pytest.approx(60.0)
+    assert history["bit_rpm"].iloc[-10:].mean() == pytest.approx(60.0, rel=0.05)
+    assert history["bit_still_s"].iloc[0] > 0.2
+    assert not history["bit_still_s"].iloc[-10:].any()

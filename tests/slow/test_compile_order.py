@@ -32,7 +32,7 @@ duration = "20 s"
 rpm = 120
 ramp_time = "2 s"
 """
-TABLES = ("history", "profile", "energy")
+TABLES = ("history", "profile", "energy", "operations", "segments")
 
 
 def simulate(folder: Path) -> None:

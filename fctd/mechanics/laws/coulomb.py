@@ -6,7 +6,16 @@ from fctd.mechanics.dual import reciprocal, root
 from fctd.mechanics.friction import Law, along_wall
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
-from fctd.mechanics.state import ARM_CONTACT, INVERSE_JA, INVERSE_JT, INVERSE_MASS, RADIUS, TINY
+from fctd.mechanics.state import (
+    ARM_CONTACT,
+    HELD_BACK,
+    INVERSE_JA,
+    INVERSE_JT,
+    INVERSE_MASS,
+    RADIUS,
+    TINY,
+    lateral_inverse_mass,
+)
 
 
 @inlined
@@ -17,6 +26,7 @@ def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     the sliding of the free body but not reverse it (implicit clamp).  Returns the change of velocity and spin (6).
     """
     im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
+    il = lateral_inverse_mass(S, j)
     r = S[RADIUS + j]
     rx, ry, rz = r * nx, r * ny, S[ARM_CONTACT + j] + r * nz
     sx = u + b * rz - c * ry
@@ -27,11 +37,11 @@ def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     square = sx * sx + sy * sy + sz * sz
     speed = np.sqrt(square)
     # The body's response to an impulse −f·s, f the smaller of limit/|s| and |s|²/response: one division.
-    response = square * im + (mx * mx + my * my) * it + mz * mz * ia
+    response = square * im - (sx * sx + sy * sy) * S[HELD_BACK + j] + (mx * mx + my * my) * it + mz * mz * ia
     sliding, stopping = limit * response, speed * square
     f = (sliding if sliding < stopping else stopping) / (speed * response + TINY)
     return (
-        -f * im * sx, -f * im * sy, -f * im * sz,
+        -f * il * sx, -f * il * sy, -f * im * sz,
         -f * it * mx, -f * it * my, -f * ia * mz,
     )  # fmt: skip
 

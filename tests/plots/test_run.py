@@ -1,0 +1,56 @@
+"""The picture of a run: the numbers of the history in the units of its axes."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+from fctd import plots, simulate
+from fctd.results.tables import SimulationResult
+from tests.cases import make_case, pipe, rotation, trip
+from tests.plots.made import FOOT, LBF, texts_that_overlap
+
+
+@cache
+def result() -> SimulationResult:
+    return simulate(
+        make_case(
+            [[0, 0, 0], [300, 0, 0], [1000, 60, 0]],
+            [pipe(500, 10), pipe(None, 1)],
+            [trip(700, 701), rotation(701, 4, ramp=1)],
+            record={"interval": 0.5},
+        )
+    )
+
+
+def test_the_history_is_drawn_in_the_units_of_the_axes() -> None:
+    history = result().history
+    for units, newton, metre in (("si", 1e3, 1.0), ("field", 1e3 * LBF, FOOT)):
+        hookload, torque, rotation_, depth, string, _ = plots.run_figure(result(), units).axes  # type: ignore[arg-type]
+        np.testing.assert_allclose(hookload.lines[0].get_ydata() * newton, history["hookload_N"], rtol=1e-9)
+        np.testing.assert_allclose(depth.lines[0].get_ydata() * metre, history["bit_depth_m"], rtol=1e-9)
+        np.testing.assert_allclose(rotation_.lines[1].get_ydata(), history["top_rpm"])
+        np.testing.assert_allclose(rotation_.lines[0].get_ydata(), history["bit_rpm"])
+        assert max(string.get_ylim()) * metre == pytest.approx(result().segments["md_m"].max())
+        assert torque.get_ylabel().endswith("kN·m" if units == "si" else "kft·lbf")
+
+
+@pytest.mark.parametrize("map_of", ["contact_force_N", "effective_tension_N"])
+def test_the_map_has_the_string_at_its_records(map_of: str) -> None:
+    figure = plots.run_figure(result(), map_of=map_of)  # type: ignore[arg-type]
+    cells = figure.axes[4].collections[0].get_array()
+    assert cells.shape[1] == len(result().history)
+    if map_of == "effective_tension_N":
+        # The uppermost cell of the last record is the tension near the top; the string hangs freely there.
+        last = result().segments.groupby("time_s").get_group(result().history["time_s"].iloc[-1])
+        assert cells[0, -1] == pytest.approx(last["effective_tension_N"].iloc[0] / 1e3, rel=2e-2)
+    assert not texts_that_overlap(figure)
+
+
+def test_a_result_without_records_has_no_picture() -> None:
+    from fctd.simulation.simulate import Simulation
+
+    with pytest.raises(ValueError, match="records"):
+        plots.run_figure(Simulation(result().case).result())
