@@ -34,6 +34,8 @@ def _as_path(raw: object) -> object:
 
 
 FileName = Annotated[Path, BeforeValidator(_as_path)]
+# Viscosity of mud whose case gives none [Pa s]; it acts sideways alone, so that steady loads do not depend on it.
+SIDEWAYS = 0.02
 IntervalKind = Literal["cased", "open"]
 if TYPE_CHECKING:
     FrictionLaw = str
@@ -288,12 +290,29 @@ class StringSpec(Table):
 
 
 class MudSpec(Table):
-    """Density [kg/m^3], and damping per metre of string: axial and lateral [N*s/m^2], rotational [N*s]."""
+    """Density [kg/m^3], viscosity [Pa*s], and damping per metre of string: axial and lateral [N*s/m^2], rotational [N*s].
+
+    A string that moves in time takes mud along sideways, and the mud damps it sideways, by default with a viscosity of
+    20 mPa*s. A `viscosity` that is given damps the string along and around itself too, in steady states as well; 0
+    turns all of it off. A damping that is given replaces the one that follows from the viscosity.
+    """
 
     density: units.Density = 0.0
-    axial_damping: units.DampingPerLength = 0.0
-    lateral_damping: units.DampingPerLength = 0.0
-    rotational_damping: units.RotationalDamping = 0.0
+    viscosity: units.Viscosity | None = None
+    axial_damping: units.DampingPerLength | None = None
+    lateral_damping: units.DampingPerLength | None = None
+    rotational_damping: units.RotationalDamping | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.viscosity and not self.density:
+            raise InputError("0, or a mud.density above 0 beside it", key="viscosity", value=f"{self.viscosity:g} Pa*s")
+        return self
+
+    @property
+    def sideways(self) -> float:
+        """The viscosity of lateral motion in time [Pa s], 0 where the string takes no mud along."""
+        return (self.viscosity if self.viscosity is not None else SIDEWAYS) if self.density else 0.0
 
 
 class RigSpec(Table):

@@ -98,6 +98,7 @@ DAMPING: Final = Dimension("a damping coefficient", "N*s/m", "'1e4 N*s/m'", ("N*
 DAMPING_PER_LENGTH: Final = Dimension(
     "a damping coefficient per length", "N*s/m^2", "'5 N*s/m^2'", ("N*s/m^2", "lbf*s/ft^2")
 )
+VISCOSITY: Final = Dimension("a viscosity", "Pa*s", "'30 mPa*s' or '30 cP'", ("Pa*s", "mPa*s", "cP"))
 FLOW: Final = Dimension("a flow rate", "m^3/s", "'2000 L/min' or '500 gpm'", ("m^3/s", "L/s", "L/min", "gpm"),
                               {"gpm": "(gallon/minute)", "lpm": "(liter/minute)"})  # fmt: skip
 ROTATIONAL_DAMPING: Final = Dimension("a rotational damping per length", "N*s", "'0.1 N*s'", ("N*s", "lbf*s"))
@@ -293,5 +294,9 @@ PositiveStiffnessPerLength = Annotated[float, Quantity(dimension=STIFFNESS_PER_L
 PositiveAxialStiffness = Annotated[float, Quantity(dimension=AXIAL_STIFFNESS, above=0.0)]
 PositiveBendingStiffness = Annotated[float, Quantity(dimension=BENDING_STIFFNESS, above=0.0)]
 Damping = Annotated[float, Quantity(dimension=DAMPING, at_least=0.0)]
+# Plastic viscosities of mud are 5 to 100 mPa*s; honey has 10 Pa*s.
+Viscosity = Annotated[
+    float, Quantity(dimension=VISCOSITY, at_least=0.0, at_most=2.0, slips=(Slip(2, 2000, " mPa*s"),))
+]
 DampingPerLength = Annotated[float, Quantity(dimension=DAMPING_PER_LENGTH, at_least=0.0)]
 RotationalDamping = Annotated[float, Quantity(dimension=ROTATIONAL_DAMPING, at_least=0.0)]

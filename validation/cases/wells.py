@@ -52,7 +52,7 @@ def well(
             "name": name,
             "wellbore": {"stations": stations, "intervals": [interval], **wellbore},
             "string": {"components": components},
-            "mud": {"density": 1200.0},
+            "mud": {"density": 1200.0, "viscosity": 0},
             "contact": {"friction_law": law},
         }
     )

@@ -57,7 +57,7 @@ def case_of(
             "name": string,
             "wellbore": hole,
             "string": {"components": parts},
-            "mud": {"density": 1200.0},
+            "mud": {"density": 1200.0, "viscosity": 0},
             "operations": trip(float(ends[1]), float(ends[-1]), speed=1.0, ramp=1.0),
         }
     )

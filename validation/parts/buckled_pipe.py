@@ -81,7 +81,7 @@ class Rig:
                     ],
                 },
                 "string": {"top_md": BELOW_SURFACE, "components": [*(bit if held else []), pipe]},
-                "mud": {"density": MUD},
+                "mud": {"density": MUD, "viscosity": 0},
                 "rig": {"block_weight": 1e9},  # it pushes as much as the pipe needs
             }
         )

@@ -50,7 +50,7 @@ def well(rng: Random, simulated: bool = False) -> dict[str, Any]:
         "name": "plausible",
         "wellbore": hole,
         "string": {"top_md": top, "components": _string(rng, size, simulated)},
-        "mud": {"density": rng.choice([0.0, round(rng.uniform(950, 2200))])},
+        "mud": {"density": rng.choice([0.0, round(rng.uniform(950, 2200))]), "viscosity": 0},
         "bit": {"weight_on_bit": round(rng.uniform(0, 1.5e5), -3), "torque": round(rng.uniform(0, 1.5e4), -2)},
         "contact": {"friction_law": rng.choice(["coulomb", "coulomb", "paper"])},
     }

@@ -99,7 +99,7 @@ def horizontal_well(segment: float, mode: str, friction: float = WELL_FRICTION) 
                 ],
             },
             "string": {"components": [PIPE | {"length": DEPTH, "segment_length": segment}]},
-            "mud": {"density": MUD},
+            "mud": {"density": MUD, "viscosity": 0},
             "bit": {"weight_on_bit": WEIGHT_ON_BIT},
             "solver": {"buckling": mode},
         }

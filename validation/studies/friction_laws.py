@@ -46,7 +46,7 @@ def straight(law: str) -> Case:
     return Case.model_validate(
         {
             "name": "straight", "wellbore": hole, "string": {"components": [pipe]},
-            "mud": {"density": 1200.0}, "contact": {"friction_law": law},
+            "mud": {"density": 1200.0, "viscosity": 0}, "contact": {"friction_law": law},
         }
     )  # fmt: skip
 

@@ -45,7 +45,7 @@ def f4(folder: Path) -> Case:
             "name": "15/9-F-4, 12 1/4 in",
             "wellbore": {"stations": stations, "geometry": "arcs", "stiffness": 5e7, "intervals": intervals},
             "string": {"components": [collars, pipe]},
-            "mud": {"density": 1400},
+            "mud": {"density": 1400, "viscosity": 0},
             "rig": {"block_weight": "66 t", "torque_offset": "0.5 kN*m", "torque_per_rpm": 27},
         }
     )

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fctd import Case, equilibrium, simulate
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import lay_out, section_of
+from fctd.model.mud import resistance
 from references.soft_string.integration import soft_string
 from validation.cases import load, rotation
 from validation.harness.study import Check, Context, Outcome, Study
@@ -87,12 +88,6 @@ def frequencies() -> dict[str, float]:
         for changes in ({}, {f"string__components__{k}__density": STEEL * (1 - 1200.0 / STEEL) for k in range(3)})
     )
     return {"own_Hz": float(own[1][0]), "scaled_Hz": float(scaled[1][0])}
-
-
-def resistance(radius: float, hole: float, viscosity: float) -> tuple[float, float]:
-    """Damping per metre of laminar mud in a concentric annulus: axial [N s/m²] and rotational [N s] (Couette flow)."""
-    axial = 2 * np.pi * viscosity / np.log(hole / radius)
-    return float(axial), float(4 * np.pi * viscosity * (radius * hole) ** 2 / (hole**2 - radius**2))
 
 
 def damping_of(viscosity: float) -> tuple[dict[str, float], tuple[float, float]]:

@@ -79,7 +79,7 @@ def case_of(stations: list[list[float]], law: str, clearance: float, stiffness: 
     return Case.model_validate(
         {
             "name": "soft-limit", "wellbore": hole, "string": {"components": [pipe]},
-            "mud": {"density": 1200.0}, "contact": {"friction_law": law},
+            "mud": {"density": 1200.0, "viscosity": 0}, "contact": {"friction_law": law},
         }
     )  # fmt: skip
 
