@@ -290,7 +290,7 @@ class StringSpec(Table):
 
 
 class MudSpec(Table):
-    """Density [kg/m^3], viscosity [Pa*s], and damping per metre of string: axial and lateral [N*s/m^2], rotational [N*s].
+    """Density [kg/m^3], viscosity [Pa*s]; damping per metre of string: axial and lateral [N*s/m^2], rotational [N*s].
 
     A string that moves in time takes mud along sideways, and the mud damps it sideways, by default with a viscosity of
     20 mPa*s. A `viscosity` that is given damps the string along and around itself too, in steady states as well; 0

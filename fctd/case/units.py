@@ -295,8 +295,6 @@ PositiveAxialStiffness = Annotated[float, Quantity(dimension=AXIAL_STIFFNESS, ab
 PositiveBendingStiffness = Annotated[float, Quantity(dimension=BENDING_STIFFNESS, above=0.0)]
 Damping = Annotated[float, Quantity(dimension=DAMPING, at_least=0.0)]
 # Plastic viscosities of mud are 5 to 100 mPa*s; honey has 10 Pa*s.
-Viscosity = Annotated[
-    float, Quantity(dimension=VISCOSITY, at_least=0.0, at_most=2.0, slips=(Slip(2, 2000, " mPa*s"),))
-]
+Viscosity = Annotated[float, Quantity(dimension=VISCOSITY, at_least=0.0, at_most=2.0, slips=(Slip(2, 2000, " mPa*s"),))]
 DampingPerLength = Annotated[float, Quantity(dimension=DAMPING_PER_LENGTH, at_least=0.0)]
 RotationalDamping = Annotated[float, Quantity(dimension=ROTATIONAL_DAMPING, at_least=0.0)]

@@ -13,6 +13,7 @@ from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY, PerMetre, put_long_segment
 from fctd.model.default_layout import DefaultLayout
+from fctd.model.mud import steady_resistance
 from fctd.model.wellbore import RADIUS, TO_MD, Wellbore
 
 Array = NDArray[np.float64]
@@ -330,10 +331,13 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
 # Absurd masses and stiffnesses overflow here; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
 @np.errstate(divide="ignore", over="ignore", invalid="ignore")
 def fill(S: Array, string: String, case: Case) -> PerMetre:
-    """Write the string into a fresh buffer; returns the pipe fed at the top."""
+    """Write the string into a fresh buffer; returns the pipe fed at the top.
+
+    Mud that moves sideways with the string is left out; ``fctd.model.mud.take_along`` adds it.
+    """
     n, length = string.segments, string.length
     row = state.row
-    mud = case.mud
+    axial, rotational = steady_resistance(case, string)
     row(S, state.MASS, n)[:] = string.of("mass") * length
     row(S, state.WEIGHT, n)[:] = string.of("weight") * length
     row(S, state.J_AXIAL, n)[:] = string.of("axial_inertia") * length
@@ -344,11 +348,10 @@ def fill(S: Array, string: String, case: Case) -> PerMetre:
     row(S, state.RADIUS, n)[:] = string.contact_radius()
     per_metre = case.wellbore.stiffness_per_length is not None
     row(S, state.TRIBUTARY, n)[:] = string.tributary() if per_metre else 1.0
+    lateral = case.mud.lateral_damping or 0.0
     for target, per_length in (
-        (state.MUD_AXIAL, mud.axial_damping),
-        (state.MUD_LATERAL, mud.lateral_damping),
-        (state.MUD_SPIN, mud.rotational_damping),
-    ):
+        (state.MUD_AXIAL, axial), (state.MUD_LATERAL, lateral), (state.MUD_SPIN, rotational)
+    ):  # fmt: skip
         row(S, target, n)[:] = per_length * length
     for target, name in (
         (state.K_AXIAL, "EA"),
@@ -361,7 +364,7 @@ def fill(S: Array, string: String, case: Case) -> PerMetre:
     pipe = PerMetre(
         section.mass, section.weight, section.axial_inertia,
         section.EA, section.GJ, section.EI, section.shear,
-        mud.axial_damping, mud.lateral_damping, mud.rotational_damping,
+        float(axial[0]), lateral, float(rotational[0]),
     )  # fmt: skip
     if string.long_segment:
         row(S, state.ARM_BOTTOM, n)[0] = row(S, state.ARM_CONTACT, n)[0] = 0.0

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
+from fctd.case.operations import Operation
 from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.laws import CODES
@@ -17,6 +18,7 @@ from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String, check_fit, fill, lay_out
+from fctd.model.mud import take_along
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.simulation.external_contact import QueriedWall, WallQuery
@@ -44,6 +46,18 @@ class Run(MovingString):
     case: Case
     hole: Wellbore
     string: String
+
+    @property
+    def laid_out(self) -> String:
+        """The string with what has been fed at its top since the start."""
+        if not self.string.long_segment:
+            return self.string
+        return self.string.lengthened(float(self.top[topdrive.TOP_LENGTH] - self.string.length[0]))
+
+    def take_mud_along(self, operation: Operation) -> None:
+        """Update what the mud does to lateral motion, by the present depth and the rotation of an operation."""
+        if self.case.mud.sideways:
+            self.pipe = take_along(self.S, self.case, self.laid_out, self.pipe, operation.rpm)
 
 
 def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Phase]]:
@@ -108,6 +122,7 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
         case=case, hole=hole, string=string, pipe=pipe, S=S, top=top, owner=owner, segments=n, step=step, laws=laws,
         wall=own_wall(case, hole),
     )  # fmt: skip
+    run.take_mud_along(case.operations[0])
     return run, phases
 
 

@@ -111,8 +111,9 @@ class Simulation(Iterator[Record]):
         start_from_rest(self.run)
         start = 0.0 if self.window is None else self.window.start
         if start > 0:
-            for motion, _, end in within(self.phases, Window(0.0, start), float("inf")):
-                    self.run.advance(motion, end - self.run.time)
+            for motion, operation, end in within(self.phases, Window(0.0, start), float("inf")):
+                self.run.take_mud_along(self.case.operations[operation])
+                self.run.advance(motion, end - self.run.time)
             self.run.refresh()
             self.run.clear()
         if self._begin is not None:
@@ -136,9 +137,10 @@ class Simulation(Iterator[Record]):
             raise StopIteration from None
 
     def _record_next(self) -> Record:
-        motion, _, end = self.intervals[self.done]
+        motion, operation, end = self.intervals[self.done]
         began = time.perf_counter()
         try:
+            self.run.take_mud_along(self.case.operations[operation])
             self.stepper.advance(motion, end - self.run.time)
             self.stepper.refresh()
             self.run.check()

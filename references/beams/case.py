@@ -102,8 +102,8 @@ def pipe_and_hole(case: Case) -> tuple[Section, Surroundings]:
         stiffness=hole.stiffness_per_length,
         friction=interval.friction,
         radius=section.contact_radius,
-        lateral_damping=case.mud.lateral_damping,
-        axial_damping=case.mud.axial_damping,
+        lateral_damping=case.mud.lateral_damping or 0.0,
+        axial_damping=case.mud.axial_damping or 0.0,
         weight=section.weight,
     )
 

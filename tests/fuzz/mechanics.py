@@ -99,7 +99,7 @@ def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
     if rates.speed:
         # Upwards the wall adds to the hook load, downwards it takes from it; turning, it spends part of itself aside.
         up = -np.sign(rates.speed)
-        expected -= rates.speed * case.mud.axial_damping * length
+        expected -= rates.speed * (case.mud.axial_damping or 0.0) * length
         least, most = sorted((expected + up * holds.sum() * (1.0 if full else 0.0), expected + up * holds.sum()))
     else:
         least = most = expected
@@ -111,7 +111,7 @@ def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
     most = float((radius * holds).sum())
     if abs(point.sum_r_mu_fn - most) > 1e-3 * most + 1:
         yield f"Σ r μ F_n {point.sum_r_mu_fn:.6g} N*m, {most:.6g} N*m by the profile"
-    taken = point.sum_r_ft + case.mud.rotational_damping * rates.spin * length + bit_torque
+    taken = point.sum_r_ft + (case.mud.rotational_damping or 0.0) * rates.spin * length + bit_torque
     # A bent string passes its torque on with the cosine of a half bend at every joint.  A bent housing that points
     # elsewhere than its hole bends has to be held there: by its angle times the bending moment at most.
     held = sum(component.bend for component in case.string.components) * profile["bending_moment_N_m"].max()

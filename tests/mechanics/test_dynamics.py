@@ -102,10 +102,16 @@ def test_torque_free_top_keeps_momentum_at_second_order_and_energy_exactly() -> 
     assert max(coarse[1], fine[1]) < 1e-12
 
 
-def test_loads_weight_and_mud_on_one_body() -> None:
-    """Δv = (F − F_below + W) dt/m and ΔL = M dt, then each motion slowed by 1/(1 + c dt/m): global vectors by scipy."""
+@pytest.mark.parametrize("added", [0.0, 250.0])
+def test_loads_weight_and_mud_on_one_body(added: float) -> None:
+    """Δv = (F − F_below + W) dt/m and ΔL = M dt, then each motion slowed by 1/(1 + c dt/m): global vectors by scipy.
+
+    Mud that moves sideways with the body adds to its mass there.
+    """
     S, dt, settling = state.new_state(1), 0.01, 3.0
     set_body(S, 1, 400.0, 3000.0, 1.5)
+    mass = np.array([400.0 + added, 400.0 + added, 400.0])
+    S[state.ADDED_MASS + 1], S[state.HELD_BACK + 1] = added, 1 / 400 - 1 / mass[0]
     turned = Rotation.from_rotvec([0.7, -0.4, 0.5])
     place(S, 1, turned, [1.0, 2.0, 3.0])
     velocity, spin = np.array([0.3, -0.8, 1.7]), np.array([0.02, -0.03, 6.0])
@@ -120,15 +126,15 @@ def test_loads_weight_and_mud_on_one_body() -> None:
     put(S, 2, ON_UPPER, upper)
     put(S, 1, (state.WEIGHT, state.MUD_LATERAL, state.MUD_AXIAL, state.MUD_SPIN),
         [weight, drag_across, drag_along, drag_about])  # fmt: skip
-    free = turned.inv().apply(velocity + dt / 400 * (above - below + [0, 0, weight]))
+    free = turned.inv().apply(velocity) + dt / mass * turned.inv().apply(above - below + [0, 0, weight])
     free_spin = spin + dt * turned.inv().apply(lower + upper) / [3000, 3000, 1.5]
-    left = free / (1 + dt * settling + dt * np.array([drag_across, drag_across, drag_along]) / 400)
+    left = free / (1 + dt * settling + dt * np.array([drag_across, drag_across, drag_along]) / mass)
     left_spin = free_spin / (1 + dt * settling + dt * np.array([0, 0, drag_about / 1.5]))
 
     push_freely(S, state.LANES, FREE._replace(settling=settling), dt)
     np.testing.assert_allclose(at(S, 1, VELOCITY), turned.apply(left), rtol=1e-12)
     np.testing.assert_allclose(at(S, 1, SPIN), left_spin, rtol=1e-12)
-    lost = 400 * (free - left) @ left + 1.5 * (free_spin[2] - left_spin[2]) * left_spin[2]
+    lost = mass * (free - left) @ left + 1.5 * (free_spin[2] - left_spin[2]) * left_spin[2]
     assert S[state.LOST_MUD + 1] == pytest.approx(lost, rel=1e-12)
     assert S[state.SUM_MUD_TORQUE + 1] == pytest.approx(1.5 * (free_spin[2] - left_spin[2]), rel=1e-12)
     assert at(S, 1, PLACE).tolist() == [1.0, 2.0, 3.0]

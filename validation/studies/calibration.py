@@ -68,7 +68,8 @@ def well() -> Case:
     ]
     return Case.model_validate(
         {
-            "name": "synthetic", "wellbore": hole, "string": {"components": parts}, "mud": {"density": 1200.0, "viscosity": 0},
+            "name": "synthetic", "wellbore": hole, "string": {"components": parts},
+            "mud": {"density": 1200.0, "viscosity": 0},
             "rig": {"block_weight": 250e3},
         }
     )  # fmt: skip

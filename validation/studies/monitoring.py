@@ -47,8 +47,8 @@ def case_of(name: str, stations: Stations, shoe: float) -> Case:
     parts = [{**COLLAR, "length": 120.0, "segment_length": 20.0}, {**PIPE, "segment_length": 25.0}]
     wellbore = {"stations": stations, "geometry": "arcs", "stiffness": 5e7, "intervals": intervals}
     return Case.model_validate(
-        {"name": name, "wellbore": wellbore, "string": {"components": parts}, "mud": {"density": 1250.0, "viscosity": 0},
-         "rig": {"block_weight": 250e3}}
+        {"name": name, "wellbore": wellbore, "string": {"components": parts},
+         "mud": {"density": 1250.0, "viscosity": 0}, "rig": {"block_weight": 250e3}}
     )  # fmt: skip
 
 
