@@ -31,6 +31,12 @@ DOUBTFUL, INACCURATE = 0.01, 0.10
 UNSTEADY, LEVER = 0.05, 1e-3
 
 
+# A string that rolls without sliding moves sideways at the speed of its surface, r Ω, and its friction does no work.
+# It whirls where its segments move sideways at this share of that speed, and friction has less than this share of the
+# torque of a string that slides: a steady string has below 0.05 and 1.
+SIDEWAYS, SLIDES = 0.15, 0.9
+
+
 class Meaning(NamedTuple):
     """Headline and remedy of a note's code."""
 
@@ -54,7 +60,12 @@ MEANINGS: Final = {
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "torque": Meaning(
         "the surface torque at the end of the run is not steady",
-        "rotate longer, with a record.interval of the torsional period",
+        "read the mean of its operation, rotate longer, or damp the torsion with mud.viscosity",
+    ),
+    "whirl": Meaning(
+        "the string whirls: it rolls around its hole in place of sliding",
+        "let the mud damp it (mud.viscosity above 0, or mud.lateral_damping), and use shorter segments; loads of a "
+        "whirling string depend on segments and step",
     ),
     "ringing": Meaning(
         "the string rings on the seams between the hole's cylinders", 'set wellbore.geometry = "arcs", without seams'
@@ -206,6 +217,22 @@ def torque_swings(last: float, mean: float, before: float, period: float, hooklo
         f"{period:.3g} s {mean / 1e3:.3g} kN·m, and over the one before {before / 1e3:.3g} kN·m"
     )
     return _note("torque", text, off / bound)
+
+
+def whirls(sideways: float, surface: float, friction_torque: float, of_sliding: float) -> Note | None:
+    """A note where a turning string whirls.
+
+    sideways : lateral speed of the segments, root of the mean square; surface : speed of the string's surface [m/s];
+    friction_torque : Σ r F_t; of_sliding : the same of a string that slides [N m].
+    """
+    if not (sideways > SIDEWAYS * surface and friction_torque < SLIDES * of_sliding):
+        return None
+    text = (
+        f"the string whirls: its segments move sideways at {sideways:.2g} m/s, {100 * sideways / surface:.0f} % of the "
+        f"speed of its surface, and friction has {100 * friction_torque / of_sliding:.0f} % of the torque of a string "
+        "that slides"
+    )
+    return _note("whirl", text, sideways / (SIDEWAYS * surface))
 
 
 def rings(swing: float, frequency: float, depth: float, bound: float) -> Note | None:

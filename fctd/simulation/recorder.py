@@ -99,6 +99,7 @@ class Recorder:
                 "contact_count": int((penetration(self.run.S, self.run.segments) > 0).sum()),
                 **buckling.columns(),
                 **_of_steps(steps, hookload, torque, span),
+                "lateral_speed_m_per_s": float(np.sqrt((self._lateral_speeds() ** 2).mean())),
             }
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
@@ -145,6 +146,15 @@ class Recorder:
         place, arm = run.S[[state.X + n, state.Y + n, state.Z + n]], run.S[state.ARM_CONTACT + n]
         bit = place + arm * run.S[[state.AX + n, state.AY + n, state.AZ + n]]
         return float(run.hole.walls(bit, run.owner[n : n + 1]).md[0])
+
+    def _lateral_speeds(self) -> Array:
+        """Speeds of the segments (n,) across their own axes [m/s]."""
+        velocity, axis = (
+            np.stack([self.rows(offset) for offset in rows])
+            for rows in ((state.VX, state.VY, state.VZ), (state.AX, state.AY, state.AZ))
+        )
+        square = (velocity**2).sum(axis=0) - (velocity * axis).sum(axis=0) ** 2
+        return np.asarray(np.sqrt(np.maximum(square, 0.0)))
 
     def _walls(self) -> tuple[Array, Walls]:
         """Contact points (n, 3) [m] and the walls beside them."""

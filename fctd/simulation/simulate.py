@@ -13,6 +13,7 @@ from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
+from fctd.model.operations import rad_per_s
 from fctd.model.torsion import axial_period_of, period_of
 from fctd.results import notes
 from fctd.results.status import RunStatus
@@ -199,7 +200,8 @@ class Simulation(Iterator[Record]):
         swing, frequency, depth = expected_ringing(self.run, self.phases).largest()
         bound = RINGING * float(result.history["hookload_N"].abs().mean())
         ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
-        found = tuple(note for note in (ledger, ringing, self._swings(result.history), *result.notes) if note)
+        swings, whirl = self._swings(result.history), self._whirls(result.history)
+        found = tuple(note for note in (ledger, ringing, swings, whirl, *result.notes) if note)
         if ledger is not None and not error <= notes.INACCURATE:
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
@@ -231,6 +233,24 @@ class Simulation(Iterator[Record]):
         before, middle, end = np.interp(time_s[-1] - period * np.array([2.0, 1.0, 0.0]), time_s, impulse)
         means = (end - middle) / period, (middle - before) / period
         return notes.torque_swings(float(torque[-1]), *means, period, float(history["hookload_N"].iloc[-1]))
+
+    def _whirls(self, history: "pd.DataFrame") -> notes.Note | None:
+        """The note on a string that whirls: the operation in which it moved sideways most, by its last records."""
+        found = []
+        radius = float(self.run.string.of("contact_radius").min())
+        for operation, span in zip(self.case.operations, self._spans(), strict=True):
+            if not operation.rpm:
+                continue
+            last = history[
+                (history["time_s"] <= span.end + 1e-6) & (history["time_s"] > span.end - span.torsional_period)
+            ]
+            surface = radius * rad_per_s(operation.rpm)
+            # A string that moves along the hole too spends part of its friction there.
+            share = surface / np.hypot(surface, operation.speed)
+            sideways = float(np.sqrt((last["lateral_speed_m_per_s"] ** 2).mean()))
+            torque, full = float(last["sum_r_ft_N_m"].mean()), float(last["sum_r_mu_fn_N_m"].mean())
+            found.append(notes.whirls(sideways, surface, torque, share * full))
+        return max((note for note in found if note), key=lambda note: note.excess, default=None)
 
 
 def simulate(

@@ -39,7 +39,7 @@ def test_filled_rows_by_hand() -> None:
         expected[row] = [p / 15, p / 30, p / 30, 1 / (15 / p + 1 / b), 1 / (1 / b + 5 / c), c / 10]
     check_rows(S, expected)
     assert fed == (
-        top.mass, 0.0, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7,
+        top.mass, 0.0, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7, 0.0,
     )  # fmt: skip
     # Stiffness of a point: every contact counts once.
     case = filled_case(pipe(None, None, segment_length=30.0), stiffness=1e7)
@@ -77,7 +77,7 @@ def test_filled_rows_below_a_long_segment_by_hand() -> None:
         expected[row] = [p / 90, b, 1 / (1 / b + 5 / c), c / 10]
     check_rows(S, expected)
     assert fed == (
-        top.mass, top.weight, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7,
+        top.mass, top.weight, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7, 0.0,
     )  # fmt: skip
 
 

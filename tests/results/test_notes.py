@@ -377,3 +377,14 @@ def test_a_torque_that_is_not_steady(last: float, mean: float, before: float, ex
     assert note.excess == pytest.approx(excess)
     assert f"{last / 1e3:.3g} kN·m, its mean over the last torsional period of 3.64 s 10 kN·m" in note.text
     assert "record.interval" in note.remedy
+
+
+def test_a_string_whirls_where_it_moves_sideways_and_hardly_slides() -> None:
+    """At half the speed of its surface, with a tenth of the torque of sliding."""
+    note = notes.whirls(1.0, 2.0, 500.0, 5000.0)
+    assert note is not None
+    assert (note.code, note.excess) == ("whirl", pytest.approx(0.5 / notes.SIDEWAYS))
+    assert "50 % of the speed of its surface, and friction has 10 % of the torque" in note.text
+    assert notes.whirls(0.2, 2.0, 500.0, 5000.0) is None  # hardly sideways
+    assert notes.whirls(1.0, 2.0, 4800.0, 5000.0) is None  # slides
+    assert notes.whirls(1.0, 2.0, 0.0, 0.0) is None  # without friction

@@ -311,3 +311,29 @@ def test_the_torque_at_the_end_is_judged_by_means_over_torsional_periods() -> No
     assert found is not None
     assert found.code == "torque"
     assert f"torsional period of {period:.3g} s 12 kN·m, and over the one before 12 kN·m" in found.text
+
+
+def test_a_whirling_string_says_so_and_the_mud_s_damping_holds_it() -> None:
+    """13⅜ in casing in 17½ in hole, friction factor 0.5, 120 rev/min, in segments so long that it rolls up the wall.
+
+    With damping it is the steady string; without it the segments roll at r Ω, less what the joints take.
+    """
+    stations = [[0, 0, 0], [240, 0, 0], [684, 90, 0], [3000, 90, 0]]
+    intervals = [{"to_md": 3000, "diameter": 0.4445, "friction": 0.5}]
+    casing = [pipe(None, None, outer=0.3397, inner=0.3153, segment_length=25.0)]
+    results = []
+    for mud in ({"viscosity": 0}, {}):
+        case = make_case(
+            stations, casing, [rotation(3000, 27, rpm=120, ramp=10)],
+            wellbore={"intervals": intervals, "geometry": "arcs"}, mud={"density": 1200.0, **mud},
+        )  # fmt: skip
+        results.append(simulate(case))
+    whirling, damped = results
+    assert "whirl" in {note.code for note in whirling.notes}
+    assert "mud.viscosity" in whirling.message
+    assert whirling.history["lateral_speed_m_per_s"].iloc[-1] > 0.5 * 0.17 * 4 * np.pi
+    assert "whirl" not in {note.code for note in damped.notes}
+    still = fctd.equilibrium(damped.case, "rotate_off_bottom", 3000, rpm=120)
+    (row,) = damped.operations.to_dict("records")
+    assert row["hookload_mean_N"] == pytest.approx(still.hookload, rel=1e-3)
+    assert row["surface_torque_mean_N_m"] == pytest.approx(still.surface_torque, rel=1e-3)
