@@ -84,9 +84,9 @@ class PerMetre(NamedTuple):
 
 # Top drive's own numbers, shape (TOP_SIZE,): length of the long segment [m] (0: none), simulated time [s];
 # sums since the last record of hook load [N s] and torque [N m s]; work done by the top drive and energy
-# brought in by fed pipe since the start [J].
-TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(6)
-TOP_SIZE = 6
+# brought in by fed pipe since the start [J]; largest penetration of a wall of another law than the linear one [m].
+TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY, TOP_PENETRATION = range(7)
+TOP_SIZE = 7
 
 
 @inlined
