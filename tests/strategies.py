@@ -120,7 +120,7 @@ RULES: list[tuple[str, Any, str]] = [
     ("rig.sheave_efficiency", 0, "an efficiency above 0 and at most 1"),
     ("rig.sheave_efficiency", 1.1, "an efficiency above 0 and at most 1"),
     ("rig.torque_offset", "3 N", "a torque such as '0.5 kN*m'"),
-    ("contact.friction_law", "stick", "'coulomb' or 'paper'"),
+    ("contact.friction_law", "stick", "'coulomb', 'paper', 'karnopp' or 'stribeck'"),
     ("contact.helical_force", "full", "'none' or 'analytic'"),
     ("contact.damping", -1, "a damping coefficient at least 0"),
     ("solver.step", 0, '"auto", "largest" or a time'),

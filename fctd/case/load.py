@@ -14,13 +14,12 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
-from fctd.case.friction import pick
+from fctd.case.friction import pick, scaled_static
 from fctd.case.input_file import read_text
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
 from fctd.case.specs import (
     BitSpec,
-    ContactSpec,
     FileName,
     MudSpec,
     RecordSpec,
@@ -30,6 +29,7 @@ from fctd.case.specs import (
     WellboreSpec,
 )
 from fctd.case.text import is_utf8
+from fctd.case.wall import ContactSpec, check_friction
 
 LARGEST_FILE: Final = 4  # MiB: 100,000 stations written out; the TOML reader takes some seconds for them
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
@@ -88,6 +88,7 @@ class Case(Table):
         if self.mud.density >= lightest:
             of = f"string.components[{densities.index(lightest)}].density"
             raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key="mud.density")
+        check_friction(self.contact, self.wellbore.intervals, self.mud.cake)
         if self.contact.helical_force == "analytic" and self.solver.buckling == "resolve":
             raise InputError(
                 '"none" with solver.buckling = "resolve", whose segments bend into the helix (or solver.buckling = '
@@ -205,7 +206,11 @@ def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
             picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
         for i, factor in enumerate(picked):
             if factor is not None or not isinstance(value, Mapping):
-                set_key(raw, f"wellbore.intervals[{i}].friction", factor)
+                at = f"wellbore.intervals[{i}]"
+                static = scaled_static(look_up(raw, "wellbore", "intervals", i), factor)
+                set_key(raw, f"{at}.friction", factor)
+                if static is not MISSING:
+                    set_key(raw, f"{at}.static_friction", static)
     elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
         set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
     else:

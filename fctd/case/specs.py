@@ -10,11 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field, PrivateAttr, StrictBool, ValidationInfo, field_validator, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
 from fctd.case import units
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
@@ -25,7 +25,7 @@ from fctd.case.surveys.reading import read_survey
 from fctd.case.surveys.smoothing import smooth
 from fctd.case.surveys.stations import UNITS, StationKey, Survey, Written, check
 from fctd.case.text import is_utf8
-from fctd.mechanics.laws import NAMES
+from fctd.case.wall import CakeSpec, IntervalSpec
 
 
 def _as_path(raw: object) -> object:
@@ -36,28 +36,6 @@ def _as_path(raw: object) -> object:
 FileName = Annotated[Path, BeforeValidator(_as_path)]
 # Viscosity of mud whose case gives none [Pa s]; it acts sideways alone, so that steady loads do not depend on it.
 SIDEWAYS = 0.02
-IntervalKind = Literal["cased", "open"]
-if TYPE_CHECKING:
-    FrictionLaw = str
-else:
-    FrictionLaw = Literal[NAMES]  # the table's names
-
-
-class IntervalSpec(Table):
-    """A section of hole of one diameter, from the end of the interval above to `to_md` [m].
-
-    The first interval begins at the surface. `friction` is the kinetic friction factor; `kind` lets
-    `--friction cased=0.2,open=0.3` set it. `stiffness` or `stiffness_per_length` of an interval replaces the
-    wellbore's key of the same name.
-    """
-
-    to_md: units.PositiveLength
-    diameter: units.Diameter
-    friction: units.Friction
-    kind: IntervalKind | None = None
-    name: str | None = None
-    stiffness: units.PositiveStiffness | None = None
-    stiffness_per_length: units.PositiveStiffnessPerLength | None = None
 
 
 class ColumnSpec(Table):
@@ -302,6 +280,7 @@ class MudSpec(Table):
     axial_damping: units.DampingPerLength | None = None
     lateral_damping: units.DampingPerLength | None = None
     rotational_damping: units.RotationalDamping | None = None
+    cake: CakeSpec | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -341,19 +320,6 @@ class BitSpec(Table):
 
     weight_on_bit: units.Force = 0.0
     torque: units.PositiveOrZeroTorque = 0.0
-
-
-class ContactSpec(Table):
-    """Friction law, and damping of a contact point [N*s/m]; with `enabled` false there is no wall.
-
-    Where a steady string is beyond the helical limit, on segments too long for a helix, `helical_force` "analytic"
-    brings its wall force to that of the helix, r F²/4EI a metre, and the friction with it.
-    """
-
-    enabled: StrictBool = True
-    friction_law: FrictionLaw = "coulomb"
-    damping: units.Damping = 1e4
-    helical_force: Literal["none", "analytic"] = "none"
 
 
 class SolverSpec(Table):

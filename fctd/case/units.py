@@ -261,6 +261,7 @@ Bare = Annotated[float, Number(noun="a bare number")]
 Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SEGMENTS, whose check has a better message
 FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0, slips=(Slip(5, 100, "", 0.01),))
 Friction = Annotated[float, FRICTION]
+Exponent = Annotated[float, Number(noun="an exponent", at_least=1.0, at_most=5.0)]
 PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
 Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
 # Hoists run at 1 to 3 m/s and top drives at up to 300 rev/min; a model at a thousandth of the size turns some thirty

@@ -23,8 +23,10 @@ from fctd.mechanics.state import (
     ARM_CONTACT,
     CURVE,
     CYLINDERS,
+    DECAY,
     END_COS,
     END_SIN,
+    EXCESS,
     FRICTION,
     HOLE,
     K_WALL,
@@ -61,7 +63,10 @@ OVERLAP, ALONE_FROM, ALONE_TO = 11, 12, 13
 CURVATURE, NORMAL = 11, 12
 RADIUS_GAIN, STIFFNESS_GAIN, FACTOR_GAIN = 15, 16, 17
 HALF_COS, HALF_SINE = 18, 19
-COLUMNS = 20
+# Both tables: excess of the static over the kinetic friction factor, as a share of it; speed at which half of it is
+# left [m/s]; pressure of the mud beyond that of the rock, 0 where the wall lets no mud pass [Pa].
+STATIC_EXCESS, DECAY_SPEED, OVERBALANCE = 20, 21, 22
+COLUMNS = 23
 
 
 @inlined
@@ -244,6 +249,12 @@ def store_wall(S, j, px, py, pz, hole, stiffness, friction):
 
 
 @inlined
+def store_sticking(S, j, excess, decay):
+    """Write what friction that sticks needs beside contact point j."""
+    S[EXCESS + j], S[DECAY + j] = excess, decay
+
+
+@inlined
 def contact_point(S, j):
     """T (§4.1): the contact point on the axis of body j [m], global."""
     x, y, z = position(S, j)
@@ -282,6 +293,7 @@ def refresh_cylinders(S, owner, n, C):
         owner[j] = i
         px, py, pz, hole, stiffness, friction, _ = cylinder_wall(C, i, x, y, z)
         store_wall(S, j, px, py, pz, hole, stiffness, friction)
+        store_sticking(S, j, C[i, STATIC_EXCESS], C[i, DECAY_SPEED])
         S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
         S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
         S[MARGIN_TOP + j] = C[i, ALONE_FROM]
@@ -318,6 +330,7 @@ def refresh_arcs(S, owner, n, C):
         owner[j] = i
         px, py, pz, hole, stiffness, friction, _ = arc_wall(C, i, x, y, z)
         store_wall(S, j, px, py, pz, hole, stiffness, friction)
+        store_sticking(S, j, C[i, STATIC_EXCESS], C[i, DECAY_SPEED])
         S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
         S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
         S[NX + j], S[NY + j], S[NZ + j] = C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]

@@ -6,10 +6,12 @@ mud and settling damping by the implicit factor 1/(1 + c dt/m), friction by a cl
 each of these impulses by the velocity after it, with which the body then moves.
 """
 
+from functools import cache
 from typing import Any
 
+from fctd.mechanics.cake import press_into_cake
 from fctd.mechanics.contact import update_walls
-from fctd.mechanics.friction import Law, approach, normal_impulse, wall_normal
+from fctd.mechanics.friction import approach, normal_impulse, wall_normal
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.laws import LAWS, chain
@@ -75,6 +77,7 @@ from fctd.mechanics.state import (
     velocity,
 )
 from fctd.mechanics.topdrive import SUM_HOOKLOAD, SUM_TOP_TORQUE, drive_top, move_top_drive
+from fctd.mechanics.wall_law import stiffen_walls
 
 # Share of the clearance within which a string certainly does not touch; 1 − NEARLY is far above rounding.
 NEARLY = 1 - 1e-6
@@ -221,9 +224,9 @@ def push_in_hole(S, n, friction_impulse, laws, dt):
                 store_motion(S, j, u, v, w, a, b, c)
 
 
-def push_with(law: Law) -> Any:
-    """A function that updates velocity and spin of every body in a hole by a given law of friction (stage 4)."""
-    impulse = law.impulse
+@cache
+def push_with(impulse: Any) -> Any:
+    """A function that updates velocity and spin of every body in a hole by a law's friction impulse (stage 4)."""
 
     @inlined
     def push(S, n, laws, dt):
@@ -233,7 +236,7 @@ def push_with(law: Law) -> Any:
 
 
 # Indexed by a law's code.
-PUSHES = tuple(push_with(law) for law in LAWS)
+PUSHES = tuple(push_with(law.impulse) for law in LAWS)
 push_by_law = chain(PUSHES)
 
 
@@ -302,6 +305,10 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     read_step(S, top, n, hookload, torque, rate, dt)
     # 2 and 3: the piece of hole that owns each contact point, and the point's distance from its axis and wall.
     find_walls(S, owner, n, packed, C, laws.geometry)
+    if laws.wall_exponent != 1:
+        stiffen_walls(S, top, n, laws)
+    if laws.cake_thickness > 0:
+        press_into_cake(S, owner, n, C, laws, dt)
     # 4: impulses of the wall, normal and friction, and those of springs, weight and mud.
     update_velocities(S, packed, laws, dt)
     # 5: motion of the bodies and of the top drive.

@@ -38,8 +38,9 @@ class Energy(NamedTuple):
 
 
 @entry
-def _energies(S, n):
+def _energies(S, n, exponent):
     kinetic = gravity = strain = contact = 0.0
+    share = 1 / (exponent + 1)
     for j in range(1, n + 1):
         vx, vy, vz = velocity(S, j)
         wx, wy, wz = spin(S, j)
@@ -53,7 +54,7 @@ def _energies(S, n):
         px, py, pz = radial(S, j)
         pressed = math.sqrt(px * px + py * py + pz * pz) - S[HOLE + j] + S[RADIUS + j]
         if S[HOLE + j] > 0 and pressed > 0:
-            contact += 0.5 * S[K_WALL + j] * pressed * pressed
+            contact += share * S[K_WALL + j] * pressed * pressed
     return kinetic, gravity, strain, contact
 
 
@@ -64,6 +65,9 @@ def penetration(S: np.ndarray, n: int) -> np.ndarray:
     return np.where(hole > 0, distance - hole + state.row(S, state.RADIUS, n), -np.inf)
 
 
-def energy_of(S: np.ndarray, n: int) -> Energy:
-    """Energy [J] of the n segments of a state, given axes and walls that belong to its positions."""
-    return Energy(*_energies(S, n))
+def energy_of(S: np.ndarray, n: int, exponent: float = 1.0) -> Energy:
+    """Energy [J] of the n segments of a state, given axes and walls that belong to its positions.
+
+    exponent : of the wall's law, whose spring holds K d²/(p + 1) with the secant stiffness K.
+    """
+    return Energy(*_energies(S, n, exponent))

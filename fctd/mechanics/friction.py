@@ -10,10 +10,12 @@ from fctd.mechanics.state import (
     ARM_CONTACT,
     HELD_BACK,
     HOLE,
+    INVERSE_JA,
     INVERSE_JT,
     INVERSE_MASS,
     K_WALL,
     RADIUS,
+    lateral_inverse_mass,
     quaternion,
     radial,
 )
@@ -67,6 +69,49 @@ def along_wall(sx, sy, sz, nx, ny, nz):
     """The part of a velocity that slides along the wall of normal n."""
     into = sx * nx + sy * ny + sz * nz
     return sx - into * nx, sy - into * ny, sz - into * nz
+
+
+@inlined
+def lever(S, j, nx, ny, nz):
+    """From the centre of body j to its surface at the wall, T + r_ds·normal [m], in the frame of the body."""
+    r = S[RADIUS + j]
+    return r * nx, r * ny, S[ARM_CONTACT + j] + r * nz
+
+
+@inlined
+def sliding(S, j, u, v, w, a, b, c, nx, ny, nz):
+    """Sliding velocity of the string's surface at the wall [m/s] and its moment about the centre: six scalars.
+
+    Velocity, spin, normal and results are in the frame of body j.
+    """
+    rx, ry, rz = lever(S, j, nx, ny, nz)
+    sx = u + b * rz - c * ry
+    sy = v + c * rx - a * rz
+    sz = w + a * ry - b * rx
+    sx, sy, sz = along_wall(sx, sy, sz, nx, ny, nz)
+    return sx, sy, sz, ry * sz - rz * sy, rz * sx - rx * sz, rx * sy - ry * sx
+
+
+@inlined
+def response(S, j, sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz):
+    """Velocity along t that an impulse s at the wall gives the surface of body j there, times |t|.
+
+    m, o : moments of s and of t about the body's centre.  The body's inertia enters friction here and in ``against``.
+    """
+    im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
+    lateral = sx * tx + sy * ty
+    return (lateral + sz * tz) * im - lateral * S[HELD_BACK + j] + (mx * ox + my * oy) * it + mz * oz * ia
+
+
+@inlined
+def against(S, j, f, sx, sy, sz, mx, my, mz):
+    """Change of velocity and spin (6) of body j by an impulse −f·s at the wall; m : moment of s about its centre."""
+    im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
+    il = lateral_inverse_mass(S, j)
+    return (
+        -f * il * sx, -f * il * sy, -f * im * sz,
+        -f * it * mx, -f * it * my, -f * ia * mz,
+    )  # fmt: skip
 
 
 class Law(NamedTuple):

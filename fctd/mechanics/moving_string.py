@@ -15,6 +15,7 @@ from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.faults import check
 from fctd.mechanics.state import Laws
 from fctd.mechanics.topdrive import Motion, PerMetre
+from fctd.mechanics.wall_law import put_stiffness
 
 Array = NDArray[np.float64]
 
@@ -93,6 +94,8 @@ class MovingString:
         """Update axes and walls to the present positions."""
         dynamics.update_axes(self.S, self.segments)
         self.wall.refresh(self)
+        if self.laws.wall_exponent != 1:
+            put_stiffness(self.S, self.top, self.segments, self.laws)
 
     def check(self) -> None:
         """Raise UnstableError when the state is not finite or outside the model's range; see ``faults.check``."""
@@ -100,7 +103,7 @@ class MovingString:
 
     def energy(self) -> Energy:
         """Energy of the string [J], after ``refresh``."""
-        return energy_of(self.S, self.segments)
+        return energy_of(self.S, self.segments, self.laws.wall_exponent)
 
     def drain(self) -> Sums:
         """Return the sums of loads since the last call or ``clear``, and set them to zero."""
@@ -116,7 +119,7 @@ class MovingString:
         """Set sums, losses, the top drive's work, the energy of fed pipe and the count of steps to zero."""
         self.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
         top = topdrive
-        self.top[[top.SUM_HOOKLOAD, top.SUM_TOP_TORQUE, top.TOP_WORK, top.FED_ENERGY]] = 0.0
+        self.top[[top.SUM_HOOKLOAD, top.SUM_TOP_TORQUE, top.TOP_WORK, top.FED_ENERGY, top.TOP_PENETRATION]] = 0.0
         readings.clear(self.top)
         self.steps = 0
 

@@ -81,6 +81,12 @@ LOST_FRICTION, LOST_CONTACT, LOST_MUD, LOST_JOINT = 75 * STRIDE, 76 * STRIDE, 77
 # m⁻¹ − (m + a)⁻¹ [1/kg].  Both are 0 without such mud, and then change no result.
 ADDED_MASS, HELD_BACK = 79 * STRIDE, 80 * STRIDE
 
+# Friction that sticks (laws/sticking.py): 1 where friction stopped the contact point when it last acted, else 0; excess
+# of the static over the kinetic factor, as a share of it; speed at which half of the excess is left [m/s].
+STUCK, EXCESS, DECAY = 83 * STRIDE, 84 * STRIDE, 85 * STRIDE
+# Mud cake (cake.py): age of the cake below the contact point [s], what its friction factor adds to the limit [N s].
+CAKE_AGE, CAKE_IMPULSE = 86 * STRIDE, 87 * STRIDE
+
 ROWS = 99
 
 
@@ -91,6 +97,9 @@ class Laws(NamedTuple):
     friction_scale : multiplies every friction factor (0 while the string settles).
     contact_damping : wall damping [N s/m].  joint_damping : stiffness-proportional damping time [s].
     settling : artificial mass-proportional damping rate [1/s], 0 in a run.
+    wall_exponent : p of the wall's force K d₀ (d/d₀)^p at penetration d; wall_reference : d₀ [m].
+    cake_thickness [m], cake_time [s] : final thickness of mud cake and the time in which it grows so thick;
+    cake_friction : its factor.  0 thickness: no cake.
     """
 
     geometry: int
@@ -99,6 +108,11 @@ class Laws(NamedTuple):
     contact_damping: float
     joint_damping: float
     settling: float
+    wall_exponent: float = 1.0
+    wall_reference: float = 1e-3
+    cake_thickness: float = 0.0
+    cake_time: float = 1.0
+    cake_friction: float = 0.0
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

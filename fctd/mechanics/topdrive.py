@@ -88,10 +88,12 @@ class PerMetre(NamedTuple):
 # Top drive's own numbers, shape (TOP_SIZE,): length of the long segment [m] (0: none), simulated time [s];
 # sums since the last record of hook load [N s] and torque [N m s]; work done by the top drive and energy
 # brought in by fed pipe since the start [J]; of the steps since the last record the extremes of hook load [N] and
-# torque [N m], the angles by which top and bit turned [rad], and the time for which the bit stood still [s].
+# torque [N m], the angles by which top and bit turned [rad], and the time for which the bit stood still [s]; since the
+# start the largest penetration of a wall of another law than the linear one [m].
 TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(6)
 HOOKLOAD_MIN, HOOKLOAD_MAX, TORQUE_MIN, TORQUE_MAX, TOP_ANGLE, BIT_ANGLE, BIT_STILL = range(6, 13)
-TOP_SIZE = 13
+TOP_PENETRATION = 13
+TOP_SIZE = 14
 
 
 @inlined

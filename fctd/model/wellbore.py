@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
-from fctd.case.specs import IntervalSpec, WellboreSpec
+from fctd.case.specs import WellboreSpec
+from fctd.case.wall import IntervalSpec
 from fctd.mechanics import contact
 from fctd.mechanics.query import WALL_COLUMNS, Walls, query_walls, walls_in
 from fctd.mechanics.state import ARCS, CYLINDERS
@@ -35,8 +36,9 @@ SMALL_TURN, APART = 0.02, 1e-3
 
 
 # Columns of the intervals and of what lies along the hole: lower end (or depth) [m], hole radius [m], wall stiffness
-# [N/m or N/m/m], friction factor.
-TO_MD, RADIUS, STIFFNESS, FRICTION = range(4)
+# [N/m or N/m/m], friction factor, excess of the static factor as a share of it, decay speed [m/s], overbalance [Pa].
+TO_MD, RADIUS, STIFFNESS, FRICTION, EXCESS, DECAY, OVERBALANCE = range(7)
+INTERVAL_COLUMNS = 7
 
 
 class Contacts(NamedTuple):
@@ -64,7 +66,7 @@ class Wellbore:
     md: Array
     points: Array
     directions: Array
-    intervals: Array = field(repr=False)  # (k, 4), columns above
+    intervals: Array = field(repr=False)  # (k, INTERVAL_COLUMNS), columns above
     shoe: float  # length of the transition from one interval to the next [m]
     courses: survey.Courses | None = None
 
@@ -116,7 +118,7 @@ class Wellbore:
         return axis + distance[:, None] * (np.cos(angle)[:, None] * high + np.sin(angle)[:, None] * right)
 
     def wall_along(self) -> Array:
-        """The wall over measured depth, linear between rows: (k, 4), columns of the intervals.
+        """The wall over measured depth, linear between rows: columns of the intervals.
 
         Below the end of an interval the values change to the next one's over one overlap, as in cylinders and arcs.
         """
@@ -126,7 +128,7 @@ class Wellbore:
         below[:, TO_MD] = np.minimum(
             above[:, TO_MD] + self.shoe, below[:, TO_MD]
         )  # an interval may be shorter than a shoe
-        return np.stack([above, below], axis=1).reshape(-1, 4)
+        return np.stack([above, below], axis=1).reshape(-1, INTERVAL_COLUMNS)
 
     @cached_property
     def bends(self) -> Array:
@@ -291,8 +293,15 @@ def _divided(breaks: Array, counts: Array) -> Array:
 
 
 def _intervals(hole: WellboreSpec) -> Array:
-    """The intervals (k, 4): to_md, radius [m], stiffness, friction."""
-    return np.array([[i.to_md, 0.5 * i.diameter, _stiffness(hole, i), i.friction] for i in hole.intervals])
+    """The intervals (k, INTERVAL_COLUMNS), columns above."""
+    rows = [
+        [
+            i.to_md, 0.5 * i.diameter, _stiffness(hole, i), i.friction,
+            i.static_excess, i.decay_speed or 0.0, i.overbalance or 0.0,
+        ]
+        for i in hole.intervals
+    ]  # fmt: skip
+    return np.array(rows)
 
 
 def _stiffness(hole: WellboreSpec, interval: IntervalSpec) -> float:
@@ -308,6 +317,7 @@ def _fill_wall(pieces: Array, geometry: int, md: Array, intervals: Array, shoe: 
         middle = np.concatenate([md[:1], middle, md[-1:]])
     k = np.minimum(np.searchsorted(intervals[:, TO_MD], middle), len(intervals) - 1)
     pieces[:, [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR]] = intervals[k][:, [RADIUS, STIFFNESS, FRICTION]]
+    pieces[:, contact.STATIC_EXCESS : contact.COLUMNS] = intervals[k][:, EXCESS:]
     if geometry == ARCS:
         _lead_into_next(pieces, md, middle, intervals, shoe)
     else:

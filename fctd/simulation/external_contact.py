@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.mechanics import state
-from fctd.mechanics.contact import contact_point, store_wall
+from fctd.mechanics.contact import contact_point, store_sticking, store_wall
 from fctd.mechanics.dynamics import move_bodies, padded_columns, update_axes, update_velocities
 from fctd.mechanics.jit import entry
 from fctd.mechanics.joints import update_joint_loads
@@ -18,7 +18,8 @@ from fctd.mechanics.moving_string import MovingString
 from fctd.mechanics.readings import read_step
 from fctd.mechanics.state import Laws
 from fctd.mechanics.topdrive import SUM_HOOKLOAD, SUM_TOP_TORQUE, Motion, drive_top, move_top_drive
-from fctd.model.wellbore import FRICTION, RADIUS, STIFFNESS, TO_MD, Contacts, Wellbore
+from fctd.mechanics.wall_law import stiffen_walls
+from fctd.model.wellbore import DECAY, EXCESS, FRICTION, RADIUS, STIFFNESS, TO_MD, Contacts, Wellbore
 
 Array = NDArray[np.float64]
 
@@ -65,6 +66,7 @@ def _store(S, n, radii, penetration, normal, md, wall):
                 S, j, distance * normal[k, 0], distance * normal[k, 1], distance * normal[k, 2],
                 hole, stiffness, friction,
             )  # fmt: skip
+            store_sticking(S, j, wall[i, EXCESS], wall[i, DECAY])
         else:
             store_wall(S, j, 0.0, 0.0, 0.0, radii[k] + OUT_OF_REACH, 0.0, 0.0)
 
@@ -85,6 +87,8 @@ def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md
     """Stages 3 to 5 of ``dynamics.step`` with the queried walls."""
     packed = padded_columns(n)
     _store(S, n, radii, penetration, normal, md, wall)
+    if laws.wall_exponent != 1:
+        stiffen_walls(S, top, n, laws)
     update_velocities(S, packed, laws, dt)
     move_bodies(S, packed, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)

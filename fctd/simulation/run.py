@@ -17,6 +17,7 @@ from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
 from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.mechanics.topdrive import PerMetre
+from fctd.mechanics.wall_law import tangent_over_linear
 from fctd.model.drillstring import String, check_fit, fill, lay_out
 from fctd.model.mud import take_along
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
@@ -71,6 +72,8 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
         if contact is not None:
             if not case.contact.enabled:
                 raise InputError("true, since a contact method was passed", key="contact.enabled", value=False)
+            if run.laws.cake_thickness > 0:
+                raise InputError("no overbalance, since a contact method was passed", key="wellbore.intervals")
             run.wall = QueriedWall(contact, run.hole, run.segments)
         return run, phases
 
@@ -106,6 +109,7 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
         contact_damping=case.contact.damping,
         joint_damping=case.solver.joint_damping,
         settling=0.0,
+        **_wall_laws(case),
     )
     limit = _step_limit(S, case, string, hole, pipe, shallowest - first)
     wanted = case.solver.step
@@ -124,6 +128,15 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     )  # fmt: skip
     run.take_mud_along(case.operations[0])
     return run, phases
+
+
+def _wall_laws(case: Case) -> dict[str, float]:
+    """The fields of ``Laws`` for a wall of another law than the linear one, and for mud cake on permeable walls."""
+    cake = case.mud.cake
+    given = dict(zip(("wall_exponent", "wall_reference"), case.contact.wall_law, strict=True))
+    if cake is not None and any(interval.overbalance for interval in case.wellbore.intervals):
+        given |= {"cake_thickness": cake.thickness, "cake_time": cake.time, "cake_friction": cake.friction}
+    return given
 
 
 def own_wall(case: Case, hole: Wellbore) -> HoleWall:
@@ -181,6 +194,7 @@ def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerM
     if string.long_segment:
         topdrive.put_long_segment(probe, string.length[0] + shrinks, pipe)
     wall = hole.stiffest_wall if case.contact.enabled else 0.0
+    wall *= tangent_over_linear(*case.contact.wall_law, case.contact.largest_penetration)
     try:
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             frequency = stiffest_mode(probe, string.segments, wall)
@@ -310,6 +324,8 @@ def start_from_rest(run: Run) -> None:
     """Set the settled string's velocities, clock, sums and losses to zero, for the start of the run."""
     for offset in (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ):
         state.row(run.S, offset, run.segments)[:] = 0.0
+    if run.case.mud.cake is not None:
+        state.row(run.S, state.CAKE_AGE, run.segments)[:] = run.case.mud.cake.rested
     run.clear()
     run.top[topdrive.TOP_TIME] = 0.0
     run.refresh()

@@ -139,6 +139,7 @@ class Problem:
         self.kinks = np.zeros((self.n + 2, 4))
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
+        self.wall_law = case.contact.wall_law
         self.added = np.zeros((self.n, 3))
         self.allowance = allowance
 
@@ -148,7 +149,7 @@ class Problem:
         x, y, z = (-self.weight_on_bit * share.weight * self.laid.bit_axis).tolist()
         return Steady(
             geometry, CODES[self.case.contact.friction_law], share.friction, self.rates.speed, self.rates.spin, x, y, z,
-            self.bit_torque * share.weight, self.at_axis,
+            self.bit_torque * share.weight, self.at_axis, *self.wall_law,
         )  # fmt: skip
 
     def lay_guess(self, share: Share = FULL) -> None:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.mechanics.contact import arc_direction, arc_owner, arc_wall, cylinder_direction, cylinder_owner, cylinder_wall
-from fctd.mechanics.dual import reciprocal, root
+from fctd.mechanics.dual import power, reciprocal, root
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.joints import arms_to_gap, cross, gap, joint_loads
 from fctd.mechanics.laws import steady_load
@@ -58,6 +58,7 @@ class Steady(NamedTuple):
     bit_x, bit_y, bit_z : force on the bit [N], global; bit_torque : torque that resists the bit's rotation [N m].
     at_axis : 0, or 1 where the friction force along the hole acts at the string's axis and not at its surface, which
     leaves out its bending moment (relaxation.py).
+    wall_exponent, wall_reference : as in Laws.
     """
 
     geometry: int
@@ -70,6 +71,8 @@ class Steady(NamedTuple):
     bit_z: float
     bit_torque: float
     at_axis: int = 0
+    wall_exponent: float = 1.0
+    wall_reference: float = 1e-3
 
 
 @inlined
@@ -160,6 +163,9 @@ def wall_loads(C, i, laws, x, y, z, w, qx, qy, qz, arm, radius, tributary):
     k = reciprocal(distance + TINY)
     nx, ny, nz = k * rx, k * ry, k * rz
     normal = stiffness * tributary * penetration
+    if laws.wall_exponent != 1:
+        pressed = power(penetration / laws.wall_reference, laws.wall_exponent)
+        normal = stiffness * tributary * laws.wall_reference * pressed
     limit = laws.friction_scale * factor * normal
     fx, fy, fz, mx, my, mz, torque = steady_load(
         laws.friction, laws.speed, laws.spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz
@@ -318,7 +324,10 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
 @entry
 def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """Fill D, A, U with the tangent of springs, weight and wall alone: symmetric, positive definite when stable."""
-    bare = Steady(laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque, 0)
+    bare = Steady(
+        laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque, 0,
+        laws.wall_exponent, laws.wall_reference,
+    )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
 
 

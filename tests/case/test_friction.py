@@ -7,7 +7,7 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, friction_sets, own_label, parse_frictions
-from fctd.case.specs import IntervalSpec
+from fctd.case.wall import IntervalSpec
 
 
 def intervals(*rows: tuple[float, float, str | None]) -> list[IntervalSpec]:

@@ -141,7 +141,7 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     ("operations[0].to_md", "900 m", "a depth below from_md, 1000 m"),
     ("operations[0].from_md", None, "a length such as '12 m' or '40 ft'"),
     ("name", None, "a name in quotes"),
-    ("contact.friction_law", "stribeck", "'coulomb' or 'paper'"),
+    ("contact.friction_law", "stick", "'coulomb', 'paper', 'karnopp' or 'stribeck'"),
     ("contact.enabled", "yes", "true or false"),
     ("solver.step", "2", "\"auto\", \"largest\" or a time such as '10 s' or '2 min' (units: s, ms, min, h)"),
     ("solver.buckling", "yes", "'detect' or 'resolve'"),

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.mechanics.dual import reciprocal, root
+from fctd.mechanics.dual import power, reciprocal, root
 from tests.compiled import kept
 
 STEP = 1e-30
@@ -21,6 +21,11 @@ def compiled_root(x):
 @kept
 def compiled_reciprocal(x):
     return reciprocal(x)
+
+
+@kept
+def compiled_power(x, p):
+    return power(x, p)
 
 
 @kept
@@ -70,3 +75,12 @@ def test_the_root_of_zero_has_slope_zero_and_is_not_nan() -> None:
     """A length of 0 that does not change: an infinite slope times its zero derivative would give NaN."""
     assert compiled_root(0j) == 0
     assert np.isfinite(compiled_root(0j).imag)
+
+
+@given(x=st.floats(0, 1e3), p=st.floats(1, 5))
+def test_a_power_has_the_derivative_of_calculus_also_at_zero(x: float, p: float) -> None:
+    """p x^(p − 1); at 0 it is 0, or 1 for the first power."""
+    assert compiled_power(x, p) == pytest.approx(x**p, rel=1e-12)
+    found = compiled_power(complex(x, STEP), p)
+    assert found.real == pytest.approx(x**p, rel=1e-12)
+    assert found.imag / STEP == pytest.approx(p * x ** (p - 1), rel=1e-12)

@@ -17,7 +17,7 @@ def chosen(code, speed, spin):
 
 def test_a_code_is_the_place_of_its_law() -> None:
     assert [LAWS[CODES[name]].name for name in NAMES] == list(NAMES)
-    assert set(NAMES) == {"coulomb", "paper"}
+    assert set(NAMES) == {"coulomb", "paper", "karnopp", "stribeck"}
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -12,8 +12,8 @@ from fctd.case.errors import InputError
 from fctd.case.surveys.stations import to_radians
 from fctd.mechanics import contact
 from fctd.model import survey, wellbore
-from fctd.model.wellbore import hole_frame
-from tests.cases import hole_of
+from fctd.model.wellbore import build_wellbore, hole_frame
+from tests.cases import hole_of, make_case
 
 
 def test_angles_count_from_the_high_side_clockwise_looking_downhole() -> None:
@@ -221,15 +221,15 @@ def test_the_wall_along_the_hole_by_hand() -> None:
         [500.1, 0.15, 1e7, 0.2],
         [500.3, 0.11, 1e7, 0.3],
     ]
-    np.testing.assert_allclose(hole.wall_along(), expected)
+    np.testing.assert_allclose(hole.wall_along()[:, :4], expected)
     intervals[1]["to_md"] = 700
     hole = hole_of([[0, 0, 0], [1000, 0, 0]], intervals=intervals, overlap=0.2)
     np.testing.assert_allclose(hole.wall_along()[:, 0], [500, 500.2, 700, 700.2])
     np.testing.assert_allclose(hole.wall_along()[:, 1], [0.16, 0.15, 0.15, 0.11])
     alone = hole_of([[0, 0, 0], [1000, 0, 0]])
-    np.testing.assert_allclose(alone.wall_along(), [[1000, 0.10795, 1e7, 0.2]])
+    np.testing.assert_allclose(alone.wall_along(), [[1000, 0.10795, 1e7, 0.2, 0, 0, 0]])
     alone.wall_along()[:] = 0.0
-    np.testing.assert_allclose(alone.intervals, [[1000, 0.10795, 1e7, 0.2]])
+    np.testing.assert_allclose(alone.intervals, [[1000, 0.10795, 1e7, 0.2, 0, 0, 0]])
 
 
 @pytest.mark.parametrize(("length", "overlap"), [(0.999, 0.0), (1.0, 0.1), (np.nan, 0.0)])
@@ -329,3 +329,24 @@ def test_another_friction_is_the_hole_that_a_fresh_build_gives(geometry: str, fa
         here.pieces = found.pieces
     assert here.pieces.tobytes() == before.tobytes()
     assert (found.pieces[:, contact.FACTOR] != before[:, contact.FACTOR]).any()
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+def test_pieces_carry_what_sticks_in_their_interval(geometry: str) -> None:
+    """The excess of the static factor is a share of the kinetic one, which other kinetic factors leave as it is."""
+    sticking = {"static_friction": 0.3, "decay_speed": 0.4, "overbalance": 5e6}
+    intervals = [
+        {"to_md": 500, "diameter": 0.32, "friction": 0.1},
+        {"to_md": 1000, "diameter": 0.22, "friction": 0.2, **sticking},
+    ]
+    case = make_case(
+        [[0, 0, 0], [1000, 30, 0]],
+        wellbore={"intervals": intervals, "geometry": geometry},
+        contact={"friction_law": "stribeck"},
+        mud={"cake": {"friction": 0.1}},
+    )
+    hole = build_wellbore(case)
+    columns = [contact.STATIC_EXCESS, contact.DECAY_SPEED, contact.OVERBALANCE]
+    for found in (hole, hole.with_friction(0.5)):
+        np.testing.assert_allclose(found.pieces[0, columns], 0.0)
+        np.testing.assert_allclose(found.pieces[-1, columns], [0.5, 0.4, 5e6])

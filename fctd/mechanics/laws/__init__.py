@@ -4,12 +4,14 @@ numba needs a function when it compiles its caller, so the choice is a chain of 
 table; the code of a law is its index there.
 """
 
+from itertools import groupby
 from typing import Any, Final
 
 from fctd.mechanics.friction import Law
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.laws.coulomb import LAW as COULOMB  # noqa: F401 (the table collects the laws imported here)
 from fctd.mechanics.laws.paper import LAW as PAPER  # noqa: F401
+from fctd.mechanics.laws.sticking import KARNOPP, STRIBECK  # noqa: F401
 
 LAWS: Final = tuple(law for law in list(globals().values()) if isinstance(law, Law))
 CODES: Final = {law.name: code for code, law in enumerate(LAWS)}
@@ -17,10 +19,15 @@ NAMES: Final = tuple(CODES)
 
 
 def chain(functions: Any) -> Any:
-    """A function of a law's code and further arguments that calls that law's function, compiled into the caller."""
+    """A function of a law's code and further arguments that calls that law's function, compiled into the caller.
+
+    What several laws share, the first one's or that of neighbours, is compiled once.
+    """
     chosen = _only(functions[0])
-    for code, function in enumerate(functions[1:], start=1):
-        chosen = _either(code, function, chosen)
+    for function, run in groupby(enumerate(functions), key=lambda numbered: numbered[1]):
+        codes = [code for code, _ in run]
+        if function is not functions[0]:
+            chosen = _either(codes[0], codes[-1], function, chosen)
     return chosen
 
 
@@ -32,10 +39,10 @@ def _only(function: Any) -> Any:
     return chosen
 
 
-def _either(code: int, function: Any, others: Any) -> Any:
+def _either(first: int, last: int, function: Any, others: Any) -> Any:
     @inlined
     def chosen(law, *arguments):
-        if law == code:
+        if first <= law <= last:
             return function(*arguments)
         return others(law, *arguments)
 

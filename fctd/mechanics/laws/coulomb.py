@@ -3,19 +3,10 @@
 import numpy as np
 
 from fctd.mechanics.dual import reciprocal, root
-from fctd.mechanics.friction import Law, along_wall
+from fctd.mechanics.friction import Law, against, along_wall, response, sliding
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
-from fctd.mechanics.state import (
-    ARM_CONTACT,
-    HELD_BACK,
-    INVERSE_JA,
-    INVERSE_JT,
-    INVERSE_MASS,
-    RADIUS,
-    TINY,
-    lateral_inverse_mass,
-)
+from fctd.mechanics.state import TINY
 
 
 @inlined
@@ -25,25 +16,14 @@ def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     limit : μ × normal impulse [N s].  It acts at T + r_ds·normal, hence gives force and torque, and may stop
     the sliding of the free body but not reverse it (implicit clamp).  Returns the change of velocity and spin (6).
     """
-    im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
-    il = lateral_inverse_mass(S, j)
-    r = S[RADIUS + j]
-    rx, ry, rz = r * nx, r * ny, S[ARM_CONTACT + j] + r * nz
-    sx = u + b * rz - c * ry
-    sy = v + c * rx - a * rz
-    sz = w + a * ry - b * rx
-    sx, sy, sz = along_wall(sx, sy, sz, nx, ny, nz)
-    mx, my, mz = ry * sz - rz * sy, rz * sx - rx * sz, rx * sy - ry * sx
+    sx, sy, sz, mx, my, mz = sliding(S, j, u, v, w, a, b, c, nx, ny, nz)
     square = sx * sx + sy * sy + sz * sz
     speed = np.sqrt(square)
     # The body's response to an impulse −f·s, f the smaller of limit/|s| and |s|²/response: one division.
-    response = square * im - (sx * sx + sy * sy) * S[HELD_BACK + j] + (mx * mx + my * my) * it + mz * mz * ia
-    sliding, stopping = limit * response, speed * square
-    f = (sliding if sliding < stopping else stopping) / (speed * response + TINY)
-    return (
-        -f * il * sx, -f * il * sy, -f * im * sz,
-        -f * it * mx, -f * it * my, -f * ia * mz,
-    )  # fmt: skip
+    yielding = response(S, j, sx, sy, sz, mx, my, mz, sx, sy, sz, mx, my, mz)
+    slowing, stopping = limit * yielding, speed * square
+    f = (slowing if slowing < stopping else stopping) / (speed * yielding + TINY)
+    return against(S, j, f, sx, sy, sz, mx, my, mz)
 
 
 @inlined
@@ -61,8 +41,8 @@ def steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
 @inlined
 def shares(speed, turning):
     """Along and around by the direction of sliding; friction around the hole bears part of the lateral load."""
-    sliding = np.sqrt(speed * speed + turning * turning) + TINY
-    return speed / sliding, turning / sliding, turning / sliding
+    resultant = np.sqrt(speed * speed + turning * turning) + TINY
+    return speed / resultant, turning / resultant, turning / resultant
 
 
 LAW = Law("coulomb", impulse, steady_load, shares)

@@ -1,0 +1,129 @@
+"""The tables of a case file about the wall and the string's contact with it: intervals, contact, mud cake."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Final, Literal, Self
+
+from pydantic import StrictBool, model_validator
+
+from fctd.case import units
+from fctd.case.errors import InputError, Table
+from fctd.mechanics.laws import NAMES
+
+IntervalKind = Literal["cased", "open"]
+if TYPE_CHECKING:
+    FrictionLaw = str
+else:
+    FrictionLaw = Literal[NAMES]  # the table's names
+
+# The laws with a static factor.
+STICKING: Final = ("karnopp", "stribeck")
+
+
+class IntervalSpec(Table):
+    """A section of hole of one diameter, from the end of the interval above to `to_md` [m].
+
+    The first interval begins at the surface. `friction` is the kinetic friction factor; `kind` lets
+    `--friction cased=0.2,open=0.3` set it. `stiffness` or `stiffness_per_length` of an interval replaces the
+    wellbore's key of the same name.
+
+    In a simulation with `contact.friction_law` "karnopp" or "stribeck" a string at rest sticks up to `static_friction`,
+    without which the static factor is the kinetic one. With "stribeck" half of their difference is left where the
+    string slides at `decay_speed` [m/s]. `overbalance` [Pa], the pressure of the mud beyond that of the rock, makes the
+    wall permeable: a string at rest sticks in mud cake there.
+    """
+
+    to_md: units.PositiveLength
+    diameter: units.Diameter
+    friction: units.Friction
+    kind: IntervalKind | None = None
+    name: str | None = None
+    stiffness: units.PositiveStiffness | None = None
+    stiffness_per_length: units.PositiveStiffnessPerLength | None = None
+    static_friction: units.Friction | None = None
+    decay_speed: units.PositiveSpeed | None = None
+    overbalance: units.PositiveStress | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.static_friction is not None:
+            if self.static_friction < self.friction:
+                raise InputError(f"at least the kinetic factor, {self.friction:g}", key="static_friction")
+            if self.static_friction > 0 and self.friction == 0:
+                raise InputError("a kinetic factor above 0 beside a static one", key="friction")
+        return self
+
+    @property
+    def static_excess(self) -> float:
+        """What the static friction factor exceeds the kinetic one by, as a share of it."""
+        return self.static_friction / self.friction - 1 if self.static_friction else 0.0
+
+
+class CakeSpec(Table):
+    """Mud cake on permeable intervals: its final `thickness` [m], the `time` [s] in which it grows so thick below a
+    string at rest, its `friction` factor, which a static factor of the interval scales too, and for how long the string
+    has `rested` [s] when a simulation starts.
+    """
+
+    thickness: units.PositiveLength = 0.002
+    time: units.PositiveTime = 28800.0
+    friction: units.Friction
+    rested: units.Time = 0.0
+
+
+class ContactSpec(Table):
+    """Friction law, and damping of a contact point [N*s/m]; with `enabled` false there is no wall.
+
+    With `law` "power" the wall presses with K d₀ (d/d₀)^p at penetration d: K is the wellbore's stiffness, p the
+    `exponent` (1.5 is Hertz's), and d₀ [m] the `reference_penetration`, at which both laws press equally. The time step
+    is stable up to a penetration of `largest_penetration` [m].
+
+    Where a steady string is beyond the helical limit, on segments too long for a helix, `helical_force` "analytic"
+    brings its wall force to that of the helix, r F²/4EI a metre, and the friction with it.
+    """
+
+    enabled: StrictBool = True
+    friction_law: FrictionLaw = "coulomb"
+    damping: units.Damping = 1e4
+    law: Literal["linear", "power"] = "linear"
+    exponent: units.Exponent = 1.5
+    reference_penetration: units.PositiveLength = 0.001
+    largest_penetration: units.PositiveLength = 0.005
+    helical_force: Literal["none", "analytic"] = "none"
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.law == "linear":
+            for key in ("exponent", "reference_penetration", "largest_penetration"):
+                if key in self.model_fields_set and getattr(self, key) != type(self).model_fields[key].default:
+                    raise InputError(f'law = "power" beside {key}', key="law", value="linear")
+        return self
+
+    @property
+    def wall_law(self) -> tuple[float, float]:
+        """Exponent of the wall's law, 1 of the linear one, and its reference penetration [m]."""
+        return (1.0 if self.law == "linear" else self.exponent), self.reference_penetration
+
+
+def check_friction(contact: ContactSpec, intervals: Sequence[IntervalSpec], cake: CakeSpec | None) -> None:
+    """Raise InputError for keys of friction or mud cake that the law does not use, or that lack another key."""
+    law = contact.friction_law
+    for i, interval in enumerate(intervals):
+        at = f"wellbore.intervals[{i}]"
+        for key in ("static_friction", "decay_speed", "overbalance"):
+            value: Any = getattr(interval, key)
+            if value is not None and law not in STICKING:
+                raise InputError(f'"karnopp" or "stribeck" beside {at}.{key}', key="contact.friction_law", value=law)
+        if interval.decay_speed is not None and law != "stribeck":
+            raise InputError(f'"stribeck" beside {at}.decay_speed', key="contact.friction_law", value=law)
+        if interval.static_friction and interval.decay_speed is None and law == "stribeck":
+            raise InputError("a speed beside static_friction", key=f"{at}.decay_speed")
+        if interval.overbalance is not None:
+            if contact.law != "linear":
+                raise InputError(f'"linear" beside {at}.overbalance', key="contact.law", value=contact.law)
+            if cake is None:
+                raise InputError(f"a table with the friction of the cake, beside {at}.overbalance", key="mud.cake")
+            if cake.thickness >= 0.5 * interval.diameter:
+                expected = f"less than the radius of the hole, {0.5 * interval.diameter:g} m"
+                raise InputError(expected, key="mud.cake.thickness", value=f"{cake.thickness:g} m")
