@@ -1,4 +1,8 @@
-"""The derrick above a hole: a first piece without a wall, along the tangent of the hole at the rotary table."""
+"""The derrick above a hole: a first piece along the tangent of the hole at the rotary table.
+
+It guides the pipe without friction.  A joint that swung freely above the table would enter the hole beyond its wall: in
+the model pipe touches at its joints alone, and the rotary table would not hold it between them.
+"""
 
 from dataclasses import replace
 
@@ -8,12 +12,9 @@ from fctd.mechanics import contact
 from fctd.mechanics.state import CYLINDERS
 from fctd.model.wellbore import RUN_OUT, Wellbore
 
-# Radius of the piece above the rotary table, which no string reaches [m].
-OPEN_AIR = 1e3
-
 
 def with_derrick(hole: Wellbore, height: float) -> Wellbore:
-    """The same hole, with its wall beginning at the rotary table and a derrick of a height [m] above it."""
+    """The same hole, with its friction beginning at the rotary table and a derrick of a height [m] above it."""
     pieces = hole.pieces.copy()
     tangent = pieces[0, contact.DIRECTION : contact.DIRECTION + 3].copy()
     above = height
@@ -32,7 +33,7 @@ def with_derrick(hole: Wellbore, height: float) -> Wellbore:
     pieces[0, contact.START : contact.START + 3] -= above * tangent
     pieces[0, contact.START_MD] -= above
     pieces[0, contact.LENGTH] += above
-    pieces[0, [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR]] = OPEN_AIR, 0.0, 0.0
+    pieces[0, contact.FACTOR] = 0.0
     if hole.geometry == CYLINDERS:
         pieces[0, contact.ALONE_FROM], pieces[0, contact.ALONE_TO] = -np.inf, pieces[0, contact.LENGTH]
     else:

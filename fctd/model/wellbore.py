@@ -67,7 +67,7 @@ class Wellbore:
     intervals: Array = field(repr=False)  # (k, 4), columns above
     shoe: float  # length of the transition from one interval to the next [m]
     courses: survey.Courses | None = None
-    derrick: float = 0.0  # height of a first piece without a wall above the rotary table [m] (derrick.py)
+    derrick: float = 0.0  # height of a first piece above the rotary table, without friction [m] (derrick.py)
 
     def __post_init__(self) -> None:
         # Pieces with a gap between them, or that end early, are a defect of the program; no later check would find it.
