@@ -11,6 +11,7 @@ from typing import Any
 
 from fctd.mechanics.cake import press_into_cake
 from fctd.mechanics.contact import update_walls
+from fctd.mechanics.derrick import immerse
 from fctd.mechanics.friction import approach, normal_impulse, wall_normal
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import update_joint_loads
@@ -76,7 +77,7 @@ from fctd.mechanics.state import (
     spin,
     velocity,
 )
-from fctd.mechanics.topdrive import SUM_HOOKLOAD, SUM_TOP_TORQUE, drive_top, move_top_drive
+from fctd.mechanics.topdrive import IN_DERRICK, SUM_HOOKLOAD, SUM_TOP_TORQUE, drive_top, move_top_drive
 from fctd.mechanics.wall_law import stiffen_walls
 
 # Share of the clearance within which a string certainly does not touch; 1 − NEARLY is far above rounding.
@@ -303,6 +304,8 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
     feed, rate = drive_top(S, top, motion, pipe, dt)
     read_step(S, top, n, hookload, torque, rate, dt)
+    if top[IN_DERRICK] > 0:
+        immerse(S, n)
     # 2 and 3: the piece of hole that owns each contact point, and the point's distance from its axis and wall.
     find_walls(S, owner, n, packed, C, laws.geometry)
     if laws.wall_exponent != 1:

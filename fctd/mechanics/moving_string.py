@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fctd.mechanics import dynamics, readings, state, topdrive
 from fctd.mechanics.contact import update_walls
+from fctd.mechanics.derrick import put_immersed
 from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.faults import check
 from fctd.mechanics.state import Laws
@@ -93,6 +94,8 @@ class MovingString:
     def refresh(self) -> None:
         """Update axes and walls to the present positions."""
         dynamics.update_axes(self.S, self.segments)
+        if self.top[topdrive.IN_DERRICK] > 0:
+            put_immersed(self.S, self.segments)
         self.wall.refresh(self)
         if self.laws.wall_exponent != 1:
             put_stiffness(self.S, self.top, self.segments, self.laws)

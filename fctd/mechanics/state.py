@@ -86,6 +86,10 @@ ADDED_MASS, HELD_BACK = 79 * STRIDE, 80 * STRIDE
 STUCK, EXCESS, DECAY = 83 * STRIDE, 84 * STRIDE, 85 * STRIDE
 # Mud cake (cake.py): age of the cake below the contact point [s], what its friction factor adds to the limit [N s].
 CAKE_AGE, CAKE_IMPULSE = 86 * STRIDE, 87 * STRIDE
+# Of a string that hangs from a moving block (derrick.py), whose upper part is in air: buoyancy of the whole body in mud
+# [N], the share of the body that is below the rotary table, and the mud damping of the whole body in mud.
+BUOYANCY, IMMERSED = 94 * STRIDE, 95 * STRIDE
+IN_MUD_AXIAL, IN_MUD_LATERAL, IN_MUD_SPIN = 96 * STRIDE, 97 * STRIDE, 98 * STRIDE
 
 ROWS = 99
 

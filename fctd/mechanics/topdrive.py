@@ -1,4 +1,7 @@
-"""The top drive clamps the string's upper end, turns it and feeds pipe in; its reactions are hook load and torque."""
+"""The top drive clamps the string's upper end, turns it and feeds pipe in; its reactions are hook load and torque.
+
+It stands still and feeds pipe into the long segment, or it hangs from a block and moves along its axis with the string.
+"""
 
 import math
 from typing import NamedTuple
@@ -40,6 +43,8 @@ from fctd.mechanics.state import (
     VY,
     VZ,
     WEIGHT,
+    X,
+    Y,
     Z,
     axis,
     joint_force,
@@ -89,11 +94,13 @@ class PerMetre(NamedTuple):
 # sums since the last record of hook load [N s] and torque [N m s]; work done by the top drive and energy
 # brought in by fed pipe since the start [J]; of the steps since the last record the extremes of hook load [N] and
 # torque [N m], the angles by which top and bit turned [rad], and the time for which the bit stood still [s]; since the
-# start the largest penetration of a wall of another law than the linear one [m].
+# start the largest penetration of a wall of another law than the linear one [m]; height of the block above the rotary
+# table, along its axis [m], and 1 where the string hangs from a block in a derrick, else 0 (derrick.py).
 TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(6)
 HOOKLOAD_MIN, HOOKLOAD_MAX, TORQUE_MIN, TORQUE_MAX, TOP_ANGLE, BIT_ANGLE, BIT_STILL = range(6, 13)
 TOP_PENETRATION = 13
-TOP_SIZE = 14
+BLOCK_HEIGHT, IN_DERRICK = 14, 15
+TOP_SIZE = 16
 
 
 @inlined
@@ -189,7 +196,9 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
     lost = (drag * fed + mud_torque * turned_by) / dt
     S[LOST_MUD + 1] += lost
     top[TOP_WORK] += torque * turned_by + lost
-    if fed != 0:
+    if top[IN_DERRICK] > 0:
+        top[TOP_WORK] -= tension * fed
+    elif fed != 0:
         # The pipe passes the clamp stretched, (1 + T/EA) times its unstretched length.
         raised = hanging * fed * (1 + tension / pipe.EA)
         top[TOP_WORK] -= raised
@@ -223,11 +232,16 @@ def drive_top(S, top, motion, pipe, dt):
 def move_top_drive(S, top, pipe, feed, rate, dt):
     """Move the top drive with the bodies: clock, feed [m/s], rotation [rad/s] and the pipe's speed in the clamp."""
     top[TOP_TIME] += dt
-    if feed != 0:
+    ax, ay, az = axis(S, 0)
+    if top[IN_DERRICK] > 0:
+        top[BLOCK_HEIGHT] -= dt * feed
+        S[X] += dt * feed * ax
+        S[Y] += dt * feed * ay
+        S[Z] += dt * feed * az
+    elif feed != 0:
         top[TOP_LENGTH] += dt * feed
         set_long_segment(S, top[TOP_LENGTH], pipe)
     w, x, y, z = quaternion(S, 0)
     S[QW], S[QX], S[QY], S[QZ] = turned(w, x, y, z, 0.0, 0.0, dt * rate)
-    ax, ay, az = axis(S, 0)
     S[VX], S[VY], S[VZ] = feed * ax, feed * ay, feed * az
     S[GX], S[GY], S[GZ] = rate * ax, rate * ay, rate * az

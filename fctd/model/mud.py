@@ -103,17 +103,23 @@ def sideways(case: Case, string: String, rpm: float) -> Sideways:
     return Sideways(damping, mass)
 
 
-def take_along(S: Array, case: Case, string: String, pipe: PerMetre, rpm: float) -> PerMetre:
+def take_along(
+    S: Array, case: Case, string: String, pipe: PerMetre, rpm: float, *, in_derrick: bool = False
+) -> PerMetre:
     """Update a state's lateral damping and added mass; returns the pipe fed at the top with its own.
 
-    string : laid out at its present depth.  The kinetic energy of mud that joins a moving body, or leaves it, is booked
-    as a loss to the mud.
+    string : laid out at its present depth; in_derrick : whether its upper part is in air (mechanics/derrick.py).  The
+    kinetic energy of mud that joins a moving body, or leaves it, is booked as a loss to the mud.
     """
     n = string.segments
     found = sideways(case, string, rpm)
     damping, mass = (per_metre * string.length for per_metre in found)
     if string.long_segment:  # its upper half moves with the top drive
         damping[0], mass[0] = 0.5 * damping[0], 0.5 * mass[0]
+    if in_derrick:
+        share = state.row(S, state.IMMERSED, n)
+        state.row(S, state.IN_MUD_LATERAL, n)[:] = damping
+        damping, mass = share * damping, share * mass
     velocity, axis = (
         np.stack([state.row(S, offset, n) for offset in rows])
         for rows in ((state.VX, state.VY, state.VZ), (state.AX, state.AY, state.AZ))

@@ -13,6 +13,7 @@ from tests.bodies import (
     FORCE,
     GLOBAL_SPIN,
     ON_UPPER,
+    PLACE,
     QUATERNION,
     SPIN,
     VELOCITY,
@@ -188,3 +189,21 @@ def test_a_turn_moves_out_of_the_quaternions_beyond_half_a_turn_of_twist(side: i
         assert S[state.TURNS + 1] == pytest.approx(side * turns * 2 * math.pi)
         sign = -1 if turns else 1
         np.testing.assert_allclose(at(S, 0, QUATERNION), sign * q)
+
+
+@pytest.mark.parametrize("feed", [0.4, -0.4])
+def test_a_block_moves_with_the_top_drive(feed: float) -> None:
+    """It moves along its axis and does the work of the pull on it; the pipe stays as long as it is."""
+    S, top = hung(12.0)
+    top[[topdrive.TOP_LENGTH, topdrive.IN_DERRICK, topdrive.BLOCK_HEIGHT]] = 0.0, 1.0, 20.0
+    put(S, 1, FORCE, -7000 * AXIAL + 40 * np.asarray(TILT.apply([1, 0, 0])))
+    fed = 0.01 * feed
+    read_top_drive(S, top, PIPE, fed, 0.0, 0.01)
+    move_top_drive(S, top, PIPE, feed, 0.0, 0.01)
+    assert top[topdrive.SUM_HOOKLOAD] == pytest.approx(0.01 * 7000)
+    assert top[topdrive.TOP_WORK] == pytest.approx(-7000 * fed)
+    assert top[topdrive.FED_ENERGY] == 0
+    assert top[topdrive.BLOCK_HEIGHT] == pytest.approx(20 - fed)
+    np.testing.assert_allclose(at(S, 0, PLACE), fed * AXIAL, atol=1e-15)
+    np.testing.assert_allclose(at(S, 0, VELOCITY), feed * AXIAL, atol=1e-15)
+    assert S[state.ARM_TOP + 1] == 12.0
