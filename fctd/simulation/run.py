@@ -18,9 +18,9 @@ from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String, check_fit, fill, lay_out
-from fctd.model.mud import take_along
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.wellbore import Wellbore, build_wellbore
+from fctd.simulation.carried_mud import take_along
 from fctd.simulation.external_contact import QueriedWall, WallQuery
 
 Array = NDArray[np.float64]
