@@ -13,7 +13,7 @@ from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY, PerMetre, put_long_segment
 from fctd.model.default_layout import DefaultLayout
-from fctd.model.mud import steady_resistance
+from fctd.model.mud import hole_radius, steady_resistance
 from fctd.model.wellbore import RADIUS, TO_MD, Wellbore
 
 Array = NDArray[np.float64]
@@ -327,12 +327,12 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
     """
     radius = string.of("contact_radius")
     starts = np.concatenate([[0.0], hole.intervals[:-1, TO_MD]])
-    for start, (to_md, hole_radius) in zip(starts, hole.intervals[:, [TO_MD, RADIUS]], strict=True):
-        tight = (start < bottom) & (to_md > top) & (radius > hole_radius)
+    for start, (to_md, wall) in zip(starts, hole.intervals[:, [TO_MD, RADIUS]], strict=True):
+        tight = (start < bottom) & (to_md > top) & (radius > wall)
         if tight.any():
             k = int(np.argmax(tight))
             raise InputError(
-                f"at most the hole's {2e3 * hole_radius:.4g} mm",
+                f"at most the hole's {2e3 * wall:.4g} mm",
                 key=f"string.components[{int(string.component[k])}].contact_diameter",
                 value=f"{2e3 * radius[k]:.4g} mm",
             )
@@ -343,11 +343,11 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
 def fill(S: Array, string: String, case: Case) -> PerMetre:
     """Write the string into a fresh buffer; returns the pipe fed at the top.
 
-    Mud that moves sideways with the string is left out; ``fctd.model.mud.take_along`` adds it.
+    Mud that moves sideways with the string is left out; ``fctd.simulation.carried_mud.take_along`` adds it.
     """
     n, length = string.segments, string.length
     row = state.row
-    axial, rotational = steady_resistance(case, string)
+    axial, rotational = steady_resistance(case, string.of("outer"), hole_radius(case, string.top_md, length))
     row(S, state.MASS, n)[:] = string.of("mass") * length
     row(S, state.WEIGHT, n)[:] = string.of("weight") * length
     row(S, state.J_AXIAL, n)[:] = string.of("axial_inertia") * length

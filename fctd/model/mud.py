@@ -4,19 +4,10 @@ Flow is laminar, the annulus concentric and at rest but for the string; eccentri
 the coefficients.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fctd.case.load import Case
-from fctd.mechanics import state
-from fctd.mechanics.topdrive import PerMetre
-
-if TYPE_CHECKING:
-    from fctd.model.drillstring import String
 
 Array = NDArray[np.float64]
 
@@ -60,74 +51,29 @@ def resistance(radius: ArrayLike, hole: ArrayLike, viscosity: float) -> tuple[Ar
 
 def filled(radius: ArrayLike, hole: ArrayLike, most: float = FULLEST) -> Array:
     """Radius of the string over that of its hole, at most ``most``."""
-    return np.minimum(np.asarray(radius, float) / np.asarray(hole, float), most)
+    return np.asarray(np.minimum(np.asarray(radius, float) / np.asarray(hole, float), most))
 
 
-def hole_radius(case: Case, string: String) -> Array:
-    """Radius of the hole beside the middle of every segment (n,) [m]."""
+def hole_radius(case: Case, top_md: float, length: Array) -> Array:
+    """Radius of the hole (n,) [m] beside the middle of segments of these lengths [m] below ``top_md``."""
     intervals = case.wellbore.intervals
-    middle = string.top_md + np.cumsum(string.length) - 0.5 * string.length
-    index = np.searchsorted([interval.to_md for interval in intervals], middle)
-    return np.array([0.5 * interval.diameter for interval in intervals])[np.minimum(index, len(intervals) - 1)]
+    index = np.searchsorted([interval.to_md for interval in intervals], top_md + np.cumsum(length) - 0.5 * length)
+    radius = np.array([0.5 * interval.diameter for interval in intervals])
+    return np.asarray(radius[np.minimum(index, len(intervals) - 1)])
 
 
-def steady_resistance(case: Case, string: String) -> tuple[Array, Array]:
-    """Axial [N s/m²] and rotational [N s] damping per metre of the segments (n,), given or by a given viscosity."""
-    mud, n = case.mud, string.segments
-    axial, rotational = mud.axial_damping or 0.0, mud.rotational_damping or 0.0
-    if not mud.viscosity:
-        return np.full(n, axial), np.full(n, rotational)
-    along, around = resistance(string.of("outer"), hole_radius(case, string), mud.viscosity)
-    return (
-        along if mud.axial_damping is None else np.full(n, axial),
-        around if mud.rotational_damping is None else np.full(n, rotational),
-    )
+def steady_resistance(case: Case, radius: Array, hole: Array) -> tuple[Array, Array]:
+    """Axial [N s/m²] and rotational [N s] damping per metre of pipes (n,) of ``radius`` in holes [m].
 
-
-class Sideways(NamedTuple):
-    """Per metre of every segment (n,): lateral damping [N s/m²] and mass of mud that moves along [kg/m]."""
-
-    damping: Array
-    added_mass: Array
-
-
-def sideways(case: Case, string: String, rpm: float) -> Sideways:
-    """What the mud does to lateral motion of a string that rotates at ``rpm``, or rests."""
-    mud, n = case.mud, string.segments
-    damping, mass = np.full(n, mud.lateral_damping or 0.0), np.zeros(n)
-    if mud.sideways:
-        outer, hole = string.of("outer"), hole_radius(case, string)
-        mass = added_mass(outer, string.of("inner"), hole, mud.density)
-        if mud.lateral_damping is None:
-            damping = lateral_damping(outer, hole, mud.density, mud.sideways, rpm / 60 if rpm else AT_REST)
-    return Sideways(damping, mass)
-
-
-def take_along(
-    S: Array, case: Case, string: String, pipe: PerMetre, rpm: float, *, in_derrick: bool = False
-) -> PerMetre:
-    """Update a state's lateral damping and added mass; returns the pipe fed at the top with its own.
-
-    string : laid out at its present depth; in_derrick : whether its upper part is in air (mechanics/derrick.py).  The
-    kinetic energy of mud that joins a moving body, or leaves it, is booked as a loss to the mud.
+    Each is the case's own, else by the viscosity that the case gives, else 0.
     """
-    n = string.segments
-    found = sideways(case, string, rpm)
-    damping, mass = (per_metre * string.length for per_metre in found)
-    if string.long_segment:  # its upper half moves with the top drive
-        damping[0], mass[0] = 0.5 * damping[0], 0.5 * mass[0]
-    if in_derrick:
-        share = state.row(S, state.IMMERSED, n)
-        state.row(S, state.IN_MUD_LATERAL, n)[:] = damping
-        damping, mass = share * damping, share * mass
-    velocity, axis = (
-        np.stack([state.row(S, offset, n) for offset in rows])
-        for rows in ((state.VX, state.VY, state.VZ), (state.AX, state.AY, state.AZ))
+    mud = case.mud
+    axial, rotational = (
+        np.full(len(radius), mud.axial_damping or 0.0),
+        np.full(len(radius), mud.rotational_damping or 0.0),
     )
-    square = (velocity**2).sum(axis=0) - (velocity * axis).sum(axis=0) ** 2
-    added, inverse = state.row(S, state.ADDED_MASS, n), state.row(S, state.INVERSE_MASS, n)
-    state.row(S, state.LOST_MUD, n)[:] -= 0.5 * (mass - added) * square
-    added[:] = mass
-    state.row(S, state.MUD_LATERAL, n)[:] = damping
-    state.row(S, state.HELD_BACK, n)[:] = inverse - 1 / (state.row(S, state.MASS, n) + mass)
-    return pipe._replace(mud_lateral=float(found.damping[0]), added_mass=float(found.added_mass[0]))
+    if mud.viscosity:
+        along, around = resistance(radius, hole, mud.viscosity)
+        axial = along if mud.axial_damping is None else axial
+        rotational = around if mud.rotational_damping is None else rotational
+    return axial, rotational

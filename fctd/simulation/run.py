@@ -20,11 +20,11 @@ from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.mechanics.wall_law import tangent_over_linear
 from fctd.model.derrick import with_derrick
 from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, lay_out
-from fctd.model.mud import take_along
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
 from fctd.model.strokes import stand_schedule
 from fctd.model.wellbore import Wellbore, build_wellbore
+from fctd.simulation.carried_mud import take_along
 from fctd.simulation.external_contact import QueriedWall, WallQuery
 from fctd.simulation.hoist import Hoist
 

@@ -1,18 +1,10 @@
-"""Viscous mud around a string: closed forms, and what a key of the case turns on."""
-
-from typing import Any
+"""Viscous mud around a string: closed forms."""
 
 import numpy as np
 import pytest
 
-from fctd import Simulation, equilibrium, simulate
-from fctd.case.load import Case
-from fctd.mechanics import state
-from fctd.mechanics.energy import energy_of
-from fctd.model.drillstring import lay_out
-from fctd.model.mud import added_mass, lateral_damping, resistance, sideways, steady_resistance, take_along
-from fctd.simulation.run import prepare, start_from_rest
-from tests.cases import make_case, pipe, rotation, trip
+from fctd.model.mud import added_mass, hole_radius, lateral_damping, resistance
+from tests.cases import make_case
 
 INCH = 0.0254
 PIPE, IN_HOLE = 2.5 * INCH, 4.25 * INCH
@@ -46,120 +38,9 @@ def test_a_body_that_fills_its_hole_has_finite_coefficients() -> None:
     assert np.isfinite(found).all()
 
 
-STATIONS = [[0, 0, 0], [400, 0, 0], [850, 60, 0], [1200, 60, 0]]
-SIZES = {"intervals": [
-    {"to_md": 500, "diameter": 0.311, "friction": 0.2}, {"to_md": 1200, "diameter": 0.2159, "friction": 0.2},
-]}  # fmt: skip
-
-
-def well(mud: dict[str, Any], operation: dict[str, Any] | None = None) -> Case:
-    components = [pipe(None, None, inner=0.1086, segment_length=25.0)]
-    return make_case(STATIONS, components, [operation or rotation(1000, 12, rpm=120, ramp=4)], wellbore=SIZES, mud=mud)
-
-
-def test_coefficients_follow_the_size_of_the_hole() -> None:
-    case = well({"density": 1200.0})
-    string = lay_out(case, 1000.0)
-    found, above = sideways(case, string, 120.0), np.arange(40) < 20
-    for part, radius in ((above, 0.1555), (~above, 0.10795)):
-        np.testing.assert_allclose(found.damping[part], lateral_damping(0.0635, radius, 1200.0, 0.02, 2.0))
-        np.testing.assert_allclose(found.added_mass[part], added_mass(0.0635, 0.0543, radius, 1200.0))
-    # At rest the string swings at about 1 Hz.
-    np.testing.assert_allclose(sideways(case, string, 0.0).damping, sideways(case, string, 60.0).damping)
-
-
-@pytest.mark.parametrize(
-    ("mud", "lateral", "mass", "axial", "rotational"),
-    [
-        ({"density": 1200.0}, True, True, False, False),
-        ({"density": 1200.0, "viscosity": "20 mPa*s"}, True, True, True, True),
-        ({"density": 1200.0, "viscosity": 0}, False, False, False, False),
-        ({}, False, False, False, False),
-        ({"density": 1200.0, "lateral_damping": 0}, False, True, False, False),
-        ({"density": 1200.0, "viscosity": 0.02, "axial_damping": 0, "rotational_damping": 0}, True, True, False, False),
-    ],
-)
-def test_what_a_case_turns_on(
-    mud: dict[str, Any], lateral: bool, mass: bool, axial: bool, rotational: bool
-) -> None:  # fmt: skip
-    case = well(mud)
-    string = lay_out(case, 1000.0)
-    found, steady = sideways(case, string, 0.0), steady_resistance(case, string)
-    assert [part.any() for part in (*found, *steady)] == [lateral, mass, axial, rotational]
-
-
-def test_a_damping_that_is_given_wins() -> None:
-    given = {"axial_damping": 3.0, "lateral_damping": 5.0, "rotational_damping": 0.7}
-    case = well({"density": 1200.0, "viscosity": 0.05, **given})
-    string = lay_out(case, 1000.0)
-    along, around = steady_resistance(case, string)
-    assert (set(along), set(around), set(sideways(case, string, 60.0).damping)) == ({3.0}, {0.7}, {5.0})
-
-
-def test_viscosity_without_mud_is_refused() -> None:
-    with pytest.raises(ValueError, match=r'viscosity = "0\.02 Pa\*s": expected 0, or a mud\.density above 0'):
-        well({"viscosity": 0.02})
-
-
-def test_steady_loads_depend_on_a_given_viscosity_alone() -> None:
-    """What a given one adds is c Ω and c v along the string; without friction, which the added tension would raise."""
-    frictionless = {"intervals": [{**interval, "friction": 0.0} for interval in SIZES["intervals"]]}
-
-    def loads(**mud: Any) -> tuple[float, float]:
-        case = make_case(STATIONS, [pipe(None, None, segment_length=25.0)], wellbore=frictionless, mud=mud)
-        return (
-            equilibrium(case, "rotate_off_bottom", 1000, rpm=120).surface_torque,
-            equilibrium(case, "trip_out", 1000, speed=0.5).hookload,
-        )
-
-    still = loads(density=1200.0, viscosity=0)
-    assert loads(density=1200.0) == still
-    case = well({"density": 1200.0, "viscosity": 0.03})
-    string = lay_out(case, 1000.0)
-    axial, rotational = steady_resistance(case, string)
-    added = (rotational @ string.length) * 4 * np.pi, 0.5 * (axial @ string.length)
-    assert np.subtract(loads(density=1200.0, viscosity=0.03), still) == pytest.approx(added, rel=1e-3)
-
-
-def test_mud_that_moves_sideways_changes_no_steady_load_of_a_run_and_its_energy_is_in_the_ledger() -> None:
-    """Means over the last torsional periods of the same rotation with and without it."""
-    means = []
-    for mud in ({"viscosity": 0}, {}):
-        result = simulate(well({"density": 1200.0, **mud}, rotation(1000, 20, rpm=120, ramp=5)))
-        assert result.run["energy_error"] < 1e-3
-        (row,) = result.operations.to_dict("records")
-        means.append((row["surface_torque_mean_N_m"], row["hookload_mean_N"]))
-    assert means[0] == pytest.approx(means[1], rel=3e-3)
-
-
-def test_a_trip_past_a_shoe_changes_the_coefficients() -> None:
-    """The lower end leaves casing at 500 m: at the end its coefficients are those of the narrower hole."""
-    string = make_case(components=[pipe(200, 10), pipe(None, 1)]).string
-    case = well({"density": 1200.0}, trip(480, 540, speed=3.0, ramp=4)).model_copy(update={"string": string})
-    simulation = Simulation(case)
-    length, before = 20.0, state.row(simulation.run.S, state.ADDED_MASS, 11).copy()
-    for _ in simulation:
-        pass
-    after = state.row(simulation.run.S, state.ADDED_MASS, 11)
-    wide, narrow = (length * added_mass(0.0635, 0.035, radius, 1200.0) for radius in (0.1555, 0.10795))
-    assert before[-1] == after[-3] == pytest.approx(wide)
-    assert after[-1] == pytest.approx(narrow)
-    # The long segment has half of its mud at its lower end.
-    assert after[0] == pytest.approx(0.5 * 340.0 * wide / length, rel=1e-6)
-
-
-def test_mud_that_joins_a_moving_body_keeps_the_sum_of_energy_and_loss() -> None:
-    case = well({"density": 1200.0})
-    run, _ = prepare(case)
-    start_from_rest(run)
-    n = run.segments
-    state.row(run.S, state.VX, n)[:], state.row(run.S, state.VZ, n)[:] = 0.3, -0.2
-
-    def total() -> float:
-        return energy_of(run.S, n).kinetic + float(state.row(run.S, state.LOST_MUD, n).sum())
-
-    before = total()
-    heavier = well({"density": 2000.0})
-    pipe_ = take_along(run.S, heavier, run.laid_out, run.pipe, 0.0)
-    assert total() == pytest.approx(before, rel=1e-12)
-    assert pipe_.added_mass > run.pipe.added_mass
+def test_the_hole_beside_the_middle_of_a_segment() -> None:
+    intervals = [{"to_md": 500, "diameter": 0.3, "friction": 0.2}, {"to_md": 1000, "diameter": 0.2, "friction": 0.2}]
+    case = make_case(wellbore={"intervals": intervals})
+    lengths = np.array([100.0, 410.0, 480.0])
+    assert hole_radius(case, 0.0, lengths).tolist() == [0.15, 0.15, 0.1]
+    assert hole_radius(case, 300.0, lengths).tolist() == [0.15, 0.1, 0.1]

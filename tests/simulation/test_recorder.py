@@ -81,7 +81,7 @@ def test_a_row_of_history_is_sums_over_its_span() -> None:
         unknown = ("top_rpm", "bit_rpm", "bit_still_s")
         assert np.isnan([row[name] for name in unknown]).all()
         extremes = {name for name in row if "_min_" in name or "_max_" in name}
-        others = {"operation", *NOT_BUCKLED.columns(), *unknown, *extremes}
+        others = {"operation", "lateral_speed_m_per_s", *NOT_BUCKLED.columns(), *unknown, *extremes}
         assert {name: row[name] for name in row if name not in others} == pytest.approx(expected)
 
 

@@ -1,0 +1,63 @@
+"""Mud that a moving string takes along sideways: its mass and its damping, at the present depth and rotation."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.load import Case
+from fctd.mechanics import state
+from fctd.mechanics.topdrive import PerMetre
+from fctd.model.drillstring import String
+from fctd.model.mud import AT_REST, added_mass, hole_radius, lateral_damping
+
+Array = NDArray[np.float64]
+
+
+class Sideways(NamedTuple):
+    """Per metre of every segment (n,): lateral damping [N s/m²] and mass of mud that moves along [kg/m]."""
+
+    damping: Array
+    added_mass: Array
+
+
+def sideways(case: Case, string: String, rpm: float) -> Sideways:
+    """What the mud does to lateral motion of a string that rotates at ``rpm``, or rests."""
+    mud, n = case.mud, string.segments
+    damping, mass = np.full(n, mud.lateral_damping or 0.0), np.zeros(n)
+    if mud.sideways:
+        outer, hole = string.of("outer"), hole_radius(case, string.top_md, string.length)
+        mass = added_mass(outer, string.of("inner"), hole, mud.density)
+        if mud.lateral_damping is None:
+            damping = lateral_damping(outer, hole, mud.density, mud.sideways, rpm / 60 if rpm else AT_REST)
+    return Sideways(damping, mass)
+
+
+def take_along(
+    S: Array, case: Case, string: String, pipe: PerMetre, rpm: float, *, in_derrick: bool = False
+) -> PerMetre:
+    """Update a state's lateral damping and added mass; returns the pipe fed at the top with its own.
+
+    string : laid out at its present depth; in_derrick : whether its upper part is in air (mechanics/derrick.py).  The
+    kinetic energy of mud that joins a moving body, or leaves it, is booked as a loss to the mud.
+    """
+    n = string.segments
+    found = sideways(case, string, rpm)
+    damping, mass = (per_metre * string.length for per_metre in found)
+    if string.long_segment:  # its upper half moves with the top drive
+        damping[0], mass[0] = 0.5 * damping[0], 0.5 * mass[0]
+    if in_derrick:
+        share = state.row(S, state.IMMERSED, n)
+        state.row(S, state.IN_MUD_LATERAL, n)[:] = damping
+        damping, mass = share * damping, share * mass
+    velocity, axis = (
+        np.stack([state.row(S, offset, n) for offset in rows])
+        for rows in ((state.VX, state.VY, state.VZ), (state.AX, state.AY, state.AZ))
+    )
+    square = (velocity**2).sum(axis=0) - (velocity * axis).sum(axis=0) ** 2
+    added, inverse = state.row(S, state.ADDED_MASS, n), state.row(S, state.INVERSE_MASS, n)
+    state.row(S, state.LOST_MUD, n)[:] -= 0.5 * (mass - added) * square
+    added[:] = mass
+    state.row(S, state.MUD_LATERAL, n)[:] = damping
+    state.row(S, state.HELD_BACK, n)[:] = inverse - 1 / (state.row(S, state.MASS, n) + mass)
+    return pipe._replace(mud_lateral=float(found.damping[0]), added_mass=float(found.added_mass[0]))
