@@ -65,12 +65,12 @@ def monitor_figure(found: Monitored, case: Case, units: System = "si") -> Figure
                     _readings(ax, rows, kind, column, units)
                     _curves(ax, found, rows, kind, column, factors, units)
             ax.set_xlabel(
-                f"{'weight indicator' if column == columns[0] else 'drive torque'} [{shown(column, units).label}]"
+                f"{'weight indicator' if column == columns[0] else 'drive torque'}, {shown(column, units).label}"
             )
         for kind in KINDS:
             _factors(panels[2], known[kinds == kind], kind, depth.factor)
         panels[2].set_xlabel("apparent friction factor")
-        panels[0].set_ylabel(f"bit depth [{depth.label}]")
+        panels[0].set_ylabel(f"bit depth, {depth.label}")
         _depths(panels, known, found.alarms, case, depth.factor)
         return sheet.figure
 

@@ -157,7 +157,7 @@ def test_a_series_without_any_answer_is_still_seen() -> None:
         (crosses,) = [line for line in ax.lines if line.get_marker() == "x"]
         assert len(crosses.get_xdata()) == len(DEPTHS)
     assert figure.findobj(Annotation) == []
-    assert "no answer: max_iterations" in legend_of(figure)
+    assert "no loads: no equilibrium found" in legend_of(figure)
 
 
 def test_one_depth_has_one_tick() -> None:

@@ -38,6 +38,7 @@ def test_rounding_noise_is_drawn_as_zero() -> None:
     limits = limits_of_torque(table, "si", None)
     least = LEVER * table["hookload_N"].max() / 1e3
     assert limits.high - limits.low == pytest.approx(1.1 * least, rel=0.01)
+    assert limits.low == pytest.approx(-0.05 * least, rel=0.1)  # the axis begins at 0
     table["surface_torque_N_m"] += 4000.0  # of a motor: the axis still begins at 0
     limits = limits_of_torque(table, "si", None)
     assert limits.low < 0 < 4 < limits.high
