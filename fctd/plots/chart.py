@@ -241,7 +241,9 @@ class _Pair:
                 continue
             place, (colour, marker) = next(places), LOOKS[one.operation]
             down = view.bottom + (labels.GAP + labels.LEVEL * (place.level + 0.5)) * view.point
-            ax.plot([x, x], [depth, down], **LEADER)
+            # Below a curve that ends above the deepest row, a solid line would look like loads.
+            dash = "-" if depth >= view.bottom else (0, (1, 3))
+            ax.plot([x, x], [depth, down], linestyle=dash, **LEADER)
             ax.plot([x], [down], color=colour, marker=marker, markersize=4.5, linestyle="none", clip_on=False)
             aside = labels.GAP if place.right else -labels.GAP
             ax.annotate(

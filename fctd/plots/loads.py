@@ -166,7 +166,10 @@ def limits_of_torque(chart: pd.DataFrame, units: System, measured: pd.DataFrame 
     locked = _locked(chart)
     least = LEVER * _largest(chart, ["hookload_N", "total_contact_force_N"])
     visible = [np.array([0.0, least]), chart.loc[~locked, TORQUE].to_numpy(float), *_measured(measured, TORQUE)]
-    return _span(visible, least, shown(TORQUE, units).factor, cut=bool(locked.any()))
+    factor = shown(TORQUE, units).factor
+    limits = _span(visible, least, factor, cut=False)
+    below = bool((chart.loc[locked, TORQUE] * factor < limits.low).any())
+    return _span(visible, least, factor, cut=True) if below else limits
 
 
 def _locked(chart: pd.DataFrame) -> pd.Series[bool]:

@@ -24,7 +24,7 @@ NAMES = {
     "unstable": "unstable",
 }
 # Of rows without loads; the others are those that the solver did not find.
-LOST_NAMES = {"not_possible": "string and hole do not fit", "unstable": "no steady shape"}
+LOST_NAMES = {"not_possible": "string and hole do not fit at this depth", "unstable": "no steady shape"}
 
 
 def has_states(series: list[Series]) -> bool:

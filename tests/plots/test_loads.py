@@ -54,6 +54,16 @@ def test_pushes_do_not_set_the_limits() -> None:
     assert limits_of_torque(table, "si", None).high < 1.0
 
 
+def test_the_axis_of_torque_goes_below_0_where_a_locked_string_does() -> None:
+    """A helix turns a string backwards; without such a torque the axis begins at 0."""
+    table = locked_chart()
+    limits = limits_of_torque(table, "si", None)
+    assert limits.low == pytest.approx(-0.05 / 1.1 * (limits.high - limits.low))
+    table.loc[table["bit_depth_m"] == 1500, "surface_torque_N_m"] = -100.0
+    limits = limits_of_torque(table, "si", None)
+    assert limits.low == pytest.approx(-BESIDE / (1.05 + BESIDE) * (limits.high - limits.low))
+
+
 @pytest.mark.parametrize("loads", [True, False])
 def test_a_chart_of_nothing_but_pushes_shows_the_least(loads: bool) -> None:
     table = locked_chart()
