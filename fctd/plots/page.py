@@ -48,6 +48,7 @@ SYMBOLS: Final = {
 }  # fmt: skip
 DASHES: Final = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 SHOE: Final = {"color": QUIET, "dash": "dot", "width": 1}
+CLEAR: Final = "rgba(0,0,0,0)"
 PANEL: Final = 560  # height of a row of panels [px]
 LINE: Final = 18  # height of a line of the heading [px]
 # A page stays on its machine: plotly's own button would upload the chart.
@@ -90,7 +91,7 @@ def chart_page(
             for k, one in enumerate(group):
                 dash = DASHES[frictions.index(one.friction) % len(DASHES)]
                 # Beside the edge of the axis, those of each curve beside those of the others.
-                edge = limit.low + (0.015 + 0.02 * k) * (limit.high - limit.low)
+                edge = limit.low + (0.015 + 0.025 * k) * (limit.high - limit.low)
                 for trace in _curve(one, names[one.operation, one.friction], column, dash, units, limit, edge, named):
                     figure.add_trace(trace, **place)
             if measured is not None:
@@ -184,12 +185,12 @@ def _curve(
     ]
     symbols = [SYMBOLS[marker] + ("" if s == SteadyStatus.CONVERGED else "-open") for s in status]
     yield from _buckled(value, depth, rows["buckling"], named)
-    # The pointer finds every row, with a marker or without.
-    sizes = np.where(marked(value) | (status != SteadyStatus.CONVERGED), 8, 0)
+    # The pointer finds every row, with a marker or without; sizes of 0 would make markers of the legend small too.
+    colours = np.where(marked(value) | (status != SteadyStatus.CONVERGED), colour, CLEAR)
     yield go.Scatter(
         x=value, y=depth, name=name, legendgroup=name, showlegend=_new(name, named), mode="lines+markers",
         line={"color": colour, "dash": dash, "width": 2}, text=texts,
-        marker={"symbol": symbols, "size": sizes, "opacity": 1},
+        marker={"symbol": symbols, "size": 8, "color": colours},
         hovertemplate=f"%{{y:.1f}}: %{{x:.4g}} {unit}<br>%{{text}}<extra>{name}</extra>",
     )  # fmt: skip
     for side, at in (("left", value < limits.low), ("right", value > limits.high)):

@@ -12,6 +12,7 @@ pytest.importorskip("plotly")
 
 from fctd import plots
 from fctd.case.operations import KINDS
+from fctd.plots.palette import LOOKS
 from fctd.plots.tracks import TRACKS
 from tests.plots.made import DEPTHS, chart, locked_chart, points, well
 
@@ -72,9 +73,9 @@ def test_every_row_is_a_point_and_few_have_markers() -> None:
     (line, _) = (trace for trace in chart_page_lines(table))
     assert len(line.x) == len(DEPTHS)
     flagged = table["status"] == "under_resolved"
-    sizes = np.array(line.marker.size)
-    assert (sizes[flagged] > 0).all()
-    assert {*sizes[~flagged]} == {0, 8}
+    seen = np.array(line.marker.color) == LOOKS["trip_in"][0]
+    assert seen[flagged].all()
+    assert {*seen[~flagged]} == {True, False}
 
 
 def chart_page_lines(table: pd.DataFrame) -> list[Any]:
