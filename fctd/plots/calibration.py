@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 
 from fctd.calibration.predict import BANDS, coverage, predict_rows
 from fctd.calibration.result import Calibration
+from fctd.case.operations import KINDS
 from fctd.plots.palette import DARK, LOOKS, MEASURED, QUIET, SHADE
 from fctd.plots.style import RC, Sheet
 
@@ -20,6 +21,7 @@ WIDTH, PANEL, LABELS = 10.0, 2.4, 1.15  # of the sheet, and height of a panel an
 LEFT, APART = 0.75, 0.9
 LOADS = {"hookload": ("weight indicator, kN", 1e-3), "torque": ("drive torque, kN·m", 1e-3)}
 _NO_LOOKS = (DARK, "X")  # of rows without a string
+_NO_KINDS = {"in_slips": "in slips", "tare": "free drive"}
 _MOST_NAMES = 40  # rows that are named below a panel
 
 
@@ -62,7 +64,7 @@ def prediction_figure(table: pd.DataFrame, title: str) -> Figure:
 def _in_words(row: Mapping[Any, Any]) -> str:
     """An unknown with its interval, forces and torques in thousands of the SI unit."""
     factor, prefix = (1e-3, "k") if row["unit"] in ("N", "N*m") else (1.0, "")
-    value, low, high = (f"{row[key] * factor:.4g}" for key in ("value", "low", "high"))
+    value, low, high = (f"{row[key] * factor:.4g}".replace("-", "−") for key in ("value", "low", "high"))
     return f"{row['name']} {value} ({low} to {high}) {prefix}{row['unit'].replace('*', '·')}".rstrip()
 
 
@@ -96,7 +98,7 @@ def _residuals(axes: Axes, found: Calibration) -> None:
             colour, marker = LOOKS.get(str(row["operation"]), _NO_LOOKS)
             face: Any = colour if load == "hookload" else "white"
             if not row["used"]:
-                colour = face = QUIET
+                colour, face = QUIET, QUIET if load == "hookload" else "white"
             x = names.index(str(row["id"])) + shift
             axes.plot([x, x], [0, row["in_noise"]], color=colour, linewidth=0.8)
             axes.plot(x, row["in_noise"], marker, markerfacecolor=face, markeredgecolor=colour, markersize=4)
@@ -134,13 +136,16 @@ def _name_rows(axes: Axes, names: Sequence[str]) -> None:
 def _handles(table: pd.DataFrame) -> list[Any]:
     """The legend: bands, measured, and the operations that are there."""
     handles: list[Any] = [
-        Patch(color="#bdbdbd", label="50 %"),
-        Patch(color=SHADE, label="95 %"),
+        Patch(color="#bdbdbd", label="50 % band"),
+        Patch(color=SHADE, label="95 % band"),
     ]
     if table["low"].notna().any():
-        measured = Line2D([], [], color="black", marker="o", markerfacecolor=MEASURED, label="measured, range")
-        handles.append(measured)
+        ranged = bool((table["high"] > table["low"]).any())
+        label, line = ("measured, with range", "-") if ranged else ("measured", "none")
+        look: dict[str, Any] = {"color": "black", "marker": "o", "markerfacecolor": MEASURED, "linestyle": line}
+        handles.append(Line2D([], [], label=label, **look))
     for kind in dict.fromkeys(table["operation"]):
         colour, marker = LOOKS.get(str(kind), _NO_LOOKS)
-        handles.append(Line2D([], [], color=colour, marker=marker, linestyle="none", label=f"{kind}, computed"))
+        name = KINDS[kind].label if kind in KINDS else _NO_KINDS[str(kind)]
+        handles.append(Line2D([], [], color=colour, marker=marker, linestyle="none", label=f"{name}, computed"))
     return handles

@@ -11,16 +11,17 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.operations import KINDS
 from fctd.plots import labels
 from fctd.plots.curves import (
     BAND,
     CUT,
     MEASURED_LOOK,
     OPEN,
+    RANGE_ALONE,
     Drawn,
     draw_curve,
     draw_measured,
@@ -38,6 +39,7 @@ from fctd.plots.loads import (
     groups_of,
     limits_of_load,
     limits_of_torque,
+    names_of,
     spent_at,
 )
 from fctd.plots.palette import DARK, LOOKS, QUIET
@@ -48,6 +50,8 @@ from fctd.results.series import Series, frictions_of, series_of
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
 
+Array = NDArray[np.float64]
+
 MOST_GROUPS = 24  # in a picture
 ACROSS = 2  # groups side by side
 # Sizes [in]: width of the panels of loads and of torques and their height, of one group alone and of one among several.
@@ -57,8 +61,6 @@ SHOE_LINE = 10.0  # height of the name of a shoe [pt]
 # Hook loads at which slack-off is spent.
 SPENT: dict[str, Any] = {"facecolor": "none", "hatch": "////", "edgecolor": "#cfcfcf", "linewidth": 0, "zorder": 0}
 SHOE: dict[str, Any] = {"color": QUIET, "linewidth": 0.9, "linestyle": (0, (1, 2)), "zorder": 1.1}
-# Labels of operations where those of ``KINDS`` do not fit.
-SHORT = {"rotate_off_bottom": "rotating", "drill_rotating": "drilling", "drill_sliding": "sliding"}
 LEADER: dict[str, Any] = {"color": QUIET, "linewidth": 0.6, "zorder": 1.4}
 
 
@@ -128,6 +130,24 @@ class _View:
         beside = lanes * LANE + 0.12 if self.states else 0.0
         return LEFT + sum(self.widths) + BETWEEN + beside + (SHOES if self.shoes else RIGHT)
 
+    @property
+    def foot(self) -> float:
+        """Height of the deepest row, in shares of the axes."""
+        bottom, top = self.ylim
+        return (bottom - self.bottom - 4 * self.point) / (bottom - top)
+
+    def shapes(self, one: Series) -> tuple[Array, Array]:
+        """Loads [N] of both shapes of each row of a series, NaN where they do not differ."""
+        ends = one.rows[["hookload_low_N", "hookload_high_N"]].to_numpy(float).T
+        low, high = (as_load(self.case, one.operation, end, self.look.load) for end in ends)
+        return low, high
+
+    def has_band(self, one: Series) -> bool:
+        """Whether the loads of both shapes of any row of a series reach the axis."""
+        drawn = self.drawn[0]
+        low, high = (end * drawn.factor for end in self.shapes(one))
+        return bool(((high > drawn.limits.low) & (low < drawn.limits.high)).any())
+
     def scale_depth(self, levels: int) -> None:
         """Set the limits of the axis of depths, with room for labels on some levels; ``point`` is the depth of 1 pt."""
         room = labels.GAP + labels.LEVEL * levels if levels else 0.0
@@ -192,11 +212,8 @@ class _Pair:
     def _panel(self, ax: Axes, k: int) -> None:
         view, drawn = self.view, self.view.drawn[k]
         for place, (one, dash) in enumerate(zip(self.group, self.dashes, strict=True)):
-            shapes = one.rows[["hookload_low_N", "hookload_high_N"]].to_numpy(float)
-            if k:
-                shapes = np.full_like(shapes, np.nan)
-            low, high = (as_load(view.case, one.operation, end, view.look.load) for end in shapes.T)
-            draw_curve(ax, one, dash, drawn, (low, high), place)
+            low, high = view.shapes(one)
+            draw_curve(ax, one, dash, drawn, (low * np.nan, high * np.nan) if k else (low, high), place)
         if view.look.measured is not None:
             for kind in dict.fromkeys(one.operation for one in self.group):
                 draw_measured(ax, view.look.measured, kind, drawn)
@@ -206,8 +223,9 @@ class _Pair:
         ax.set_xlabel(f"{NAMES[drawn.column]}, {shown(drawn.column, view.units).label}")
         if limits.cut and not k:
             spent = spent_at(view.case, view.look.load) * drawn.factor
-            ax.axvspan(limits.low, spent, **SPENT)
-            ax.axvline(spent, color=QUIET, linewidth=1, zorder=1)
+            # Down to the deepest row: labels stand below.
+            ax.axvspan(limits.low, spent, view.foot, **SPENT)
+            ax.axvline(spent, view.foot, color=QUIET, linewidth=1, zorder=1)
             ax.annotate(
                 "slack-off is spent", (0, 1), (0, 2), xycoords="axes fraction", textcoords="offset points", va="bottom",
                 fontsize=7.5, color=DARK,
@@ -223,7 +241,9 @@ class _Pair:
                 continue
             place, (colour, marker) = next(places), LOOKS[one.operation]
             down = view.bottom + (labels.GAP + labels.LEVEL * (place.level + 0.5)) * view.point
-            ax.plot([x, x], [depth, down], **LEADER)
+            # Below a curve that ends above the deepest row, a solid line would look like loads.
+            dash = "-" if depth >= view.bottom else (0, (1, 3))
+            ax.plot([x, x], [depth, down], linestyle=dash, **LEADER)
             ax.plot([x], [down], color=colour, marker=marker, markersize=4.5, linestyle="none", clip_on=False)
             aside = labels.GAP if place.right else -labels.GAP
             ax.annotate(
@@ -241,17 +261,6 @@ class _Pair:
                 f"shoe {shoe:.0f} {self.view.depth.label}", (1.0, at), (4, 0), xycoords=ax.get_yaxis_transform(),
                 textcoords="offset points", va="center", fontsize=7.5, color=DARK, annotation_clip=False,
             )  # fmt: skip
-
-
-def names_of(group: list[Series], *, short: bool) -> list[str]:
-    """Names of the series of a group by what differs between them."""
-    kinds, frictions = {one.operation for one in group}, {one.friction for one in group}
-    names = []
-    for one in group:
-        kind = SHORT.get(one.operation, KINDS[one.operation].label) if short else KINDS[one.operation].label
-        parts = [kind] if len(kinds) > 1 or len(frictions) == 1 else []
-        names.append(", ".join(parts + ([f"μ {one.friction}"] if len(frictions) > 1 else [])))
-    return names
 
 
 def _levels(pairs: list[_Pair]) -> int:
@@ -279,10 +288,14 @@ def _handles(view: _View, series: list[Series], unnamed: list[_Pair]) -> list[Ar
     locked = [one.rows for one in series if (one.rows["status"] == SteadyStatus.LOCKED_UP).any()]
     if any(is_cut(rows, drawn) for rows in locked for drawn in view.drawn):
         handles.append(Line2D([], [], color=QUIET, label="beyond the axis", **{"marker": "<"} | CUT))
-    if any(one.rows["hookload_low_N"].notna().any() for one in series):
-        handles.append(Patch(color=QUIET, label="hook loads of both shapes", **BAND))
+    banded = next((one for one in series if view.has_band(one)), None)
+    if banded is not None:
+        # In the colour of a curve: the greys are those of buckling.
+        handles.append(Patch(color=LOOKS[banded.operation][0], label="hook loads of both shapes", **BAND))
     if any(((one.rows["status"] != "converged") & one.rows["hookload_N"].notna()).any() for one in series):
         handles.append(Line2D([], [], color=QUIET, marker="o", label="not converged: see state", **OPEN))
     if view.look.measured is not None:
         handles.append(Line2D([], [], marker="o", label=view.look.measured_label, **MEASURED_LOOK))
+        if view.look.has_ranges_alone:
+            handles.append(Line2D([], [], marker="o", label="measured range without a value", **RANGE_ALONE))
     return handles

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from fctd.plots.loads import TORQUE, Limits, measured_columns
+from fctd.plots.loads import TORQUE, Limits, marked, measured_columns
 from fctd.plots.palette import BUCKLED, EDGE, LOOKS, MEASURED
 from fctd.plots.style import LOST
 from fctd.results.series import Series
@@ -16,21 +16,21 @@ from fctd.results.status import SteadyStatus
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-MARKS = 8  # about as many markers on a line
 # Rows that are answers with care, or locked up, have an open marker.
 OPEN: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "white", "markersize": 5.5, "markeredgewidth": 1.2}
 # At the edge of an axis: loads beyond it, and at its left edge rows that no push moves.
 CUT: dict[str, Any] = {"linestyle": "none", "markersize": 8, "clip_on": False, "markerfacecolor": "white", "zorder": 4}
 STUCK: dict[str, Any] = {"marker": "<", "linestyle": "none", "markersize": 8, "clip_on": False, "zorder": 4}
 BAND: dict[str, Any] = {"alpha": 0.3, "linewidth": 0.8}
-# Below the line of a buckled string: a band with edges.
+# Below the line of a buckled string: a band with edges and a white core, on which a light curve is seen in grey.
 BELOW: dict[str, Any] = {"marker": "o", "markeredgewidth": 0, "solid_capstyle": "round"}
-BELOW_WIDTHS = (9.0, 7.4)
+BELOW_WIDTHS = (10.0, 8.4, 3.6)
 # Measured points and their ranges.
 MEASURED_LOOK: dict[str, Any] = {
     "linestyle": "none", "markersize": 7.5, "markerfacecolor": MEASURED, "markeredgecolor": "black",
     "markeredgewidth": 1.2, "zorder": 5,
 }  # fmt: skip
+RANGE_ALONE: dict[str, Any] = MEASURED_LOOK | {"markerfacecolor": "white", "markersize": 5}
 RANGE: dict[str, Any] = {"fmt": "none", "ecolor": "black", "elinewidth": 1.6, "capsize": 3.5, "zorder": 4.8}
 
 
@@ -100,10 +100,11 @@ def draw_curve(ax: Axes, series: Series, dash: Any, drawn: Drawn, shapes: tuple[
     for mode, grey in BUCKLED.items():
         at = (rows["buckling"] == mode).to_numpy()
         if at.any():
-            for width, colour_below, order in zip(BELOW_WIDTHS, (EDGE, grey), (1.2, 1.3), strict=True):
+            for width, colour_below, order in zip(BELOW_WIDTHS, (EDGE, grey, "white"), (1.2, 1.3, 1.35), strict=True):
                 look = BELOW | {"linewidth": width, "markersize": width, "color": colour_below, "zorder": order}
                 ax.plot(np.where(at, line, np.nan), depth, **look)
-    ax.plot(line, depth, color=colour, linestyle=dash, marker=marker, markevery=_marked(value), markersize=4.5)
+    spread = np.flatnonzero(marked(value)).tolist()
+    ax.plot(line, depth, color=colour, linestyle=dash, marker=marker, markevery=spread, markersize=4.5)
     status = rows["status"].to_numpy(str)
     care = np.isfinite(value) & (status != SteadyStatus.CONVERGED) & ~cut_low & ~cut_high
     if care.any():
@@ -124,7 +125,7 @@ def draw_curve(ax: Axes, series: Series, dash: Any, drawn: Drawn, shapes: tuple[
 
 
 def draw_measured(ax: Axes, measured: pd.DataFrame, kind: str, drawn: Drawn) -> None:
-    """Draw the measured points of an operation with their ranges; a range without a value is a bar alone."""
+    """Draw the measured points of an operation with their ranges; a range without a value has an empty marker."""
     _, marker = LOOKS[kind]
     rows = measured[measured["operation"] == kind]
     value, low, high = (rows[name].to_numpy(float) * drawn.factor for name in measured_columns(drawn.column))
@@ -137,15 +138,6 @@ def draw_measured(ax: Axes, measured: pd.DataFrame, kind: str, drawn: Drawn) -> 
     if shown.any():
         ax.errorbar(middle[shown], depth[shown], xerr=bars[:, shown], **RANGE)
     known = np.isfinite(value)
-    if known.any():
-        ax.plot(value[known], depth[known], marker=marker, **MEASURED_LOOK)
-
-
-def _marked(value: Array) -> list[int]:
-    """Markers at even intervals of rows, and at every value whose neighbours are missing: no line is drawn there."""
-    known = np.isfinite(value)
-    above, below = np.append(False, known[:-1]), np.append(known[1:], False)
-    alone = known & ~above & ~below
-    spread = np.zeros(len(value), bool)
-    spread[:: max(len(value) // MARKS, 1)] = True
-    return [int(k) for k in np.flatnonzero(alone | spread)]
+    for at, look in ((known, MEASURED_LOOK), (shown & ~known, RANGE_ALONE)):
+        if at.any():
+            ax.plot(middle[at], depth[at], marker=marker, **look)

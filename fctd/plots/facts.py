@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 # Units of pictures for quantities that no table has: SI unit, metric unit, field unit.
 _DENSITY: Final = ("kg/m^3", "kg/m^3", "lb/gal")
 _SPEED: Final = ("m/s", "m/s", "ft/min")
+_PENETRATION: Final = ("m/s", "m/h", "ft/h")  # rate of a bit on bottom
 
 
 def facts_of(
@@ -38,7 +39,7 @@ def facts_of(
         facts += [f"block {_load(case.rig.block_weight, 'block_weight_N', units)}"]
     for kind in kinds:
         speed, rpm = abs(rates[kind].speed), rates[kind].spin / rad_per_s(1.0)
-        parts = [_in(speed, _SPEED, units)] if speed else []
+        parts = [_in(speed, _PENETRATION if KINDS[kind].on_bottom else _SPEED, units, 3)] if speed else []
         parts += [f"{rpm:.3g} rev/min"] if rpm else []
         facts += [f"{KINDS[kind].label} {' and '.join(parts)}"]
     return facts
@@ -85,11 +86,11 @@ def _told(warnings: Sequence[str]) -> list[str]:
     return [f"warning {text}" for text in warnings]
 
 
-def _in(value: float, unit_of: tuple[str, str, str], units: System) -> str:
+def _in(value: float, unit_of: tuple[str, str, str], units: System, digits: int = 4) -> str:
     """An SI value with its unit."""
     si, metric, field = unit_of
     unit = field if units == "field" else metric
-    return f"{value * conversion(si, unit):.4g} {unit}".replace("^3", "³").replace("lb/gal", "ppg")
+    return f"{value * conversion(si, unit):.{digits}g} {unit}".replace("^3", "³").replace("lb/gal", "ppg")
 
 
 def _load(value: float, column: str, units: System) -> str:

@@ -31,6 +31,9 @@ NAMES: Final = {
 }
 TORQUE: Final = "surface_torque_N_m"
 MOST_CURVES = 6  # that can be told apart in one panel
+MARKS = 8  # about as many markers on a line
+# Labels of operations where those of ``KINDS`` do not fit.
+SHORT: Final = {"rotate_off_bottom": "rotating", "drill_rotating": "drilling", "drill_sliding": "sliding"}
 # Axes show pushes up to this share of the span of the other loads.
 BESIDE = 0.25
 AIR = 0.05  # of the span of an axis, beyond the loads
@@ -57,6 +60,14 @@ class ChartLook:
         """The name of the measured points in the legend."""
         ranged = self.measured is not None and self.measured.filter(regex="_(low|high)_").notna().any(axis=None)
         return "measured, with range" if ranged else "measured"
+
+    @property
+    def has_ranges_alone(self) -> bool:
+        """Whether a measured load that the chart shows is a range without a value."""
+        if self.measured is None:
+            return False
+        columns = [measured_columns(column) for column in (LOAD_COLUMNS[self.load], TORQUE)]
+        return any(bool((self.measured[low].notna() & self.measured[value].isna()).any()) for value, low, _ in columns)
 
 
 PLAIN: Final = ChartLook()
@@ -86,6 +97,27 @@ def groups_of(series: list[Series]) -> list[tuple[str, list[Series]]]:
             words = label if len(same) <= MOST_CURVES else f"{label}, μ {part[0].friction} to {part[-1].friction}"
             by_operation.append((words, part))
     return by_operation if len(by_operation) < len(by_friction) else by_friction
+
+
+def names_of(group: Sequence[Series], *, short: bool = False) -> list[str]:
+    """Names of the series of a group by what differs between them."""
+    kinds, frictions = {one.operation for one in group}, {one.friction for one in group}
+    names = []
+    for one in group:
+        kind = SHORT.get(one.operation, KINDS[one.operation].label) if short else KINDS[one.operation].label
+        parts = [kind] if len(kinds) > 1 or len(frictions) == 1 else []
+        names.append(", ".join(parts + ([f"μ {one.friction}"] if len(frictions) > 1 else [])))
+    return names
+
+
+def marked(value: Array) -> NDArray[np.bool_]:
+    """Values with a marker: at even intervals of rows, and those whose neighbours are missing, as no line is there."""
+    known = np.isfinite(value)
+    above, below = np.append(False, known[:-1]), np.append(known[1:], False)
+    spread = np.zeros(len(value), bool)
+    spread[:: max(len(value) // MARKS, 1)] = True
+    at: NDArray[np.bool_] = known & (spread | ~(above | below))
+    return at
 
 
 def push_of(case: Case | None) -> float:
@@ -132,9 +164,12 @@ def limits_of_load(
 def limits_of_torque(chart: pd.DataFrame, units: System, measured: pd.DataFrame | None) -> Limits:
     """Limits of the axis of torques, from 0: noise of the solver and strings that lock up do not set them."""
     locked = _locked(chart)
-    visible = [np.zeros(1), chart.loc[~locked, TORQUE].to_numpy(float), *_measured(measured, TORQUE)]
     least = LEVER * _largest(chart, ["hookload_N", "total_contact_force_N"])
-    return _span(visible, least, shown(TORQUE, units).factor, cut=bool(locked.any()))
+    visible = [np.array([0.0, least]), chart.loc[~locked, TORQUE].to_numpy(float), *_measured(measured, TORQUE)]
+    factor = shown(TORQUE, units).factor
+    limits = _span(visible, least, factor, cut=False)
+    below = bool((chart.loc[locked, TORQUE] * factor < limits.low).any())
+    return _span(visible, least, factor, cut=True) if below else limits
 
 
 def _locked(chart: pd.DataFrame) -> pd.Series[bool]:

@@ -29,6 +29,8 @@ LOOKS_OF: Final = {"rotation": LOOKS["rotate_off_bottom"], "pick_up": LOOKS["tri
 NAMES: Final = {"rotation": "rotating off bottom", "pick_up": "pick-up", "slack_off": "slack-off"}
 MODE_OF: Final[dict[str, Mode]] = {"rotation": "rotating", "pick_up": "pick_up", "slack_off": "slack_off"}
 CURVES: Final[tuple[Any, ...]] = ((0, (1, 1.3)), "-", (0, (5, 2)))
+# Of the baselines, which are told apart without colour too.
+BASELINES: Final[dict[str, Any]] = {"rotation": "-", "pick_up": (0, (7, 2, 1.5, 2)), "slack_off": (0, (3, 1.5))}
 SHOE: Final[dict[str, Any]] = {"color": QUIET, "linewidth": 0.9, "linestyle": (0, (1, 2)), "zorder": 1.1}
 
 
@@ -65,12 +67,12 @@ def monitor_figure(found: Monitored, case: Case, units: System = "si") -> Figure
                     _readings(ax, rows, kind, column, units)
                     _curves(ax, found, rows, kind, column, factors, units)
             ax.set_xlabel(
-                f"{'weight indicator' if column == columns[0] else 'drive torque'} [{shown(column, units).label}]"
+                f"{'weight indicator' if column == columns[0] else 'drive torque'}, {shown(column, units).label}"
             )
         for kind in KINDS:
             _factors(panels[2], known[kinds == kind], kind, depth.factor)
         panels[2].set_xlabel("apparent friction factor")
-        panels[0].set_ylabel(f"bit depth [{depth.label}]")
+        panels[0].set_ylabel(f"bit depth, {depth.label}")
         _depths(panels, known, found.alarms, case, depth.factor)
         return sheet.figure
 
@@ -107,7 +109,7 @@ def _factors(ax: Axes, rows: pd.DataFrame, kind: str, metre: float) -> None:
     middle = rows["friction"].to_numpy(float)
     bars = (middle - rows["friction_low"].to_numpy(float), rows["friction_high"].to_numpy(float) - middle)
     ax.errorbar(middle, at, xerr=bars, fmt=marker, color=colour, markersize=4, elinewidth=0.7, alpha=0.9, zorder=3)
-    ax.plot(rows["friction_baseline"], at, color=colour, linewidth=1.2, zorder=2)
+    ax.plot(rows["friction_baseline"], at, color=colour, linestyle=BASELINES[kind], linewidth=1.4, zorder=3.2)
 
 
 def _depths(panels: Sequence[Axes], known: pd.DataFrame, alarms: Sequence[Alarm], case: Case, metre: float) -> None:
@@ -131,7 +133,12 @@ def _depths(panels: Sequence[Axes], known: pd.DataFrame, alarms: Sequence[Alarm]
 def _handles(kinds: "pd.Series[str]", factors: Sequence[float], alarms: Sequence[Alarm]) -> list[Artist]:
     handles: list[Artist] = [
         Line2D(
-            [], [], color=LOOKS_OF[kind][0], marker=LOOKS_OF[kind][1], linestyle="-", label=f"{NAMES[kind]}, baseline"
+            [],
+            [],
+            color=LOOKS_OF[kind][0],
+            marker=LOOKS_OF[kind][1],
+            linestyle=BASELINES[kind],
+            label=f"{NAMES[kind]}, baseline",
         )
         for kind in KINDS
         if (kinds == kind).any()

@@ -24,14 +24,17 @@ from fctd.plots.loads import (
     PLAIN,
     TORQUE,
     ChartLook,
+    Limits,
     groups_of,
     limits_of_load,
     limits_of_torque,
+    marked,
     measured_columns,
+    names_of,
     spent_at,
 )
 from fctd.plots.palette import BUCKLED, EDGE, LOOKS, MEASURED, QUIET, SHADE
-from fctd.plots.tracks import TRACKS, SideForce, label_of, limits_near, values_of
+from fctd.plots.tracks import TRACKS, SideForce, label_of, limits_near, limits_of_track, values_of
 from fctd.results.columns import COLUMNS, DEPTH
 from fctd.results.series import Series, frictions_of, series_of
 from fctd.results.status import SteadyStatus
@@ -44,6 +47,8 @@ SYMBOLS: Final = {
     "^": "triangle-up", "o": "circle", "v": "triangle-down", "D": "diamond", "s": "square", "P": "cross",
 }  # fmt: skip
 DASHES: Final = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
+SHOE: Final = {"color": QUIET, "dash": "dot", "width": 1}
+CLEAR: Final = "rgba(0,0,0,0)"
 PANEL: Final = 560  # height of a row of panels [px]
 LINE: Final = 18  # height of a line of the heading [px]
 # A page stays on its machine: plotly's own button would upload the chart.
@@ -77,13 +82,17 @@ def chart_page(
         vertical_spacing=min(0.12, 0.3 / len(groups)), subplot_titles=titles if len(groups) > 1 else None,
     )  # fmt: skip
     named: set[str] = set()
+    every = series_of(chart, units)
+    names = {(one.operation, one.friction): name for one, name in zip(every, names_of(every), strict=True)}
     for row, (_, group) in enumerate(groups, start=1):
         for col, (column, limit) in enumerate(zip(columns, limits, strict=True), start=1):
             place = {"row": row, "col": col}
             frictions = frictions_of(group)
-            for one in group:
+            for k, one in enumerate(group):
                 dash = DASHES[frictions.index(one.friction) % len(DASHES)]
-                for trace in _curve(one, column, dash, units, limit.low, named):
+                # Beside the edge of the axis, those of each curve beside those of the others.
+                edge = limit.low + (0.015 + 0.025 * k) * (limit.high - limit.low)
+                for trace in _curve(one, names[one.operation, one.friction], column, dash, units, limit, edge, named):
                     figure.add_trace(trace, **place)
             if measured is not None:
                 # A trace without points would take the name in the legend, and plotly does not show it.
@@ -96,7 +105,7 @@ def chart_page(
                 if chart["bit_depth_m"].min() <= shoe <= chart["bit_depth_m"].max():
                     at = shoe * shown(DEPTH.name, units).factor
                     words = {"annotation_text": f"shoe {at:.0f} {shown(DEPTH.name, units).label}"} if col == 2 else {}
-                    figure.add_hline(at, line={"color": QUIET, "dash": "dot", "width": 1}, **words, **place)
+                    figure.add_hline(at, line=SHOE, **words, **place)
         if limits[0].cut:
             spent = spent_at(case, load) * shown(columns[0], units).factor
             figure.add_vrect(
@@ -117,6 +126,8 @@ def profile_page(
     """The profiles of ``profile_figure`` as a page, with the same arguments."""
     answers = [point for point in points if point.answered]
     figure = make_subplots(rows=1, cols=len(TRACKS), shared_yaxes=True, horizontal_spacing=0.012)
+    near = limits_near(answers, units) if answers else {}
+    named: set[str] = set()
     for col, column in enumerate(TRACKS, start=1):
         place = {"row": 1, "col": col}
         name, unit = label_of(column, units, force)
@@ -127,7 +138,11 @@ def profile_page(
             if COLUMNS[column].across and point is answers[0]:
                 clearance = point.profile["clearance_m"].to_numpy(float) * shown(column, units).factor
                 for side in (-clearance, clearance):
-                    figure.add_trace(_line(side, md, "clearance", EDGE, "dot", legend=False), **place)
+                    legend = _new("clearance", named)
+                    figure.add_trace(_line(side, md, "clearance", EDGE, "solid", legend=legend), **place)
+            if column == "effective_tension_N":
+                for trace in _buckled(value, md, point.profile["buckling"], named):
+                    figure.add_trace(trace, **place)
             figure.add_trace(
                 go.Scatter(
                     x=value, y=md, name=label, legendgroup=label, showlegend=col == 1,
@@ -136,38 +151,58 @@ def profile_page(
                 ),
                 **place,
             )  # fmt: skip
-            figure.add_trace(_buckled(value, md, point.profile["buckling"]), **place)
-        if column == "effective_tension_N" and answers:
-            for mode, (md, limit) in limits_near(answers, units).items():
+        if column == "effective_tension_N":
+            for mode, (md, limit) in near.items():
                 dash = "dash" if mode == "sinusoidal" else "dot"
                 figure.add_trace(_line(limit, md, f"{mode} limit", QUIET, dash, legend=True), **place)
-        figure.update_xaxes(title_text=f"{name},<br>{unit}", title_font_size=11, **place)
+        figure.update_xaxes(title_text=f"{name},<br>{unit}", title_font_size=11, nticks=4, tickangle=0, **place)
+        if answers:
+            figure.update_xaxes(range=limits_of_track(answers, column, units, force, near), **place)
+        for shoe in shoes_of(points[0].case):
+            if shoe < points[0].bit_depth:
+                figure.add_hline(shoe * shown("md_m", units).factor, line=SHOE, **place)
         figure.update_yaxes(autorange="reversed", exponentformat="none", **place)
     figure.update_yaxes(title_text=f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}", row=1, col=1)
     title, lines = heading_of_profile(points, units, warnings)
     return _with_heading(figure, title, lines, PANEL + 100)
 
 
-def _curve(one: Series, column: str, dash: str, units: System, edge: float, named: set[str]) -> Iterator[go.Scatter]:
-    """The line of a series, the marks of its buckled rows, and those of rows without loads."""
+def _curve(
+    one: Series, name: str, column: str, dash: str, units: System, limits: Limits, edge: float, named: set[str]
+) -> Iterator[go.Scatter]:
+    """The line of a series, the marks of its buckled rows, of loads beyond the axis, and of rows without loads.
+
+    edge : where rows without loads stand that lie in no gap of the line.
+    """
     rows, (colour, marker) = one.rows, LOOKS[one.operation]
     factor, unit = shown(column, units)
     depth = rows["bit_depth_m"].to_numpy(float) * shown(DEPTH.name, units).factor
     value = rows[column].to_numpy(float) * factor
-    name = f"{KINDS[one.operation].label}, μ {one.friction}"
     status = rows["status"].to_numpy(str)
     texts = [
         f"{status}; buckling {mode}" + ("" if reason == "none" else f"<br>{_wrapped(reason)}")
         for status, mode, reason in zip(status, rows["buckling"], rows["reason"], strict=True)
     ]
     symbols = [SYMBOLS[marker] + ("" if s == SteadyStatus.CONVERGED else "-open") for s in status]
-    yield _buckled(value, depth, rows["buckling"])
+    yield from _buckled(value, depth, rows["buckling"], named)
+    # The pointer finds every row, with a marker or without; sizes of 0 would make markers of the legend small too.
+    colours = np.where(marked(value) | (status != SteadyStatus.CONVERGED), colour, CLEAR)
     yield go.Scatter(
         x=value, y=depth, name=name, legendgroup=name, showlegend=_new(name, named), mode="lines+markers",
         line={"color": colour, "dash": dash, "width": 2}, text=texts,
-        marker={"symbol": symbols, "size": 8},
+        marker={"symbol": symbols, "size": 8, "color": colours},
         hovertemplate=f"%{{y:.1f}}: %{{x:.4g}} {unit}<br>%{{text}}<extra>{name}</extra>",
     )  # fmt: skip
+    for side, at in (("left", value < limits.low), ("right", value > limits.high)):
+        if at.any():
+            label, end = "beyond the axis", limits.low if side == "left" else limits.high
+            look = {"symbol": f"triangle-{side}", "size": 9, "color": "white", "line": {"color": colour, "width": 1.5}}
+            yield go.Scatter(
+                x=np.full(at.sum(), end), y=depth[at], name=label, legendgroup=label, showlegend=_new(label, named),
+                mode="markers", cliponaxis=False, marker=look, customdata=value[at],
+                text=[texts[k] for k in np.flatnonzero(at)],
+                hovertemplate=f"%{{y:.1f}}: %{{customdata:.4g}} {unit}<br>%{{text}}<extra>{name}</extra>",
+            )  # fmt: skip
     lost = np.isnan(value)
     if lost.any():
         found = np.flatnonzero(~lost)
@@ -180,7 +215,7 @@ def _curve(one: Series, column: str, dash: str, units: System, edge: float, name
         yield go.Scatter(
             x=np.where(stuck, edge, between)[lost], y=depth[lost], name=label, legendgroup=label,
             showlegend=_new(label, named), mode="markers", text=[texts[k] for k in np.flatnonzero(lost)],
-            marker={"symbol": "x-thin", "size": 9, "line": {"color": colour, "width": 2}}, cliponaxis=False,
+            marker={"symbol": "x-thin", "size": 9, "line": {"color": colour, "width": 2}},
             hovertemplate=f"%{{y:.1f}}: %{{text}}<extra>{name}</extra>",
         )  # fmt: skip
 
@@ -202,13 +237,18 @@ def _measured(chosen: ChartLook, kind: str, column: str, units: System, named: s
     )  # fmt: skip
 
 
-def _buckled(value: NDArray[np.float64], depth: NDArray[np.float64], modes: "pd.Series[str]") -> go.Scatter:
-    """Grey discs below the buckled rows of a line."""
-    at = modes.isin(list(BUCKLED)).to_numpy(bool)
-    return go.Scatter(
-        x=value[at], y=depth[at], mode="markers", hoverinfo="skip", showlegend=False,
-        marker={"size": 13, "color": [BUCKLED[mode] for mode in modes[at]], "line": {"color": EDGE, "width": 1}},
-    )  # fmt: skip
+def _buckled(
+    value: NDArray[np.float64], depth: NDArray[np.float64], modes: "pd.Series[str]", named: set[str]
+) -> Iterator[go.Scatter]:
+    """Grey discs below the buckled rows of a line, by mode."""
+    for mode, grey in BUCKLED.items():
+        at = (modes == mode).to_numpy(bool)
+        if at.any():
+            label = f"{mode} buckling"
+            yield go.Scatter(
+                x=value[at], y=depth[at], mode="markers", hoverinfo="skip", name=label, legendgroup=label,
+                showlegend=_new(label, named), marker={"size": 13, "color": grey, "line": {"color": EDGE, "width": 1}},
+            )  # fmt: skip
 
 
 def _line(

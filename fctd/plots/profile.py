@@ -15,9 +15,19 @@ from numpy.typing import NDArray
 
 from fctd.case.operations import KINDS
 from fctd.plots.facts import heading_of_profile, shoes_of
+from fctd.plots.labels import SIZE, width_of
 from fctd.plots.palette import BUCKLED, EDGE, LOOKS, QUIET, SHADE
-from fctd.plots.style import LOST, RC, Sheet
-from fctd.plots.tracks import TRACKS, SideForce, Track, label_of, limits_near, stretches, values_of
+from fctd.plots.style import LOST, POINTS, RC, Sheet
+from fctd.plots.tracks import (
+    TRACKS,
+    SideForce,
+    Track,
+    label_of,
+    limits_near,
+    limits_of_track,
+    stretches,
+    values_of,
+)
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import System, shown
 from fctd.steady.equilibrium import Equilibrium
@@ -25,12 +35,10 @@ from fctd.steady.equilibrium import Equilibrium
 Array = NDArray[np.float64]
 
 LIMITS: Final[dict[str, Any]] = {"sinusoidal": (0, (4, 2)), "helical": (0, (1, 1.2))}
-# Least span of an axis, as a share of the largest tension for forces and times this lever [m] for moments.
-LEAST: Final = {"effective_tension_N": 0.01, "torque_N_m": 2e-3, "bending_moment_N_m": 1e-3}
-LEAST_STRESS = 1e6  # [Pa]
-LEFT, BETWEEN, RIGHT, HEIGHT, BELOW = 0.72, 0.17, 0.15, 5.6, 0.72
-NARROW, WIDE = 0.85, 1.38  # of the first panel and the others [in]
-MARGIN = 0.04  # beside a limit, of the span of an axis
+LEFT, BETWEEN, RIGHT, HEIGHT, BELOW = 0.72, 0.24, 0.15, 5.6, 0.72
+NARROW, WIDE = 0.85, 1.34  # of the first panel and the others [in]
+ROOM = 0.5 * BETWEEN - 0.02  # of labels beside their panel [in]
+TICK_SIZE = 9.0  # of the labels of ticks [pt]
 MARKS = 8  # about as many markers on a line
 SHOE: dict[str, Any] = {"color": QUIET, "linewidth": 0.9, "linestyle": (0, (1, 2)), "zorder": 1.1}
 
@@ -71,10 +79,10 @@ def profile_figure(
                 _track(ax, point, column, units, force, alone=len(answers) == 1)
             for shoe in shoes:
                 ax.axhline(shoe, **SHOE)
-            # Few ticks, so that labels of neighbouring axes do not touch.
             ax.set_xlabel(",\n".join(label_of(column, units, force)), fontsize=8.5)
-            ax.xaxis.set_major_locator(MaxNLocator(3))
-            _scale(ax, column, answers, near, units)
+            if answers:
+                ax.set_xlim(limits_of_track(answers, column, units, force, near))
+            _ticks(ax, NARROW if column == TRACKS[0] else WIDE)
             ax.tick_params(axis="y", labelleft=ax is panels[0])
         tension = panels[TRACKS.index("effective_tension_N")]
         for mode, (md, limit) in near.items():
@@ -90,7 +98,7 @@ def _track(ax: Axes, point: Equilibrium, column: str, units: System, force: Side
     md, value = values_of(point, column, units, force)
     if alone:
         for first, last, mode in stretches(profile):
-            ax.axhspan(md[first], md[last], facecolor=BUCKLED[mode], edgecolor="none", alpha=0.6, zorder=0.1)
+            ax.axhspan(md[first], md[last], facecolor=(BUCKLED[mode], 0.75), edgecolor=EDGE, linewidth=0.6, zorder=0.3)
     if column == "contact_force_N":
         edges = np.concatenate((md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]))
         bars: dict[str, Any] = {"fill": True, "baseline": 0} if alone else {"baseline": None}
@@ -102,36 +110,28 @@ def _track(ax: Axes, point: Equilibrium, column: str, units: System, force: Side
     if COLUMNS[column].across:
         clearance = profile["clearance_m"].to_numpy(float) * shown(column, units).factor
         ax.fill_betweenx(md, -clearance, clearance, color=SHADE, linewidth=0, zorder=0.2)
+        for side in (-clearance, clearance):  # the wall, seen also where the string is buckled
+            ax.plot(side, md, color=EDGE, linewidth=0.6, zorder=0.4)
     if column == "effective_tension_N" and not alone:
         for mode, grey in BUCKLED.items():
             at = (profile["buckling"] == mode).to_numpy()
             if at.any():
-                for thick, tone, order in ((7.5, EDGE, 1.2), (6.0, grey, 1.3)):
+                for thick, tone, order in ((8.0, EDGE, 1.2), (6.8, grey, 1.3), (3.2, "white", 1.35)):
                     band: dict[str, Any] = {"linewidth": thick, "color": tone, "zorder": order}
                     ax.plot(np.where(at, value, np.nan), md, solid_capstyle="round", **band)
     ax.plot(value, md, color=colour, marker=marker, markevery=max(len(md) // MARKS, 1), markersize=4, linewidth=1.2)
 
 
-def _scale(ax: Axes, column: str, answers: Sequence[Equilibrium], near: dict[str, Track], units: System) -> None:
-    """Widen an axis that would show noise of the solver only, and that of tension to the buckling limits near it."""
-    if not answers:
-        return
-    largest = max(float(point.profile["effective_tension_N"].abs().max()) for point in answers)
-    least = LEAST_STRESS if column == "von_mises_Pa" else LEAST.get(column, 0.0) * largest
-    least *= shown(column, units).factor
+def _ticks(ax: Axes, width: float) -> None:
+    """Few ticks, and none whose label would reach those of the next panel; width : of the axes [in]."""
     low, high = ax.get_xlim()
-    if column == "effective_tension_N":
-        limits = [float(np.nanmax(limit.value)) - MARGIN * (high - low) for limit in near.values()]
-        low, high = min(low, 0.0, *limits), max(high, 0.0)
-    if column == "torque_N_m":
-        # A string that slides has the same torque everywhere, on which matplotlib's limits would close in.
-        air = MARGIN * max(high, -low)
-        low, high = min(low, -air), max(high + air, air)
-    if column == "contact_force_N":
-        low = 0.0
-    if high - low < least:
-        low, high = 0.5 * (low + high - least), 0.5 * (low + high + least)
-    ax.set_xlim(low, high)
+    ticks = [float(tick) for tick in MaxNLocator(3).tick_values(low, high) if low <= tick <= high]
+    kept = []
+    for tick, text in zip(ticks, ax.xaxis.get_major_formatter().format_ticks(ticks), strict=True):
+        place, half = (tick - low) / (high - low) * width, 0.5 * width_of(text) * TICK_SIZE / SIZE / POINTS
+        if half - ROOM <= place <= width + ROOM - half:
+            kept.append(tick)
+    ax.set_xticks(kept)
 
 
 def _handles(
@@ -141,12 +141,16 @@ def _handles(
     for point in points:
         name, (colour, marker) = KINDS[point.operation].label, LOOKS[point.operation]
         if not point.answered:
-            handles.append(Line2D([], [], **LOST, label=f"{name}: no answer ({point.status})"))
+            handles.append(Line2D([], [], **LOST, label=f"{name}: no loads ({_words(point.status)})"))
         else:
-            label = name if point.status == "converged" else f"{name} ({point.status})"
+            label = name if point.status == "converged" else f"{name} ({_words(point.status)})"
             handles.append(Line2D([], [], color=colour, marker=marker, markersize=4.5, label=label))
     handles += [Patch(facecolor=BUCKLED[mode], edgecolor=EDGE, label=f"{mode} buckling") for mode in modes]
     handles += [Line2D([], [], color=QUIET, linestyle=LIMITS[mode], label=f"{mode} limit") for mode in near]
     handles += [Patch(facecolor=SHADE, label="clearance")]
     handles += [Line2D([], [], **SHOE, label="casing shoe")] if shoes else []
     return handles
+
+
+def _words(status: str) -> str:
+    return status.replace("_", " ")

@@ -23,6 +23,8 @@ NAMES = {
     "under_resolved": "under-resolved: segments too long",
     "unstable": "unstable",
 }
+# Of rows without loads; the others are those that the solver did not find.
+LOST_NAMES = {"not_possible": "string and hole do not fit at this depth", "unstable": "no steady shape"}
 
 
 def has_states(series: list[Series]) -> bool:
@@ -61,7 +63,7 @@ def state_handles(series: list[Series]) -> list[Artist]:
     """Entries of the legend for the states that occur."""
     modes = {str(mode) for one in series for mode in one.rows["buckling"]}
     loaded = {str(s) for one in series for s in one.rows.loc[one.rows["hookload_N"].notna(), "status"]}
-    lost = {str(s): None for one in series for s in one.rows.loc[one.rows["hookload_N"].isna(), "status"]}
+    lost = {str(s) for one in series for s in one.rows.loc[one.rows["hookload_N"].isna(), "status"]}
     handles: list[Artist] = [
         Patch(facecolor=grey, edgecolor=DARK, linewidth=0.6, label=f"{mode} buckling")
         for mode, grey in BUCKLED.items()
@@ -74,9 +76,9 @@ def state_handles(series: list[Series]) -> list[Artist]:
     ]
     if SteadyStatus.LOCKED_UP in lost:
         handles.append(Patch(facecolor=STUCK, label="no push suffices (locked up)"))
-    lost.pop(SteadyStatus.LOCKED_UP, None)
-    if lost:
-        handles.append(Line2D([], [], **LOST, label=f"no answer: {', '.join(lost)}"))
+    reasons = {LOST_NAMES.get(status, "no equilibrium found") for status in lost - {str(SteadyStatus.LOCKED_UP)}}
+    if reasons:
+        handles.append(Line2D([], [], **LOST, label=f"no loads: {', '.join(sorted(reasons))}"))
     return handles
 
 

@@ -34,6 +34,10 @@ TRACKS: Final = (
 )
 # A buckling limit is shown where it comes as near to the loads as this share of their span.
 NEAR: Final = 0.6
+# Least span of an axis, as a share of the largest tension for forces and times this lever [m] for moments.
+LEAST: Final = {"effective_tension_N": 0.01, "torque_N_m": 2e-3, "bending_moment_N_m": 1e-3}
+LEAST_STRESS: Final = 1e6  # [Pa]
+AIR: Final = 0.05  # of the span of an axis, beyond the values
 MODES: Final = ("sinusoidal", "helical")
 JOINT: Final = 9.144  # [m], the 30 ft to which side forces on tool joints and casing are given
 
@@ -107,3 +111,31 @@ def limits_near(answers: Sequence[Equilibrium], units: System) -> dict[str, Trac
         if np.isfinite(limit).any():
             near[mode] = Track(md, limit)
     return near
+
+
+def limits_of_track(
+    answers: Sequence[Equilibrium], column: str, units: System, force: SideForce, near: dict[str, Track]
+) -> tuple[float, float]:
+    """Ends of the axis of a panel, in its units; near : of ``limits_near``.
+
+    The axes of torque and side force begin at 0, that of tension has 0 and the buckling limits, and no axis is so short
+    that it shows the noise of the solver.
+    """
+    largest = max(float(point.profile["effective_tension_N"].abs().max()) for point in answers)
+    factor = shown(column, units).factor
+    least = (LEAST_STRESS if column == "von_mises_Pa" else LEAST.get(column, 0.0) * largest) * factor
+    values = [values_of(point, column, units, force).value for point in answers]
+    if COLUMNS[column].across:
+        clearance = np.concatenate([point.profile["clearance_m"].to_numpy(float) for point in answers]) * factor
+        values += [-clearance, clearance]
+    if column == "effective_tension_N":
+        values += [np.zeros(1), np.array([np.nanmax(limit.value) for limit in near.values()])]
+    if column == "torque_N_m":
+        values.append(np.array([0.0, least]))
+    if column == "contact_force_N":
+        values.append(np.zeros(1))
+    joined = np.concatenate(values)
+    low, high = float(joined.min()), float(joined.max())
+    lacking = max(least - (high - low), 0.0) / 2
+    air = AIR * max(high - low, least)
+    return 0.0 if column == "contact_force_N" else low - lacking - air, high + lacking + air

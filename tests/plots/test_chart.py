@@ -13,7 +13,7 @@ from matplotlib.text import Annotation
 from fctd import plots
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
-from fctd.plots.chart import MOST_GROUPS
+from fctd.plots.chart import LEADER, MOST_GROUPS
 from fctd.plots.palette import LOOKS
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
@@ -25,6 +25,7 @@ from tests.plots.made import (
     curves,
     labels_of,
     legend_of,
+    lines,
     locked_chart,
     texts_that_overlap,
     well,
@@ -157,7 +158,18 @@ def test_a_series_without_any_answer_is_still_seen() -> None:
         (crosses,) = [line for line in ax.lines if line.get_marker() == "x"]
         assert len(crosses.get_xdata()) == len(DEPTHS)
     assert figure.findobj(Annotation) == []
-    assert "no answer: max_iterations" in legend_of(figure)
+    assert "no loads: no equilibrium found" in legend_of(figure)
+
+
+def test_the_line_to_a_label_far_below_its_curve_is_dotted() -> None:
+    """A solid one would look like loads at the depths that have none."""
+    table = chart(["trip_out", "trip_in"], [0.2])
+    fails = (table["operation"] == "trip_in") & (table["bit_depth_m"] > 1500)
+    table.loc[fails, "status"] = "not_possible"
+    table.loc[fails, ["hookload_N", "surface_torque_N_m"]] = np.nan
+    left = plots.chart_figure(table).axes[0]
+    leaders = {line.get_ydata()[0]: line for line in lines(left, color=LEADER["color"], linewidth=LEADER["linewidth"])}
+    assert {depth: line.is_dashed() for depth, line in leaders.items()} == {1500.0: True, 2000.0: False}
 
 
 def test_one_depth_has_one_tick() -> None:

@@ -1,13 +1,14 @@
 """Curves: rows without loads, rows that are cut, and rows that need care are marked."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 pytest.importorskip("matplotlib")
 
 from fctd import plots
 from fctd.plots.palette import BUCKLED, LOOKS
-from tests.plots.made import chart, curves, lines, locked_chart, well
+from tests.plots.made import chart, curves, legend_of, lines, locked_chart, well
 
 CASE = well(rig={"block_weight": 3e4})
 
@@ -42,7 +43,10 @@ def test_buckled_rows_have_a_band_below_their_line() -> None:
             (band,) = lines(ax, color=grey)
             at = np.isfinite(band.get_xdata())
             np.testing.assert_allclose(band.get_xdata()[at], table.loc[table["buckling"] == mode, column] / 1e3)
-            assert band.get_zorder() < min(line.get_zorder() for line in curves(ax))
+            cores = lines(ax, color="white")  # on which a light curve is seen in grey
+            assert any(np.array_equal(core.get_xdata(), band.get_xdata(), equal_nan=True) for core in cores)
+            assert band.get_zorder() < min(core.get_zorder() for core in cores)
+            assert max(core.get_zorder() for core in cores) < min(line.get_zorder() for line in curves(ax))
     assert not [line for ax in plots.chart_figure(chart(["trip_in"], [0.2])).axes for line in lines(ax, color=grey)]
 
 
@@ -80,6 +84,26 @@ def test_a_band_spans_the_hook_loads_of_both_shapes() -> None:
         assert at.max() == pytest.approx(row["hookload_high_N"] / 1e3 + shift)
         assert len(bars.get_segments()) == 5
         assert not torque.collections
+
+
+def test_a_band_beyond_the_axis_is_not_named() -> None:
+    """Both shapes of a string that is pushed far beyond the axis: no band is seen."""
+    table = locked_chart()
+    table.loc[table["bit_depth_m"] == 1700, ["hookload_low_N", "hookload_high_N"]] = [-5.1e7, -5e7]
+    assert "hook loads of both shapes" not in legend_of(plots.chart_figure(table, "si", CASE))
+    table.loc[table["bit_depth_m"] == 1100, ["hookload_low_N", "hookload_high_N"]] = [8e4, 9e4]
+    assert "hook loads of both shapes" in legend_of(plots.chart_figure(table, "si", CASE))
+
+
+def test_a_measured_range_alone_has_an_empty_marker() -> None:
+    """Its shape names the operation."""
+    loads = {"hookload_N": [np.nan], "hookload_low_N": [3e5], "hookload_high_N": [4e5]}
+    torques = {f"surface_torque{end}_N_m": [np.nan] for end in ("", "_low", "_high")}
+    measured = pd.DataFrame({"operation": ["trip_out"], "bit_depth_m": [1500.0]} | loads | torques)
+    figure = plots.chart_figure(chart(["trip_out"], [0.2]), look=plots.ChartLook(measured=measured))
+    (mark,) = lines(figure.axes[0], markerfacecolor="white", marker=LOOKS["trip_out"][1])
+    assert (list(mark.get_xdata()), list(mark.get_ydata())) == ([350.0], [1500.0])
+    assert "measured range without a value" in legend_of(figure)
 
 
 def test_a_lone_answer_carries_a_marker() -> None:

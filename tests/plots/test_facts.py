@@ -14,11 +14,11 @@ def test_facts_in_both_unit_systems() -> None:
     rates = {"drill_rotating": SteadyRates(0.003, 4 * np.pi), "trip_out": SteadyRates(-0.5, 0.0)}
     assert facts_of(CASE, list(rates), "si", rates) == [
         "mud 1200 kg/m³", "weight on bit 80 kN", "bit torque 4 kN·m", "block 30 kN",
-        "drilling, rotating 0.003 m/s and 120 rev/min", "picking up 0.5 m/s",
+        "drilling, rotating 10.8 m/h and 120 rev/min", "picking up 0.5 m/s",
     ]  # fmt: skip
     field = facts_of(CASE, list(rates), "field", rates)
     assert field[:2] == ["mud 10.01 ppg", "weight on bit 18 klbf"]
-    assert field[-1] == "picking up 98.43 ft/min"
+    assert field[-2:] == ["drilling, rotating 35.4 ft/h and 120 rev/min", "picking up 98.4 ft/min"]
 
 
 def test_loads_at_the_bit_are_those_of_drilling() -> None:

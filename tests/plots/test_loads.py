@@ -38,6 +38,7 @@ def test_rounding_noise_is_drawn_as_zero() -> None:
     limits = limits_of_torque(table, "si", None)
     least = LEVER * table["hookload_N"].max() / 1e3
     assert limits.high - limits.low == pytest.approx(1.1 * least, rel=0.01)
+    assert limits.low == pytest.approx(-0.05 * least, rel=0.1)  # the axis begins at 0
     table["surface_torque_N_m"] += 4000.0  # of a motor: the axis still begins at 0
     limits = limits_of_torque(table, "si", None)
     assert limits.low < 0 < 4 < limits.high
@@ -51,6 +52,16 @@ def test_pushes_do_not_set_the_limits() -> None:
     assert limits.low == pytest.approx(-30 - BESIDE * 150)
     assert limits.high > 120
     assert limits_of_torque(table, "si", None).high < 1.0
+
+
+def test_the_axis_of_torque_goes_below_0_where_a_locked_string_does() -> None:
+    """A helix turns a string backwards; without such a torque the axis begins at 0."""
+    table = locked_chart()
+    limits = limits_of_torque(table, "si", None)
+    assert limits.low == pytest.approx(-0.05 / 1.1 * (limits.high - limits.low))
+    table.loc[table["bit_depth_m"] == 1500, "surface_torque_N_m"] = -100.0
+    limits = limits_of_torque(table, "si", None)
+    assert limits.low == pytest.approx(-BESIDE / (1.05 + BESIDE) * (limits.high - limits.low))
 
 
 @pytest.mark.parametrize("loads", [True, False])

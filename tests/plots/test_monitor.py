@@ -19,7 +19,7 @@ def test_panels_curves_bands_and_alarms() -> None:
     figure = monitor_figure(found, well(), "field")
     hook, torque, factor = figure.axes
     assert [ax.get_xlabel() for ax in figure.axes] == [
-        "weight indicator [klbf]", "drive torque [kft·lbf]", "apparent friction factor",
+        "weight indicator, klbf", "drive torque, kft·lbf", "apparent friction factor",
     ]  # fmt: skip
     assert hook.yaxis_inverted()
     assert (len(hook.lines), len(torque.lines)) == (2 * 4, 4)  # readings and three curves of each kind

@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,8 +12,9 @@ pytest.importorskip("plotly")
 
 from fctd import plots
 from fctd.case.operations import KINDS
+from fctd.plots.palette import LOOKS
 from fctd.plots.tracks import TRACKS
-from tests.plots.made import chart, locked_chart, points, well
+from tests.plots.made import DEPTHS, chart, locked_chart, points, well
 
 CASE = well(rig={"block_weight": 3e4}).model_copy(update={"name": "<b>$x$"})
 
@@ -35,7 +37,8 @@ def test_a_curve_has_the_values_and_reasons_of_its_rows() -> None:
     table = chart(["trip_in", "trip_out"], [0.2], {"diverged": "trip_in"})
     table.loc[table["status"] == "diverged", "reason"] = "deep in the wall <script>"
     figure = plots.chart_page(table, "si", CASE)
-    (left, _) = (trace for trace in figure.data if trace.name == "slacking off, μ 0.2")
+    # Both curves have the factor 0.2, which the title names.
+    (left, _) = (trace for trace in figure.data if trace.name == "slacking off")
     rows = table[table["operation"] == "trip_in"]
     np.testing.assert_allclose(left.x, rows["hookload_N"] / 1e3)
     np.testing.assert_allclose(left.y, rows["bit_depth_m"])
@@ -59,7 +62,25 @@ def test_pushes_do_not_set_the_axis_of_a_page() -> None:
     assert -100 < low < -30 < 120 < high
     assert "slack-off is spent" in {note.text for note in figure.layout.annotations}
     lost = next(trace for trace in figure.data if trace.name == "no loads")
-    assert set(lost.x) == {low}
+    assert low < min(lost.x) == max(lost.x) < low + 0.05 * (high - low)
+    cut = next(trace for trace in figure.data if trace.name == "beyond the axis")
+    assert (set(cut.x), list(cut.y), set(cut.customdata)) == ({low}, [1650.0, 1700.0, 1750.0], {-5e4})
+    assert {"sinusoidal buckling", "helical buckling"} <= {trace.name for trace in figure.data if trace.showlegend}
+
+
+def test_every_row_is_a_point_and_few_have_markers() -> None:
+    table = chart(["trip_in"], [0.2], {"under_resolved": "trip_in"})
+    (line, _) = (trace for trace in chart_page_lines(table))
+    assert len(line.x) == len(DEPTHS)
+    flagged = table["status"] == "under_resolved"
+    seen = np.array(line.marker.color) == LOOKS["trip_in"][0]
+    assert seen[flagged].all()
+    assert {*seen[~flagged]} == {True, False}
+
+
+def chart_page_lines(table: pd.DataFrame) -> list[Any]:
+    """The curves of a page, in both panels."""
+    return [trace for trace in plots.chart_page(table).data if trace.mode == "lines+markers"]
 
 
 def test_measured_points_have_their_ranges() -> None:
@@ -76,16 +97,22 @@ def test_measured_points_have_their_ranges() -> None:
     assert (list(point.x), list(point.error_x.array), list(point.error_x.arrayminus)) == ([300.0], [200.0], [100.0])
 
 
-def test_rows_without_loads_above_the_first_answer_stand_on_the_edge() -> None:
-    table = chart(["trip_in"], [0.2], {"diverged": "trip_in"})
+def test_rows_without_loads_above_the_first_answer_stand_beside_the_edge() -> None:
+    """In the axes, clear of the depths, and those of each curve beside those of the other."""
+    table = chart(["trip_in", "trip_out"], [0.2], {"diverged": "trip_in", "max_iterations": "trip_out"})
     figure = plots.chart_page(table)
-    lost = next(trace for trace in figure.data if trace.name == "no loads")
-    assert set(lost.x) == {next(iter(figure.select_xaxes())).range[0]}
+    low, high = next(iter(figure.select_xaxes())).range
+    first, second = ({*trace.x} for trace in figure.data if trace.name == "no loads" and trace.xaxis == "x")
+    assert low < min(first) == max(first) < min(second) == max(second) < low + 0.05 * (high - low)
 
 
 def test_a_profile_has_a_panel_for_every_quantity() -> None:
     figure = plots.profile_page(points(), "si", warnings=["a warning"])
     assert len(list(figure.select_xaxes())) == len(TRACKS)
+    torque = list(figure.select_xaxes())[TRACKS.index("torque_N_m")]
+    assert torque.range[0] <= 0
+    assert torque.range[1] > 0.1
     drawn = {trace.name for trace in figure.data if trace.showlegend}
+    assert "clearance" in drawn
     assert {KINDS[point.operation].label for point in points() if point.answered} <= drawn
     assert "a warning" in figure.layout.title.text

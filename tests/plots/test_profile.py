@@ -1,12 +1,15 @@
 """The profile: it draws the string in the units of its axes, and no text covers another."""
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from fctd import plots
 from fctd.plots.palette import BUCKLED
@@ -75,8 +78,23 @@ def test_an_axis_does_not_show_the_noise_of_the_solver() -> None:
 def test_a_string_without_a_balance_is_only_named() -> None:
     point = replace(of("drill_sliding"), status=SteadyStatus.LOCKED_UP).without_loads()
     figure = plots.profile_figure([point])
-    assert "drilling, sliding: no answer (locked_up)" in legend_of(figure)
+    assert "drilling, sliding: no loads (locked up)" in legend_of(figure)
     assert texts_that_overlap(figure) == []
+
+
+@pytest.mark.parametrize("kind", ["trip_in", "drill_sliding"])
+def test_labels_of_ticks_stay_beside_their_panel(kind: str) -> None:
+    """Half way to the next panel, where the labels of that one begin."""
+    figure = plots.profile_figure([of(kind)])
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    figure.draw_without_rendering()
+    for one, other in pairwise(figure.axes):
+        middle = 0.5 * (one.bbox.x1 + other.bbox.x0)
+        right = [tick.label1.get_window_extent(renderer).x1 for tick in one.xaxis.get_major_ticks()]
+        left = [tick.label1.get_window_extent(renderer).x0 for tick in other.xaxis.get_major_ticks()]
+        assert right
+        assert left
+        assert max(right) < middle < min(left)
 
 
 @pytest.mark.parametrize(("units", "force"), [("si", "length"), pytest.param("field", "joint", marks=pytest.mark.slow)])
