@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, PrivateAttr, StrictBool, ValidationInfo, field_validator, model_validator
 
 from fctd.case import units
+from fctd.case.drilling import DriveSpec, RockSpec
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys import doubts
@@ -303,6 +304,9 @@ class RigSpec(Table):
     grows with the rotation [N*m for each rev/min].  Friction in the guides acts against the block's motion: it adds to
     the weight indicator while the block is hoisted.  Friction in the sheaves divides the weight indicator by
     `sheave_efficiency` while the block is lowered, and multiplies it by `sheave_efficiency` while the block is hoisted.
+
+    In a run in time a "stiff" `drive` turns the top as planned whatever the torque; "speed_control" and "impedance" are
+    motors with inertia and a controller, whose settings are in `control`.
     """
 
     block_weight: units.Force = 0.0
@@ -310,6 +314,8 @@ class RigSpec(Table):
     sheave_efficiency: units.Efficiency = 1.0
     torque_offset: units.Torque = 0.0
     torque_per_rpm: units.Torque = 0.0
+    drive: Literal["stiff", "speed_control", "impedance"] = "stiff"
+    control: DriveSpec = DriveSpec()
 
     @property
     def push(self) -> float:
@@ -318,10 +324,11 @@ class RigSpec(Table):
 
 
 class BitSpec(Table):
-    """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]."""
+    """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]. A run in time that drills needs `rock`."""
 
     weight_on_bit: units.Force = 0.0
     torque: units.PositiveOrZeroTorque = 0.0
+    rock: RockSpec | None = Field(default=None, description="a table [bit.rock]")
 
 
 class ContactSpec(Table):

@@ -8,11 +8,13 @@ each of these impulses by the velocity after it, with which the body then moves.
 
 from typing import Any
 
+from fctd.mechanics.bit import drill, press_bit
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.friction import Law, approach, normal_impulse, wall_normal
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.laws import LAWS, chain
+from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import (
     ARM_CONTACT,
@@ -290,11 +292,15 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     # 1: loads of the joints and of the top drive at the present positions.
     update_joint_loads(S, packed, laws.joint_damping, dt)
     feed, rate = drive_top(S, top, motion, pipe, dt)
+    if laws.rock.law != NO_ROCK:
+        press_bit(S, top, n, laws.rock, motion, dt)
     # 2 and 3: the piece of hole that owns each contact point, and the point's distance from its axis and wall.
     find_walls(S, owner, n, packed, C, laws.geometry)
     # 4: impulses of the wall, normal and friction, and those of springs, weight and mud.
     update_velocities(S, packed, laws, dt)
-    # 5: motion of the bodies and of the top drive.
+    # 5: motion of the bodies, of the bit in the rock, and of the top drive.
+    if laws.rock.law != NO_ROCK:
+        drill(S, top, n, laws.rock, dt)
     move_bodies(S, packed, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)
 

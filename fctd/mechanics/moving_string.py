@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.contact import update_walls
+from fctd.mechanics.drive import STIFF, Drive
 from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.faults import check
 from fctd.mechanics.state import Laws
@@ -28,7 +29,7 @@ class Sums(NamedTuple):
     """Loads summed over time, of every segment (n,) and at the top drive.
 
     normal [N s], friction_torque, r_mu_normal, mud_torque [N m s], tension [N s], torque [N m s];
-    hookload [N s], top_torque [N m s].
+    hookload [N s], top_torque [N m s], top_turn [rad]; of the bit weight [N s], torque [N m s], turn [rad].
     """
 
     normal: Array
@@ -39,6 +40,10 @@ class Sums(NamedTuple):
     torque: Array
     hookload: float
     top_torque: float
+    top_turn: float
+    bit_weight: float
+    bit_torque: float
+    bit_turn: float
 
     def over(self, span: float) -> "Sums":
         """The means over a time span [s]: N and N m."""
@@ -50,6 +55,11 @@ SUM_ROWS = (
     state.SUM_NORMAL, state.SUM_FRICTION_TORQUE, state.SUM_R_MU_N,
     state.SUM_MUD_TORQUE, state.SUM_TENSION, state.SUM_TORQUE,
 )  # fmt: skip
+# Numbers of the top drive's array in the order of ``Sums``.
+SUMS_AT_THE_ENDS = [
+    topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE, topdrive.SUM_TOP_TURN,
+    topdrive.SUM_BIT_WEIGHT, topdrive.SUM_BIT_TORQUE, topdrive.SUM_BIT_TURN,
+]  # fmt: skip
 
 
 @dataclass(kw_only=True)
@@ -57,7 +67,7 @@ class MovingString:
     """A string in motion: the buffers that a step changes, and the pipe, laws, wall and step length that it uses.
 
     S, top, owner : state buffers (state.py, topdrive.py, contact.py); pipe : fed in at the top; step : the
-    longest step [s]; steps : number of steps taken; at_once : most segment steps in one compiled call.
+    longest step [s]; drive : of the rig; steps : number of steps taken; at_once : most segment steps in one call.
     """
 
     S: Array
@@ -68,6 +78,7 @@ class MovingString:
     laws: Laws
     wall: "Wall"
     step: float
+    drive: Drive = STIFF
     steps: int = 0
     at_once: int = AT_ONCE
 
@@ -99,24 +110,25 @@ class MovingString:
         check(self.S, self.segments)
 
     def energy(self) -> Energy:
-        """Energy of the string [J], after ``refresh``."""
-        return energy_of(self.S, self.segments)
+        """Energy of the string and of the drive's inertia [J], after ``refresh``."""
+        energy = energy_of(self.S, self.segments)
+        return energy._replace(
+            kinetic=energy.kinetic + 0.5 * self.drive.inertia * float(self.top[topdrive.TOP_RATE]) ** 2
+        )
 
     def drain(self) -> Sums:
         """Return the sums of loads since the last call or ``clear``, and set them to zero."""
         rows = [state.row(self.S, offset, self.segments) for offset in SUM_ROWS]
-        at_top = [topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]
-        sums = Sums._make([*(row.copy() for row in rows), *map(float, self.top[at_top])])
+        sums = Sums._make([*(row.copy() for row in rows), *map(float, self.top[SUMS_AT_THE_ENDS])])
         for row in rows:
             row[:] = 0.0
-        self.top[at_top] = 0.0
+        self.top[SUMS_AT_THE_ENDS] = 0.0
         return sums
 
     def clear(self) -> None:
         """Set sums, losses, the top drive's work, the energy of fed pipe and the count of steps to zero."""
         self.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
-        top = topdrive
-        self.top[[top.SUM_HOOKLOAD, top.SUM_TOP_TORQUE, top.TOP_WORK, top.FED_ENERGY]] = 0.0
+        self.top[[*SUMS_AT_THE_ENDS, topdrive.TOP_WORK, topdrive.FED_ENERGY, topdrive.LOST_BIT]] = 0.0
         self.steps = 0
 
 

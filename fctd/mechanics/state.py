@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.mechanics.jit import inlined
+from fctd.mechanics.rock import NOTHING, Rock
 
 MAX_SEGMENTS = 10_000
 # Columns handled at once: a cache line, and a multiple of every vector width in use.
@@ -87,7 +88,7 @@ class Laws(NamedTuple):
     geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : a law's code of ``laws.CODES``.
     friction_scale : multiplies every friction factor (0 while the string settles).
     contact_damping : wall damping [N s/m].  joint_damping : stiffness-proportional damping time [s].
-    settling : artificial mass-proportional damping rate [1/s], 0 in a run.
+    settling : artificial mass-proportional damping rate [1/s], 0 in a run.  rock : under the bit.
     """
 
     geometry: int
@@ -96,6 +97,7 @@ class Laws(NamedTuple):
     contact_damping: float
     joint_damping: float
     settling: float
+    rock: Rock = NOTHING
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

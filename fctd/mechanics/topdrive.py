@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+from fctd.mechanics.drive import STIFF, Drive, turn
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import hinge_gap, joint_loads, strain_energy
 from fctd.mechanics.rotations import half_twist, turned
@@ -52,7 +53,8 @@ GRAVITY = 9.80665
 class Motion(NamedTuple):
     """Feed and rotation of the top drive during one part of a run; a ramp when the ends differ.
 
-    start, duration [s]; feed speed downwards [m/s] and rotation speed [rad/s] at both ends.
+    start, duration [s]; feed speed downwards [m/s] and rotation speed [rad/s] at both ends; drive : how the top follows
+    the rotation; bit_from, bit_to : share of the given weight and torque on the bit at both ends.
     """
 
     start: float
@@ -61,6 +63,9 @@ class Motion(NamedTuple):
     feed_to: float
     spin_from: float
     spin_to: float
+    drive: Drive = STIFF
+    bit_from: float = 0.0
+    bit_to: float = 0.0
 
 
 class PerMetre(NamedTuple):
@@ -84,9 +89,15 @@ class PerMetre(NamedTuple):
 
 # Top drive's own numbers, shape (TOP_SIZE,): length of the long segment [m] (0: none), simulated time [s];
 # sums since the last record of hook load [N s] and torque [N m s]; work done by the top drive and energy
-# brought in by fed pipe since the start [J].
+# brought in by fed pipe since the start [J]; rotation of a drive that is not stiff [rad/s], its angle behind the plan
+# [rad], sum since the last record of the top's turns [rad].
 TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(6)
-TOP_SIZE = 6
+TOP_RATE, TOP_BEHIND, SUM_TOP_TURN = range(6, 9)
+# In the same array the numbers of the bit (bit.py): how far it is pressed into the rock, below 0 off bottom [m]; hole
+# made since the start [m]; sums since the last record of weight on bit [N s], bit torque [N m s] and turns of the
+# bit [rad]; energy that it gave to the rock since the start [J]; weight on it [N] and torque on it [N m] in this step.
+PRESSED, HOLE_MADE, SUM_BIT_WEIGHT, SUM_BIT_TORQUE, SUM_BIT_TURN, LOST_BIT, BIT_WEIGHT, BIT_TORQUE = range(9, 17)
+TOP_SIZE = 17
 
 
 @inlined
@@ -157,6 +168,24 @@ def planned_speeds(top, motion, dt):
 
 
 @inlined
+def top_torque(S):
+    """Torque with which the top turns joint 1 [N m]."""
+    ax, ay, az = axis(S, 0)
+    return -(S[UX + 1] * ax + S[UY + 1] * ay + S[UZ + 1] * az)
+
+
+@inlined
+def turn_top(S, top, pipe, drive, planned, dt):
+    """Rotation of the top after this step [rad/s] by a drive that is not stiff; adds the work of its inertia."""
+    before = top[TOP_RATE]
+    load = top_torque(S) + 0.5 * pipe.mud_spin * top[TOP_LENGTH] * before
+    rate, behind, torque = turn(drive, planned, before, top[TOP_BEHIND], load, dt)
+    top[TOP_RATE], top[TOP_BEHIND] = rate, behind
+    top[TOP_WORK] += dt * rate * (torque - load)
+    return rate
+
+
+@inlined
 def read_top_drive(S, top, pipe, fed, turned_by, dt):
     """Update the sums of hook load and torque, work and fed energy, given the loads of joint 1.
 
@@ -164,13 +193,14 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
     """
     ax, ay, az = axis(S, 0)
     fx, fy, fz = joint_force(S, 1)
+    top[SUM_TOP_TURN] += turned_by
     # Half of the long segment is lumped at its lower end.  The other half hangs on the top drive and moves with it;
     # it contributes impulses of the mud's drag [N s] and torque [N m s].
     tension = -(fx * ax + fy * ay + fz * az)
     half = 0.5 * top[TOP_LENGTH]
     hanging = tension + pipe.weight * half
     drag, mud_torque = pipe.mud_axial * half * fed, pipe.mud_spin * half * turned_by
-    torque = -(S[UX + 1] * ax + S[UY + 1] * ay + S[UZ + 1] * az)
+    torque = top_torque(S)
     top[SUM_HOOKLOAD] += dt * hanging - drag
     top[SUM_TOP_TORQUE] += dt * torque + mud_torque
     S[SUM_MUD_TORQUE + 1] += mud_torque
@@ -203,6 +233,8 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
 def drive_top(S, top, motion, pipe, dt):
     """Update the top drive's readings over this step, given joint loads; returns feed [m/s] and rotation [rad/s]."""
     feed, rate = planned_speeds(top, motion, dt)
+    if not motion.drive.held:
+        rate = turn_top(S, top, pipe, motion.drive, rate, dt)
     read_top_drive(S, top, pipe, dt * feed, dt * rate, dt)
     return feed, rate
 

@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.mechanics import state
+from fctd.mechanics.bit import drill, press_bit
 from fctd.mechanics.contact import contact_point, store_wall
 from fctd.mechanics.dynamics import move_bodies, padded_columns, update_axes, update_velocities
 from fctd.mechanics.jit import entry
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.moving_string import MovingString
+from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.state import Laws
 from fctd.mechanics.topdrive import Motion, drive_top, move_top_drive
 from fctd.model.wellbore import FRICTION, RADIUS, STIFFNESS, TO_MD, Contacts, Wellbore
@@ -73,6 +75,8 @@ def _before(S, top, n, laws, motion, pipe, dt, points):
     """Stage 1 of ``dynamics.step``, and the points (n, 3) to query; returns feed [m/s] and rotation [rad/s]."""
     update_joint_loads(S, padded_columns(n), laws.joint_damping, dt)
     feed, rate = drive_top(S, top, motion, pipe, dt)
+    if laws.rock.law != NO_ROCK:
+        press_bit(S, top, n, laws.rock, motion, dt)
     _points(S, n, points)
     return feed, rate
 
@@ -83,6 +87,8 @@ def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md
     packed = padded_columns(n)
     _store(S, n, radii, penetration, normal, md, wall)
     update_velocities(S, packed, laws, dt)
+    if laws.rock.law != NO_ROCK:
+        drill(S, top, n, laws.rock, dt)
     move_bodies(S, packed, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)
 

@@ -14,7 +14,8 @@ from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.moving_string import Sums
 from fctd.mechanics.query import Walls
-from fctd.model.operations import drive_torque, weight_indicator
+from fctd.mechanics.rock import NO_ROCK
+from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
 from fctd.results import ledger
 from fctd.results.buckling import NOT_BUCKLED, Buckling, buckling_along, pipe_of
 from fctd.results.notes import Note, string_notes, under_resolved
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+RPM = rad_per_s(1.0)
 SAME_DEPTH = 1e-3  # [m]: the schedule reaches its depths to the rounding of a step
 
 
@@ -94,6 +96,8 @@ class Recorder:
                 "total_contact_force_N": float(mean.normal.sum()),
                 "contact_count": int((penetration(self.run.S, self.run.segments) > 0).sum()),
                 **buckling.columns(),
+                "top_rpm": mean.top_turn / RPM,
+                **self._bit(),
             }
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
@@ -130,6 +134,17 @@ class Recorder:
         return SimulationResult(
             run.case, status, message, history, profile, energy, numbers, notes, run.case.warnings
         )  # fmt: skip
+
+    def _bit(self) -> dict[str, float]:
+        """Loads and rotation of a bit on rock, means over the last interval, and the hole that it has made."""
+        if self.run.laws.rock.law == NO_ROCK:
+            return {}
+        return {
+            "weight_on_bit_N": self.mean.bit_weight,
+            "bit_torque_N_m": self.mean.bit_torque,
+            "bit_rpm": self.mean.bit_turn / RPM,
+            "hole_made_m": float(self.run.top[topdrive.HOLE_MADE]),
+        }
 
     def _bit_md(self) -> float:
         """Measured depth of the bit [m]."""

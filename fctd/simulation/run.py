@@ -13,9 +13,11 @@ from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
+from fctd.mechanics.rock import NO_ROCK, NOTHING, Rock
 from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.mechanics.topdrive import PerMetre
+from fctd.model.drilling import above_bottom, drive_of, rock_of
 from fctd.model.drillstring import String, check_fit, fill, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.wellbore import Wellbore, build_wellbore
@@ -92,8 +94,9 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
         contact_damping=case.contact.damping,
         joint_damping=case.solver.joint_damping,
         settling=0.0,
+        rock=rock_of(case),
     )
-    limit = _step_limit(S, case, string, hole, pipe, shallowest - first)
+    limit = _step_limit(S, case, string, hole, pipe, shallowest - first, laws.rock)
     wanted = case.solver.step
     step = SHARES[wanted] * limit if isinstance(wanted, str) else wanted
     if step > limit * (1 + 1e-9):
@@ -101,12 +104,16 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
             f"'auto', 'largest' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
         )
     _check_cost(case, n, step, sum(s.motion.duration for s in phases))
+    shortest = string.length[0] + shallowest - first
+    spring = pipe.GJ / shortest if string.long_segment else float(S[state.K_TWIST + 1])
+    drive = drive_of(case, string, spring, step)
+    phases = [Phase(motion._replace(drive=drive), operation) for motion, operation in phases]
     # A walk from the top would stop at the first slab that contains a point; past 90° that may be a distant piece.
     owner = np.zeros(n + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
     run = Run(
         case=case, hole=hole, string=string, pipe=pipe, S=S, top=top, owner=owner, segments=n, step=step, laws=laws,
-        wall=own_wall(case, hole),
+        wall=own_wall(case, hole), drive=drive,
     )  # fmt: skip
     return run, phases
 
@@ -137,17 +144,12 @@ def _check_cost(case: Case, segments: int, step: float, duration: float) -> None
 
 
 def _check_dynamic(case: Case) -> None:
-    """Raise InputError for what only the steady solver supports: a bit on bottom, a bent housing, a helix's force."""
+    """Raise InputError for what only the steady solver supports: a bent housing, a helix's force."""
     steady = "(fctd equilibrium and fctd chart support it)"
     if case.contact.helical_force != "none":
         raise InputError(
             f'"none" in a simulation {steady}', key="contact.helical_force", value=case.contact.helical_force
         )
-    for i, operation in enumerate(case.operations):
-        if operation.on_bottom:
-            raise InputError(
-                f"an operation off bottom in a simulation {steady}", key=f"operations[{i}].kind", value=operation.kind
-            )
     for i, component in enumerate(case.string.components):
         if component.bend:
             raise InputError(
@@ -155,7 +157,9 @@ def _check_dynamic(case: Case) -> None:
             )
 
 
-def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float) -> float:
+def _step_limit(
+    S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float, rock: Rock
+) -> float:
     """Largest stable step of the run [s]; the top segment is stiffest where it is shortest.
 
     shrinks [m] : change of the top segment's length to its shortest.  Raises InputError where masses and stiffnesses
@@ -168,7 +172,7 @@ def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerM
     wall = hole.stiffest_wall if case.contact.enabled else 0.0
     try:
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            frequency = stiffest_mode(probe, string.segments, wall)
+            frequency = stiffest_mode(probe, string.segments, wall, rock.stiffness)
     except np.linalg.LinAlgError:
         frequency = np.inf
     if not 0 < frequency < np.inf:
@@ -283,7 +287,7 @@ def relaxing(run: Run) -> tuple[state.Laws, float]:
     """The laws with which a string settles, and its weight [N]."""
     weight = float((run.string.of("weight") * run.string.length).sum())
     rate = 12 * np.sqrt(topdrive.GRAVITY / float(run.string.length.sum()))
-    return run.laws._replace(friction_scale=0.0, settling=rate), weight
+    return run.laws._replace(friction_scale=0.0, settling=rate, rock=NOTHING), weight
 
 
 def _three(run: Run, rows: tuple[int, int, int]) -> Array:
@@ -297,4 +301,6 @@ def start_from_rest(run: Run) -> None:
         state.row(run.S, offset, run.segments)[:] = 0.0
     run.clear()
     run.top[topdrive.TOP_TIME] = 0.0
+    if run.laws.rock.law != NO_ROCK:
+        run.top[topdrive.PRESSED] = -above_bottom(run.case)
     run.refresh()
