@@ -40,19 +40,20 @@ def least_inertia(spring: float, integral: float, step: float) -> float:
 
 
 @inlined
-def turn(drive, planned, rate, behind, load, dt):
+def turn(drive, planned, rate, behind, load, drag, dt):
     """Rotation [rad/s], angle behind the plan [rad] and motor torque [N m] after a step.
 
-    planned, rate : planned and present rotation [rad/s]; load : torque that turns the string [N m].  The proportional
-    part acts on the mean of the rotations before and after the step, which is stable for every P.  At the torque limit
-    the angle is not summed up, so that the drive does not overshoot for having waited.
+    planned, rate : planned and present rotation [rad/s]; load : torque that turns the string [N m], drag : of the mud
+    on the top [N m s].  The proportional part acts on the mean of the rotations before and after the step, which is
+    stable for every P.  At the torque limit the angle is not summed up, so that the drive does not overshoot for having
+    waited.
     """
     held, half = drive.apparent / dt, 0.5 * drive.proportional
     wanted = drive.proportional * planned + drive.integral * behind - load
-    after = ((held - half) * rate + wanted) / (held + half)
-    torque = load + drive.inertia * (after - rate) / dt
+    after = ((held - half) * rate + wanted) / (held + half + drag)
+    torque = load + drag * after + drive.inertia * (after - rate) / dt
     if abs(torque) > drive.limit:
         torque = math.copysign(drive.limit, torque)
-        after = rate + dt * (torque - load) / drive.inertia
+        after = (drive.inertia * rate + dt * (torque - load)) / (drive.inertia + dt * drag)
         return after, behind, torque
     return after, behind + dt * (planned - after), torque

@@ -177,11 +177,10 @@ def top_torque(S):
 @inlined
 def turn_top(S, top, pipe, drive, planned, dt):
     """Rotation of the top after this step [rad/s] by a drive that is not stiff; adds the work of its inertia."""
-    before = top[TOP_RATE]
-    load = top_torque(S) + 0.5 * pipe.mud_spin * top[TOP_LENGTH] * before
-    rate, behind, torque = turn(drive, planned, before, top[TOP_BEHIND], load, dt)
+    load, drag = top_torque(S), 0.5 * pipe.mud_spin * top[TOP_LENGTH]
+    rate, behind, torque = turn(drive, planned, top[TOP_RATE], top[TOP_BEHIND], load, drag, dt)
     top[TOP_RATE], top[TOP_BEHIND] = rate, behind
-    top[TOP_WORK] += dt * rate * (torque - load)
+    top[TOP_WORK] += dt * rate * (torque - load - drag * rate)
     return rate
 
 
