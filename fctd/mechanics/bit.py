@@ -46,7 +46,8 @@ def press_bit(S, top, n, rock, motion, dt):
     ax, ay, az = axis(S, n)
     response = dt * S[INVERSE_JA + n]
     free = S[WZ + n] + response * (ax * S[LX + n] + ay * S[LY + n] + az * S[LZ + n])
-    weight, limit = bit_loads(rock, top[PRESSED], share, free)
+    # The law takes the spin before this step: ``free`` is without the torque of the rock, and too fast.
+    weight, limit = bit_loads(rock, top[PRESSED], share, S[WZ + n])
     torque = -min(limit, abs(free) / response)
     torque = torque if free > 0 else -torque
     S[FX + n + 1], S[FY + n + 1], S[FZ + n + 1] = weight * ax, weight * ay, weight * az
