@@ -1,6 +1,8 @@
 """Stick-slip of a bit whose torque falls with its speed: thresholds against an ODE, and against linear stability."""
 
+import math
 from collections.abc import Callable
+from typing import Literal
 
 import numpy as np
 import pandas as pd
@@ -17,6 +19,7 @@ from fctd.simulation.run import prepare
 from validation.harness.study import Check, Context, Outcome, Study
 
 Array = NDArray[np.float64]
+Method = Literal["DOP853", "Radau"]
 
 ASSEMBLY = 200.0  # length of the collars [m]
 PIPE = {"name": "pipe", "outer_diameter": 0.127, "inner_diameter": 0.1086}
@@ -25,11 +28,10 @@ DEPTH = 2000.0  # [m]
 MUD = 0.05  # rotational damping [N s]
 TORQUE_OF_WEIGHT = 0.04  # torque of the bit at speed over its weight [m], that of the default drag bit at 100 kN
 WEAKENING, DECAY = 1.0, 60.0  # torque at rest over that at speed, less 1; [rev/min]
-RAMP, SAMPLE = 15.0, 0.05  # of rotation and of bit loads [s]
+RAMP, SAMPLE = 20.0, 0.05  # of rotation and of bit loads [s]
 SEGMENT = 20.0  # of the continuous string [m]
 DRIVES = ("stiff", "speed_control", "impedance")
 TWO_DISCS, SLOW = 146.0, 70.0  # where the threshold of two discs is sought; a rotation with stick-slip [rev/min]
-TIGHT = 1e-9  # relative tolerance of the ODE
 CREEP = 1e-2  # of the ODE's bit below the torque at rest [rad/s]
 
 
@@ -53,59 +55,70 @@ def the_case(weight: float, rpm: float, drive: str, segments: float | None = Non
 
 
 def stages(rpm: float, hold: float) -> list[Motion]:
-    """The rotation is ramped up off bottom, then the loads of the bit; then both are held [s]."""
+    """The string turns up to twice the rotation, is loaded there, where it is stable, slows down, and is held [s]."""
     spin = rad_per_s(rpm)
     return [
-        Motion(0.0, RAMP, 0.0, 0.0, 0.0, spin),
-        Motion(RAMP, RAMP, 0.0, 0.0, spin, spin, bit_to=1.0),
-        Motion(2 * RAMP, hold, 0.0, 0.0, spin, spin, bit_from=1.0, bit_to=1.0),
+        Motion(0.0, RAMP, 0.0, 0.0, 0.0, 2 * spin),
+        Motion(RAMP, RAMP, 0.0, 0.0, 2 * spin, 2 * spin, bit_to=1.0),
+        Motion(2 * RAMP, 2 * RAMP, 0.0, 0.0, 2 * spin, spin, bit_from=1.0, bit_to=1.0),
+        Motion(4 * RAMP, hold, 0.0, 0.0, spin, spin, bit_from=1.0, bit_to=1.0),
     ]
 
 
 def bit_spin(case: Case, hold: float) -> tuple[Array, Array]:
     """Time [s] and spin of the bit [rad/s] by the engine while its loads are held."""
     run, phases = prepare(case)
+    *before, last = (m._replace(drive=phases[0].motion.drive) for m in stages(case.operations[0].rpm, hold))
+    for motion in before:
+        run.advance(motion, motion.duration)
     found = []
-    for motion in stages(case.operations[0].rpm, hold):
-        motion = motion._replace(drive=phases[0].motion.drive)
-        for _ in range(round(motion.duration / SAMPLE)):
-            run.advance(motion, SAMPLE)
-            found.append((run.time, run.S[state.WZ + run.segments]))
+    for _ in range(round(hold / SAMPLE)):
+        run.advance(last, SAMPLE)
+        found.append((run.time, run.S[state.WZ + run.segments]))
     time, spin = np.array(found).T
-    return time[time > 2 * RAMP], spin[time > 2 * RAMP]
+    return time, spin
 
 
-def ramp(at: float, start: float) -> float:
+def ramp(at: float, start: float, duration: float = RAMP) -> float:
     """The smooth step of ``stages``, from 0 to 1."""
-    u = min(max((at - start) / RAMP, 0.0), 1.0)
+    u = min(max((at - start) / duration, 0.0), 1.0)
     return u * u * (3 - 2 * u)
 
 
-def by_ode(weight: float, rpm: float, hold: float) -> tuple[Array, Array]:
-    """The same by scipy for two discs below a stiff drive: half of the pipe's inertia, and the collars on the bit."""
+def by_ode(weight: float, rpm: float, hold: float, method: Method, tolerance: float) -> tuple[Array, Array]:
+    """The same by scipy for two discs below a stiff drive: half of the pipe's inertia, and the collars on the bit.
+
+    method : of ``solve_ivp``, with its relative tolerance; a bit that sticks needs an implicit one.
+    """
     collar, pipe = (section_of(part, 0.0) for part in the_case(weight, rpm, "stiff").string.components)
     long, short = DEPTH - ASSEMBLY, ASSEMBLY
-    inertia = np.array([0.5 * long * pipe.axial_inertia, short * collar.axial_inertia])
-    drag = MUD * np.array([0.5 * long, short])
-    spring = np.array([pipe.GJ / long, 2 * collar.GJ / short])
-    damper = 1e-5 * spring  # the default joint damping of a case
-    spin, decay, torque = rad_per_s(rpm), rad_per_s(DECAY), TORQUE_OF_WEIGHT * weight
+    heavy, light = short * collar.axial_inertia, 0.5 * long * pipe.axial_inertia
+    drag, drag_above = MUD * short, 0.5 * MUD * long
+    spring, spring_above = 2 * collar.GJ / short, pipe.GJ / long
+    damping = 1e-5  # [s], the default joint damping of a case
+    planned, decay, torque = rad_per_s(rpm), rad_per_s(DECAY), TORQUE_OF_WEIGHT * weight
 
-    def rates(t: float, y: Array) -> Array:
-        twist, rate = y[:2], y[2:]
-        turning = np.array([spin * ramp(t, 0.0), *rate])
-        joint = spring * twist + damper * np.diff(turning)[:2]
-        bit = torque * ramp(t, RAMP) * (1 + WEAKENING * np.exp(-abs(rate[1]) / decay)) * np.tanh(rate[1] / CREEP)
-        moments = np.array([joint[1] - joint[0], -joint[1] - bit]) - drag * rate
-        return np.concatenate([np.diff(turning), moments / inertia])
+    def rates(t: float, y: Array) -> list[float]:
+        twist_above, twist, spin_above, spin = y.tolist()
+        slip = planned * (2 * ramp(t, 0.0) - ramp(t, 2 * RAMP, 2 * RAMP)) - spin_above
+        below = spin - spin_above
+        joint_above = spring_above * (twist_above - damping * slip)
+        joint = spring * (twist + damping * below)
+        law = torque * ramp(t, RAMP) * (1 + WEAKENING * math.exp(-abs(spin) / decay)) * math.tanh(spin / CREEP)
+        return [
+            -slip,
+            below,
+            (joint - joint_above - drag_above * spin_above) / light,
+            (-joint - law - drag * spin) / heavy,
+        ]
 
-    time = np.arange(2 * RAMP + SAMPLE, 2 * RAMP + hold, SAMPLE)
-    found = solve_ivp(rates, (0.0, time[-1]), np.zeros(4), "DOP853", time, rtol=TIGHT, atol=1e-10, max_step=0.2)
+    time = np.arange(4 * RAMP + SAMPLE, 4 * RAMP + hold, SAMPLE)
+    found = solve_ivp(rates, (0.0, time[-1]), np.zeros(4), method, time, rtol=tolerance, atol=1e-10)
     return found.t, found.y[3]
 
 
 def growth(time: Array, spin: Array, rpm: float) -> float:
-    """Growth rate [1/s] of the swing of the bit while it is small; 1 or −1 where it is too soon large or gone to say."""
+    """Growth rate [1/s] of the swing of the bit while it is small; 1 or −1 where it is large or gone at once."""
     about = np.abs(spin / rad_per_s(rpm) - 1)
     peaks = np.flatnonzero((about[1:-1] > about[:-2]) & (about[1:-1] >= about[2:])) + 1
     before, here, after = about[peaks - 1], about[peaks], about[peaks + 1]
@@ -132,7 +145,7 @@ def predicted(weight: float, drive: str) -> float:
     run, phases = prepare(the_case(weight, 100.0, drive, SEGMENT))
     collar, pipe = run.string.sections[:2]
     long, short = DEPTH - ASSEMBLY, ASSEMBLY
-    w = np.linspace(0.02, 30.0, 60_000)
+    w = np.linspace(0.02, 30.0, 6_000)
     at_top = np.ones(len(w), complex)
     inert = pipe.axial_inertia + MUD / (1j * w)
     zeta, wave = np.sqrt(inert * pipe.GJ), 1j * w * np.sqrt(inert / pipe.GJ)
@@ -152,7 +165,7 @@ def predicted(weight: float, drive: str) -> float:
         modes = np.flatnonzero(np.floor(turns[:-1]) != np.floor(turns[1:]))
         return float(np.log(np.abs(loop[modes])).max())
 
-    rpm = np.arange(300.0, 5.0, -1.0)
+    rpm = np.arange(300.0, 5.0, -2.0)
     last = next(k for k, at in enumerate(rpm) if excess(at) > 0)
     return float(brentq(excess, rpm[last], rpm[last - 1], rtol=1e-6))
 
@@ -166,7 +179,7 @@ def run(context: Context) -> Outcome:
         return lambda rpm: growth(*bit_spin(the_case(weight, rpm, drive, segments), hold), rpm)
 
     discs = threshold(by_engine(1e5, "stiff", None), TWO_DISCS)
-    ode = threshold(lambda rpm: growth(*by_ode(1e5, rpm, hold), rpm), TWO_DISCS)
+    ode = threshold(lambda rpm: growth(*by_ode(1e5, rpm, hold, "DOP853", 1e-7), rpm), TWO_DISCS)
     rows = []
     for weight in weights:
         for drive in DRIVES:
@@ -188,7 +201,7 @@ def run(context: Context) -> Outcome:
     soft = table[table["drive"] == "impedance"]["engine_rpm"].to_numpy()
     stiff = table[table["drive"] == "stiff"]["engine_rpm"].to_numpy()
     time, spin = bit_spin(the_case(1e5, SLOW, "stiff"), hold)
-    time_ode, spin_ode = by_ode(1e5, SLOW, hold)
+    time_ode, spin_ode = by_ode(1e5, SLOW, hold, "Radau", 1e-4)
     cycles = pd.concat(
         [
             pd.DataFrame({"time_s": time, "bit_rpm": spin / rad_per_s(1.0), "by": "engine"}),
@@ -209,7 +222,7 @@ def run(context: Context) -> Outcome:
             Check("threshold with an impedance drive over that with a stiff one, largest", float((soft / stiff).max()),
                   1.0, "at_most", "", "soft torque removes stick-slip"),
             Check("largest spin of the bit in stick-slip, engine against ODE", 100 * abs(peak / peak_ode - 1), 3.0,
-                  "at_most", "%", "scipy's DOP853, rest as creep at 0.01 rad/s; target of this project"),
+                  "at_most", "%", "scipy's Radau, rest as creep at 0.01 rad/s; target of this project"),
             Check("share of the time at which the bit sticks", float((np.abs(spin[late]) < 1e-6).mean()), 0.05,
                   "at_least", "", "stick-slip at half of the threshold"),
         ],
