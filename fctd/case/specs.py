@@ -271,6 +271,11 @@ class ComponentSpec(Table):
         """Whether neither `segments` nor `segment_length` is given."""
         return self.segments is None and self.segment_length is None
 
+    @property
+    def long_segment(self) -> bool:
+        """Whether the component is one segment up to the top of the string, the paper's long segment."""
+        return self.length is None and self.segments == 1
+
 
 class StringSpec(Table):
     """The string, from the bit upwards. Without a length the last component reaches `top_md` [m]."""
@@ -305,10 +310,20 @@ class RigSpec(Table):
     the weight indicator while the block is hoisted.  Friction in the sheaves divides the weight indicator by
     `sheave_efficiency` while the block is lowered, and multiplies it by `sheave_efficiency` while the block is hoisted.
 
+    A simulation with `feed` "stands" moves the block: stands of `stand_length` [m], at most `derrick_height` [m], are
+    added and racked back, and the string hangs in the slips for `connection_time` [s] each time.  With "long_segment"
+    the upper end stands still and the top segment grows, as in the paper; "auto" does so where the hole is vertical
+    along that segment, which must be of one component, and where the case has it as the last component with
+    `segments` 1; it moves stands elsewhere.
+
     In a run in time a "stiff" `drive` turns the top as planned whatever the torque; "speed_control" and "impedance" are
     motors with inertia and a controller, whose settings are in `control`.
     """
 
+    feed: Literal["auto", "long_segment", "stands"] = "auto"
+    stand_length: units.PositiveLength = 28.5
+    connection_time: units.PositiveTime = 60.0
+    derrick_height: units.PositiveLength = 40.0
     block_weight: units.Force = 0.0
     guide_friction: units.Force = 0.0
     sheave_efficiency: units.Efficiency = 1.0

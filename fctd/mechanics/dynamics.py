@@ -10,6 +10,7 @@ from typing import Any
 
 from fctd.mechanics.bit import drill, press_bit
 from fctd.mechanics.contact import update_walls
+from fctd.mechanics.derrick import immerse
 from fctd.mechanics.friction import Law, approach, normal_impulse, wall_normal
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import update_joint_loads
@@ -72,7 +73,7 @@ from fctd.mechanics.state import (
     spin,
     velocity,
 )
-from fctd.mechanics.topdrive import drive_top, move_top_drive
+from fctd.mechanics.topdrive import IN_DERRICK, drive_top, move_top_drive
 
 # Share of the clearance within which a string certainly does not touch; 1 − NEARLY is far above rounding.
 NEARLY = 1 - 1e-6
@@ -292,6 +293,8 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     # 1: loads of the joints and of the top drive at the present positions.
     update_joint_loads(S, packed, laws.joint_damping, dt)
     feed, rate = drive_top(S, top, motion, pipe, dt)
+    if top[IN_DERRICK] > 0:
+        immerse(S, n)
     if laws.rock.law != NO_ROCK:
         press_bit(S, top, n, laws.rock, motion, dt)
     # 2 and 3: the piece of hole that owns each contact point, and the point's distance from its axis and wall.

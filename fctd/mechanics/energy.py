@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.mechanics import state
+from fctd.mechanics.derrick import part_immersed
 from fctd.mechanics.jit import entry
 from fctd.mechanics.joints import strain_energy
 from fctd.mechanics.state import HOLE, J_AXIAL, J_TRANSVERSE, K_WALL, MASS, RADIUS, WEIGHT, Z, radial, spin, velocity
@@ -29,6 +30,7 @@ def _energies(S, n):
         kinetic += 0.5 * S[MASS + j] * (vx * vx + vy * vy + vz * vz)
         kinetic += 0.5 * (S[J_TRANSVERSE + j] * (wx * wx + wy * wy) + S[J_AXIAL + j] * wz * wz)
         gravity -= S[WEIGHT + j] * S[Z + j]
+        gravity += part_immersed(S, j)
         strain += strain_energy(S, j)
         px, py, pz = radial(S, j)
         pressed = math.sqrt(px * px + py * py + pz * pz) - S[HOLE + j] + S[RADIUS + j]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.contact import update_walls
+from fctd.mechanics.derrick import put_immersed
 from fctd.mechanics.drive import STIFF, Drive
 from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.faults import check
@@ -103,6 +104,8 @@ class MovingString:
     def refresh(self) -> None:
         """Update axes and walls to the present positions."""
         dynamics.update_axes(self.S, self.segments)
+        if self.top[topdrive.IN_DERRICK] > 0:
+            put_immersed(self.S, self.segments)
         self.wall.refresh(self)
 
     def check(self) -> None:

@@ -79,7 +79,12 @@ SUM_MUD_TORQUE, SUM_TENSION, SUM_TORQUE = 72 * STRIDE, 73 * STRIDE, 74 * STRIDE
 # Energy lost since the start of the run [J]: friction, contact damping, mud, joint damping.
 LOST_FRICTION, LOST_CONTACT, LOST_MUD, LOST_JOINT = 75 * STRIDE, 76 * STRIDE, 77 * STRIDE, 78 * STRIDE
 
-ROWS = 79
+# Of a string that hangs from a moving block (derrick.py), whose upper part is in air: buoyancy of the whole body in mud
+# [N], the share of the body that is below the rotary table, and the mud damping of the whole body in mud.
+BUOYANCY, IMMERSED = 94 * STRIDE, 95 * STRIDE
+IN_MUD_AXIAL, IN_MUD_LATERAL, IN_MUD_SPIN = 96 * STRIDE, 97 * STRIDE, 98 * STRIDE
+
+ROWS = 99
 
 
 class Laws(NamedTuple):

@@ -1,4 +1,7 @@
-"""The top drive clamps the string's upper end, turns it and feeds pipe in; its reactions are hook load and torque."""
+"""The top drive clamps the string's upper end, turns it and feeds pipe in; its reactions are hook load and torque.
+
+It stands still and feeds pipe into the long segment, or it hangs from a block and moves along its axis with the string.
+"""
 
 import math
 from typing import NamedTuple
@@ -39,6 +42,8 @@ from fctd.mechanics.state import (
     VY,
     VZ,
     WEIGHT,
+    X,
+    Y,
     Z,
     axis,
     joint_force,
@@ -89,15 +94,16 @@ class PerMetre(NamedTuple):
 
 # Top drive's own numbers, shape (TOP_SIZE,): length of the long segment [m] (0: none), simulated time [s];
 # sums since the last record of hook load [N s] and torque [N m s]; work done by the top drive and energy
-# brought in by fed pipe since the start [J]; rotation of a drive that is not stiff [rad/s], its angle behind the plan
-# [rad], sum since the last record of the top's turns [rad].
-TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(6)
-TOP_RATE, TOP_BEHIND, SUM_TOP_TURN = range(6, 9)
+# brought in by fed pipe since the start [J]; height of the block above the rotary table, along its axis [m], and 1
+# where the string hangs from a block in a derrick, else 0 (derrick.py); rotation of a drive that is not stiff [rad/s],
+# its angle behind the plan [rad], sum since the last record of the top's turns [rad].
+TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY, BLOCK_HEIGHT, IN_DERRICK = range(8)
+TOP_RATE, TOP_BEHIND, SUM_TOP_TURN = range(8, 11)
 # In the same array the numbers of the bit (bit.py): how far it is pressed into the rock, below 0 off bottom [m]; hole
 # made since the start [m]; sums since the last record of weight on bit [N s], bit torque [N m s] and turns of the
 # bit [rad]; energy that it gave to the rock since the start [J]; weight on it [N] and torque on it [N m] in this step.
-PRESSED, HOLE_MADE, SUM_BIT_WEIGHT, SUM_BIT_TORQUE, SUM_BIT_TURN, LOST_BIT, BIT_WEIGHT, BIT_TORQUE = range(9, 17)
-TOP_SIZE = 17
+PRESSED, HOLE_MADE, SUM_BIT_WEIGHT, SUM_BIT_TORQUE, SUM_BIT_TURN, LOST_BIT, BIT_WEIGHT, BIT_TORQUE = range(11, 19)
+TOP_SIZE = 19
 
 
 @inlined
@@ -206,7 +212,9 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
     lost = (drag * fed + mud_torque * turned_by) / dt
     S[LOST_MUD + 1] += lost
     top[TOP_WORK] += torque * turned_by + lost
-    if fed != 0:
+    if top[IN_DERRICK] > 0:
+        top[TOP_WORK] -= tension * fed
+    elif fed != 0:
         # The pipe passes the clamp stretched, (1 + T/EA) times its unstretched length.
         raised = hanging * fed * (1 + tension / pipe.EA)
         top[TOP_WORK] -= raised
@@ -242,11 +250,16 @@ def drive_top(S, top, motion, pipe, dt):
 def move_top_drive(S, top, pipe, feed, rate, dt):
     """Move the top drive with the bodies: clock, feed [m/s], rotation [rad/s] and the pipe's speed in the clamp."""
     top[TOP_TIME] += dt
-    if feed != 0:
+    ax, ay, az = axis(S, 0)
+    if top[IN_DERRICK] > 0:
+        top[BLOCK_HEIGHT] -= dt * feed
+        S[X] += dt * feed * ax
+        S[Y] += dt * feed * ay
+        S[Z] += dt * feed * az
+    elif feed != 0:
         top[TOP_LENGTH] += dt * feed
         set_long_segment(S, top[TOP_LENGTH], pipe)
     w, x, y, z = quaternion(S, 0)
     S[QW], S[QX], S[QY], S[QZ] = turned(w, x, y, z, 0.0, 0.0, dt * rate)
-    ax, ay, az = axis(S, 0)
     S[VX], S[VY], S[VZ] = feed * ax, feed * ay, feed * az
     S[GX], S[GY], S[GZ] = rate * ax, rate * ay, rate * az

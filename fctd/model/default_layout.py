@@ -31,10 +31,11 @@ class DefaultLayout:
     """The largest segment lengths along a string whose bit is at a depth [m], or moves from there to ``deepest`` [m].
 
     A string that moves keeps its segments: every part of it has the length that the sharpest place on its way needs.
+    length : of the string [m], where it is longer than what is in the hole at ``bit_depth``.
     """
 
-    def __init__(self, case: Case, bit_depth: float, deepest: float | None = None) -> None:
-        in_hole = bit_depth - case.string.top_md
+    def __init__(self, case: Case, bit_depth: float, deepest: float | None = None, length: float | None = None) -> None:
+        in_hole = bit_depth - case.string.top_md if length is None else length
         samples = max(int(np.ceil(in_hole / SAMPLE)), 2) + 1
         self.above_bit, apart = np.linspace(0.0, in_hole, samples, retstep=True)
         deepest = bit_depth if deepest is None else max(deepest, bit_depth)

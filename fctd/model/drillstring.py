@@ -27,6 +27,10 @@ SAME_LENGTH = 1e-6
 SHORTEST_SEGMENT = 1e-6
 
 
+class LongSegmentError(InputError):
+    """The long segment cannot be fed: its hole is not vertical, it is too short, or its component ends."""
+
+
 class Section(NamedTuple):
     """Properties of a component per metre of its length.
 
@@ -202,7 +206,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         take = remaining if part.length is None else min(part.length, remaining)
         if by_default is not None and part.cut_by_default:
             start = bit_depth - case.string.top_md - remaining
-            _check_segments(by_default.count(start, start + take))
+            check_segments(by_default.count(start, start + take))
             pieces = by_default.lengths(start, start + take)
         else:
             pieces = _divide(part, take)
@@ -218,21 +222,20 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
             key="string.components",
             value=f"{sum(c.length or 0 for c in components):g} m of string",
         )
-    single = components[owner[-1]].length is None and components[owner[-1]].segments == 1
     while fed and lengths[-1] < SHORTEST_LONG_SEGMENT and owner[-2:] == owner[-1:] * 2:
         top = lengths.pop()  # before the line below indexes the list: `a[-2] += a.pop()` reads one item, writes another
         lengths[-1] += top
         owner.pop()
-    long_segment = fed or single
+    long_segment = fed or components[owner[-1]].long_segment
     if long_segment and lengths[-1] < SHORTEST_LONG_SEGMENT - 1e-9:
-        raise InputError(
+        raise LongSegmentError(
             f"at least {SHORTEST_LONG_SEGMENT:g} m at every bit depth, as the top segment's length changes",
             key=f"string.components[{owner[-1]}]",
             value=f"{lengths[-1]:.3g} m of it at the top",
         )
     if deepest is not None:
         _check_feed(case, owner[-1], deepest)
-    _check_segments(len(lengths))
+    check_segments(len(lengths))
     string = String(
         top_md=case.string.top_md,
         bit_depth=bit_depth,
@@ -252,7 +255,7 @@ def _check_feed(case: Case, top: int, deepest: float) -> None:
         return
     reach = case.string.top_md + sum(length for length in lengths if length is not None)
     if deepest > reach + 1e-6:
-        raise InputError(
+        raise LongSegmentError(
             f"a length to reach a bit depth of {deepest:g} m, since a trip feeds pipe of one component only "
             "(make the component longer, or simulate a trip for each component)",
             key=f"string.components[{top}].length",
@@ -260,7 +263,7 @@ def _check_feed(case: Case, top: int, deepest: float) -> None:
         )
 
 
-def _check_segments(segments: float) -> None:
+def check_segments(segments: float) -> None:
     """Raise InputError when the string has more segments than the state buffer holds."""
     if segments > state.MAX_SEGMENTS:
         raise InputError(
@@ -282,7 +285,7 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
     whole = take if part.length is None else part.length
     nominal = whole / part.segments if part.segments is not None else part.segment_length
     assert nominal is not None  # ``lay_out`` cuts a component that has neither
-    _check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
+    check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
     if abs(take - whole) < 1e-9:
         count = max(round(whole / nominal), 1)
         return [whole / count] * count
@@ -305,7 +308,22 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
         )
     grown = string.lengthened(deepest - string.bit_depth) if string.long_segment else string
     bottom = grown.top_md + np.cumsum(grown.length)
-    top = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]])
+    check_clearance(string, hole, string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]]), bottom)
+    if string.long_segment:
+        tilt = hole.inclination(np.linspace(grown.top_md, bottom[0], 200)).max()
+        if tilt > LONG_SEGMENT_TILT:
+            raise LongSegmentError(
+                "a hole within 1 deg of vertical along the top segment (a shorter trip, or more segments)",
+                key=f"string.components[{int(string.component[0])}]",
+                value=f"{grown.length[0]:.4g} m at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
+            )
+
+
+def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -> None:
+    """Raise InputError for a string that is wider than its hole.
+
+    top, bottom : (n,) highest and lowest measured depth that each segment reaches [m].
+    """
     radius = string.of("contact_radius")
     starts = np.concatenate([[0.0], hole.intervals[:-1, TO_MD]])
     for start, (to_md, hole_radius) in zip(starts, hole.intervals[:, [TO_MD, RADIUS]], strict=True):
@@ -316,14 +334,6 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
                 f"at most the hole's {2e3 * hole_radius:.4g} mm",
                 key=f"string.components[{int(string.component[k])}].contact_diameter",
                 value=f"{2e3 * radius[k]:.4g} mm",
-            )
-    if string.long_segment:
-        tilt = hole.inclination(np.linspace(grown.top_md, bottom[0], 200)).max()
-        if tilt > LONG_SEGMENT_TILT:
-            raise InputError(
-                "a hole within 1 deg of vertical along the top segment (a shorter trip, or more segments)",
-                key=f"string.components[{int(string.component[0])}]",
-                value=f"{grown.length[0]:.4g} m at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
             )
 
 

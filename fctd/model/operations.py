@@ -23,6 +23,10 @@ class Phase(NamedTuple):
     operation: int
 
 
+# Duration [s], feed speed downwards at the start and at the end [m/s] of a part of an operation.
+Part = tuple[float, float, float]
+
+
 def rad_per_s(rpm: float) -> float:
     """Rotation speed [rad/s] from revolutions per minute."""
     return rpm * np.pi / 30
@@ -41,13 +45,7 @@ def schedule(operations: Sequence[Operation]) -> list[Phase]:
         rate = rad_per_s(operation.rpm)
         stops = k + 1 < len(operations)
         parts = _feed(operation, stops)
-        lasts = sum(duration for duration, _, _ in parts)
-        if lasts < SHORTEST:
-            raise InputError(
-                f"an operation that lasts at least {1e3 * SHORTEST:g} ms",
-                key=f"operations[{k}]",
-                value=f"{lasts:.3g} s",
-            )
+        check_duration(k, sum(duration for duration, _, _ in parts))
         loaded = k > 0 and operations[k - 1].on_bottom
         unloads = stops and not operations[k + 1].on_bottom
         for duration, feed_from, feed_to in parts:
@@ -61,19 +59,39 @@ def schedule(operations: Sequence[Operation]) -> list[Phase]:
     return phases
 
 
-def _feed(operation: Operation, stops: bool) -> list[tuple[float, float, float]]:
-    """Duration [s], feed speed downwards at the start and at the end [m/s] of the parts of an operation."""
+def check_duration(k: int, lasts: float) -> None:
+    """Raise InputError where operation k, which lasts so long [s], is shorter than ``SHORTEST``."""
+    if lasts < SHORTEST:
+        raise InputError(
+            f"an operation that lasts at least {1e3 * SHORTEST:g} ms", key=f"operations[{k}]", value=f"{lasts:.3g} s"
+        )
+
+
+def _feed(operation: Operation, stops: bool) -> list[Part]:
+    """The parts of an operation."""
     if isinstance(operation, RotateOffBottom):
-        ramp = min(operation.ramp_time, operation.duration)
-        parts = [(ramp, 0.0, 0.0), (operation.duration - ramp, 0.0, 0.0)]
-    else:
-        distance = abs(operation.end_md - operation.start_md)
-        feed = np.copysign(operation.speed, operation.end_md - operation.start_md)
-        # A smooth ramp covers half its time at full speed; a short trip has shorter ramps.
-        ramps = 2 if stops else 1
-        ramp = min(operation.ramp_time, 2 * distance / (operation.speed * ramps))
-        cruise = distance / operation.speed - 0.5 * ramps * ramp
-        parts = [(ramp, 0.0, feed), (cruise, feed, feed)] + [(ramp, feed, 0.0)] * stops
+        return rotating(operation)
+    return travelling(operation.end_md - operation.start_md, operation.speed, operation.ramp_time, stops=stops)
+
+
+def rotating(operation: RotateOffBottom) -> list[Part]:
+    """The parts of an operation that feeds nothing."""
+    ramp = min(operation.ramp_time, operation.duration)
+    return _present([(ramp, 0.0, 0.0), (operation.duration - ramp, 0.0, 0.0)])
+
+
+def travelling(travel: float, speed: float, ramp_time: float, *, stops: bool) -> list[Part]:
+    """The parts of a move by ``travel`` [m], downwards above 0; stops : whether it ends at rest."""
+    distance, feed = abs(travel), float(np.copysign(speed, travel))
+    # A smooth ramp covers half its time at full speed; a short trip has shorter ramps.
+    ramps = 2 if stops else 1
+    ramp = min(ramp_time, 2 * distance / (speed * ramps))
+    cruise = distance / speed - 0.5 * ramps * ramp
+    return _present([(ramp, 0.0, feed), (cruise, feed, feed)] + [(ramp, feed, 0.0)] * stops)
+
+
+def _present(parts: list[Part]) -> list[Part]:
+    """The parts that last."""
     return [part for part in parts if part[0] > 1e-9]
 
 

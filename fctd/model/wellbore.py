@@ -67,6 +67,7 @@ class Wellbore:
     intervals: Array = field(repr=False)  # (k, 4), columns above
     shoe: float  # length of the transition from one interval to the next [m]
     courses: survey.Courses | None = None
+    derrick: float = 0.0  # height of a first piece without a wall above the rotary table [m] (derrick.py)
 
     def __post_init__(self) -> None:
         # Pieces with a gap between them, or that end early, are a defect of the program; no later check would find it.
@@ -76,7 +77,7 @@ class Wellbore:
         along, shared = self.total_depth, 0.0
         if self.geometry == CYLINDERS:
             along, shared = float(chords.sum()), float(self.pieces[:, contact.OVERLAP].sum())
-        covered = float(self.pieces[:, contact.LENGTH].sum()) - shared - 2 * RUN_OUT
+        covered = float(self.pieces[:, contact.LENGTH].sum()) - shared - 2 * RUN_OUT - self.derrick
         if not abs(covered - along) <= SAME_LENGTH:
             raise AssertionError(f"the pieces of the hole cover {covered:.6f} m of an axis of {along:.6f} m")
 

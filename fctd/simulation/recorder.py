@@ -45,14 +45,13 @@ class Recorder:
         self.start = self.energy()
         self.start_length = float(run.top[topdrive.TOP_LENGTH])
         fed = self.start_length - float(run.string.length[0]) if run.string.long_segment else 0.0
-        self.start_depth = run.string.bit_depth + fed
+        self.start_depth = run.string.bit_depth + fed if run.hoist is None else run.bit_depth
         self.last_time = time
         self.history: list[dict[str, Any]] = []
         self.ledger: list[dict[str, float]] = []
         self.profiles: dict[float, pd.DataFrame] = {}  # by time
         self.wanted = list(run.case.record.profile_at)
         self.notes: dict[str, Note] = {}  # by code, the one with the largest excess
-        self.pipe = pipe_of(run.string)
 
     def rows(self, offset: int) -> Array:
         """One quantity of every segment (n,)."""
@@ -61,6 +60,8 @@ class Recorder:
     @property
     def bit_depth(self) -> float:
         """Unstretched length below the rotary table [m]."""
+        if self.run.hoist is not None:
+            return self.run.bit_depth
         return self.start_depth + float(self.run.top[topdrive.TOP_LENGTH]) - self.start_length
 
     def record(self, operation: int, sums: Sums) -> None:
@@ -77,6 +78,12 @@ class Recorder:
         spin = float(np.linalg.norm(self.run.S[[state.GX, state.GY, state.GZ]]))  # of the top drive, row 0
         indicator = weight_indicator(case.rig, KINDS[kind].direction, hookload)
         drive = drive_torque(case.rig, spin, torque)
+        block: dict[str, Any] = {}
+        if (hoist := self.run.hoist) is not None:
+            in_slips = hoist.in_slips
+            indicator = weight_indicator(case.rig, hoist.direction, 0.0 if in_slips else hookload)
+            drive = drive_torque(case.rig, spin, 0.0 if in_slips else torque)
+            block = {"block_height_m": float(self.run.top[topdrive.BLOCK_HEIGHT]), "in_slips": in_slips}
         before = self.history[-1]["bit_depth_m"] if self.history else self.start_depth
         loads, (_, walls) = self._loads(), self._walls()
         buckling = self._buckling(loads, walls)
@@ -97,6 +104,7 @@ class Recorder:
                 "contact_count": int((penetration(self.run.S, self.run.segments) > 0).sum()),
                 **buckling.columns(),
                 "top_rpm": mean.top_turn / RPM,
+                **block,
                 **self._bit(),
             }
         )
@@ -164,7 +172,8 @@ class Recorder:
         if not run.case.contact.enabled or loads.tension.min() >= 0:
             return NOT_BUCKLED
         top_md = run.string.top_md
-        return buckling_along(run.hole, self.pipe, top_md, walls.md, walls.radius, loads.tension, loads.bit_tension)[1]
+        pipe = pipe_of(run.string)
+        return buckling_along(run.hole, pipe, top_md, walls.md, walls.radius, loads.tension, loads.bit_tension)[1]
 
     def _keep_notes(self, hookload: float, loads: Loads, walls: Walls, buckling: Buckling) -> None:
         """Keep each note that is new, or whose excess is larger than before."""

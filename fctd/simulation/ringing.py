@@ -82,7 +82,7 @@ def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
     depths: list[float] = []
     frequencies: list[Array] = []
     amplitudes: list[Array] = []
-    if run.wall.seams and run.case.contact.enabled and run.segments > MODES:
+    if run.wall.seams and run.case.contact.enabled and run.segments > MODES and run.hoist is None:
         tilt, probe, depth = cylinder_tilt(run.hole), run.S.copy(), run.string.bit_depth
         for motion, _ in phases:
             fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration

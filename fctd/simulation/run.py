@@ -16,12 +16,16 @@ from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
 from fctd.mechanics.rock import NO_ROCK, NOTHING, Rock
 from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
-from fctd.mechanics.topdrive import PerMetre
+from fctd.mechanics.topdrive import Motion, PerMetre
+from fctd.model.derrick import with_derrick
 from fctd.model.drilling import above_bottom, drive_of, rock_of
-from fctd.model.drillstring import String, check_fit, fill, lay_out
+from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
+from fctd.model.stands import check_stands, hang, lay_out_stands
+from fctd.model.strokes import stand_schedule
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.simulation.external_contact import QueriedWall, WallQuery
+from fctd.simulation.hoist import Hoist
 
 Array = NDArray[np.float64]
 # The string is settled when no force is out of balance by more than this share of its weight.
@@ -46,6 +50,27 @@ class Run(MovingString):
     case: Case
     hole: Wellbore
     string: String
+    hoist: Hoist | None = None
+
+    @property
+    def bit_depth(self) -> float:
+        """Unstretched length of the string below the rotary table [m]."""
+        if self.hoist is not None:
+            return self.hoist.bit_depth(self)
+        fed = float(self.top[topdrive.TOP_LENGTH] - self.string.length[0]) if self.string.long_segment else 0.0
+        return self.string.bit_depth + fed
+
+    def advance(self, motion: Motion, duration: float, laws: state.Laws | None = None) -> None:
+        """See ``MovingString.advance``; where the string hangs from a block, stands are added and racked back."""
+        if self.hoist is not None and motion is not STILL:
+            motion = self.hoist.paced(self, motion)
+        super().advance(motion, duration, laws)
+
+    def refresh(self) -> None:
+        """See ``MovingString.refresh``."""
+        super().refresh()
+        if self.hoist is not None:
+            self.string = self.hoist.string(self)
 
 
 def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Phase]]:
@@ -56,7 +81,14 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
     """
     with naming_file(case):
         run, phases = _prepare(case)
+        phases = [Phase(motion._replace(drive=run.drive), operation) for motion, operation in phases]
         if contact is not None:
+            if run.hoist is not None:
+                raise InputError(
+                    '"long_segment" where the long segment fits, since a contact method was passed',
+                    key="rig.feed",
+                    value=case.rig.feed,
+                )
             if not case.contact.enabled:
                 raise InputError("true, since a contact method was passed", key="contact.enabled", value=False)
             run.wall = QueriedWall(contact, run.hole, run.segments)
@@ -77,16 +109,65 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
                 value=f"{depth:g} m",
             )
     hole = build_wellbore(case)
-    string = lay_out(case, shallowest, deepest)
-    check_fit(case, string, hole, deepest)
-    string = string.lengthened(first - shallowest)
+    if case.rig.feed != "stands":
+        try:
+            string = lay_out(case, shallowest, deepest)
+            check_fit(case, string, hole, deepest)
+            return _fed(case, hole, string.lengthened(first - shallowest), first - shallowest)
+        except LongSegmentError:
+            if case.rig.feed == "long_segment" or shallowest == deepest or case.string.components[-1].long_segment:
+                raise
+    return _hung(case, hole, first, shallowest, deepest)
 
+
+def _fed(case: Case, hole: Wellbore, string: String, longer: float) -> tuple[Run, list[Phase]]:
+    """A run whose top drive stands still, and feeds pipe into the top segment.
+
+    longer : by which the top segment is longer than where it is shortest [m].
+    """
     n = string.segments
     S, top = state.new_state(n), np.zeros(topdrive.TOP_SIZE)
     pipe = fill(S, string, case)
     top[topdrive.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
     lie_on_axis(S, string, hole)
+    probe = S.copy()
+    if string.long_segment:  # the top segment is stiffest where it is shortest
+        topdrive.put_long_segment(probe, string.length[0] - longer, pipe)
     phases = schedule(case.operations)
+    return _run(case, hole, string, S, top, pipe, [(probe, n)], phases), phases
+
+
+def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: float) -> tuple[Run, list[Phase]]:
+    """A run whose string hangs from a block that moves; bit depths [m]."""
+    tally = lay_out_stands(case, shallowest, deepest)
+    hole = with_derrick(hole, case.rig.derrick_height)
+    check_stands(case, tally, hole, shallowest)
+    phases, strokes = stand_schedule(case.operations, tally, case.rig)
+    whole = tally.whole
+    buffer, S, top = state.new_state(whole.segments), state.new_state(whole.segments), np.zeros(topdrive.TOP_SIZE)
+    pipe = fill(buffer, whole, case)
+    hang(buffer, whole.segments)
+    stands = tally.stands_for(first)
+    hoist = Hoist(tally=tally, buffer=buffer, strokes=strokes, table=hole.at(np.zeros(1))[0][0], stands=stands)
+    string = hoist.start(S, top, first, hole)
+    lie_on_axis(S, string, hole)
+    run = _run(
+        case, hole, string, S, top, pipe, [(buffer, whole.segments), *((probe, 1) for probe in hoist.clamped())], phases
+    )
+    run.hoist = hoist
+    return run, phases
+
+
+def _run(
+    case: Case, hole: Wellbore, string: String, S: Array, top: Array, pipe: PerMetre,
+    probes: list[tuple[Array, int]], phases: list[Phase],
+) -> Run:  # fmt: skip
+    """The run of a string that lies in its hole.
+
+    probes : buffers with the string where it is stiffest, and their numbers of segments; that of the first is the
+    largest of the run.
+    """
+    n, most = string.segments, probes[0][1]
     laws = state.Laws(
         geometry=hole.geometry if case.contact.enabled else state.OPEN,
         friction=CODES[case.contact.friction_law],
@@ -96,26 +177,22 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
         settling=0.0,
         rock=rock_of(case),
     )
-    limit = _step_limit(S, case, string, hole, pipe, shallowest - first, laws.rock)
+    limit = min(_step_limit(probe, count, case, hole, laws.rock) for probe, count in probes)
     wanted = case.solver.step
     step = SHARES[wanted] * limit if isinstance(wanted, str) else wanted
     if step > limit * (1 + 1e-9):
         raise InputError(
             f"'auto', 'largest' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
         )
-    _check_cost(case, n, step, sum(s.motion.duration for s in phases))
-    shortest = string.length[0] + shallowest - first
-    spring = pipe.GJ / shortest if string.long_segment else float(S[state.K_TWIST + 1])
-    drive = drive_of(case, string, spring, step)
-    phases = [Phase(motion._replace(drive=drive), operation) for motion, operation in phases]
+    _check_cost(case, most, step, sum(s.motion.duration for s in phases))
+    spring = max(float(probe[state.K_TWIST + 1]) for probe, _ in probes)
     # A walk from the top would stop at the first slab that contains a point; past 90° that may be a distant piece.
-    owner = np.zeros(n + 2, np.int64)
+    owner = np.zeros(most + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
-    run = Run(
+    return Run(
         case=case, hole=hole, string=string, pipe=pipe, S=S, top=top, owner=owner, segments=n, step=step, laws=laws,
-        wall=own_wall(case, hole), drive=drive,
+        wall=own_wall(case, hole), drive=drive_of(case, string, spring, step),
     )  # fmt: skip
-    return run, phases
 
 
 def own_wall(case: Case, hole: Wellbore) -> HoleWall:
@@ -157,22 +234,16 @@ def _check_dynamic(case: Case) -> None:
             )
 
 
-def _step_limit(
-    S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float, rock: Rock
-) -> float:
-    """Largest stable step of the run [s]; the top segment is stiffest where it is shortest.
+def _step_limit(S: Array, n: int, case: Case, hole: Wellbore, rock: Rock) -> float:
+    """Largest stable step of a run [s], whose string of n segments is in a buffer where it is stiffest.
 
-    shrinks [m] : change of the top segment's length to its shortest.  Raises InputError where masses and stiffnesses
-    give no finite frequency.
+    Raises InputError where masses and stiffnesses give no finite frequency.
     """
     spin = max(rad_per_s(o.rpm) for o in case.operations)
-    probe = S.copy()
-    if string.long_segment:
-        topdrive.put_long_segment(probe, string.length[0] + shrinks, pipe)
     wall = hole.stiffest_wall if case.contact.enabled else 0.0
     try:
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            frequency = stiffest_mode(probe, string.segments, wall, rock.stiffness)
+            frequency = stiffest_mode(S, n, wall, rock.stiffness)
     except np.linalg.LinAlgError:
         frequency = np.inf
     if not 0 < frequency < np.inf:

@@ -177,16 +177,13 @@ class Simulation(Iterator[Record]):
     def _check_fed(self) -> None:
         """Raise AssertionError when the fed string of a finished run does not reach the scheduled bit depth."""
         run, end = self.run, self.case.operations[-1].end_md
-        length = float(run.top[topdrive.TOP_LENGTH])
-        fed = length - float(run.string.length[0]) if run.string.long_segment else 0.0
+        depth, length = run.bit_depth, float(run.top[topdrive.TOP_LENGTH])
         # A step feeds with the speed at its middle.  The error is h²/24 times the change of the ramp's slope, which is
         # at most 3 Δv/T, and the rounding of the length.
         allowed = SAME_LENGTH + run.steps * float(np.spacing(length))
         allowed += sum(run.step**2 * abs(m.feed_to - m.feed_from) / (8 * m.duration) for m, _ in self.phases)
-        if not abs(run.string.bit_depth + fed - end) <= allowed:
-            raise AssertionError(
-                f"the fed string ends at {run.string.bit_depth + fed:.6f} m, the schedule at {end:.6f} m"
-            )
+        if not abs(depth - end) <= allowed:
+            raise AssertionError(f"the string ends at {depth:.6f} m, the schedule at {end:.6f} m")
 
     def _judged(self, result: SimulationResult) -> SimulationResult:
         """The result of a completed run, with the notes of its end, and its final status."""

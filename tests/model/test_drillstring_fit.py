@@ -154,7 +154,7 @@ def test_a_bit_at_the_top_of_the_string_is_refused() -> None:
 def test_a_fed_top_segment_must_stay_in_vertical_hole() -> None:
     stations = [[0, 0, 0], [100, 0, 0], [1000, 60, 0]]
     with pytest.raises(InputError, match=r"string\.components\[0\].*within 1 deg of vertical"):
-        prepare(make_case(stations, [pipe(1000, 20)], [trip(600, 900)]))
+        prepare(make_case(stations, [pipe(1000, 20)], [trip(600, 900)], rig={"feed": "long_segment"}))
 
 
 def test_a_case_without_operations_cannot_be_simulated() -> None:
@@ -169,9 +169,9 @@ def test_a_case_without_operations_cannot_be_simulated() -> None:
         ([pipe(100, 10, outer=0.159), pipe(500, 20), pipe(1000, 40)], trip(590, 900)),  # of the wrong component
     ],
 )
-def test_a_trip_feeds_one_component_and_no_more_than_there_is(components: list, operation: dict) -> None:
+def test_a_long_segment_is_of_one_component_and_no_more_than_there_is(components: list, operation: dict) -> None:
     with pytest.raises(InputError, match=r"string\.components\[\d\]\.length.*to reach a bit depth of 900 m"):
-        prepare(make_case(components=components, operations=[operation]))
+        prepare(make_case(components=components, operations=[operation], rig={"feed": "long_segment"}))
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,101 @@
+"""The schedule of a rig that moves stands: strokes of the block, and connections between them."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from fctd.case.operations import Operation, RotateOffBottom
+from fctd.case.specs import RigSpec
+from fctd.mechanics.topdrive import Motion
+from fctd.model.operations import Part, Phase, check_duration, rad_per_s, rotating, travelling
+from fctd.model.stands import Tally
+
+# Depths and heights of a schedule agree within this [m].
+SAME: float = 1e-9
+
+
+class Stroke(NamedTuple):
+    """A stroke of the block, or a connection, during which the string hangs in the slips.
+
+    start [s]; change : stands that are added (1) or racked back (-1) at the start; travel : downwards, without the
+    stretch of the pipe [m], 0 in a connection; target : height of the block at the end, without that stretch [m].
+    """
+
+    start: float
+    change: int
+    travel: float
+    target: float
+
+    @property
+    def in_slips(self) -> bool:
+        """Whether the string hangs in the slips."""
+        return self.travel == 0
+
+
+class _Plan:
+    """A schedule that grows by one part after the other; the rig stands still at its start."""
+
+    def __init__(self, tally: Tally, rig: RigSpec, depth: float) -> None:
+        self.tally, self.rig, self.depth = tally, rig, depth
+        self.stands = tally.stands_for(depth)
+        self.clock, self.turning = 0.0, 0.0
+        self.phases: list[Phase] = []
+        self.strokes: list[Stroke] = []
+        self.change = 0
+
+    def add(self, k: int, parts: list[Part], spins: list[float]) -> None:
+        """Phases of operation k: duration [s] and feed at both ends [m/s] of each, rotation at its end [rad/s]."""
+        for (duration, feed_from, feed_to), spin in zip(parts, spins, strict=True):
+            self.phases.append(Phase(Motion(self.clock, duration, feed_from, feed_to, self.turning, spin), k))
+            self.clock += duration
+            self.turning = spin
+
+    def connect(self, k: int, operation: Operation, change: int) -> None:
+        """Hang the string in the slips and add a stand afterwards, or rack one back before."""
+        if self.turning:
+            self.add(k, [(operation.ramp_time, 0.0, 0.0)], [0.0])
+        self.strokes.append(Stroke(self.clock, min(change, 0), 0.0, 0.0))
+        self.add(k, [(self.rig.connection_time, 0.0, 0.0)], [0.0])
+        self.stands += change
+        self.change = max(change, 0)
+
+    def move(self, k: int, operation: Operation, last: bool) -> None:
+        """Strokes and connections of operation k; the last of a schedule ends in motion."""
+        end, down = operation.end_md, operation.end_md > operation.start_md
+        rate = rad_per_s(operation.rpm)
+        while abs(end - self.depth) > SAME:
+            low, high = self.tally.reach[self.stands - 1 : self.stands + 1].tolist()
+            if down and high - self.depth <= SAME:
+                self.connect(k, operation, 1)
+                high = float(self.tally.reach[self.stands])
+            elif not down and self.depth - low <= SAME:
+                self.connect(k, operation, -1)
+                low = float(self.tally.reach[self.stands - 1])
+            goal = min(end, high) if down else max(end, low)
+            ends_here = abs(end - goal) <= SAME
+            parts = travelling(goal - self.depth, operation.speed, operation.ramp_time, stops=not (ends_here and last))
+            target = float(self.tally.reach[self.stands]) - goal
+            self.strokes.append(Stroke(self.clock, self.change, goal - self.depth, target))
+            self.change = 0
+            spins = [rate] * len(parts)
+            if not ends_here:
+                spins[-1] = 0.0
+            self.add(k, parts, spins)
+            self.depth = goal
+
+
+def stand_schedule(operations: Sequence[Operation], tally: Tally, rig: RigSpec) -> tuple[list[Phase], list[Stroke]]:
+    """Phases and strokes of the operations in order, starting from rest.
+
+    Every stroke ramps speed and rotation within the ramp time of its operation, and comes to rest before a connection.
+    Raises InputError for an operation shorter than ``operations.SHORTEST``.
+    """
+    plan = _Plan(tally, rig, operations[0].start_md)
+    for k, operation in enumerate(operations):
+        began = plan.clock
+        if isinstance(operation, RotateOffBottom):
+            parts = rotating(operation)
+            plan.add(k, parts, [rad_per_s(operation.rpm)] * len(parts))
+        else:
+            plan.move(k, operation, last=k + 1 == len(operations))
+        check_duration(k, plan.clock - began)
+    return plan.phases, plan.strokes
