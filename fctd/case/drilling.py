@@ -1,4 +1,4 @@
-"""The tables of drilling: the controller of the rig's drive, and the rock under the bit."""
+"""The tables of drilling: the controller of the rig's drive, the rock under the bit, and the motor above it."""
 
 from typing import Literal
 
@@ -45,3 +45,10 @@ class RockSpec(Table):
     contact_strength: units.PositiveStress = 1e8
     weakening: units.Ratio = 0.0
     weakening_rpm: units.PositiveRpm = 30.0
+
+
+class MotorSpec(Table):
+    """A downhole motor that turns the bit against the string in a run in time, in proportion to the flow [m^3/s]."""
+
+    flow: units.PositiveFlow
+    revolutions_per_liter: units.PositiveRatio

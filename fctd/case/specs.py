@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, PrivateAttr, StrictBool, ValidationInfo, field_validator, model_validator
 
 from fctd.case import units
-from fctd.case.drilling import DriveSpec, RockSpec
+from fctd.case.drilling import DriveSpec, MotorSpec, RockSpec
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys import doubts
@@ -317,7 +317,8 @@ class RigSpec(Table):
     `segments` 1; it moves stands elsewhere.
 
     In a run in time a "stiff" `drive` turns the top as planned whatever the torque; "speed_control" and "impedance" are
-    motors with inertia and a controller, whose settings are in `control`.
+    motors with inertia and a controller, whose settings are in `control`. With an `autodriller` the block follows
+    `bit.weight_on_bit`, by the hook load, in place of the `speed` of a drilling operation, which gives its duration.
     """
 
     feed: Literal["auto", "long_segment", "stands"] = "auto"
@@ -331,6 +332,7 @@ class RigSpec(Table):
     torque_per_rpm: units.Torque = 0.0
     drive: Literal["stiff", "speed_control", "impedance"] = "stiff"
     control: DriveSpec = DriveSpec()
+    autodriller: StrictBool = False
 
     @property
     def push(self) -> float:
@@ -339,11 +341,14 @@ class RigSpec(Table):
 
 
 class BitSpec(Table):
-    """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]. A run in time that drills needs `rock`."""
+    """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]. A run in time that drills needs `rock`,
+    and one that slides also a `motor`.
+    """
 
     weight_on_bit: units.Force = 0.0
     torque: units.PositiveOrZeroTorque = 0.0
     rock: RockSpec | None = Field(default=None, description="a table [bit.rock]")
+    motor: MotorSpec | None = Field(default=None, description="a table [bit.motor]")
 
 
 class ContactSpec(Table):

@@ -304,4 +304,5 @@ PositiveAxialStiffness = Annotated[float, Quantity(dimension=AXIAL_STIFFNESS, ab
 PositiveBendingStiffness = Annotated[float, Quantity(dimension=BENDING_STIFFNESS, above=0.0)]
 Damping = Annotated[float, Quantity(dimension=DAMPING, at_least=0.0)]
 DampingPerLength = Annotated[float, Quantity(dimension=DAMPING_PER_LENGTH, at_least=0.0)]
+PositiveFlow = Annotated[float, Quantity(dimension=FLOW, above=0.0)]
 RotationalDamping = Annotated[float, Quantity(dimension=ROTATIONAL_DAMPING, at_least=0.0)]

@@ -3,7 +3,8 @@
 The rock is a spring under the bit, and the bottom moves on by Ω d/2π while the bit turns clockwise, d the depth of cut
 (rock.py); nothing is divided by Ω.  At rest the torque of the rock is a limit, like that of friction: it may stop the
 bit but not turn it.  The rock is the lower body of the free joint below the bit, so that the wall's friction sees a
-bit that carries its load.
+bit that carries its load.  A motor turns the bit against the string at its own spin, and its torque is the bit's; the
+energy in the ledger is what the string gives to motor and bit.
 """
 
 import math
@@ -45,9 +46,9 @@ def press_bit(S, top, n, rock, motion, dt):
     share = ramp(top[TOP_TIME] + 0.5 * dt, motion.start, motion.duration, motion.bit_from, motion.bit_to)
     ax, ay, az = axis(S, n)
     response = dt * S[INVERSE_JA + n]
-    free = S[WZ + n] + response * (ax * S[LX + n] + ay * S[LY + n] + az * S[LZ + n])
+    free = rock.motor + S[WZ + n] + response * (ax * S[LX + n] + ay * S[LY + n] + az * S[LZ + n])
     # The law takes the spin before this step: ``free`` is without the torque of the rock, and too fast.
-    weight, limit = bit_loads(rock, top[PRESSED], share, S[WZ + n])
+    weight, limit = bit_loads(rock, top[PRESSED], share, rock.motor + S[WZ + n])
     torque = -min(limit, abs(free) / response)
     torque = torque if free > 0 else -torque
     S[FX + n + 1], S[FY + n + 1], S[FZ + n + 1] = weight * ax, weight * ay, weight * az
@@ -68,13 +69,13 @@ def drill(S, top, n, rock, dt):
     pressed = top[PRESSED] + moved
     made = 0.0
     if rock.law == GIVEN_LOADS:
-        made = moved if weight > 0 else 0.0
-    elif rock.stiffness * pressed > rock.worn and spin > 0:
-        turned = dt * spin * rock.advance / (2 * math.pi)
+        made = max(pressed, 0.0)  # the bottom is where the bit has been deepest
+    elif rock.stiffness * pressed > rock.worn and spin + rock.motor > 0:
+        turned = dt * (spin + rock.motor) * rock.advance / (2 * math.pi)
         made = turned * (rock.stiffness * pressed - rock.worn) / (1 + turned * rock.stiffness)
     top[PRESSED] = pressed - made
     top[HOLE_MADE] += made
     top[SUM_BIT_WEIGHT] += dt * weight
     top[SUM_BIT_TORQUE] -= dt * torque
-    top[SUM_BIT_TURN] += dt * spin
+    top[SUM_BIT_TURN] += dt * (spin + rock.motor)
     top[LOST_BIT] += weight * moved - dt * torque * spin

@@ -1,9 +1,13 @@
-"""The rig's drive: a motor with inertia and a controller of its speed, which turns the top of the string.
+"""The rig's drive and its driller.
+
+The drive is a motor with inertia and a controller of its speed, which turns the top of the string.
 
 The motor follows Newton, J dΩ/dt = T_m − T, T the torque with which it turns the string.  The controller asks for
 T_m = P e + I ∫e dt + c J dΩ/dt, e the planned rotation less Ω.  The last term makes the inertia appear smaller by the
 share c.  A small torque wave from below then meets the impedance P + iω(1 − c)J + I/(iω) (Kyllingstad & Nessjøen
 2009), and is absorbed where this equals ζ = I_p √(Gρ) of the pipe.
+
+The autodriller moves the block by the weight on bit as seen at surface, the rotating tare less the hook load.
 """
 
 import math
@@ -29,6 +33,22 @@ class Drive(NamedTuple):
 
 
 STIFF = Drive(True, 0.0, 0.0, 0.0, 0.0, math.inf)
+
+
+class Driller(NamedTuple):
+    """Who feeds the string while it drills.
+
+    by_weight : an autodriller, else the block moves as planned.  weight : wanted on the bit [N]; gain : block speed for
+    a missing weight [m/s/N]; integral : the same for its sum over time [m/s^2/N].
+    """
+
+    by_weight: bool
+    weight: float
+    gain: float
+    integral: float
+
+
+BY_SPEED = Driller(False, 0.0, 0.0, 0.0)
 
 
 def least_inertia(spring: float, integral: float, step: float) -> float:

@@ -19,7 +19,7 @@ class Rock(NamedTuple):
     flats carry, σ a l [N].  advance : depth of cut for the rest of the weight, 1/(ζ ε a) [m/N].  cutting, rubbing :
     torque for the weight on the cutting edges, a/2ζ, and on the wear flats, μ γ a/2 [N m/N].  weight [N],
     torque [N m] : the given loads.  weakening, weakening_spin : torque is 1 + weakening · exp(−|Ω|/weakening_spin)
-    times that of the law [rad/s].
+    times that of the law [rad/s].  motor : spin of the bit against the string [rad/s].
     """
 
     law: int
@@ -32,6 +32,7 @@ class Rock(NamedTuple):
     torque: float = 0.0
     weakening: float = 0.0
     weakening_spin: float = 1.0
+    motor: float = 0.0
 
 
 NOTHING = Rock(NO_ROCK)

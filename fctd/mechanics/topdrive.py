@@ -6,7 +6,7 @@ It stands still and feeds pipe into the long segment, or it hangs from a block a
 import math
 from typing import NamedTuple
 
-from fctd.mechanics.drive import STIFF, Drive, turn
+from fctd.mechanics.drive import BY_SPEED, STIFF, Driller, Drive, turn
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import hinge_gap, joint_loads, strain_energy
 from fctd.mechanics.rotations import half_twist, turned
@@ -59,7 +59,8 @@ class Motion(NamedTuple):
     """Feed and rotation of the top drive during one part of a run; a ramp when the ends differ.
 
     start, duration [s]; feed speed downwards [m/s] and rotation speed [rad/s] at both ends; drive : how the top follows
-    the rotation; bit_from, bit_to : share of the given weight and torque on the bit at both ends.
+    the rotation; bit_from, bit_to : share of the weight and torque on the bit at both ends; driller : how the
+    block follows them.
     """
 
     start: float
@@ -71,6 +72,7 @@ class Motion(NamedTuple):
     drive: Drive = STIFF
     bit_from: float = 0.0
     bit_to: float = 0.0
+    driller: Driller = BY_SPEED
 
 
 class PerMetre(NamedTuple):
@@ -103,7 +105,9 @@ TOP_RATE, TOP_BEHIND, SUM_TOP_TURN = range(8, 11)
 # made since the start [m]; sums since the last record of weight on bit [N s], bit torque [N m s] and turns of the
 # bit [rad]; energy that it gave to the rock since the start [J]; weight on it [N] and torque on it [N m] in this step.
 PRESSED, HOLE_MADE, SUM_BIT_WEIGHT, SUM_BIT_TORQUE, SUM_BIT_TURN, LOST_BIT, BIT_WEIGHT, BIT_TORQUE = range(11, 19)
-TOP_SIZE = 19
+# Of the autodriller: hook load off bottom [N], block speed of the integral part [m/s], feed since the start [m].
+TARE, TOP_FEED, FED = range(19, 22)
+TOP_SIZE = 22
 
 
 @inlined
@@ -181,6 +185,29 @@ def top_torque(S):
 
 
 @inlined
+def hanging_load(S, top, pipe):
+    """Pull of the string on the top drive [N], with the half of a long segment that hangs on it."""
+    ax, ay, az = axis(S, 0)
+    fx, fy, fz = joint_force(S, 1)
+    return 0.5 * pipe.weight * top[TOP_LENGTH] - (fx * ax + fy * ay + fz * az)
+
+
+@entry
+def load_on_top(S, top, pipe):
+    """``hanging_load`` for Python."""
+    return hanging_load(S, top, pipe)
+
+
+@inlined
+def feed_by_weight(S, top, motion, pipe, dt):
+    """Speed of the block downwards [m/s] by an autodriller.  The tare grows by the weight of the pipe that is fed."""
+    share = ramp(top[TOP_TIME] + 0.5 * dt, motion.start, motion.duration, motion.bit_from, motion.bit_to)
+    missing = share * motion.driller.weight - (top[TARE] + pipe.weight * top[FED] - hanging_load(S, top, pipe))
+    top[TOP_FEED] += dt * motion.driller.integral * missing
+    return top[TOP_FEED] + motion.driller.gain * missing
+
+
+@inlined
 def turn_top(S, top, pipe, drive, planned, dt):
     """Rotation of the top after this step [rad/s] by a drive that is not stiff; adds the work of its inertia."""
     load, drag = top_torque(S), 0.5 * pipe.mud_spin * top[TOP_LENGTH]
@@ -240,6 +267,9 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
 def drive_top(S, top, motion, pipe, dt):
     """Update the top drive's readings over this step, given joint loads; returns feed [m/s] and rotation [rad/s]."""
     feed, rate = planned_speeds(top, motion, dt)
+    if motion.driller.by_weight:
+        feed = feed_by_weight(S, top, motion, pipe, dt)
+    top[FED] += dt * feed
     if not motion.drive.held:
         rate = turn_top(S, top, pipe, motion.drive, rate, dt)
     read_top_drive(S, top, pipe, dt * feed, dt * rate, dt)

@@ -18,7 +18,7 @@ from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.model.derrick import with_derrick
-from fctd.model.drilling import above_bottom, drive_of, rock_of
+from fctd.model.drilling import above_bottom, check_weight, driller_of, drive_of, rock_of
 from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
@@ -81,7 +81,11 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
     """
     with naming_file(case):
         run, phases = _prepare(case)
-        phases = [Phase(motion._replace(drive=run.drive), operation) for motion, operation in phases]
+        phases = [_driven(run, phase) for phase in phases]
+        if case.rig.autodriller and run.hoist is not None and any(stroke.in_slips for stroke in run.hoist.strokes):
+            raise InputError(
+                "false, or operations without a connection between two stands", key="rig.autodriller", value=True
+            )
         if contact is not None:
             if run.hoist is not None:
                 raise InputError(
@@ -93,6 +97,14 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
                 raise InputError("true, since a contact method was passed", key="contact.enabled", value=False)
             run.wall = QueriedWall(contact, run.hole, run.segments)
         return run, phases
+
+
+def _driven(run: Run, phase: Phase) -> Phase:
+    """A phase with the drive and the driller of a run."""
+    motion = phase.motion._replace(drive=run.drive)
+    if run.case.operations[phase.operation].on_bottom:
+        motion = motion._replace(driller=driller_of(run.case, run.string, run.laws.rock))
+    return Phase(motion, phase.operation)
 
 
 def _prepare(case: Case) -> tuple[Run, list[Phase]]:
@@ -184,6 +196,8 @@ def _run(
         raise InputError(
             f"'auto', 'largest' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
         )
+    tangent = hole.at(string.top_md + np.cumsum(string.length))[1][:, 2]
+    check_weight(case, float((string.of("weight") * string.length * tangent).sum()))
     _check_cost(case, most, step, sum(s.motion.duration for s in phases))
     spring = max(float(probe[state.K_TWIST + 1]) for probe, _ in probes)
     # A walk from the top would stop at the first slab that contains a point; past 90° that may be a distant piece.
@@ -374,4 +388,6 @@ def start_from_rest(run: Run) -> None:
     run.top[topdrive.TOP_TIME] = 0.0
     if run.laws.rock.law != NO_ROCK:
         run.top[topdrive.PRESSED] = -above_bottom(run.case)
+        run.top[topdrive.TARE] = topdrive.load_on_top(run.S, run.top, run.pipe)
+        run.top[topdrive.FED] = 0.0
     run.refresh()
