@@ -14,9 +14,10 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field, PrivateAttr, ValidationInfo, field_validator, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, StrictBool, ValidationInfo, field_validator, model_validator
 
 from fctd.case import units
+from fctd.case.drilling import DriveSpec, MotorSpec, RockSpec
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys import doubts
@@ -312,6 +313,10 @@ class RigSpec(Table):
     the upper end stands still and the top segment grows, as in the paper; "auto" does so where the hole is vertical
     along that segment, which must be of one component, and where the case has it as the last component with
     `segments` 1; it moves stands elsewhere.
+
+    In a run in time a "stiff" `drive` turns the top as planned whatever the torque; "speed_control" and "impedance" are
+    motors with inertia and a controller, whose settings are in `control`. With an `autodriller` the block follows
+    `bit.weight_on_bit`, by the hook load, in place of the `speed` of a drilling operation, which gives its duration.
     """
 
     feed: Literal["auto", "long_segment", "stands"] = "auto"
@@ -323,6 +328,9 @@ class RigSpec(Table):
     sheave_efficiency: units.Efficiency = 1.0
     torque_offset: units.Torque = 0.0
     torque_per_rpm: units.Torque = 0.0
+    drive: Literal["stiff", "speed_control", "impedance"] = "stiff"
+    control: DriveSpec = DriveSpec()
+    autodriller: StrictBool = False
 
     @property
     def push(self) -> float:
@@ -331,10 +339,14 @@ class RigSpec(Table):
 
 
 class BitSpec(Table):
-    """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]."""
+    """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]. A run in time that drills needs `rock`,
+    and one that slides also a `motor`.
+    """
 
     weight_on_bit: units.Force = 0.0
     torque: units.PositiveOrZeroTorque = 0.0
+    rock: RockSpec | None = Field(default=None, description="a table [bit.rock]")
+    motor: MotorSpec | None = Field(default=None, description="a table [bit.motor]")
 
 
 class SolverSpec(Table):

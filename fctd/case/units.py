@@ -101,6 +101,10 @@ DAMPING_PER_LENGTH: Final = Dimension(
 VISCOSITY: Final = Dimension("a viscosity", "Pa*s", "'30 mPa*s' or '30 cP'", ("Pa*s", "mPa*s", "cP"))
 FLOW: Final = Dimension("a flow rate", "m^3/s", "'2000 L/min' or '500 gpm'", ("m^3/s", "L/s", "L/min", "gpm"),
                               {"gpm": "(gallon/minute)", "lpm": "(liter/minute)"})  # fmt: skip
+ANGULAR_DAMPING: Final = Dimension(
+    "a torque per rotation speed", "N*m*s", "'400 N*m*s'", ("N*m*s", "kN*m*s", "ft*lbf*s")
+)
+INERTIA: Final = Dimension("a moment of inertia", "kg*m^2", "'2000 kg*m^2'", ("kg*m^2", "lb*ft^2"))
 ROTATIONAL_DAMPING: Final = Dimension("a rotational damping per length", "N*s", "'0.1 N*s'", ("N*s", "lbf*s"))
 
 
@@ -263,6 +267,9 @@ FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0, sl
 Friction = Annotated[float, FRICTION]
 Exponent = Annotated[float, Number(noun="an exponent", at_least=1.0, at_most=5.0)]
 PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
+Share = Annotated[float, Number(noun="a share", at_least=0.0, at_most=1.0)]
+Ratio = Annotated[float, Number(noun="a ratio", at_least=0.0, at_most=10.0)]
+PositiveRatio = Annotated[float, Number(noun="a ratio", above=0.0, at_most=10.0)]
 Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
 # Hoists run at 1 to 3 m/s and top drives at up to 300 rev/min; a model at a thousandth of the size turns some thirty
 # times as fast.  A larger number is in the wrong unit.
@@ -283,6 +290,9 @@ PositiveSpeed = Annotated[float, Quantity(dimension=SPEED, above=0.0, at_most=FA
 Force = Annotated[float, Quantity(dimension=FORCE, at_least=0.0)]
 Torque = Annotated[float, Quantity(dimension=TORQUE)]
 PositiveOrZeroTorque = Annotated[float, Quantity(dimension=TORQUE, at_least=0.0)]
+PositiveTorque = Annotated[float, Quantity(dimension=TORQUE, above=0.0)]
+Inertia = Annotated[float, Quantity(dimension=INERTIA, at_least=0.0)]
+AngularDamping = Annotated[float, Quantity(dimension=ANGULAR_DAMPING, above=0.0)]
 Angle = Annotated[float, Quantity(dimension=ANGLE)]
 Smoothing = Annotated[float, Quantity(dimension=ANGLE, above=0.0, at_most=0.02)]
 Bend = Annotated[float, Quantity(dimension=ANGLE, at_least=0.0, at_most=0.1)]
@@ -298,4 +308,5 @@ Damping = Annotated[float, Quantity(dimension=DAMPING, at_least=0.0)]
 # Plastic viscosities of mud are 5 to 100 mPa*s; honey has 10 Pa*s.
 Viscosity = Annotated[float, Quantity(dimension=VISCOSITY, at_least=0.0, at_most=2.0, slips=(Slip(2, 2000, " mPa*s"),))]
 DampingPerLength = Annotated[float, Quantity(dimension=DAMPING_PER_LENGTH, at_least=0.0)]
+PositiveFlow = Annotated[float, Quantity(dimension=FLOW, above=0.0)]
 RotationalDamping = Annotated[float, Quantity(dimension=ROTATIONAL_DAMPING, at_least=0.0)]

@@ -9,6 +9,7 @@ each of these impulses by the velocity after it, with which the body then moves.
 from functools import cache
 from typing import Any
 
+from fctd.mechanics.bit import drill, press_bit
 from fctd.mechanics.cake import press_into_cake
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.derrick import immerse
@@ -17,6 +18,7 @@ from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.laws import LAWS, chain
 from fctd.mechanics.readings import read_step
+from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import (
     ADDED_MASS,
@@ -303,9 +305,11 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     update_joint_loads(S, packed, laws.joint_damping, dt)
     hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
     feed, rate = drive_top(S, top, motion, pipe, dt)
-    read_step(S, top, n, hookload, torque, rate, dt)
+    read_step(S, top, n, hookload, torque, rate, laws.rock.motor, dt)
     if top[IN_DERRICK] > 0:
         immerse(S, n)
+    if laws.rock.law != NO_ROCK:
+        press_bit(S, top, n, laws.rock, motion, dt)
     # 2 and 3: the piece of hole that owns each contact point, and the point's distance from its axis and wall.
     find_walls(S, owner, n, packed, C, laws.geometry)
     if laws.wall_exponent != 1:
@@ -314,7 +318,9 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
         press_into_cake(S, owner, n, C, laws, dt)
     # 4: impulses of the wall, normal and friction, and those of springs, weight and mud.
     update_velocities(S, packed, laws, dt)
-    # 5: motion of the bodies and of the top drive.
+    # 5: motion of the bodies, of the bit in the rock, and of the top drive.
+    if laws.rock.law != NO_ROCK:
+        drill(S, top, n, laws.rock, dt)
     move_bodies(S, packed, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)
 

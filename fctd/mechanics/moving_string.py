@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from fctd.mechanics import dynamics, readings, state, topdrive
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.derrick import put_immersed
+from fctd.mechanics.drive import STIFF, Drive
 from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.faults import check
 from fctd.mechanics.state import Laws
@@ -30,7 +31,7 @@ class Sums(NamedTuple):
     """Loads summed over time, of every segment (n,) and at the top drive.
 
     normal [N s], friction_torque, r_mu_normal, mud_torque [N m s], tension [N s], torque [N m s];
-    hookload [N s], top_torque [N m s].
+    hookload [N s], top_torque [N m s]; of the bit weight [N s], torque [N m s].
     """
 
     normal: Array
@@ -41,6 +42,8 @@ class Sums(NamedTuple):
     torque: Array
     hookload: float
     top_torque: float
+    bit_weight: float
+    bit_torque: float
 
     def over(self, span: float) -> "Sums":
         """The means over a time span [s]: N and N m."""
@@ -52,6 +55,10 @@ SUM_ROWS = (
     state.SUM_NORMAL, state.SUM_FRICTION_TORQUE, state.SUM_R_MU_N,
     state.SUM_MUD_TORQUE, state.SUM_TENSION, state.SUM_TORQUE,
 )  # fmt: skip
+# Numbers of the top drive's array in the order of ``Sums``.
+SUMS_AT_THE_ENDS = [
+    topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE, topdrive.SUM_BIT_WEIGHT, topdrive.SUM_BIT_TORQUE,
+]  # fmt: skip
 
 
 @dataclass(kw_only=True)
@@ -59,7 +66,7 @@ class MovingString:
     """A string in motion: the buffers that a step changes, and the pipe, laws, wall and step length that it uses.
 
     S, top, owner : state buffers (state.py, topdrive.py, contact.py); pipe : fed in at the top; step : the
-    longest step [s]; steps : number of steps taken; at_once : most segment steps in one compiled call.
+    longest step [s]; drive : of the rig; steps : number of steps taken; at_once : most segment steps in one call.
     """
 
     S: Array
@@ -70,6 +77,7 @@ class MovingString:
     laws: Laws
     wall: "Wall"
     step: float
+    drive: Drive = STIFF
     steps: int = 0
     at_once: int = AT_ONCE
 
@@ -105,24 +113,26 @@ class MovingString:
         check(self.S, self.segments)
 
     def energy(self) -> Energy:
-        """Energy of the string [J], after ``refresh``."""
-        return energy_of(self.S, self.segments, self.laws.wall_exponent)
+        """Energy of the string and of the drive's inertia [J], after ``refresh``."""
+        energy = energy_of(self.S, self.segments, self.laws.wall_exponent)
+        return energy._replace(
+            kinetic=energy.kinetic + 0.5 * self.drive.inertia * float(self.top[topdrive.TOP_RATE]) ** 2
+        )
 
     def drain(self) -> Sums:
         """Return the sums of loads since the last call or ``clear``, and set them to zero."""
         rows = [state.row(self.S, offset, self.segments) for offset in SUM_ROWS]
-        at_top = [topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]
-        sums = Sums._make([*(row.copy() for row in rows), *map(float, self.top[at_top])])
+        sums = Sums._make([*(row.copy() for row in rows), *map(float, self.top[SUMS_AT_THE_ENDS])])
         for row in rows:
             row[:] = 0.0
-        self.top[at_top] = 0.0
+        self.top[SUMS_AT_THE_ENDS] = 0.0
         return sums
 
     def clear(self) -> None:
         """Set sums, losses, the top drive's work, the energy of fed pipe and the count of steps to zero."""
         self.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
         top = topdrive
-        self.top[[top.SUM_HOOKLOAD, top.SUM_TOP_TORQUE, top.TOP_WORK, top.FED_ENERGY, top.TOP_PENETRATION]] = 0.0
+        self.top[[*SUMS_AT_THE_ENDS, top.TOP_WORK, top.FED_ENERGY, top.LOST_BIT, top.TOP_PENETRATION]] = 0.0
         readings.clear(self.top)
         self.steps = 0
 

@@ -61,15 +61,16 @@ def drain(top: NDArray[Any]) -> Readings:
 
 
 @inlined
-def read_step(S, top, n, hookload, torque, rate, dt):
+def read_step(S, top, n, hookload, torque, rate, motor, dt):
     """Update the readings by those of one step.
 
-    hookload [N s], torque [N m s] : sums at the top before this step's were added; rate : of the top drive [rad/s].
+    hookload [N s], torque [N m s] : sums at the top before this step's were added; rate : of the top drive, motor :
+    of the bit against the string [rad/s].
     """
     pull, twist = (top[SUM_HOOKLOAD] - hookload) / dt, (top[SUM_TOP_TORQUE] - torque) / dt
     top[HOOKLOAD_MIN], top[HOOKLOAD_MAX] = min(top[HOOKLOAD_MIN], pull), max(top[HOOKLOAD_MAX], pull)
     top[TORQUE_MIN], top[TORQUE_MAX] = min(top[TORQUE_MIN], twist), max(top[TORQUE_MAX], twist)
-    spin = S[WZ + n]
+    spin = S[WZ + n] + motor
     top[TOP_ANGLE] += dt * rate
     top[BIT_ANGLE] += dt * spin
     if abs(spin) < STILL_SPIN:

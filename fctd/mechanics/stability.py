@@ -15,13 +15,14 @@ SHARES = {"auto": 0.8, "largest": 1.0}
 TURN_PER_STEP = 0.2
 
 
-def stiffest_mode(S: Array, n: int, wall_stiffness: float) -> float:
+def stiffest_mode(S: Array, n: int, wall_stiffness: float, rock_stiffness: float = 0.0) -> float:
     """Upper bound of the highest angular frequency of string and wall [rad/s].
 
     Every body shares its mass and inertia equally between its two joints; no mode of the string is then
     faster than the fastest mode of a single joint with its two half-bodies (Irons & Treharne 1971, the
     theorem used for elements).  The wall spring under a body is taken with the joint above it.  For a
-    uniform string this gives the exact 2c/Δz of the axial mode.
+    uniform string this gives the exact 2c/Δz of the axial mode.  The rock under the bit has the lower half of the
+    last body for itself.
     """
 
     def bodies(offset: int) -> Array:
@@ -36,6 +37,7 @@ def stiffest_mode(S: Array, n: int, wall_stiffness: float) -> float:
         for k in (state.INVERSE_MASS, state.INVERSE_JT, state.INVERSE_JA)
     )
     axial = bodies(state.K_AXIAL) * (inverse_mass[0] + inverse_mass[1])
+    rock = 2 * rock_stiffness * S[state.INVERSE_MASS + n]
     twist = bodies(state.K_TWIST) * (inverse_ja[0] + inverse_ja[1])
 
     # Lateral: unknowns (y, θ) of the upper and of the lower body.
@@ -50,7 +52,7 @@ def stiffest_mode(S: Array, n: int, wall_stiffness: float) -> float:
         scaled = shape * scale
         stiffness += k[:, None, None] * scaled[:, :, None] * scaled[:, None, :]
     lateral = np.linalg.eigvalsh(stiffness)[:, -1]
-    return float(np.sqrt(max(axial.max(), twist.max(), lateral.max())))
+    return float(np.sqrt(max(axial.max(), rock, twist.max(), lateral.max())))
 
 
 def stable_step(frequency: float, damping_time: float, spin: float) -> float:

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.mechanics.jit import inlined
+from fctd.mechanics.rock import NOTHING, Rock
 
 MAX_SEGMENTS = 10_000
 # Columns handled at once: a cache line, and a multiple of every vector width in use.
@@ -103,7 +104,7 @@ class Laws(NamedTuple):
     settling : artificial mass-proportional damping rate [1/s], 0 in a run.
     wall_exponent : p of the wall's force K d₀ (d/d₀)^p at penetration d; wall_reference : d₀ [m].
     cake_thickness [m], cake_time [s] : final thickness of mud cake and the time in which it grows so thick;
-    cake_friction : its factor.  0 thickness: no cake.
+    cake_friction : its factor.  0 thickness: no cake.  rock : under the bit.
     """
 
     geometry: int
@@ -117,6 +118,7 @@ class Laws(NamedTuple):
     cake_thickness: float = 0.0
     cake_time: float = 1.0
     cake_friction: float = 0.0
+    rock: Rock = NOTHING
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

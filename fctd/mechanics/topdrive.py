@@ -6,6 +6,7 @@ It stands still and feeds pipe into the long segment, or it hangs from a block a
 import math
 from typing import NamedTuple
 
+from fctd.mechanics.drive import BY_SPEED, STIFF, Driller, Drive, turn
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import hinge_gap, joint_loads, strain_energy
 from fctd.mechanics.rotations import half_twist, turned
@@ -59,7 +60,9 @@ GRAVITY = 9.80665
 class Motion(NamedTuple):
     """Feed and rotation of the top drive during one part of a run; a ramp when the ends differ.
 
-    start, duration [s]; feed speed downwards [m/s] and rotation speed [rad/s] at both ends.
+    start, duration [s]; feed speed downwards [m/s] and rotation speed [rad/s] at both ends; drive : how the top follows
+    the rotation; bit_from, bit_to : share of the weight and torque on the bit at both ends; driller : how the
+    block follows them.
     """
 
     start: float
@@ -68,6 +71,10 @@ class Motion(NamedTuple):
     feed_to: float
     spin_from: float
     spin_to: float
+    drive: Drive = STIFF
+    bit_from: float = 0.0
+    bit_to: float = 0.0
+    driller: Driller = BY_SPEED
 
 
 class PerMetre(NamedTuple):
@@ -95,12 +102,18 @@ class PerMetre(NamedTuple):
 # brought in by fed pipe since the start [J]; of the steps since the last record the extremes of hook load [N] and
 # torque [N m], the angles by which top and bit turned [rad], and the time for which the bit stood still [s]; since the
 # start the largest penetration of a wall of another law than the linear one [m]; height of the block above the rotary
-# table, along its axis [m], and 1 where the string hangs from a block in a derrick, else 0 (derrick.py).
+# table, along its axis [m], and 1 where the string hangs from a block in a derrick, else 0 (derrick.py); rotation of a
+# drive that is not stiff [rad/s] and its angle behind the plan [rad].
 TOP_LENGTH, TOP_TIME, SUM_HOOKLOAD, SUM_TOP_TORQUE, TOP_WORK, FED_ENERGY = range(6)
 HOOKLOAD_MIN, HOOKLOAD_MAX, TORQUE_MIN, TORQUE_MAX, TOP_ANGLE, BIT_ANGLE, BIT_STILL = range(6, 13)
-TOP_PENETRATION = 13
-BLOCK_HEIGHT, IN_DERRICK = 14, 15
-TOP_SIZE = 16
+TOP_PENETRATION, BLOCK_HEIGHT, IN_DERRICK, TOP_RATE, TOP_BEHIND = range(13, 18)
+# In the same array the numbers of the bit (bit.py): how far it is pressed into the rock, below 0 off bottom [m]; hole
+# made since the start [m]; sums since the last record of weight on bit [N s] and bit torque [N m s]; energy that it
+# gave to the rock since the start [J]; weight on it [N] and torque on it [N m] in this step.
+PRESSED, HOLE_MADE, SUM_BIT_WEIGHT, SUM_BIT_TORQUE, LOST_BIT, BIT_WEIGHT, BIT_TORQUE = range(18, 25)
+# Of the autodriller: hook load off bottom [N], block speed of the integral part [m/s], feed since the start [m].
+TARE, TOP_FEED, FED = range(25, 28)
+TOP_SIZE = 28
 
 
 @inlined
@@ -176,6 +189,46 @@ def planned_speeds(top, motion, dt):
 
 
 @inlined
+def top_torque(S):
+    """Torque with which the top turns joint 1 [N m]."""
+    ax, ay, az = axis(S, 0)
+    return -(S[UX + 1] * ax + S[UY + 1] * ay + S[UZ + 1] * az)
+
+
+@inlined
+def hanging_load(S, top, pipe):
+    """Pull of the string on the top drive [N], with the half of a long segment that hangs on it."""
+    ax, ay, az = axis(S, 0)
+    fx, fy, fz = joint_force(S, 1)
+    return 0.5 * pipe.weight * top[TOP_LENGTH] - (fx * ax + fy * ay + fz * az)
+
+
+@entry
+def load_on_top(S, top, pipe):
+    """``hanging_load`` for Python."""
+    return hanging_load(S, top, pipe)
+
+
+@inlined
+def feed_by_weight(S, top, motion, pipe, dt):
+    """Speed of the block downwards [m/s] by an autodriller.  The tare grows by the weight of the pipe that is fed."""
+    share = ramp(top[TOP_TIME] + 0.5 * dt, motion.start, motion.duration, motion.bit_from, motion.bit_to)
+    missing = share * motion.driller.weight - (top[TARE] + pipe.weight * top[FED] - hanging_load(S, top, pipe))
+    top[TOP_FEED] += dt * motion.driller.integral * missing
+    return top[TOP_FEED] + motion.driller.gain * missing
+
+
+@inlined
+def turn_top(S, top, pipe, drive, planned, dt):
+    """Rotation of the top after this step [rad/s] by a drive that is not stiff; adds the work of its inertia."""
+    load, drag = top_torque(S), 0.5 * pipe.mud_spin * top[TOP_LENGTH]
+    rate, behind, torque = turn(drive, planned, top[TOP_RATE], top[TOP_BEHIND], load, drag, dt)
+    top[TOP_RATE], top[TOP_BEHIND] = rate, behind
+    top[TOP_WORK] += dt * rate * (torque - load - drag * rate)
+    return rate
+
+
+@inlined
 def read_top_drive(S, top, pipe, fed, turned_by, dt):
     """Update the sums of hook load and torque, work and fed energy, given the loads of joint 1.
 
@@ -189,7 +242,7 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
     half = 0.5 * top[TOP_LENGTH]
     hanging = tension + pipe.weight * half
     drag, mud_torque = pipe.mud_axial * half * fed, pipe.mud_spin * half * turned_by
-    torque = -(S[UX + 1] * ax + S[UY + 1] * ay + S[UZ + 1] * az)
+    torque = top_torque(S)
     top[SUM_HOOKLOAD] += dt * hanging - drag
     top[SUM_TOP_TORQUE] += dt * torque + mud_torque
     S[SUM_MUD_TORQUE + 1] += mud_torque
@@ -224,6 +277,11 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
 def drive_top(S, top, motion, pipe, dt):
     """Update the top drive's readings over this step, given joint loads; returns feed [m/s] and rotation [rad/s]."""
     feed, rate = planned_speeds(top, motion, dt)
+    if motion.driller.by_weight:
+        feed = feed_by_weight(S, top, motion, pipe, dt)
+    top[FED] += dt * feed
+    if not motion.drive.held:
+        rate = turn_top(S, top, pipe, motion.drive, rate, dt)
     read_top_drive(S, top, pipe, dt * feed, dt * rate, dt)
     return feed, rate
 

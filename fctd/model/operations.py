@@ -46,11 +46,16 @@ def schedule(operations: Sequence[Operation]) -> list[Phase]:
         stops = k + 1 < len(operations)
         parts = _feed(operation, stops)
         check_duration(k, sum(duration for duration, _, _ in parts))
+        loaded = k > 0 and operations[k - 1].on_bottom
+        unloads = stops and not operations[k + 1].on_bottom
         for duration, feed_from, feed_to in parts:
-            motion = Motion(clock, duration, feed_from, feed_to, turning, rate)
+            load = operation.on_bottom and not (unloads and feed_to == 0)
+            motion = Motion(
+                clock, duration, feed_from, feed_to, turning, rate, bit_from=float(loaded), bit_to=float(load)
+            )
             phases.append(Phase(motion, k))
             clock += duration
-            turning = rate
+            turning, loaded = rate, load
     return phases
 
 

@@ -37,29 +37,34 @@ class _Plan:
     def __init__(self, tally: Tally, rig: RigSpec, depth: float) -> None:
         self.tally, self.rig, self.depth = tally, rig, depth
         self.stands = tally.stands_for(depth)
-        self.clock, self.turning = 0.0, 0.0
+        self.clock, self.turning, self.loaded = 0.0, 0.0, 0.0
         self.phases: list[Phase] = []
         self.strokes: list[Stroke] = []
         self.change = 0
 
-    def add(self, k: int, parts: list[Part], spins: list[float]) -> None:
-        """Phases of operation k: duration [s] and feed at both ends [m/s] of each, rotation at its end [rad/s]."""
-        for (duration, feed_from, feed_to), spin in zip(parts, spins, strict=True):
-            self.phases.append(Phase(Motion(self.clock, duration, feed_from, feed_to, self.turning, spin), k))
+    def add(self, k: int, parts: list[Part], spins: list[float], loads: list[float]) -> None:
+        """Phases of operation k: duration [s] and feed at both ends [m/s] of each; rotation [rad/s] and share of the
+        loads on the bit at its end."""
+        for (duration, feed_from, feed_to), spin, load in zip(parts, spins, loads, strict=True):
+            motion = Motion(self.clock, duration, feed_from, feed_to, self.turning, spin)
+            self.phases.append(Phase(motion._replace(bit_from=self.loaded, bit_to=load), k))
             self.clock += duration
-            self.turning = spin
+            self.turning, self.loaded = spin, load
 
     def connect(self, k: int, operation: Operation, change: int) -> None:
         """Hang the string in the slips and add a stand afterwards, or rack one back before."""
         if self.turning:
-            self.add(k, [(operation.ramp_time, 0.0, 0.0)], [0.0])
+            self.add(k, [(operation.ramp_time, 0.0, 0.0)], [0.0], [0.0])
         self.strokes.append(Stroke(self.clock, min(change, 0), 0.0, 0.0))
-        self.add(k, [(self.rig.connection_time, 0.0, 0.0)], [0.0])
+        self.add(k, [(self.rig.connection_time, 0.0, 0.0)], [0.0], [0.0])
         self.stands += change
         self.change = max(change, 0)
 
-    def move(self, k: int, operation: Operation, last: bool) -> None:
-        """Strokes and connections of operation k; the last of a schedule ends in motion."""
+    def move(self, k: int, operation: Operation, last: bool, unloads: bool) -> None:
+        """Strokes and connections of operation k; the last of a schedule ends in motion.
+
+        unloads : whether the next operation is off bottom.
+        """
         end, down = operation.end_md, operation.end_md > operation.start_md
         rate = rad_per_s(operation.rpm)
         while abs(end - self.depth) > SAME:
@@ -76,10 +81,12 @@ class _Plan:
             target = float(self.tally.reach[self.stands]) - goal
             self.strokes.append(Stroke(self.clock, self.change, goal - self.depth, target))
             self.change = 0
-            spins = [rate] * len(parts)
+            spins, loads = [rate] * len(parts), [float(operation.on_bottom)] * len(parts)
             if not ends_here:
-                spins[-1] = 0.0
-            self.add(k, parts, spins)
+                spins[-1] = loads[-1] = 0.0
+            elif unloads:
+                loads[-1] = 0.0
+            self.add(k, parts, spins, loads)
             self.depth = goal
 
 
@@ -94,8 +101,9 @@ def stand_schedule(operations: Sequence[Operation], tally: Tally, rig: RigSpec) 
         began = plan.clock
         if isinstance(operation, RotateOffBottom):
             parts = rotating(operation)
-            plan.add(k, parts, [rad_per_s(operation.rpm)] * len(parts))
+            plan.add(k, parts, [rad_per_s(operation.rpm)] * len(parts), [0.0] * len(parts))
         else:
-            plan.move(k, operation, last=k + 1 == len(operations))
+            last = k + 1 == len(operations)
+            plan.move(k, operation, last, unloads=not last and not operations[k + 1].on_bottom)
         check_duration(k, plan.clock - began)
     return plan.phases, plan.strokes

@@ -13,7 +13,7 @@ from fctd.mechanics.energy import Energy
 if TYPE_CHECKING:
     import pandas as pd
 
-# Losses and the rows of the state in which they are summed.
+# Losses and the rows of the state in which they are summed; what the bit gives to the rock is a loss as well.
 LOSSES = {
     "lost_friction_J": state.LOST_FRICTION,
     "lost_contact_J": state.LOST_CONTACT,
@@ -32,6 +32,7 @@ def entry(
     stored = {f"{name}_J": b - a for name, a, b in zip(Energy._fields, start, now, strict=True)}
     gains = {"top_drive_work_J": float(top[topdrive.TOP_WORK]), "fed_pipe_J": float(top[topdrive.FED_ENERGY])}
     losses = {name: float(state.row(S, offset, segments).sum()) for name, offset in LOSSES.items()}
+    losses["lost_bit_J"] = float(top[topdrive.LOST_BIT])
     residual = sum(stored.values()) + sum(losses.values()) - sum(gains.values())
     return {**stored, **gains, **losses, "residual_J": residual}
 
@@ -45,7 +46,7 @@ def work(energy: pd.DataFrame, *, motion: bool = False) -> float:
     """
     if not np.isfinite(energy.to_numpy(float)).all() or energy.empty:
         return float("nan")
-    lost = energy[list(LOSSES)].sum(axis=1).abs()
+    lost = energy.filter(like="lost_").sum(axis=1).abs()
     beyond = (energy["top_drive_work_J"] - energy["gravity_J"]).abs()
     found = [lost.max(), beyond.max()]
     if motion:

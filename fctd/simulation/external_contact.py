@@ -10,12 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.mechanics import state
+from fctd.mechanics.bit import drill, press_bit
 from fctd.mechanics.contact import contact_point, store_sticking, store_wall
 from fctd.mechanics.dynamics import move_bodies, padded_columns, update_axes, update_velocities
 from fctd.mechanics.jit import entry
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.moving_string import MovingString
 from fctd.mechanics.readings import read_step
+from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.state import Laws
 from fctd.mechanics.topdrive import SUM_HOOKLOAD, SUM_TOP_TORQUE, Motion, drive_top, move_top_drive
 from fctd.mechanics.wall_law import stiffen_walls
@@ -77,7 +79,9 @@ def _before(S, top, n, laws, motion, pipe, dt, points):
     update_joint_loads(S, padded_columns(n), laws.joint_damping, dt)
     hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
     feed, rate = drive_top(S, top, motion, pipe, dt)
-    read_step(S, top, n, hookload, torque, rate, dt)
+    read_step(S, top, n, hookload, torque, rate, laws.rock.motor, dt)
+    if laws.rock.law != NO_ROCK:
+        press_bit(S, top, n, laws.rock, motion, dt)
     _points(S, n, points)
     return feed, rate
 
@@ -90,6 +94,8 @@ def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md
     if laws.wall_exponent != 1:
         stiffen_walls(S, top, n, laws)
     update_velocities(S, packed, laws, dt)
+    if laws.rock.law != NO_ROCK:
+        drill(S, top, n, laws.rock, dt)
     move_bodies(S, packed, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)
 

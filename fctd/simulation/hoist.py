@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.derrick import read_joint
+from fctd.mechanics.drive import STIFF
 from fctd.mechanics.moving_string import MovingString
 from fctd.mechanics.topdrive import GRAVITY, Motion
 from fctd.model.drillstring import String
@@ -85,6 +86,8 @@ class Hoist:
         """The motion of the block in a part of the schedule, after the strokes that begin now."""
         while self.strokes and self.strokes[0].start <= run.time + 0.5 * run.step:
             self._begin(run, self.strokes.pop(0))
+        if self.in_slips:
+            motion = motion._replace(drive=STIFF)  # the slips hold the string, not the drive
         return motion._replace(feed_from=self.pace * motion.feed_from, feed_to=self.pace * motion.feed_to)
 
     def _begin(self, run: MovingString, stroke: Stroke) -> None:

@@ -15,6 +15,7 @@ from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.moving_string import Sums
 from fctd.mechanics.query import Walls
 from fctd.mechanics.readings import Readings
+from fctd.mechanics.rock import NO_ROCK
 from fctd.model.operations import drive_torque, weight_indicator
 from fctd.results import ledger
 from fctd.results.buckling import NOT_BUCKLED, Buckling, buckling_along, pipe_of
@@ -108,6 +109,7 @@ class Recorder:
                 **_of_steps(steps, hookload, torque, span),
                 "lateral_speed_m_per_s": float(np.sqrt((self._lateral_speeds() ** 2).mean())),
                 **block,
+                **self._bit(),
             }
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
@@ -147,6 +149,16 @@ class Recorder:
             run.case, status, message, history, profile, energy, numbers, notes, run.case.warnings,
             segments=self.series.table(),
         )  # fmt: skip
+
+    def _bit(self) -> dict[str, float]:
+        """Loads and rotation of a bit on rock, means over the last interval, and the hole that it has made."""
+        if self.run.laws.rock.law == NO_ROCK:
+            return {}
+        return {
+            "weight_on_bit_N": self.mean.bit_weight,
+            "bit_torque_N_m": self.mean.bit_torque,
+            "hole_made_m": float(self.run.top[topdrive.HOLE_MADE]),
+        }
 
     def _bit_md(self) -> float:
         """Measured depth of the bit [m]."""

@@ -14,11 +14,13 @@ from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
+from fctd.mechanics.rock import NO_ROCK, NOTHING, Rock
 from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.mechanics.wall_law import tangent_over_linear
 from fctd.model.derrick import with_derrick
+from fctd.model.drilling import above_bottom, check_weight, driller_of, drive_of, rock_of
 from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
@@ -98,6 +100,11 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
     with naming_file(case):
         run, phases = _prepare(case)
         run.take_mud_along(case.operations[0])
+        phases = [_driven(run, phase) for phase in phases]
+        if case.rig.autodriller and run.hoist is not None and any(stroke.in_slips for stroke in run.hoist.strokes):
+            raise InputError(
+                "false, or operations without a connection between two stands", key="rig.autodriller", value=True
+            )
         if contact is not None:
             if run.hoist is not None:
                 raise InputError(
@@ -111,6 +118,14 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
                 raise InputError("no overbalance, since a contact method was passed", key="wellbore.intervals")
             run.wall = QueriedWall(contact, run.hole, run.segments)
         return run, phases
+
+
+def _driven(run: Run, phase: Phase) -> Phase:
+    """A phase with the drive and the driller of a run."""
+    motion = phase.motion._replace(drive=run.drive)
+    if run.case.operations[phase.operation].on_bottom:
+        motion = motion._replace(driller=driller_of(run.case, run.string, run.laws.rock))
+    return Phase(motion, phase.operation)
 
 
 def _prepare(case: Case) -> tuple[Run, list[Phase]]:
@@ -194,21 +209,25 @@ def _run(
         joint_damping=case.solver.joint_damping,
         settling=0.0,
         **_wall_laws(case),
+        rock=rock_of(case),
     )
-    limit = min(_step_limit(probe, count, case, hole) for probe, count in probes)
+    limit = min(_step_limit(probe, count, case, hole, laws.rock) for probe, count in probes)
     wanted = case.solver.step
     step = SHARES[wanted] * limit if isinstance(wanted, str) else wanted
     if step > limit * (1 + 1e-9):
         raise InputError(
             f"'auto', 'largest' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
         )
+    tangent = hole.at(string.top_md + np.cumsum(string.length))[1][:, 2]
+    check_weight(case, float((string.of("weight") * string.length * tangent).sum()))
     _check_cost(case, most, step, sum(s.motion.duration for s in phases))
+    spring = max(float(probe[state.K_TWIST + 1]) for probe, _ in probes)
     # A walk from the top would stop at the first slab that contains a point; past 90° that may be a distant piece.
     owner = np.zeros(most + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
     return Run(
         case=case, hole=hole, string=string, pipe=pipe, S=S, top=top, owner=owner, segments=n, step=step, laws=laws,
-        wall=own_wall(case, hole),
+        wall=own_wall(case, hole), drive=drive_of(case, string, spring, step),
     )  # fmt: skip
 
 
@@ -247,17 +266,12 @@ def _check_cost(case: Case, segments: int, step: float, duration: float) -> None
 
 
 def _check_dynamic(case: Case) -> None:
-    """Raise InputError for what only the steady solver supports: a bit on bottom, a bent housing, a helix's force."""
+    """Raise InputError for what only the steady solver supports: a bent housing, a helix's force."""
     steady = "(fctd equilibrium and fctd chart support it)"
     if case.contact.helical_force != "none":
         raise InputError(
             f'"none" in a simulation {steady}', key="contact.helical_force", value=case.contact.helical_force
         )
-    for i, operation in enumerate(case.operations):
-        if operation.on_bottom:
-            raise InputError(
-                f"an operation off bottom in a simulation {steady}", key=f"operations[{i}].kind", value=operation.kind
-            )
     for i, component in enumerate(case.string.components):
         if component.bend:
             raise InputError(
@@ -265,7 +279,7 @@ def _check_dynamic(case: Case) -> None:
             )
 
 
-def _step_limit(S: Array, n: int, case: Case, hole: Wellbore) -> float:
+def _step_limit(S: Array, n: int, case: Case, hole: Wellbore, rock: Rock) -> float:
     """Largest stable step of a run [s], whose string of n segments is in a buffer where it is stiffest.
 
     Raises InputError where masses and stiffnesses give no finite frequency.
@@ -275,7 +289,7 @@ def _step_limit(S: Array, n: int, case: Case, hole: Wellbore) -> float:
     wall *= tangent_over_linear(*case.contact.wall_law, case.contact.largest_penetration)
     try:
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            frequency = stiffest_mode(S, n, wall)
+            frequency = stiffest_mode(S, n, wall, rock.stiffness)
     except np.linalg.LinAlgError:
         frequency = np.inf
     if not 0 < frequency < np.inf:
@@ -390,7 +404,7 @@ def relaxing(run: Run) -> tuple[state.Laws, float]:
     """The laws with which a string settles, and its weight [N]."""
     weight = float((run.string.of("weight") * run.string.length).sum())
     rate = 12 * np.sqrt(topdrive.GRAVITY / float(run.string.length.sum()))
-    return run.laws._replace(friction_scale=0.0, settling=rate), weight
+    return run.laws._replace(friction_scale=0.0, settling=rate, rock=NOTHING), weight
 
 
 def _three(run: Run, rows: tuple[int, int, int]) -> Array:
@@ -406,4 +420,8 @@ def start_from_rest(run: Run) -> None:
         state.row(run.S, state.CAKE_AGE, run.segments)[:] = run.case.mud.cake.rested
     run.clear()
     run.top[topdrive.TOP_TIME] = 0.0
+    if run.laws.rock.law != NO_ROCK:
+        run.top[topdrive.PRESSED] = -above_bottom(run.case)
+        run.top[topdrive.TARE] = topdrive.load_on_top(run.S, run.top, run.pipe)
+        run.top[topdrive.FED] = 0.0
     run.refresh()

@@ -55,7 +55,7 @@ TURN = 2 * np.pi  # 60 rev/min [rad/s]
 )
 def test_phases_by_hand(operations: list[dict[str, Any]], expected: list[tuple[float, ...]]) -> None:
     """Start, duration, feed from and to, spin from and to, operation."""
-    found = [(*motion, k) for motion, k in schedule(make_case(operations=operations).operations)]
+    found = [(*motion[:6], k) for motion, k in schedule(make_case(operations=operations).operations)]
     np.testing.assert_allclose(found, expected, atol=1e-9)
 
 

@@ -1,0 +1,54 @@
+"""The tables of drilling: the controller of the rig's drive, the rock under the bit, and the motor above it."""
+
+from typing import Literal
+
+from fctd.case import units
+from fctd.case.errors import Table
+
+
+class DriveSpec(Table):
+    """The drive of the rig where it is not stiff: inertia at the string [kg*m^2], P [N*m*s], I [N*m], `torque_limit`.
+
+    By default `proportional` is the impedance ζ of the topmost pipe with an "impedance" drive, and 100 ζ with
+    "speed_control"; `integral` is P/3 a second and 5 P a second. `compensation` is the share of the inertia that the
+    controller hides from the string, by default all of it with an "impedance" drive.
+    """
+
+    inertia: units.Inertia = 2000.0
+    proportional: units.AngularDamping | None = None
+    integral: units.PositiveOrZeroTorque | None = None
+    compensation: units.Share | None = None
+    torque_limit: units.PositiveTorque | None = None
+
+
+class RockSpec(Table):
+    """The rock under the bit of a run in time, and the bit's cutters.
+
+    `law` "drag_bit" is that of Detournay & Defournay (1992): intrinsic `specific_energy` ε [Pa], `force_ratio` ζ of
+    thrust to cutting force, `friction` μ of the wear flats, `bit_factor` γ, the summed width of the wear flats
+    `wear_flat` l [m] and their `contact_strength` σ [Pa]; the `radius` [m] is by default that of the hole. The weight
+    on bit is the force of a spring of `stiffness` [N/m] between bit and bottom.
+    "given" puts weight and torque of [bit] on the bit, and the bottom follows it.
+
+    The torque of a bit that turns slowly is larger by the share `weakening` at rest, which falls off exponentially
+    with the `weakening_rpm` [rev/min].
+    """
+
+    law: Literal["drag_bit", "given"] = "drag_bit"
+    stiffness: units.PositiveStiffness = 1e8
+    radius: units.PositiveLength | None = None
+    specific_energy: units.PositiveStress = 1e8
+    force_ratio: units.PositiveRatio = 0.6
+    friction: units.Friction = 0.6
+    bit_factor: units.PositiveRatio = 1.0
+    wear_flat: units.Length = 0.005
+    contact_strength: units.PositiveStress = 1e8
+    weakening: units.Ratio = 0.0
+    weakening_rpm: units.PositiveRpm = 30.0
+
+
+class MotorSpec(Table):
+    """A downhole motor that turns the bit against the string in a run in time, in proportion to the flow [m^3/s]."""
+
+    flow: units.PositiveFlow
+    revolutions_per_liter: units.PositiveRatio

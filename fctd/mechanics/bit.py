@@ -1,0 +1,79 @@
+"""The bit on the bottom of the hole: its loads, and the bottom that moves on as it drills.
+
+The rock is a spring under the bit, and the bottom moves on by Ω d/2π while the bit turns clockwise, d the depth of cut
+(rock.py); nothing is divided by Ω.  At rest the torque of the rock is a limit, like that of friction: it may stop the
+bit but not turn it.  The rock is the lower body of the free joint below the bit, so that the wall's friction sees a
+bit that carries its load.  A motor turns the bit against the string at its own spin, and its torque is the bit's; the
+energy in the ledger is what the string gives to motor and bit.
+"""
+
+import math
+
+from fctd.mechanics.jit import inlined
+from fctd.mechanics.rock import GIVEN_LOADS, bit_loads
+from fctd.mechanics.state import (
+    FX,
+    FY,
+    FZ,
+    INVERSE_JA,
+    LX,
+    LY,
+    LZ,
+    UX,
+    UY,
+    UZ,
+    WZ,
+    axis,
+    velocity,
+)
+from fctd.mechanics.topdrive import (
+    BIT_TORQUE,
+    BIT_WEIGHT,
+    HOLE_MADE,
+    LOST_BIT,
+    PRESSED,
+    SUM_BIT_TORQUE,
+    SUM_BIT_WEIGHT,
+    TOP_TIME,
+    ramp,
+)
+
+
+@inlined
+def press_bit(S, top, n, rock, motion, dt):
+    """Update the rock's loads on the bit, also in the free joint below it, given the loads of the joints above."""
+    share = ramp(top[TOP_TIME] + 0.5 * dt, motion.start, motion.duration, motion.bit_from, motion.bit_to)
+    ax, ay, az = axis(S, n)
+    response = dt * S[INVERSE_JA + n]
+    free = rock.motor + S[WZ + n] + response * (ax * S[LX + n] + ay * S[LY + n] + az * S[LZ + n])
+    # The law takes the spin before this step: ``free`` is without the torque of the rock, and too fast.
+    weight, limit = bit_loads(rock, top[PRESSED], share, rock.motor + S[WZ + n])
+    torque = -min(limit, abs(free) / response)
+    torque = torque if free > 0 else -torque
+    S[FX + n + 1], S[FY + n + 1], S[FZ + n + 1] = weight * ax, weight * ay, weight * az
+    S[UX + n + 1], S[UY + n + 1], S[UZ + n + 1] = torque * ax, torque * ay, torque * az
+    top[BIT_WEIGHT], top[BIT_TORQUE] = weight, torque
+
+
+@inlined
+def drill(S, top, n, rock, dt):
+    """Update bit and bottom of the hole, sums and work, given the bit's loads and its velocity after the step.
+
+    The bottom under a drag bit moves implicitly, with the weight at the end of the step.
+    """
+    ax, ay, az = axis(S, n)
+    vx, vy, vz = velocity(S, n)
+    moved, spin = dt * (vx * ax + vy * ay + vz * az), S[WZ + n]
+    weight, torque = top[BIT_WEIGHT], top[BIT_TORQUE]
+    pressed = top[PRESSED] + moved
+    made = 0.0
+    if rock.law == GIVEN_LOADS:
+        made = max(pressed, 0.0)  # the bottom is where the bit has been deepest
+    elif rock.stiffness * pressed > rock.worn and spin + rock.motor > 0:
+        turned = dt * (spin + rock.motor) * rock.advance / (2 * math.pi)
+        made = turned * (rock.stiffness * pressed - rock.worn) / (1 + turned * rock.stiffness)
+    top[PRESSED] = pressed - made
+    top[HOLE_MADE] += made
+    top[SUM_BIT_WEIGHT] += dt * weight
+    top[SUM_BIT_TORQUE] -= dt * torque
+    top[LOST_BIT] += weight * moved - dt * torque * spin
