@@ -120,7 +120,7 @@ def climb(
         problem.put_pose(path.balances[-1].pose)
         if _rise(problem, path, 1.0, prepare, most):
             path.pose = path.balances[-1].pose
-    _close(problem, path)
+    close(problem, path)
     return path
 
 
@@ -129,7 +129,7 @@ def lock_up(problem: Problem, path: Climb, prepare: Callable[[Share], object] | 
     if path.pose is not None and _push(problem, path) > 0:
         problem.put_pose(path.pose)
         _rise(problem, path, FARTHEST, prepare, BEYOND)
-        _close(problem, path)
+        close(problem, path)
 
 
 def keep(problem: Problem, path: Climb, share: Share) -> None:
@@ -172,7 +172,7 @@ def _rise(
         if code != CONVERGED:
             step = 0.5 * (aim.weight - share.weight if share.weight < 1 else aim.friction - share.friction)
             path.is_cut = problem.is_spent
-            path.rolls = step < ROLLING_STEP and not path.is_cut and _rolls(problem, aim)
+            path.rolls = step < ROLLING_STEP and not path.is_cut and rolls(problem, aim)
             problem.put_pose(kept)
             if path.is_cut or path.rolls or step < SMALLEST or _is_near_lock_up(problem, path):
                 return False
@@ -232,7 +232,7 @@ def _extrapolated(steps: list[Step]) -> float:
     return now + (now - before) * pull / (pulled - pull)
 
 
-def _rolls(problem: Problem, share: Share) -> bool:
+def rolls(problem: Problem, share: Share) -> bool:
     """Whether the string in its pose, far from balance, goes round the hole in one direction all along."""
     before = problem.walls(problem.reactions(share).contacts)
     problem.relax(creep_of(problem, ROLLING_ITERATIONS), share)
@@ -242,7 +242,7 @@ def _rolls(problem: Problem, share: Share) -> bool:
     return bool(abs(swept.sum()) > ONE_WAY * np.abs(swept).sum())
 
 
-def _close(problem: Problem, path: Climb) -> None:
+def close(problem: Problem, path: Climb) -> None:
     """Find where slack-off is spent and where the path ends."""
     share = np.array([step.share for step in path.steps])
     left = np.array([step.hookload for step in path.steps]) + problem.case.rig.push

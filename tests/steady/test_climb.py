@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fctd.model.drillstring import section_of
-from fctd.steady.climb import LOW, Climb, Step, _close, climb, lock_up
+from fctd.steady.climb import LOW, Climb, Step, close, climb, lock_up
 from fctd.steady.problem import Share
 from tests.steady.buckled import level_case, problem_of
 
@@ -49,11 +49,11 @@ def test_lock_up_is_where_no_push_suffices(lock: float) -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     friction = lock * np.array([0.5, 0.7, 0.9, 0.99])
     path = Climb(steps=[Step(float(f), -problem.weight / (3 * (1 - f / lock))) for f in friction])
-    _close(problem, path)
+    close(problem, path)
     assert path.locked_at == pytest.approx(lock)
     assert np.isnan(path.ends_at)
     path = Climb(steps=[Step(float(f), -0.1 * problem.weight * f) for f in friction])
-    _close(problem, path)
+    close(problem, path)
     assert path.ends_at == pytest.approx(friction[-1])
     assert np.isnan(path.locked_at)
 
@@ -66,7 +66,7 @@ def test_two_extrapolations_that_agree_by_chance_are_not_lock_up() -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     pushes = ((0.6, 0.1244), (0.825, 0.2139), (1.0, 0.3717), (1.1, 0.6466))
     path = Climb(steps=[Step(share, -push * problem.weight) for share, push in pushes])
-    _close(problem, path)
+    close(problem, path)
     assert np.isnan(path.locked_at)
 
 
@@ -75,12 +75,12 @@ def test_lock_up_is_not_known_where_extrapolations_differ() -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     steps = [Step(f, -problem.weight / (3 * (1 - f) ** 2)) for f in (0.1, 0.2, 0.3)]
     path = Climb(steps=steps)
-    _close(problem, path)
+    close(problem, path)
     assert np.isnan(path.locked_at)
     assert path.ends_at == 0.3
     # From a push beyond any rig's on it is, of 15 weights here.
     path = Climb(steps=[Step(f, -problem.weight / (3 * (1 - f) ** 2)) for f in (0.3, 0.7, 0.85)])
-    _close(problem, path)
+    close(problem, path)
     assert path.locked_at == pytest.approx(0.85 + 0.15 * 0.15**2 / (0.3**2 - 0.15**2))
 
 
@@ -89,18 +89,18 @@ def test_a_path_that_ends_before_its_loads_says_so_beside_a_later_lock_up() -> N
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     steps = [Step(f, -problem.weight / (3 * (1 - f / 1.04))) for f in (0.5, 0.8, 0.9, 0.98)]
     path = Climb(steps=steps)
-    _close(problem, path)
+    close(problem, path)
     assert path.locked_at == pytest.approx(1.04)
     assert path.ends_at == 0.98
     path = Climb(steps=steps, pose=problem.copy_pose())
-    _close(problem, path)
+    close(problem, path)
     assert np.isnan(path.ends_at)
 
 
 def test_slack_off_is_spent_at_the_root_of_the_hook_load() -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     path = Climb(steps=[Step(f, 1e5 * (0.7 - f)) for f in (0.1, 0.4, 0.6, 0.8, 1.0)])
-    _close(problem, path)
+    close(problem, path)
     assert path.spent_at == pytest.approx(0.7)
 
 
