@@ -202,7 +202,8 @@ class Solver:
                 return resolved
             problem = self.problem(problem.operation, problem.rates, problem.laid)
             point = self.stable(problem, point, code) if unsolved else point
-            return replace(point, message=f"{TOO_MUCH}; with the segments of the case: {point.message}")
+            found = point.message or str(point.status)
+            return replace(point, message=f"{TOO_MUCH}; with the segments of the case: {found}")
         return self.stable(problem, point, code) if unsolved else point
 
     def stable(self, problem: Problem, point: Equilibrium, code: int) -> Equilibrium:
