@@ -11,7 +11,7 @@ from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.problem import FULL, Problem, Share
 
 # A balance that is found from the guess of a soft string takes 10 to 60 iterations, seldom more than 100.
-ITERATIONS = 120
+ITERATIONS = 100
 # With three trials the end is known to an eighth of what lies between the first balance and the loads.
 TRIALS = 3
 # Small steps of Newton's method find strings that are pushed so hard that they lie far from the guess: iterations,
@@ -41,10 +41,13 @@ def bisect(problem: Problem) -> Climb:
         if not _settles(problem, path, aim):
             high, path.rolls = aim, rolls(problem, aim)
             problem.put_pose(path.balances[-1].pose)
+        spent_at = _spent_at(path.steps, problem.case.rig.push)
+        if path.rolls or spent_at < 1:
+            break  # what keeps the string from its loads is known
     path.is_cut = problem.is_spent
     close(problem, path)
-    if len(path.steps) > 1 and not path.spent_at < 1:
-        path.spent_at = _spent_at(path.steps, problem.case.rig.push)
+    if not path.spent_at < 1:
+        path.spent_at = spent_at
     return path
 
 
@@ -74,13 +77,14 @@ def _settles(problem: Problem, path: Climb, share: Share) -> bool:
 
 
 def _spent_at(steps: list[Step], push: float) -> float:
-    """Share of the loads at which slack-off is spent, at most: the hook load falls faster than a line, through the last
-    two balances, since a buckled string's friction grows with its compression.  NaN beyond the loads of the operation.
+    """Share of the loads at which slack-off is spent, at the latest: NaN beyond the loads of the operation.
+
+    By a line through the last two balances: a hook load falls faster, as friction grows with the compression.
 
     push : of the block [N].
     """
-    (before, held), (now, holds) = steps[-2:]
-    if not holds < held:
+    if len(steps) < 2 or not steps[-1].hookload < steps[-2].hookload:
         return float("nan")
+    (before, held), (now, holds) = steps[-2:]
     at = now + (now - before) * (holds + push) / (held - holds)
     return at if at < 1 else float("nan")

@@ -84,6 +84,29 @@ def test_lock_up_is_not_known_where_extrapolations_differ() -> None:
     assert path.locked_at == pytest.approx(0.85 + 0.15 * 0.15**2 / (0.3**2 - 0.15**2))
 
 
+def test_lock_up_does_not_hang_on_two_close_balances() -> None:
+    """1/push falls linearly to 0 at 1.2; the last balance has 1 % less push than on the line, as other shapes have."""
+    problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
+    shares = (0.6, 0.8, 0.9, 1.0, 1.005)
+    steps = [Step(f, -problem.weight / (5 * (1 - f / 1.2))) for f in shares]
+    path = Climb(steps=[*steps[:-1], Step(1.005, 0.99 * steps[-1].hookload)])
+    close(problem, path)
+    # By a line through the last two it would be 1.33.
+    assert path.locked_at == pytest.approx(1.2, rel=0.01)
+
+
+def test_a_string_that_is_pushed_locks_up_at_the_latest_where_it_has_no_shape() -> None:
+    """The wall's springs give way under a large push, here of 1.6 weights, before the 1.2 to which 1/push falls."""
+    problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
+    steps = [Step(f, -problem.weight / (5 * (1 - f / 1.2) ** 0.9)) for f in (0.6, 0.8, 0.95, 1.08)]
+    path = Climb(steps=steps, fails_at=1.1)
+    close(problem, path)
+    assert path.locked_at == 1.1
+    path = Climb(steps=steps, fails_at=1.1, rolls=True)
+    close(problem, path)
+    assert path.locked_at > 1.1
+
+
 def test_a_path_that_ends_before_its_loads_says_so_beside_a_later_lock_up() -> None:
     """1/push falls linearly to 0 at 1.04, where the string is not followed beyond 0.98."""
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
