@@ -29,11 +29,12 @@ from fctd.results.notes import Note, string_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
+from fctd.steady.bisection import bisect
 from fctd.steady.climb import BEYOND, SOUND, Climb, climb, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.laid_string import LaidString, lay
-from fctd.steady.post_buckling import resolve
+from fctd.steady.post_buckling import is_resolved, resolve
 from fctd.steady.problem import WORK, Allowance, Problem, Workspace
 from fctd.steady.shape import Shape
 from fctd.steady.tangent import NORMAL_FORCE, PLACE, R_FT, R_MU_FN
@@ -201,18 +202,30 @@ class Solver:
                 return resolved
             problem = self.problem(problem.operation, problem.rates, problem.laid)
             point = self.stable(problem, point, code) if unsolved else point
-            return replace(point, message=f"{TOO_MUCH}; with the segments of the case: {point.message}")
+            found = point.message or str(point.status)
+            return replace(point, message=f"{TOO_MUCH}; with the segments of the case: {found}")
         return self.stable(problem, point, code) if unsolved else point
 
     def stable(self, problem: Problem, point: Equilibrium, code: int) -> Equilibrium:
         """The string of a problem followed from small loads, where its balance ``point`` is none or an unstable one."""
         problem.at_axis = 1
-        path = climb(problem)
-        lock_up(problem, path)
+        path, coarse = bisect(problem), False
         path.iterations += point.iterations
+        if path.pose is None:
+            coarse = bool(path.balances) and not is_resolved(problem, path)
+            if coarse:
+                problem.put_pose(path.balances[-1].pose)
+            else:
+                path = climb(problem, path=path if path.balances else None)
+                lock_up(problem, path)
         followed = self.follow(problem, path)
-        if point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE):
-            return followed if followed.answered else point
+        out_of_wall = point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE)
+        if out_of_wall and not followed.answered and (code == CONVERGED or not path.balances):
+            return point
+        if code != CONVERGED and coarse and followed.status == SteadyStatus.UNSTABLE and not path.rolls:
+            # Whether the string has a shape is not known: its segments cannot bend into it.
+            message = f"{followed.message}; {followed._shape.buckling.shortfall}"
+            return replace(followed, status=SteadyStatus.UNDER_RESOLVED, message=message)
         if code != CONVERGED or followed.answered or followed.status == SteadyStatus.LOCKED_UP:
             return followed
         message = f"the string would leave this balance, and {followed.message}"
