@@ -262,6 +262,7 @@ Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SE
 FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0, slips=(Slip(5, 100, "", 0.01),))
 Friction = Annotated[float, FRICTION]
 PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
+LossFactor = Annotated[float, Number(noun="a loss factor", at_least=0.0, at_most=0.2)]
 Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
 # Hoists run at 1 to 3 m/s and top drives at up to 300 rev/min; a model at a thousandth of the size turns some thirty
 # times as fast.  A larger number is in the wrong unit.

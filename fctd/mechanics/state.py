@@ -80,6 +80,8 @@ LOST_FRICTION, LOST_CONTACT, LOST_MUD, LOST_JOINT = 75 * STRIDE, 76 * STRIDE, 77
 # Mud that moves sideways with a body: its mass a [kg], and by how much it lowers the inverse mass m⁻¹ sideways,
 # m⁻¹ − (m + a)⁻¹ [1/kg].  Both are 0 without such mud, and then change no result.
 ADDED_MASS, HELD_BACK = 79 * STRIDE, 80 * STRIDE
+# Mass times the offset of its centre from the axis, along the body's own x [kg m].
+UNBALANCE = 81 * STRIDE
 
 ROWS = 99
 
@@ -90,7 +92,8 @@ class Laws(NamedTuple):
     geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : a law's code of ``laws.CODES``.
     friction_scale : multiplies every friction factor (0 while the string settles).
     contact_damping : wall damping [N s/m].  joint_damping : stiffness-proportional damping time [s].
-    settling : artificial mass-proportional damping rate [1/s], 0 in a run.
+    settling : artificial mass-proportional damping rate [1/s], 0 in a run.  torsion_damping : damping time of torsion
+    in addition to that of the joints [s].  unbalanced : whether any body has an unbalance.
     """
 
     geometry: int
@@ -99,6 +102,8 @@ class Laws(NamedTuple):
     contact_damping: float
     joint_damping: float
     settling: float
+    torsion_damping: float = 0.0
+    unbalanced: bool = False
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

@@ -15,10 +15,11 @@ from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
 from fctd.mechanics.rotations import quaternion_from_axis
-from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
+from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode, stiffest_torsion
 from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String, check_fit, fill, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
+from fctd.model.torsion import period_of
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.simulation.carried_mud import take_along
 from fctd.simulation.external_contact import QueriedWall, WallQuery
@@ -106,8 +107,12 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
         contact_damping=case.contact.damping,
         joint_damping=case.solver.joint_damping,
         settling=0.0,
+        # Damping in proportion to stiffness has the loss factor η = τω at the frequency ω.
+        torsion_damping=case.solver.loss_factor * period_of(string) / (2 * np.pi),
+        unbalanced=bool(string.of("eccentricity").any()),
     )
-    limit = _step_limit(S, case, string, hole, pipe, shallowest - first)
+    state.row(S, state.UNBALANCE, n)[:] = string.of("mass") * string.of("eccentricity") * string.length
+    limit = _step_limit(S, case, string, hole, pipe, shallowest - first, laws.torsion_damping)
     wanted = case.solver.step
     step = SHARES[wanted] * limit if isinstance(wanted, str) else wanted
     if step > limit * (1 + 1e-9):
@@ -170,11 +175,13 @@ def _check_dynamic(case: Case) -> None:
             )
 
 
-def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float) -> float:
+def _step_limit(
+    S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, shrinks: float, torsion_damping: float
+) -> float:
     """Largest stable step of the run [s]; the top segment is stiffest where it is shortest.
 
-    shrinks [m] : change of the top segment's length to its shortest.  Raises InputError where masses and stiffnesses
-    give no finite frequency.
+    shrinks [m] : change of the top segment's length to its shortest; torsion_damping [s] : of the laws.  Raises
+    InputError where masses and stiffnesses give no finite frequency.
     """
     spin = max(rad_per_s(o.rpm) for o in case.operations)
     probe = S.copy()
@@ -192,7 +199,9 @@ def _step_limit(S: Array, case: Case, string: String, hole: Wellbore, pipe: PerM
             key="string.components",
             value=f"a stiffest mode of {frequency:g} rad/s",
         )
-    return stable_step(frequency, case.solver.joint_damping, spin)
+    own = case.solver.joint_damping
+    torsion = stable_step(stiffest_torsion(probe, string.segments), own + torsion_damping, spin)
+    return min(stable_step(frequency, own, spin), torsion)
 
 
 def contact_points(S: Array, n: int) -> Array:
