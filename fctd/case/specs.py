@@ -216,6 +216,8 @@ class ComponentSpec(Table):
 
     A bent housing has its `bend` [rad] at the upper end, where the component is tilted against the one above
     it towards `toolface` [rad], which counts from the high side clockwise looking downhole.
+
+    `eccentricity` [m] is the distance of the centre of mass from the axis; it acts in time alone.
     """
 
     name: str = Field(description="a name in quotes")
@@ -236,12 +238,15 @@ class ComponentSpec(Table):
     shear_stiffness: units.PositiveAxialStiffness | None = None  # κGA
     bend: units.Bend = 0.0
     toolface: units.Angle = 0.0
+    eccentricity: units.Length = 0.0
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         exclusive(self, "segments", "segment_length")
         if self.inner_diameter >= self.outer_diameter:
             raise InputError("a diameter below outer_diameter", key="inner_diameter")
+        if self.eccentricity >= 0.5 * self.outer_diameter:
+            raise InputError("less than half of outer_diameter", key="eccentricity", value=f"{self.eccentricity:g} m")
         if self.contact_diameter < self.outer_diameter:
             raise InputError("at least outer_diameter", key="contact_diameter")
         return self
@@ -354,6 +359,8 @@ class SolverSpec(Table):
 
     "largest" is the largest step that is certain to be stable, "auto" four fifths of it.
     The default joint damping is that of steel, a loss of 0.2 % at 30 Hz; it keeps sliding segments from chattering.
+    `loss_factor` is that of the string's torsion at its first torsional frequency, in addition; a large one makes the
+    largest step smaller.
 
     Where a steady string is buckled, "detect" says whether its segments can bend that way, and "resolve" lays it out
     in segments that can.
@@ -363,6 +370,7 @@ class SolverSpec(Table):
         default="auto", description='"auto", "largest" or a time such as "2 ms"'
     )
     joint_damping: units.Time = 1e-5
+    loss_factor: units.LossFactor = 0.0
     buckling: Literal["detect", "resolve"] = "detect"
 
     @field_validator("step", mode="before", json_schema_input_type=float | str)

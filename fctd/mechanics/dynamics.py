@@ -80,6 +80,7 @@ from fctd.mechanics.state import (
     velocity,
 )
 from fctd.mechanics.topdrive import IN_DERRICK, SUM_HOOKLOAD, SUM_TOP_TORQUE, drive_top, move_top_drive
+from fctd.mechanics.unbalance import swing_unbalance
 from fctd.mechanics.wall_law import stiffen_walls
 
 # Share of the clearance within which a string certainly does not touch; 1 − NEARLY is far above rounding.
@@ -281,6 +282,8 @@ def move_bodies(S, n, dt):
 @inlined
 def update_velocities(S, n, laws, dt):
     """Update velocity and spin of every body by springs, weight, wall and mud, given joint loads and walls."""
+    if laws.unbalanced:
+        swing_unbalance(S, n, dt)
     if laws.geometry == OPEN:
         push_freely(S, n, laws, dt)
     else:
@@ -302,7 +305,7 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     """
     packed = padded_columns(n)
     # 1: loads of the joints and of the top drive at the present positions.
-    update_joint_loads(S, packed, laws.joint_damping, dt)
+    update_joint_loads(S, packed, laws.joint_damping, dt, laws.torsion_damping)
     hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
     feed, rate = drive_top(S, top, motion, pipe, dt)
     read_step(S, top, n, hookload, torque, rate, laws.rock.motor, dt)

@@ -171,10 +171,10 @@ def relative_motion(S, j, px, py, pz, qx, qy, qz):
 
 
 @inlined
-def update_joint_loads(S, n, damping_time, dt):
+def update_joint_loads(S, n, damping_time, dt, torsion_time=0.0):
     """Update joint loads, their sums and the energy lost, given positions, orientations and velocities.
 
-    damping_time : stiffness-proportional damping [s].
+    damping_time : stiffness-proportional damping [s]; torsion_time : more of it for torsion [s].
     """
     for j in range(1, n + 1):
         ax, ay, az = axis(S, j - 1)
@@ -187,7 +187,7 @@ def update_joint_loads(S, n, damping_time, dt):
         rx, ry, rz, wx, wy, wz = relative_motion(S, j, px, py, pz, qx, qy, qz)
         gx, gy, gz, mx, my, mz, power = joint_damping(
             ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz,
-            damping_time * ka, damping_time * ks, damping_time * kb, damping_time * kt,
+            damping_time * ka, damping_time * ks, damping_time * kb, (damping_time + torsion_time) * kt,
         )  # fmt: skip
         fx, fy, fz = fx + gx, fy + gy, fz + gz
         cx, cy, cz = cx + mx, cy + my, cz + mz

@@ -55,6 +55,13 @@ def stiffest_mode(S: Array, n: int, wall_stiffness: float, rock_stiffness: float
     return float(np.sqrt(max(axial.max(), rock, twist.max(), lateral.max())))
 
 
+def stiffest_torsion(S: Array, n: int) -> float:
+    """Upper bound of the highest angular frequency of the string's torsion [rad/s]; see ``stiffest_mode``."""
+    inverse = 2 * S[state.INVERSE_JA : state.INVERSE_JA + n + 1]
+    inverse[0] = 0.0  # the top drive does not yield
+    return float(np.sqrt((S[state.K_TWIST + 1 : state.K_TWIST + 1 + n] * (inverse[:-1] + inverse[1:])).max()))
+
+
 def stable_step(frequency: float, damping_time: float, spin: float) -> float:
     """Largest stable step [s] of symplectic Euler with explicit stiffness-proportional damping.
 

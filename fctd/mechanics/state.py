@@ -81,6 +81,8 @@ LOST_FRICTION, LOST_CONTACT, LOST_MUD, LOST_JOINT = 75 * STRIDE, 76 * STRIDE, 77
 # Mud that moves sideways with a body: its mass a [kg], and by how much it lowers the inverse mass m⁻¹ sideways,
 # m⁻¹ − (m + a)⁻¹ [1/kg].  Both are 0 without such mud, and then change no result.
 ADDED_MASS, HELD_BACK = 79 * STRIDE, 80 * STRIDE
+# Mass times the offset of its centre from the axis, along the body's own x [kg m].
+UNBALANCE = 81 * STRIDE
 
 # Friction that sticks (laws/sticking.py): 1 where friction stopped the contact point when it last acted, else 0; excess
 # of the static over the kinetic factor, as a share of it; speed at which half of the excess is left [m/s].
@@ -105,6 +107,8 @@ class Laws(NamedTuple):
     wall_exponent : p of the wall's force K d₀ (d/d₀)^p at penetration d; wall_reference : d₀ [m].
     cake_thickness [m], cake_time [s] : final thickness of mud cake and the time in which it grows so thick;
     cake_friction : its factor.  0 thickness: no cake.  rock : under the bit.
+    torsion_damping : damping time of torsion in addition to that of the joints [s].
+    unbalanced : whether any body has an unbalance.
     """
 
     geometry: int
@@ -119,6 +123,8 @@ class Laws(NamedTuple):
     cake_time: float = 1.0
     cake_friction: float = 0.0
     rock: Rock = NOTHING
+    torsion_damping: float = 0.0
+    unbalanced: bool = False
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

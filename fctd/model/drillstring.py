@@ -36,7 +36,7 @@ class Section(NamedTuple):
     """Properties of a component per metre of its length.
 
     mass [kg/m], weight (buoyed) [N/m], axial_inertia and tilt_inertia [kg m], EA [N], GJ, EI [N m^2],
-    shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa].
+    shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa], eccentricity of the mass [m].
     """
 
     mass: float
@@ -51,6 +51,7 @@ class Section(NamedTuple):
     inner: float
     contact_radius: float
     yield_strength: float
+    eccentricity: float = 0.0
 
 
 def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
@@ -89,6 +90,7 @@ def section_of(component: ComponentSpec, mud_density: float) -> Section:
         inner=a,
         contact_radius=0.5 * component.contact_diameter,
         yield_strength=component.yield_strength,
+        eccentricity=component.eccentricity,
     )
 
 

@@ -76,7 +76,7 @@ def _store(S, n, radii, penetration, normal, md, wall):
 @entry
 def _before(S, top, n, laws, motion, pipe, dt, points):
     """Stage 1 of ``dynamics.step``, and the points (n, 3) to query; returns feed [m/s] and rotation [rad/s]."""
-    update_joint_loads(S, padded_columns(n), laws.joint_damping, dt)
+    update_joint_loads(S, padded_columns(n), laws.joint_damping, dt, laws.torsion_damping)
     hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
     feed, rate = drive_top(S, top, motion, pipe, dt)
     read_step(S, top, n, hookload, torque, rate, laws.rock.motor, dt)

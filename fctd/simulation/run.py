@@ -14,9 +14,9 @@ from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
-from fctd.mechanics.rock import NO_ROCK, NOTHING, Rock
+from fctd.mechanics.rock import NO_ROCK, NOTHING
 from fctd.mechanics.rotations import quaternion_from_axis
-from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
+from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode, stiffest_torsion
 from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.mechanics.wall_law import tangent_over_linear
 from fctd.model.derrick import with_derrick
@@ -25,6 +25,7 @@ from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, la
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
 from fctd.model.strokes import stand_schedule
+from fctd.model.torsion import period_of
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.simulation.carried_mud import take_along
 from fctd.simulation.external_contact import QueriedWall, WallQuery
@@ -161,6 +162,7 @@ def _fed(case: Case, hole: Wellbore, string: String, longer: float) -> tuple[Run
     n = string.segments
     S, top = state.new_state(n), np.zeros(topdrive.TOP_SIZE)
     pipe = fill(S, string, case)
+    _unbalance(S, string)
     top[topdrive.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
     lie_on_axis(S, string, hole)
     probe = S.copy()
@@ -180,6 +182,7 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     buffer, S, top = state.new_state(whole.segments), state.new_state(whole.segments), np.zeros(topdrive.TOP_SIZE)
     pipe = fill(buffer, whole, case)
     hang(buffer, whole.segments)
+    _unbalance(buffer, whole)
     stands = tally.stands_for(first)
     hoist = Hoist(tally=tally, buffer=buffer, strokes=strokes, table=hole.at(np.zeros(1))[0][0], stands=stands)
     string = hoist.start(S, top, first, hole)
@@ -210,8 +213,11 @@ def _run(
         settling=0.0,
         **_wall_laws(case),
         rock=rock_of(case),
+        # Damping in proportion to stiffness has the loss factor η = τω at the frequency ω.
+        torsion_damping=case.solver.loss_factor * period_of(string) / (2 * np.pi),
+        unbalanced=any(component.eccentricity for component in case.string.components),
     )
-    limit = min(_step_limit(probe, count, case, hole, laws.rock) for probe, count in probes)
+    limit = min(_step_limit(probe, count, case, hole, laws) for probe, count in probes)
     wanted = case.solver.step
     step = SHARES[wanted] * limit if isinstance(wanted, str) else wanted
     if step > limit * (1 + 1e-9):
@@ -238,6 +244,12 @@ def _wall_laws(case: Case) -> dict[str, float]:
     if cake is not None and any(interval.overbalance for interval in case.wellbore.intervals):
         given |= {"cake_thickness": cake.thickness, "cake_time": cake.time, "cake_friction": cake.friction}
     return given
+
+
+def _unbalance(S: Array, string: String) -> None:
+    """Write the unbalance of the bodies into a filled buffer."""
+    unbalance = string.of("mass") * string.of("eccentricity") * string.length
+    state.row(S, state.UNBALANCE, string.segments)[:] = unbalance
 
 
 def own_wall(case: Case, hole: Wellbore) -> HoleWall:
@@ -279,7 +291,7 @@ def _check_dynamic(case: Case) -> None:
             )
 
 
-def _step_limit(S: Array, n: int, case: Case, hole: Wellbore, rock: Rock) -> float:
+def _step_limit(S: Array, n: int, case: Case, hole: Wellbore, laws: state.Laws) -> float:
     """Largest stable step of a run [s], whose string of n segments is in a buffer where it is stiffest.
 
     Raises InputError where masses and stiffnesses give no finite frequency.
@@ -289,7 +301,7 @@ def _step_limit(S: Array, n: int, case: Case, hole: Wellbore, rock: Rock) -> flo
     wall *= tangent_over_linear(*case.contact.wall_law, case.contact.largest_penetration)
     try:
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            frequency = stiffest_mode(S, n, wall, rock.stiffness)
+            frequency = stiffest_mode(S, n, wall, laws.rock.stiffness)
     except np.linalg.LinAlgError:
         frequency = np.inf
     if not 0 < frequency < np.inf:
@@ -298,7 +310,9 @@ def _step_limit(S: Array, n: int, case: Case, hole: Wellbore, rock: Rock) -> flo
             key="string.components",
             value=f"a stiffest mode of {frequency:g} rad/s",
         )
-    return stable_step(frequency, case.solver.joint_damping, spin)
+    own = case.solver.joint_damping
+    torsion = stable_step(stiffest_torsion(S, n), own + laws.torsion_damping, spin)
+    return min(stable_step(frequency, own, spin), torsion)
 
 
 def contact_points(S: Array, n: int) -> Array:
