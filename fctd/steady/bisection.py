@@ -35,11 +35,12 @@ def bisect(problem: Problem) -> Climb:
         high = Share(LOW, 1.0)
     else:
         return path
+    is_driven = problem.rates.spin != 0 or problem.bit_torque != 0
     for _ in range(TRIALS):
         low = path.balances[-1].share
         aim = Share(0.5 * (low.friction + high.friction), 0.5 * (low.weight + high.weight))
         if not _settles(problem, path, aim):
-            high, path.rolls = aim, rolls(problem, aim)
+            high, path.rolls = aim, is_driven and rolls(problem, aim)
             problem.put_pose(path.balances[-1].pose)
         spent_at = _spent_at(path.steps, problem.case.rig.push)
         if path.rolls or spent_at < 1:

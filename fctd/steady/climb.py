@@ -32,8 +32,8 @@ ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
 # push of one weight on, it is the last extrapolation or, if that is less, where no shape was found: the wall's springs
 # give way under a large push.
 APART, AGREEING, STEPS, BEYOND = 0.75, 0.01, 3, 10.0
-# A lock-up below this share of the loads is one before them for any error of the extrapolation; and a failed step
-# shorter than the rest, as a share, says where no shape is found.
+# A lock-up below this share of the loads is one before them for any error of the extrapolation.  A pushed string with a
+# balance at more than this share of where none was found is not followed any nearer.
 DECIDED = 0.97
 # A relaxation that has not come to rest begins again with small steps after so many iterations.
 AGAIN = 100
