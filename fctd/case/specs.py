@@ -309,7 +309,7 @@ class RigSpec(Table):
     the weight indicator while the block is hoisted.  Friction in the sheaves divides the weight indicator by
     `sheave_efficiency` while the block is lowered, and multiplies it by `sheave_efficiency` while the block is hoisted.
 
-    A simulation with `feed` "stands" moves the block: stands of `stand_length` [m], which fit into `derrick_height` [m],
+    A simulation with `feed` "stands" moves the block: stands of `stand_length` [m], within `derrick_height` [m],
     are added and racked back, and the string hangs in the slips for `connection_time` [s] each time. With
     "long_segment" the upper end stands still and the top segment grows, as in the paper. "auto" is "long_segment" where
     a long segment fits: the hole is vertical along it, and it is of one component; elsewhere it is "stands".
