@@ -306,33 +306,32 @@ class MudSpec(Table):
 
 
 class RigSpec(Table):
-    """What the rig's sensors read in addition to the loads of the string.
+    """What the rig's sensors read in addition to the loads of the string, and how the rig trips.
 
     Block weight [N], friction in the guides of the block [N], torque offset [N*m], and `torque_per_rpm`, a torque that
     grows with the rotation [N*m for each rev/min].  Friction in the guides acts against the block's motion: it adds to
     the weight indicator while the block is hoisted.  Friction in the sheaves divides the weight indicator by
     `sheave_efficiency` while the block is lowered, and multiplies it by `sheave_efficiency` while the block is hoisted.
 
-    A simulation with `feed` "stands" moves the block: stands of `stand_length` [m], at most `derrick_height` [m], are
-    added and racked back, and the string hangs in the slips for `connection_time` [s] each time.  With "long_segment"
-    the upper end stands still and the top segment grows, as in the paper; "auto" does so where the hole is vertical
-    along that segment, which must be of one component, and where the case has it as the last component with
-    `segments` 1; it moves stands elsewhere.
+    A simulation with `feed` "stands" moves the block: stands of `stand_length` [m], within `derrick_height` [m],
+    are added and racked back, and the string hangs in the slips for `connection_time` [s] each time. With
+    "long_segment" the upper end stands still and the top segment grows, as in the paper. "auto" is "long_segment" where
+    a long segment fits: the hole is vertical along it, and it is of one component; elsewhere it is "stands".
 
     In a run in time a "stiff" `drive` turns the top as planned whatever the torque; "speed_control" and "impedance" are
     motors with inertia and a controller, whose settings are in `control`. With an `autodriller` the block follows
     `bit.weight_on_bit`, by the hook load, in place of the `speed` of a drilling operation, which gives its duration.
     """
 
-    feed: Literal["auto", "long_segment", "stands"] = "auto"
-    stand_length: units.PositiveLength = 28.5
-    connection_time: units.PositiveTime = 60.0
-    derrick_height: units.PositiveLength = 40.0
     block_weight: units.Force = 0.0
     guide_friction: units.Force = 0.0
     sheave_efficiency: units.Efficiency = 1.0
     torque_offset: units.Torque = 0.0
     torque_per_rpm: units.Torque = 0.0
+    feed: Literal["auto", "long_segment", "stands"] = "auto"
+    stand_length: units.PositiveLength = 28.5
+    connection_time: units.PositiveTime = 60.0
+    derrick_height: units.PositiveLength = 40.0
     drive: Literal["stiff", "speed_control", "impedance"] = "stiff"
     control: DriveSpec = DriveSpec()
     autodriller: StrictBool = False

@@ -52,9 +52,7 @@ class Hoist:
 
     def start(self, S: Array, top: Array, bit_depth: float, hole: Wellbore) -> String:
         """Write the string with its bit at a depth [m] into fresh buffers; returns it unstretched, as it is laid."""
-        n, whole = int(self.tally.count[self.stands]), self.tally.whole
-        _rows(S)[:, 1 : n + 1] = _rows(self.buffer)[:, whole.segments - n + 1 : whole.segments + 1]
-        clamp(S, whole, whole.segments - n)
+        self.write(S, self.stands)
         string = self.tally.string(self.stands, bit_depth)
         _, tangent = hole.at(string.top_md + np.cumsum(string.length))
         weight = float((string.of("weight") * string.length * tangent[:, 2]).sum())
@@ -62,6 +60,12 @@ class Hoist:
         height = -string.top_md * (1 + self.strain)
         top[topdrive.IN_DERRICK], top[topdrive.BLOCK_HEIGHT] = 1.0, height
         return self.tally.string(self.stands, float(self.tally.reach[self.stands]) - height)
+
+    def write(self, S: Array, stands: int) -> None:
+        """Write the constants of a string of so many stands into a buffer, clamped to column 0."""
+        n, whole = int(self.tally.count[stands]), self.tally.whole
+        _rows(S)[:, 1 : n + 1] = _rows(self.buffer)[:, whole.segments - n + 1 : whole.segments + 1]
+        clamp(S, whole, whole.segments - n)
 
     def clamped(self) -> list[Array]:
         """Buffers of one segment, clamped to column 0: one for each kind of segment at the upper end of a stand."""

@@ -82,8 +82,8 @@ def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
     depths: list[float] = []
     frequencies: list[Array] = []
     amplitudes: list[Array] = []
-    if run.wall.seams and run.case.contact.enabled and run.segments > MODES and run.hoist is None:
-        tilt, probe, depth = cylinder_tilt(run.hole), run.S.copy(), run.string.bit_depth
+    if run.wall.seams and run.case.contact.enabled:
+        tilt, probe, depth = cylinder_tilt(run.hole), run.S.copy(), run.case.operations[0].start_md
         for motion, _ in phases:
             fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration
             steady = motion.feed_from == motion.feed_to != 0
@@ -91,9 +91,11 @@ def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
             reached = np.zeros(MODES, complex)
             for k in range(strides):
                 middle = depth + (k + 0.5) / strides * fed
-                string = run.string.lengthened(middle - run.string.bit_depth)
-                modes = _modes(run, string, probe)
-                force, span = _forces(run, string, tilt, modes, fed / strides, motion.feed_to)
+                string = _string_at(run, middle, probe)
+                if string.segments <= MODES:
+                    continue
+                modes = _modes(string, probe, run.laws.joint_damping)
+                force, span = _forces(run, string, probe, tilt, modes, fed / strides, motion.feed_to)
                 rate = 1j * modes.frequency - modes.damping
                 left = span * np.arange(len(force), -1, -1)[:, None]
                 reached = reached * np.exp(rate * left[0])
@@ -121,13 +123,23 @@ def cylinder_tilt(hole: Wellbore) -> Tilt:
     return Tilt(float(ends[0]), step, np.vstack([np.zeros(3), np.cumsum(0.5 * step * (tilt[1:] + tilt[:-1]), axis=0)]))
 
 
-def _modes(run: Run, string: String, probe: Array) -> Modes:
-    """Modes of a string hanging from the top drive; probe : a state buffer for its long segment."""
+def _string_at(run: Run, bit_depth: float, probe: Array) -> String:
+    """The string of a run with its bit at a depth [m], whose constants it writes into a state buffer."""
+    if run.hoist is not None:
+        stands = run.hoist.tally.stands_for(bit_depth)
+        run.hoist.write(probe, stands)
+        return run.hoist.tally.string(stands, bit_depth)
+    string = run.string.lengthened(bit_depth - run.string.bit_depth)
+    if string.long_segment:
+        topdrive.put_long_segment(probe, string.length[0], run.pipe)
+    return string
+
+
+def _modes(string: String, probe: Array, joint_damping: float) -> Modes:
+    """Modes of a string hanging from the top drive, whose constants are in a state buffer."""
     from scipy.linalg import eigh_tridiagonal  # slow to import, and a steady string needs none
 
     n = string.segments
-    if string.long_segment:
-        topdrive.put_long_segment(probe, string.length[0], run.pipe)
     k, mass, mud = (state.row(probe, offset, n) for offset in (state.K_AXIAL, state.MASS, state.MUD_AXIAL))
     square, vectors = eigh_tridiagonal(
         (k + np.append(k[1:], 0.0)) / mass, -k[1:] / np.sqrt(mass[1:] * mass[:-1]),
@@ -135,11 +147,13 @@ def _modes(run: Run, string: String, probe: Array) -> Modes:
     )  # fmt: skip
     shape: Array = vectors / np.sqrt(mass)[:, None]
     frequency = np.sqrt(square)
-    damping = 0.5 * (mud @ shape**2 + run.laws.joint_damping * square)
+    damping = 0.5 * (mud @ shape**2 + joint_damping * square)
     return Modes(shape, frequency, damping, k[0] * np.abs(shape[0]) / frequency)
 
 
-def _forces(run: Run, string: String, tilt: Tilt, modes: Modes, length: float, speed: float) -> tuple[Array, float]:
+def _forces(
+    run: Run, string: String, probe: Array, tilt: Tilt, modes: Modes, length: float, speed: float
+) -> tuple[Array, float]:
     """Modal forces (m, MODES) over a stride about the string's depth, and the time of each [s].
 
     length [m] and speed [m/s] of the stride, both negative where pipe is pulled out.
@@ -158,7 +172,7 @@ def _forces(run: Run, string: String, tilt: Tilt, modes: Modes, length: float, s
     load[:, 2] = 0.5 * (weight + np.append(weight[1:], 0.0))
     load[1:-1] += tension[1:-1, None] * np.diff(chords / reach[:, None], axis=0)
     load -= (load * tangents).sum(axis=1)[:, None] * tangents
-    places = md + state.row(run.S, state.ARM_CONTACT, n) - state.row(run.S, state.ARM_BOTTOM, n)
+    places = md + state.row(probe, state.ARM_CONTACT, n) - state.row(probe, state.ARM_BOTTOM, n)
     pressed = load.any(axis=1)
     count = int(np.ceil(abs(length / speed) * modes.frequency[-1] * SAMPLES / (2 * np.pi)))
     edges = np.linspace(-0.5, 0.5, count + 1)[:, None] * length

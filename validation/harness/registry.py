@@ -15,6 +15,7 @@ STUDIES: dict[str, str] = {
     "contact_operations": "validation.studies.contact_operations",
     "rock_stiffness": "validation.studies.rock_stiffness",
     "long_segment": "validation.studies.long_segment",
+    "trips": "validation.studies.trips",
     "steady_state": "validation.studies.steady_state",
     "broomstick": "validation.studies.broomstick",
     "soft_limit": "validation.studies.soft_limit",

@@ -1,0 +1,220 @@
+"""Trips of real wells from surface to total depth and back, stand by stand, against the steady string.
+
+A stroke of the block gives one hook load: its mean over whole axial periods, less the weight in air of the pipe above
+the rotary table.  After the block reverses, the mean begins where it has moved twice the change of stretch between
+slacking off and picking up.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fctd import Case, equilibrium
+from fctd.mechanics import state
+from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.operations import Phase
+from fctd.simulation.intervals import Interval, Window, within
+from fctd.simulation.run import Run
+from fctd.simulation.simulate import Simulation
+from validation.cases import load, trip
+from validation.harness.study import Check, Context, Outcome, Study
+
+SPEED, RAMP = 0.5, 5.0  # [m/s], [s]
+CONNECTION = 10.0  # [s]
+RECORD, SELDOM = 0.25, 60.0  # [s] between records of a measured stroke, and of others
+DEPTHS = 10
+FROM = 30.0  # [m]: the first bit depth
+WELL_9 = {"md": "Measured Depth ( ft )", "inc": "Inclination ( deg )", "azi": "Azimuth Grid ( deg )"}
+# Survey, depth [m], length of the segments [m] and columns of the survey.
+WELLS: dict[str, tuple[str, float, float, dict[str, str] | None]] = {
+    "K05-ENC-05-S1": ("nlog_K05-ENC-05-S1.csv", 8161.0, 28.5, None),
+    "ISCWSA reference": ("iscwsa_reference_well.csv", 2940.0, 14.25, None),
+    "well 9": ("wellpathpy_well9_horizontal_reference.csv", 2400.0, 14.25, WELL_9),
+}
+
+
+@dataclass(frozen=True)
+class Trip:
+    """A trip of a well: in from one bit depth to another and back out [m]."""
+
+    case: Case
+    shallow: float
+    deep: float
+    depths: tuple[float, ...]
+
+
+def trip_of(
+    context: Context, file: str, depth: float, segment: float, ends: tuple[float, float], depths: tuple[float, ...],
+    **changes: Any,
+) -> Trip:  # fmt: skip
+    """5 in pipe in an 8.5 in hole along a public survey, as in the case ``nlog_k05``, in and out between two depths.
+
+    depth : of the hole, and length of the string [m]; segment : length of the segments [m].
+    """
+    assert context.data is not None  # the runner has checked that the data are there
+    case = load(
+        "nlog_k05",
+        wellbore__survey=context.data / "surveys" / file,
+        wellbore__geometry="arcs",
+        wellbore__intervals__0__to_md=depth,
+        string__components__0__length=depth,
+        string__components__0__segments=None,
+        string__components__0__segment_length=segment,
+        rig__feed="stands",
+        rig__connection_time=CONNECTION,
+        operations=trip(*ends, SPEED, RAMP) + trip(*ends[::-1], SPEED, RAMP),
+        **changes,
+    )
+    return Trip(case, *ends, depths)
+
+
+def trips(context: Context) -> dict[str, Trip]:
+    """The wells by name."""
+    nine = {"wellbore__columns": WELL_9}
+    if context.quick:
+        file = WELLS["well 9"][0]
+        return {"well 9": trip_of(context, file, 2400.0, 28.5, (1000.0, 1060.0), (1010.0, 1050.0), **nine)}
+    return {
+        name: trip_of(
+            context, file, depth, segment, (FROM, depth), tuple(np.linspace(depth / DEPTHS, 0.995 * depth, DEPTHS)),
+            **({"wellbore__columns": columns} if columns else {}),
+        )
+        for name, (file, depth, segment, columns) in WELLS.items()
+    }  # fmt: skip
+
+
+def measured(phases: list[Phase], of: Trip) -> list[bool]:
+    """Which phases are at full speed past one of the depths."""
+    depth, found = of.shallow, []
+    for motion, _ in phases:
+        fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration
+        low, high = sorted((depth, depth + fed))
+        cruise = motion.feed_from == motion.feed_to != 0
+        found.append(cruise and any(low <= wanted < high for wanted in of.depths))
+        depth += fed
+    return found
+
+
+def recorded(phases: list[Phase], often: list[bool]) -> list[Interval]:
+    """The intervals of a schedule: short ones where the hook load is measured."""
+    intervals = []
+    for phase, fine in zip(phases, often, strict=True):
+        window = Window(phase.motion.start, phase.motion.duration)
+        intervals += within([phase], window, RECORD if fine else SELDOM)
+    return intervals
+
+
+def missing(run: Run) -> float:
+    """What the columns of the string differ in mass and length from those of the tally, the larger share."""
+    assert run.hoist is not None
+    n, tally = run.segments, run.hoist.tally
+    length = float(tally.reach[run.hoist.stands])
+    mass = float((tally.whole.of("mass") * tally.whole.length)[-n:].sum())
+    arms = sum(float(state.row(run.S, row, n).sum()) for row in (state.ARM_TOP, state.ARM_BOTTOM))
+    return max(abs(float(state.row(run.S, state.MASS, n).sum()) / mass - 1), abs(arms / length - 1))
+
+
+def stroke_rows(case: Case, of: Trip, simulation: Simulation, history: pd.DataFrame) -> list[dict[str, Any]]:
+    """A row for each measured stroke: hook load below the table, and that of the steady string."""
+    section = simulation.run.string.sections[0]
+    air = section.mass * GRAVITY * float(simulation.run.hole.at(np.zeros(1))[1][0, 2])
+    turns = stretch(case, of.deep)
+    rows, depth = [], of.shallow
+    for (motion, operation), fine in zip(simulation.phases, measured(simulation.phases, of), strict=True):
+        fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration
+        depth += fed
+        # After the reversal at total depth, until the block has moved twice the change of stretch.
+        if not fine or (fed < 0 and of.deep - (depth - fed) < 2 * turns):
+            continue
+        end = motion.start + motion.duration
+        stroke = history[(history["time_s"] > motion.start + 1e-6) & (history["time_s"] < end + 1e-6)]
+        period = 4 * float(stroke["bit_depth_m"].mean()) / float(np.sqrt(section.EA / section.mass))
+        whole = max(int(motion.duration / period), 1) * period
+        stroke = stroke[stroke["time_s"] > end - whole]
+        bit = float(stroke["bit_depth_m"].mean())
+        kind = case.operations[operation].kind
+        pull = float((stroke["hookload_N"] - air * stroke["block_height_m"]).mean())
+        steady = equilibrium(case, operation=kind, bit_depth=bit)
+        weight = section.weight * bit
+        rows.append(
+            {
+                "operation": kind, "bit_depth_m": bit, "hookload_kN": pull / 1e3,
+                "steady_hookload_kN": steady.hookload / 1e3, "steady_status": str(steady.status),
+                "off_percent_of_weight": 100 * (pull - steady.hookload) / weight,
+                "swing_kN": float(stroke["hookload_N"].std()) / 1e3, "periods": round(whole / period),
+            }
+        )  # fmt: skip
+    return rows
+
+
+def stretch(case: Case, bit: float) -> float:
+    """Change of the string's stretch between slacking off and picking up [m]."""
+    ends = [equilibrium(case, operation=kind, bit_depth=bit) for kind in ("trip_out", "trip_in")]
+    pulls = [point.profile.set_index("md_m")["effective_tension_N"] for point in ends]
+    apart = pulls[0].to_numpy() - np.interp(pulls[0].index, pulls[1].index, pulls[1])
+    section_EA = np.pi / 4 * (0.127**2 - 0.1086**2) * 206.8e9
+    return float(np.trapezoid(apart, pulls[0].index)) / section_EA
+
+
+def one(name: str, of: Trip) -> tuple[dict[str, Any], pd.DataFrame]:
+    """Row of a well, and the rows of its strokes."""
+    case = of.case
+    simulation = Simulation(case)
+    simulation.intervals = recorded(simulation.phases, measured(simulation.phases, of))
+    first, leaks = simulation.run.segments, []
+    for _ in simulation:
+        leaks.append(missing(simulation.run))
+    result, run = simulation.result(), simulation.run
+    strokes = pd.DataFrame(stroke_rows(case, of, simulation, result.history))
+    assert run.hoist is not None
+    row = {
+        "well": name, "status": str(result.status), "from_m": of.shallow, "to_m": of.deep,
+        "connections": int((result.history["in_slips"].astype(int).diff() == 1).sum()),
+        "most_segments": run.hoist.tally.whole.segments, "hours_simulated": result.run["simulated_s"] / 3600,
+        "seconds": result.run["wall_s"], "real_time_factor": result.run["real_time_factor"],
+        "largest_off_percent_of_weight": float(strokes["off_percent_of_weight"].abs().max()),
+        "energy_error_percent": 100 * result.run["energy_error"],
+        "missing_share": max(leaks), "segments_gained": run.segments - first,
+    }  # fmt: skip
+    return row, strokes.assign(well=name)
+
+
+def run(context: Context) -> Outcome:
+    """In and out of every well."""
+    found = [one(name, of) for name, of in context.progress(list(trips(context).items()), "trips")]
+    wells = pd.DataFrame([row for row, _ in found])
+    strokes = pd.concat([rows for _, rows in found], ignore_index=True)
+    target = "target of this project"
+    return Outcome(
+        tables={"wells": wells, "strokes": strokes},
+        checks=[
+            Check("trips that do not complete", float((wells["status"] != "completed").sum()), 0, "at_most", "",
+                  target),
+            Check("hook load below the table against the steady string, largest difference",
+                  float(strokes["off_percent_of_weight"].abs().max()), 0.5, "at_most", "% of the weight", target),
+            Check("energy ledger, residual over work", float(wells["energy_error_percent"].max()), 0.1, "at_most",
+                  "%", target),
+            Check("mass or length that is missing, largest share", float(wells["missing_share"].max()), 1e-9,
+                  "at_most", "", "exact but for rounding"),
+            Check("segments that a trip in and out leaves behind", float(wells["segments_gained"].abs().max()), 0,
+                  "at_most", "", "exact"),
+        ],
+        notes=[
+            "Hole, string, mud and friction are assumed, the surveys are real. Geometry arcs: cylinders add energy at "
+            "their seams.",
+            f"{SPEED:g} m/s, {CONNECTION:g} s a connection. Without axial damping a start swings the hook load for the "
+            "whole stroke; the means are over whole periods.",
+        ],
+        display={"wells": "Trips in and out", "strokes": "Hook load below the rotary table against the steady string"},
+    )  # fmt: skip
+
+
+STUDY = Study(
+    "trips",
+    "Does a trip of stands, in any well, have the hook load of the steady string?",
+    run,
+    reproduce=False,
+    needs=("data",),
+)
