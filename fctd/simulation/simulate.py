@@ -14,6 +14,7 @@ from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
 from fctd.model.torsion import period_of
+from fctd.model.tortuosity import resolving, shortfall
 from fctd.results import notes
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
@@ -194,10 +195,22 @@ class Simulation(Iterator[Record]):
         swing, frequency, depth = expected_ringing(self.run, self.phases).largest()
         bound = RINGING * float(result.history["hookload_N"].abs().mean())
         ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
-        found = tuple(note for note in (ledger, ringing, self._swings(result.history), *result.notes) if note)
+        found = tuple(
+            note for note in (ledger, ringing, self._swings(result.history), *self._limits(), *result.notes) if note
+        )
         if ledger is not None and not error <= notes.INACCURATE:
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
+
+    def _limits(self) -> tuple[notes.Note | None, ...]:
+        """The notes on penetrations beyond that of the step, and on segments too long for a winding hole."""
+        case, longest = self.case, float(self.run.string.length.max())
+        wanted = case.wellbore.tortuosity
+        deepest = float(self.run.top[topdrive.TOP_PENETRATION])
+        return (
+            notes.too_deep(deepest, case.contact.largest_penetration),
+            notes.winds_too_much(shortfall(wanted, longest), longest, resolving(wanted)),
+        )
 
     def _swings(self, history: "pd.DataFrame") -> notes.Note | None:
         """The note on the surface torque at the end of a run whose string turns there."""

@@ -20,6 +20,8 @@ STUDIES: dict[str, str] = {
     "soft_limit": "validation.studies.soft_limit",
     "soft_stiff_map": "validation.studies.soft_stiff_map",
     "friction_laws": "validation.studies.friction_laws",
+    "sticking": "validation.studies.sticking",
+    "tortuosity": "validation.studies.tortuosity",
     "mud_effects": "validation.studies.mud_effects",
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
