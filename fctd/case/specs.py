@@ -26,7 +26,7 @@ from fctd.case.surveys.reading import read_survey
 from fctd.case.surveys.smoothing import smooth
 from fctd.case.surveys.stations import UNITS, StationKey, Survey, Written, check
 from fctd.case.text import is_utf8
-from fctd.case.wall import CakeSpec, IntervalSpec
+from fctd.case.wall import CakeSpec, IntervalSpec, TortuositySpec
 
 
 def _as_path(raw: object) -> object:
@@ -96,6 +96,7 @@ class WellboreSpec(Table):
         default=None, description="the sheet of a workbook, or the trajectory of a WITSML file, that has several"
     )
     survey_smoothing: units.Smoothing | None = None
+    tortuosity: TortuositySpec | None = None
     survey_method: Literal["average_angle", "minimum_curvature"] = "minimum_curvature"
     geometry: Literal["cylinders", "arcs"] = "cylinders"
     cylinder_length: units.PositiveLength | None = None
@@ -142,6 +143,8 @@ class WellboreSpec(Table):
         for key in ("columns", "sheet"):
             if getattr(self, key) is not None and self.survey is None:
                 raise InputError(f"{key} only beside survey", key=key)
+        if self.tortuosity is not None and self.survey_method != "minimum_curvature":
+            raise InputError("minimum_curvature beside tortuosity", key="survey_method", value=self.survey_method)
         if self.geometry == "arcs" and self.survey_method != "minimum_curvature":
             raise InputError("cylinders, since arcs need survey_method minimum_curvature", key="geometry")
         if self.stations is not None:

@@ -263,6 +263,7 @@ def bare(value: object, key: str, noun: str) -> float:
 
 Bare = Annotated[float, Number(noun="a bare number")]
 Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SEGMENTS, whose check has a better message
+Seed = Annotated[int, Whole(at_least=0, at_most=2**32)]
 FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0, slips=(Slip(5, 100, "", 0.01),))
 Friction = Annotated[float, FRICTION]
 Exponent = Annotated[float, Number(noun="an exponent", at_least=1.0, at_most=5.0)]

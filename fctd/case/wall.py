@@ -1,4 +1,4 @@
-"""The tables of a case file about the wall and the string's contact with it: intervals, contact, mud cake."""
+"""The tables of a case file about the wall and the string's contact with it: intervals, tortuosity, cake, contact."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 else:
     FrictionLaw = Literal[NAMES]  # the table's names
 
+# A wave of the hole is at least so many amplitudes long; steeper ones are bends, which a survey shows.
+STEEPEST: Final = 100
 # The laws with a static factor.
 STICKING: Final = ("karnopp", "stribeck")
 
@@ -58,6 +60,25 @@ class IntervalSpec(Table):
     def static_excess(self) -> float:
         """What the static friction factor exceeds the kinetic one by, as a share of it."""
         return self.static_friction / self.friction - 1 if self.static_friction else 0.0
+
+
+class TortuositySpec(Table):
+    """Waves of the hole that are too short for a survey, added to its stations: in each direction across the hole the
+    axis has the root mean square of a sine of the `amplitude` [m], with wavelengths about `wavelength` [m].
+
+    Equal values of `seed` give equal holes. Segments must be at most an eighth of the wavelength; a steady string with
+    longer ones is `under_resolved`.
+    """
+
+    amplitude: units.PositiveLength
+    wavelength: units.PositiveLength
+    seed: units.Seed = 0
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.amplitude > self.wavelength / STEEPEST:
+            raise InputError(f"at most 1/{STEEPEST} of wavelength, {self.wavelength / STEEPEST:g} m", key="amplitude")
+        return self
 
 
 class CakeSpec(Table):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from fctd.case.load import Case
 from fctd.model import survey
+from fctd.model.tortuosity import resolving
 
 Array = NDArray[np.float64]
 
@@ -44,7 +45,8 @@ class DefaultLayout:
         md = deepest - apart * np.arange(samples + way)
         hole, bend = (np.lib.stride_tricks.sliding_window_view(a, way + 1) for a in _hole(case, md))
         clearance = np.maximum(hole - self._contact_radius(case)[:, None], LEAST_CLEARANCE)
-        limit = np.minimum(np.sqrt(8 * clearance / np.maximum(bend, 1e-12)).min(axis=1), LONGEST)
+        longest = min(LONGEST, resolving(case.wellbore.tortuosity))
+        limit = np.minimum(np.sqrt(8 * clearance / np.maximum(bend, 1e-12)).min(axis=1), longest)
         limit[0] = min(limit[0], AT_BIT)
         grown = GROWTH * self.above_bit
         limit = np.minimum.accumulate(limit - grown) + grown

@@ -15,6 +15,7 @@ from fctd.mechanics import contact
 from fctd.mechanics.query import WALL_COLUMNS, Walls, query_walls, walls_in
 from fctd.mechanics.state import ARCS, CYLINDERS
 from fctd.model import survey
+from fctd.model.tortuosity import winding
 
 Array = NDArray[np.float64]
 
@@ -220,6 +221,9 @@ def build_wellbore(case: Case) -> Wellbore:
 
 def _build(hole: WellboreSpec) -> Wellbore:
     stations, intervals = hole.trajectory, _intervals(hole)
+    if hole.tortuosity is not None:
+        _courses(hole, stations)  # names a station that no arc reaches
+        stations = winding(stations, hole.tortuosity)
     ends = intervals[:, TO_MD][intervals[:, TO_MD] < stations[-1, 0]]
     courses = _courses(hole, stations) if hole.survey_method == "minimum_curvature" else None
     if hole.geometry == "arcs":

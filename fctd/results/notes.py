@@ -57,6 +57,11 @@ MEANINGS: Final = {
     "buckling": Meaning(
         "the string is buckled, and its segments are too long to bend that way", "use shorter segments there"
     ),
+    "tortuosity": Meaning("the segments are too long to follow the hole's tortuosity", "use shorter segments"),
+    "wall": Meaning(
+        "the string was pressed deeper into the wall than the time step is stable for",
+        "raise contact.largest_penetration",
+    ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "torque": Meaning(
         "the surface torque at the end of the run is not steady",
@@ -193,6 +198,21 @@ def under_resolved(buckling: Buckling) -> Note | None:
         f"segments of at most {buckling.segment_length:g} m would"
     )
     return _note("buckling", text, buckling.longest / buckling.segment_length, buckling.from_md)
+
+
+def winds_too_much(shortfall: str, longest: float, wanted: float) -> Note | None:
+    """A note where segments of up to ``longest`` [m] cannot follow a winding hole, as those of ``wanted`` [m] can."""
+    return _note("tortuosity", shortfall, longest / wanted) if shortfall else None
+
+
+def too_deep(penetration: float, largest: float) -> Note | None:
+    """A note where a run went deeper into the wall than its time step is stable for, both [m]."""
+    if not penetration > largest:
+        return None
+    text = (
+        f"a contact point was {1e3 * penetration:.3g} mm deep in the wall, the step is stable to {1e3 * largest:.3g} mm"
+    )
+    return _note("wall", text, penetration / largest)
 
 
 def ledger_off(error: float) -> Note | None:

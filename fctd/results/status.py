@@ -35,7 +35,7 @@ class SteadyStatus(Status):
 
     CONVERGED = "converged", "", True, True
     LOCKED_UP = "locked_up", "the top would have to be pushed with more than the block weight", True, True
-    UNDER_RESOLVED = "under_resolved", "the string is buckled, and its segments cannot bend that way", True, False
+    UNDER_RESOLVED = "under_resolved", "the segments are too long to bend as the string does", True, False
     UNSTABLE = "unstable", "the equilibrium is unstable: the string would leave it", True, False
     MAX_ITERATIONS = "max_iterations", "no equilibrium was found: the string may have no steady shape", False, False
     DIVERGED = "diverged", "the string lies deeper in the wall than the hole is wide", False, False

@@ -15,6 +15,7 @@ from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
 from fctd.model.operations import rad_per_s
 from fctd.model.torsion import axial_period_of, period_of
+from fctd.model.tortuosity import resolving, shortfall
 from fctd.results import notes
 from fctd.results.status import RunStatus
 from fctd.results.swings import Span, operations_table
@@ -203,7 +204,7 @@ class Simulation(Iterator[Record]):
         bound = RINGING * float(result.history["hookload_N"].abs().mean())
         ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
         swings, whirl = self._swings(result.history), self._whirls(result.history)
-        found = tuple(note for note in (ledger, ringing, swings, whirl, *result.notes) if note)
+        found = tuple(note for note in (ledger, ringing, swings, whirl, *self._limits(), *result.notes) if note)
         if ledger is not None and not error <= notes.INACCURATE:
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
@@ -224,6 +225,16 @@ class Simulation(Iterator[Record]):
             periods = axial_period_of(string), period_of(string)
             spans.append(Span(operation.kind, start, steady_from, steady_to, end, *periods))
         return spans
+
+    def _limits(self) -> tuple[notes.Note | None, ...]:
+        """The notes on penetrations beyond that of the step, and on segments too long for a winding hole."""
+        case, longest = self.case, float(self.run.string.length.max())
+        wanted = case.wellbore.tortuosity
+        deepest = float(self.run.top[topdrive.TOP_PENETRATION])
+        return (
+            notes.too_deep(deepest, case.contact.largest_penetration),
+            notes.winds_too_much(shortfall(wanted, longest), longest, resolving(wanted)),
+        )
 
     def _swings(self, history: "pd.DataFrame") -> notes.Note | None:
         """The note on the surface torque at the end of a run whose string turns there."""

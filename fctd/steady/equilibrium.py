@@ -21,6 +21,7 @@ from fctd.mechanics import state
 from fctd.model.drillstring import check_fit, lay_out
 from fctd.model.frames import steady_offsets
 from fctd.model.operations import SteadyRates, drive_torque, steady_rates, weight_indicator
+from fctd.model.tortuosity import shortfall
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
@@ -339,6 +340,8 @@ class Solver:
             return SteadyStatus.LOCKED_UP, f"{text}; {shape.buckling.shortfall}" if coarse else text
         if coarse:
             return SteadyStatus.UNDER_RESOLVED, shape.buckling.shortfall
+        if lacks := shortfall(self.case.wellbore.tortuosity, float(shape.laid.string.length.max())):
+            return SteadyStatus.UNDER_RESOLVED, lacks
         if negative:
             modes = f"{negative} mode{'s' * (negative > 1)}"
             return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {modes}"

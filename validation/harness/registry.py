@@ -21,6 +21,8 @@ STUDIES: dict[str, str] = {
     "soft_limit": "validation.studies.soft_limit",
     "soft_stiff_map": "validation.studies.soft_stiff_map",
     "friction_laws": "validation.studies.friction_laws",
+    "sticking": "validation.studies.sticking",
+    "tortuosity": "validation.studies.tortuosity",
     "mud_effects": "validation.studies.mud_effects",
     "top_drive": "validation.studies.top_drive",
     "stick_slip": "validation.studies.stick_slip",

@@ -36,13 +36,16 @@ def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
 
     limit += S[CAKE_IMPULSE + j]
     limit = limit if limit > 0 else 0.0
-    decay = S[DECAY + j] * S[DECAY + j]
     excess = S[EXCESS + j] * limit
-    moving = limit + excess * decay / (decay + square + TINY)
+    # The sliding that static friction would leave: at break-away, where the factor falls most, that of the step's end.
+    speed = np.sqrt(square)
+    left = speed - (limit + excess) * along / (square + TINY)
+    left = left if left > 0 else 0.0
+    decay = S[DECAY + j] * S[DECAY + j]
+    moving = limit + excess * decay / (decay + left * left + TINY)
     most = limit + excess if S[STUCK + j] > 0 else moving
     sticks = (f * f + g * g) * square <= most * most
     # Sliding friction stops what it would reverse, as in law ``coulomb``.
-    speed = np.sqrt(square)
     slowing, stopping = moving * along, speed * square
     slowed = (slowing if slowing < stopping else stopping) / (speed * along + TINY)
     f, g = f if sticks else slowed, g if sticks else 0.0 * g
