@@ -21,6 +21,7 @@ STUDIES: dict[str, str] = {
     "soft_stiff_map": "validation.studies.soft_stiff_map",
     "friction_laws": "validation.studies.friction_laws",
     "mud_effects": "validation.studies.mud_effects",
+    "whirl": "validation.studies.whirl",
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
     "johancsik": "validation.studies.johancsik",
