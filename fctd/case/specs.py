@@ -249,7 +249,7 @@ class ComponentSpec(Table):
         if self.inner_diameter >= self.outer_diameter:
             raise InputError("a diameter below outer_diameter", key="inner_diameter")
         if self.eccentricity >= 0.5 * self.outer_diameter:
-            raise InputError("less than half of outer_diameter", key="eccentricity", value=f"{self.eccentricity:g} m")
+            raise InputError("less than half of outer_diameter", key="eccentricity")
         if self.contact_diameter < self.outer_diameter:
             raise InputError("at least outer_diameter", key="contact_diameter")
         return self
@@ -299,7 +299,7 @@ class MudSpec(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if self.viscosity and not self.density:
-            raise InputError("0, or a mud.density above 0 beside it", key="viscosity", value=f"{self.viscosity:g} Pa*s")
+            raise InputError("0, or a mud.density above 0 beside it", key="viscosity")
         return self
 
     @property

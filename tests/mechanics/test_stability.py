@@ -3,7 +3,8 @@
 import pytest
 
 from fctd import InputError, equilibrium
-from fctd.mechanics.stability import stable_step
+from fctd.mechanics import state
+from fctd.mechanics.stability import stable_step, stiffest_mode, stiffest_torsion
 from fctd.simulation.run import prepare
 from tests.cases import make_case, pipe, rotation
 
@@ -14,6 +15,16 @@ def test_a_step_at_the_limit_is_at_the_limit(frequency: float, damping: float) -
     """ω²h² + 2ηω²h = 4, each term divided by 4 and written so that ω² does not overflow."""
     step = stable_step(frequency, damping, 0.0)
     assert (0.5 * frequency * step) ** 2 + 0.5 * damping * frequency * (frequency * step) == pytest.approx(1.0)
+
+
+def test_the_stiffest_torsion_is_that_of_a_uniform_shaft() -> None:
+    """2c/Δz for a wave speed c = √(GJ/I) and segments of Δz."""
+    run, _ = prepare(make_case(components=[pipe(None, 40)], operations=[rotation(1000.0, 10.0)]))
+    (section,) = run.string.sections
+    wave = (section.GJ / section.axial_inertia) ** 0.5
+    assert stiffest_torsion(run.S, run.segments) == pytest.approx(2 * wave / 25.0)
+    assert stiffest_torsion(run.S, run.segments) < stiffest_mode(run.S, run.segments, 0.0)
+    assert not state.row(run.S, state.UNBALANCE, run.segments).any()
 
 
 def test_a_string_too_stiff_to_step_is_refused() -> None:

@@ -69,11 +69,6 @@ def test_a_damping_that_is_given_wins() -> None:
     assert (set(along), set(around), set(sideways(case, string, 60.0).damping)) == ({3.0}, {0.7}, {5.0})
 
 
-def test_viscosity_without_mud_is_refused() -> None:
-    with pytest.raises(ValueError, match=r'viscosity = "0\.02 Pa\*s": expected 0, or a mud\.density above 0'):
-        well({"viscosity": 0.02})
-
-
 def test_steady_loads_depend_on_a_given_viscosity_alone() -> None:
     """What a given one adds is c Ω and c v along the string; without friction, which the added tension would raise."""
     frictionless = {"intervals": [{**interval, "friction": 0.0} for interval in SIZES["intervals"]]}

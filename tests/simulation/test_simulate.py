@@ -337,3 +337,18 @@ def test_a_whirling_string_says_so_and_the_mud_s_damping_holds_it() -> None:
     (row,) = damped.operations.to_dict("records")
     assert row["hookload_mean_N"] == pytest.approx(still.hookload, rel=1e-3)
     assert row["surface_torque_mean_N_m"] == pytest.approx(still.surface_torque, rel=1e-3)
+
+
+def test_a_loss_factor_damps_torsion_at_its_first_frequency() -> None:
+    """A swing falls by e^(−πη) in a period; without contact, which alone would damp it."""
+    swings = []
+    for eta in (0.0, 0.05):
+        case = make_case(
+            components=[pipe(None, 20)], operations=[rotation(1000, 30, ramp=0.5)], contact={"enabled": False},
+            solver={"loss_factor": eta}, record={"interval": 0.1},
+        )  # fmt: skip
+        history, period = simulate(case).history, period_of(prepare(case)[0].string)
+        first, last = (history[(history.time_s > t) & (history.time_s <= t + 3 * period)] for t in (5, 5 + 12 * period))
+        swings.append(last.surface_torque_max_N_m.max() / first.surface_torque_max_N_m.max())
+    assert swings[0] > 0.99
+    assert swings[1] == pytest.approx(np.exp(-np.pi * 0.05 * 12), rel=0.05)
