@@ -23,6 +23,7 @@ STUDIES: dict[str, str] = {
     "mud_effects": "validation.studies.mud_effects",
     "top_drive": "validation.studies.top_drive",
     "stick_slip": "validation.studies.stick_slip",
+    "drilling": "validation.studies.drilling",
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
     "johancsik": "validation.studies.johancsik",
