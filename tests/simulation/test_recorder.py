@@ -62,7 +62,7 @@ def test_a_row_of_history_is_sums_over_its_span() -> None:
         for offset, value in sums.items():
             state.row(S, offset, n)[:] = value
         top[topdrive.TOP_TIME] += span
-        top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]] = 400.0, 40.0
+        top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE, topdrive.SUM_TOP_TURN]] = 400.0, 40.0, 4 * np.pi
         recorder.record(0, recorder.run.drain())
         assert not any(state.row(S, offset, n).any() for offset in sums)
         assert not top[[topdrive.SUM_HOOKLOAD, topdrive.SUM_TOP_TORQUE]].any()
@@ -73,6 +73,7 @@ def test_a_row_of_history_is_sums_over_its_span() -> None:
             "surface_torque_N_m": 40 / span, "weight_indicator_N": 0.5 * (400 / span + 1e4),
             "drive_torque_N_m": 40 / span + 50, "sum_r_ft_N_m": 3 * n / span, "sum_r_mu_fn_N_m": 5 * n / span,
             "mud_torque_N_m": 7 * n / span, "total_contact_force_N": 11 * n / span, "contact_count": 0,
+            "top_rpm": 120 / span,
         }  # fmt: skip
         assert row["buckling"] == "none"
         # No step was taken: the extremes are the means, and the bit's rotation is unknown.

@@ -253,7 +253,7 @@ def test_a_string_settles_against_its_own_weight_and_length() -> None:
     [
         (
             {"operations": [trip(900, 950), {"kind": "drill_sliding", "from_md": 950, "to_md": 960, "speed": 0.01}]},
-            r"operations\[1\]\.kind = \"drill_sliding\": expected an operation off bottom",
+            r"bit\.rock is missing: expected a table \[bit\.rock\], since operations\[1\] drills",
         ),
         (
             {"components": [pipe(100, 4), pipe(900, 9, bend=0.02)], "operations": [rotation(1000, 1)]},

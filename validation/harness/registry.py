@@ -27,6 +27,7 @@ STUDIES: dict[str, str] = {
     "top_drive": "validation.studies.top_drive",
     "stick_slip": "validation.studies.stick_slip",
     "whirl": "validation.studies.whirl",
+    "drilling": "validation.studies.drilling",
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
     "johancsik": "validation.studies.johancsik",
