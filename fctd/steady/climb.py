@@ -29,8 +29,8 @@ ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
 # share ``APART`` of its push, since shapes differ by a little from balance to balance.  It is known where the
 # extrapolations of ``STEPS`` steps differ by less than ``AGREEING`` of it, or where the push is beyond any rig's,
 # ``BEYOND`` weights: two agree by chance while the helix still grows longer.  Where no shape is found before, from a
-# push of one weight on, it is the last extrapolation or, if that is less, where no shape was found: the wall's springs
-# give way under a large push.
+# push of one weight on, it is the last extrapolation or, if that is less by far, where no shape was found: the wall's
+# springs give way under a large push.
 APART, AGREEING, STEPS, BEYOND = 0.75, 0.01, 3, 10.0
 # A lock-up below this share of the loads is one before them for any error of the extrapolation.  A pushed string with a
 # balance at more than this share of where none was found is not followed any nearer.
@@ -228,7 +228,9 @@ def _is_near_lock_up(problem: Problem, path: Climb) -> bool:
     """Whether the last balance is so near lock-up that smaller steps would hardly change its share of the loads."""
     if len(path.steps) < 2 or _push(problem, path) < problem.weight:
         return False
-    return path.steps[-1].share > DECIDED * path.fails_at or _extrapolated(path.steps) < DECIDED
+    last = path.steps[-1].share
+    is_near = last > DECIDED * path.fails_at and (last >= 1 or path.fails_at < DECIDED)
+    return is_near or _extrapolated(path.steps) < DECIDED
 
 
 def _locked_at(problem: Problem, path: Climb) -> float:
@@ -277,8 +279,8 @@ def close(problem: Problem, path: Climb) -> None:
     path.ends_at = float("nan")
     if np.isnan(path.locked_at) and len(share) > 1 and _push(problem, path) > problem.weight:
         path.locked_at = _extrapolated(path.steps)
-        if not path.rolls:
-            path.locked_at = float(np.fmin(path.locked_at, path.fails_at))
+        if path.fails_at < DECIDED * path.locked_at and not path.rolls:
+            path.locked_at = path.fails_at
     # A lock-up beyond the loads of the operation does not say why the string has no loads there.
     known = path.locked_at <= 1 if path.pose is None else np.isfinite(path.locked_at) or not path.is_cut
     if not known:
