@@ -187,10 +187,12 @@ def test_a_trip_in_and_out_of_a_deviated_well() -> None:
     assert abs(pull - steady.hookload) < 0.005 * weight
 
 
-def test_another_contact_method_needs_the_long_segment() -> None:
+def test_another_contact_method_or_engine_needs_the_long_segment() -> None:
     class Method:
         name = "mine"
 
     case = make_case(BUILD, STRING, [trip(200.0, 300.0)], rig=RIG)
     with pytest.raises(InputError, match=r"rig\.feed.*stands.*long_segment"):
         prepare(case, Method())  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"rig\.feed.*stands.*long_segment"):
+        Simulation(case, stepper=lambda run: run)
