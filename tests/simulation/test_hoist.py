@@ -93,7 +93,7 @@ CONSTANTS = (
 )  # fmt: skip
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(parts=strings(), stand=st.floats(9.0, 36.0), depth=st.floats(20.0, 300.0), moves=st.integers(1, 3))
 def test_in_and_out_is_the_same_string(parts: list[dict[str, Any]], stand: float, depth: float, moves: int) -> None:
     """Length, mass and count grow by those of the stands, and shrink by the same; no loss is forgotten."""
