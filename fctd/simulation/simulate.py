@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.mechanics import topdrive
 from fctd.mechanics.energy import Energy
@@ -75,6 +76,12 @@ class Simulation(Iterator[Record]):
         self.case, self.window = case, None if window is None else Window(*window)
         self.run, self.phases = prepare(case, contact)
         with naming_file(case):
+            if stepper is not None and self.run.hoist is not None:
+                raise InputError(
+                    '"long_segment" where the long segment fits, since another engine moves the string',
+                    key="rig.feed",
+                    value=case.rig.feed,
+                )
             self.intervals = (
                 whole_schedule(self.phases, case.record.interval)
                 if self.window is None

@@ -37,7 +37,7 @@ def components(draw: st.DrawFn) -> list[dict[str, Any]]:
     return [*parts, pipe(None, None, segment_length=draw(st.floats(3.0, 40.0)))]
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(parts=components(), stand=st.floats(9.0, 36.0), deepest=st.floats(150.0, 990.0))
 def test_stands_have_whole_segments_and_the_string_all_of_its_metres(
     parts: list[dict[str, Any]], stand: float, deepest: float

@@ -65,7 +65,7 @@ def test_the_string_does_not_turn_in_the_slips() -> None:
     assert phases[-1].motion.spin_to == pytest.approx(2 * np.pi)
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(depths=st.lists(st.floats(5.0, 900.0), min_size=2, max_size=4), stand=st.floats(9.0, 36.0))
 def test_a_schedule_leads_to_its_depths_and_balances_its_stands(depths: list[float], stand: float) -> None:
     moves = [trip(a, b) if abs(a - b) > 1e-2 else rotation(a, 5.0) for a, b in pairwise(depths)]

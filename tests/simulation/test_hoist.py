@@ -93,7 +93,7 @@ CONSTANTS = (
 )  # fmt: skip
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(parts=strings(), stand=st.floats(9.0, 36.0), depth=st.floats(20.0, 300.0), moves=st.integers(1, 3))
 def test_in_and_out_is_the_same_string(parts: list[dict[str, Any]], stand: float, depth: float, moves: int) -> None:
     """Length, mass and count grow by those of the stands, and shrink by the same; no loss is forgotten."""
@@ -187,10 +187,12 @@ def test_a_trip_in_and_out_of_a_deviated_well() -> None:
     assert abs(pull - steady.hookload) < 0.005 * weight
 
 
-def test_another_contact_method_needs_the_long_segment() -> None:
+def test_another_contact_method_or_engine_needs_the_long_segment() -> None:
     class Method:
         name = "mine"
 
     case = make_case(BUILD, STRING, [trip(200.0, 300.0)], rig=RIG)
     with pytest.raises(InputError, match=r"rig\.feed.*stands.*long_segment"):
         prepare(case, Method())  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"rig\.feed.*stands.*long_segment"):
+        Simulation(case, stepper=lambda run: run)
