@@ -155,6 +155,11 @@ class String:
         below = np.append(np.where(self._short, 0.0, own)[1:], 0.0)
         return np.asarray(np.where(self.mid_contact(), own, np.maximum(own, below)))
 
+    @property
+    def longest(self) -> float:
+        """Longest segment below the topmost one, which takes the remainder of the string [m]."""
+        return float(self.length[1:].max(initial=0.0))
+
     def tributary(self) -> Array:
         """Length (n,) of pipe whose wall force the contact points bear [m].
 

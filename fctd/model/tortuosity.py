@@ -37,7 +37,7 @@ def winding(stations: Array, spec: TortuositySpec) -> Array:
             key="wellbore.tortuosity.wavelength",
             value=f"{spec.wavelength:g} m",
         )
-    md = np.linspace(*ends, count + 1)
+    md = np.linspace(ends[0], ends[1], count + 1)
     direction = survey.along_courses(survey.minimum_curvature(stations), md)[1]
     tilt = _slopes(md, spec)
     direction = direction + tilt - (tilt * direction).sum(axis=1, keepdims=True) * direction

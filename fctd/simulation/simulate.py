@@ -235,7 +235,7 @@ class Simulation(Iterator[Record]):
 
     def _limits(self) -> tuple[notes.Note | None, ...]:
         """The notes on penetrations beyond that of the step, and on segments too long for a winding hole."""
-        case, longest = self.case, float(self.run.string.length.max())
+        case, longest = self.case, self.run.string.longest
         wanted = case.wellbore.tortuosity
         deepest = float(self.run.top[topdrive.TOP_PENETRATION])
         return (

@@ -340,7 +340,7 @@ class Solver:
             return SteadyStatus.LOCKED_UP, f"{text}; {shape.buckling.shortfall}" if coarse else text
         if coarse:
             return SteadyStatus.UNDER_RESOLVED, shape.buckling.shortfall
-        if lacks := shortfall(self.case.wellbore.tortuosity, float(shape.laid.string.length.max())):
+        if lacks := shortfall(self.case.wellbore.tortuosity, shape.laid.string.longest):
             return SteadyStatus.UNDER_RESOLVED, lacks
         if negative:
             modes = f"{negative} mode{'s' * (negative > 1)}"

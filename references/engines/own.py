@@ -22,7 +22,7 @@ class _Stepper:
         """Nothing to do: the stepper works on the run itself."""
 
     def energy(self) -> Energy:
-        return energy_of(self._run.S, self._run.segments)
+        return energy_of(self._run.S, self._run.segments, self._run.laws.wall_exponent)
 
     def note(self) -> str:
         """See ``Stepper.note``."""

@@ -36,7 +36,9 @@ OVERBALANCE, CAKE, INTERVAL, HOLE, COLLAR = 3e6, 2e-3, 60.0, 0.2159, 0.159
 
 
 @entry
-def move_body(S, top, laws, spring, belt, dt, along, depths):
+def move_body(
+    S: Array, top: Array, laws: Laws, spring: float, belt: float, dt: float, along: Array, depths: Array
+) -> None:
     """Move one body on a flat wall, held by a spring whose end moves along z; its places along z and depths [m]."""
     stiffness, room = S[K_WALL + 1], S[PX + 1] - depths[0]
     z, depth = 0.0, depths[0]
