@@ -107,8 +107,7 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
         contact_damping=case.contact.damping,
         joint_damping=case.solver.joint_damping,
         settling=0.0,
-        # Damping in proportion to stiffness has the loss factor η = τω at the frequency ω.
-        torsion_damping=case.solver.loss_factor * period_of(string) / (2 * np.pi),
+        torsion_damping=_torsion_damping(case, string),
         unbalanced=bool(string.of("eccentricity").any()),
     )
     state.row(S, state.UNBALANCE, n)[:] = string.of("mass") * string.of("eccentricity") * string.length
@@ -129,6 +128,12 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     )  # fmt: skip
     run.take_mud_along(case.operations[0])
     return run, phases
+
+
+def _torsion_damping(case: Case, string: String) -> float:
+    """Damping time [s] of torsion; damping in proportion to stiffness has the loss factor η = τω at a frequency ω."""
+    factor = case.solver.loss_factor
+    return factor * period_of(string) / (2 * np.pi) if factor else 0.0
 
 
 def own_wall(case: Case, hole: Wellbore) -> HoleWall:
