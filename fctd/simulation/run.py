@@ -213,8 +213,7 @@ def _run(
         settling=0.0,
         **_wall_laws(case),
         rock=rock_of(case),
-        # Damping in proportion to stiffness has the loss factor η = τω at the frequency ω.
-        torsion_damping=case.solver.loss_factor * period_of(string) / (2 * np.pi),
+        torsion_damping=_torsion_damping(case, string),
         unbalanced=any(component.eccentricity for component in case.string.components),
     )
     limit = min(_step_limit(probe, count, case, hole, laws) for probe, count in probes)
@@ -250,6 +249,12 @@ def _unbalance(S: Array, string: String) -> None:
     """Write the unbalance of the bodies into a filled buffer."""
     unbalance = string.of("mass") * string.of("eccentricity") * string.length
     state.row(S, state.UNBALANCE, string.segments)[:] = unbalance
+
+
+def _torsion_damping(case: Case, string: String) -> float:
+    """Damping time [s] of torsion; damping in proportion to stiffness has the loss factor η = τω at a frequency ω."""
+    factor = case.solver.loss_factor
+    return factor * period_of(string) / (2 * np.pi) if factor else 0.0
 
 
 def own_wall(case: Case, hole: Wellbore) -> HoleWall:
