@@ -105,9 +105,11 @@ TOP_RATE, TOP_BEHIND, SUM_TOP_TURN = range(8, 11)
 # made since the start [m]; sums since the last record of weight on bit [N s], bit torque [N m s] and turns of the
 # bit [rad]; energy that it gave to the rock since the start [J]; weight on it [N] and torque on it [N m] in this step.
 PRESSED, HOLE_MADE, SUM_BIT_WEIGHT, SUM_BIT_TORQUE, SUM_BIT_TURN, LOST_BIT, BIT_WEIGHT, BIT_TORQUE = range(11, 19)
+# The bit's travel [m] and spin [rad/s] in the last step.
+BIT_MOVED, BIT_SPIN = range(22, 24)
 # Of the autodriller: hook load off bottom [N], block speed of the integral part [m/s], feed since the start [m].
 TARE, TOP_FEED, FED = range(19, 22)
-TOP_SIZE = 22
+TOP_SIZE = 24
 
 
 @inlined
