@@ -35,7 +35,7 @@ class RockSpec(Table):
     """
 
     law: Literal["drag_bit", "given"] = "drag_bit"
-    stiffness: units.PositiveStiffness = 1e8
+    stiffness: units.PositiveStiffness = 2e7
     radius: units.PositiveLength | None = None
     specific_energy: units.PositiveStress = 1e8
     force_ratio: units.PositiveRatio = 0.6

@@ -27,6 +27,8 @@ from fctd.mechanics.state import (
     velocity,
 )
 from fctd.mechanics.topdrive import (
+    BIT_MOVED,
+    BIT_SPIN,
     BIT_TORQUE,
     BIT_WEIGHT,
     HOLE_MADE,
@@ -76,4 +78,7 @@ def drill(S, top, n, rock, dt):
     top[HOLE_MADE] += made
     top[SUM_BIT_WEIGHT] += dt * weight
     top[SUM_BIT_TORQUE] -= dt * torque
-    top[LOST_BIT] += weight * moved - dt * torque * spin
+    # An impulse changes the kinetic energy by its product with the mean velocity.  Weight and torque of a drag bit
+    # follow its motion as springs do: with the velocity after the impulse a vibrating bit would gain energy.
+    top[LOST_BIT] += 0.5 * weight * (top[BIT_MOVED] + moved) - 0.5 * dt * torque * (top[BIT_SPIN] + spin)
+    top[BIT_MOVED], top[BIT_SPIN] = moved, spin

@@ -109,11 +109,13 @@ HOOKLOAD_MIN, HOOKLOAD_MAX, TORQUE_MIN, TORQUE_MAX, TOP_ANGLE, BIT_ANGLE, BIT_ST
 TOP_PENETRATION, BLOCK_HEIGHT, IN_DERRICK, TOP_RATE, TOP_BEHIND = range(13, 18)
 # In the same array the numbers of the bit (bit.py): how far it is pressed into the rock, below 0 off bottom [m]; hole
 # made since the start [m]; sums since the last record of weight on bit [N s] and bit torque [N m s]; energy that it
-# gave to the rock since the start [J]; weight on it [N] and torque on it [N m] in this step.
+# gave to the rock since the start [J]; weight on it [N] and torque on it [N m] in this step; its travel [m] and spin
+# [rad/s] in the last step.
 PRESSED, HOLE_MADE, SUM_BIT_WEIGHT, SUM_BIT_TORQUE, LOST_BIT, BIT_WEIGHT, BIT_TORQUE = range(18, 25)
+BIT_MOVED, BIT_SPIN = 25, 26
 # Of the autodriller: hook load off bottom [N], block speed of the integral part [m/s], feed since the start [m].
-TARE, TOP_FEED, FED = range(25, 28)
-TOP_SIZE = 28
+TARE, TOP_FEED, FED = range(27, 30)
+TOP_SIZE = 30
 
 
 @inlined

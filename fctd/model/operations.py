@@ -40,13 +40,12 @@ def schedule(operations: Sequence[Operation]) -> list[Phase]:
     than ``SHORTEST``.
     """
     phases: list[Phase] = []
-    clock, turning = 0.0, 0.0
+    clock, turning, loaded = 0.0, 0.0, False
     for k, operation in enumerate(operations):
         rate = rad_per_s(operation.rpm)
         stops = k + 1 < len(operations)
         parts = _feed(operation, stops)
         check_duration(k, sum(duration for duration, _, _ in parts))
-        loaded = k > 0 and operations[k - 1].on_bottom
         unloads = stops and not operations[k + 1].on_bottom
         for duration, feed_from, feed_to in parts:
             load = operation.on_bottom and not (unloads and feed_to == 0)

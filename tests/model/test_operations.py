@@ -188,3 +188,19 @@ def test_rates_near_nothing() -> None:
 def test_rates_that_are_not_of_their_kind(kind: str, rates: dict[str, float], expected: str) -> None:
     with pytest.raises(InputError, match=f"{next(iter(rates))} = .*: expected {expected}.* for {kind}"):
         steady_rates(make_case(), kind, **rates)
+
+
+def test_the_bit_is_loaded_while_a_string_drills() -> None:
+    """The share of its loads rises with the first part of drilling, stays between two such operations, and falls."""
+    drill = {"kind": "drill_rotating", "speed": 0.01, "rpm": 100, "ramp_time": 2}
+    operations = [
+        rotation(100, 10, 60, 3),
+        {**drill, "from_md": 100, "to_md": 101},
+        {**drill, "to_md": 102},
+        trip(102, 100, 0.1, 2),
+    ]
+    phases = schedule(make_case(operations=operations).operations)
+    found = [(motion.bit_from, motion.bit_to, operation) for motion, operation in phases]
+    ramps = [(0, 1), (1, 1), (1, 1), (1, 1), (1, 1), (1, 0)]
+    assert found[2:8] == [(*shares, k) for shares, k in zip(ramps, [1, 1, 1, 2, 2, 2], strict=True)]
+    assert {shares[:2] for shares in found[:2] + found[8:]} == {(0, 0)}

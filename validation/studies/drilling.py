@@ -8,6 +8,8 @@ import pandas as pd
 
 from fctd import Case, SimulationResult, equilibrium
 from fctd.mechanics import state, topdrive
+from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.drillstring import section_of
 from fctd.model.wellbore import hole_frame
 from fctd.simulation.run import Run, contact_points
 from fctd.simulation.simulate import Simulation
@@ -60,7 +62,7 @@ def stretch(run: Run) -> float:
 
 
 def shortcut(run: Run) -> float:
-    """Measured depth of the bit less the length of the string [m]: the hole is longer than a string on its high side."""
+    """Measured depth of the bit less the length of the string [m]: a string on the high side of a build is shorter."""
     n = run.segments
     points = contact_points(run.S, n)
     md = run.hole.walls(points, run.owner[1 : n + 1]).md
@@ -102,6 +104,7 @@ def row_of(case: Case, driller: str) -> dict[str, Any]:
     loaded = case.bit.model_copy(update={"weight_on_bit": weight, "torque": torque})
     depth = float(late["bit_depth_m"].mean())
     steady = equilibrium(case.model_copy(update={"bit": loaded}), "drill_rotating", depth, speed=rate, rpm=RPM)
+    in_air = GRAVITY * section_of(case.string.components[-1], 0.0).mass
     cut = 60 * rate / float(mean["bit_rpm"])
     energy, strength = 2 * torque / (RADIUS**2 * cut), weight / (RADIUS * cut)
     return {
@@ -111,7 +114,8 @@ def row_of(case: Case, driller: str) -> dict[str, Any]:
         "bit_torque_kN_m": torque / 1e3,
         "specific_energy_MPa": energy / 1e6,
         "by_the_law_MPa": ((1 - FRICTION * RATIO) * ENERGY + FRICTION * strength) / 1e6,
-        "hookload_kN": float(mean["hookload_N"]) / 1e3,
+        # The pipe above the rotary table hangs in air, and the steady string ends at the table.
+        "hookload_kN": float(mean["hookload_N"] - mean["block_height_m"] * in_air) / 1e3,
         "steady_hookload_kN": steady.hookload / 1e3,
         "torque_kN_m": float(mean["surface_torque_N_m"]) / 1e3,
         "steady_torque_kN_m": steady.surface_torque / 1e3,
@@ -133,7 +137,7 @@ def real_time_factor(depth: float, segment: float) -> float:
 
 def run(context: Context) -> Outcome:
     """Drilling at three block speeds and by an autodriller, and the cost of 3 km."""
-    depth, segment = (1000.0, 20.0) if context.quick else (2000.0, 10.0)
+    depth, segment = (1000.0, 15.0) if context.quick else (2000.0, 10.0)
     duration = 80.0 if context.quick else 150.0
     rows = [row_of(drilled(depth, segment, speed, duration), f"block at {speed:g} m/s") for speed in SPEEDS]
     autodriller = drilled(depth, segment, SPEEDS[0], duration, autodriller=True)
@@ -161,8 +165,8 @@ def run(context: Context) -> Outcome:
                   off("hookload_kN", "steady_hookload_kN"), 0.5, "at_most", "%", "target of this project"),
             Check("surface torque against the steady string with the same bit loads, largest difference",
                   off("torque_kN_m", "steady_torque_kN_m"), 0.5, "at_most", "%", "target of this project"),
-            Check("hole made less block travel and change of stretch, vertical hole", left(vertical), 1.0, "at_most", "mm",
-                  "the string neither grows nor shrinks; target of this project"),
+            Check("hole made less block travel and change of stretch, vertical hole", left(vertical), 1.0, "at_most",
+                  "mm", "the string neither grows nor shrinks; target of this project"),
             Check("hole made less block travel, change of stretch and of the way beside the axis, 45 deg",
                   left(table.assign(change_of_stretch_m=table["change_of_stretch_m"] + table["change_of_shortcut_m"])),
                   1.0, "at_most", "mm", "the string in a bend moves across its clearance; target of this project"),

@@ -1,0 +1,91 @@
+"""Runs that drill: what the ledger, the driller and the drive must keep."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.mechanics import state, topdrive
+from fctd.results.tables import SimulationResult
+from fctd.simulation.run import prepare
+from fctd.simulation.simulate import Simulation
+from tests.cases import make_case, pipe
+
+ROTATING = {"kind": "drill_rotating", "from_md": 900.0, "to_md": 900.3, "speed": 0.01, "rpm": 120, "ramp_time": 5.0}
+SLIDING = {"kind": "drill_sliding", "from_md": 900.0, "to_md": 900.3, "speed": 0.01, "ramp_time": 5.0}
+
+
+def drilling(operation: dict[str, Any] = ROTATING, bit: dict[str, Any] | None = None, **rig: Any) -> Case:
+    """A vertical string of few segments that is fed by its long segment."""
+    given = {"weight_on_bit": 4e4, "torque": 1500.0, "rock": {}} | (bit or {})
+    mud = {"density": 1200.0, "axial_damping": 2.0, "rotational_damping": 0.3}
+    components = [pipe(100, 4, outer=0.165), pipe(None, 1)]
+    return make_case(None, components, [operation], mud=mud, bit=given, rig=rig)
+
+
+def run_of(case: Case) -> tuple[Simulation, SimulationResult]:
+    simulation = Simulation(case)
+    for _ in simulation:
+        pass
+    result = simulation.result()
+    assert result.status == "completed"
+    return simulation, result
+
+
+@pytest.mark.parametrize("drive", ["stiff", "speed_control", "impedance"])
+def test_the_ledger_holds_with_every_drive(drive: str) -> None:
+    _, result = run_of(drilling(drive=drive))
+    assert result.run["energy_error"] < 1e-3
+    last = result.energy.iloc[-1]
+    spent = last["lost_bit_J"]
+    history = result.history
+    power = history["bit_torque_N_m"] * history["bit_rpm"] * np.pi / 30
+    assert spent == pytest.approx(float((power * np.diff(history["time_s"], prepend=0.0)).sum()), rel=0.05)
+
+
+def test_the_hole_grows_by_what_is_fed_and_stretches() -> None:
+    """Exact: the bit's travel is the hole made and what the bit is pressed into the rock."""
+    simulation = Simulation(drilling())
+    simulation.start()
+    run = simulation.run
+    before = float(run.S[state.Z + run.segments])
+    for _ in simulation:
+        pass
+    travel = float(run.S[state.Z + run.segments]) - before
+    made = run.top[topdrive.HOLE_MADE] + run.top[topdrive.PRESSED]
+    assert made == pytest.approx(travel, abs=1e-6)
+    assert run.top[topdrive.FED] == pytest.approx(0.3, abs=1e-6)
+
+
+def test_an_autodriller_holds_the_weight() -> None:
+    _, result = run_of(drilling(ROTATING | {"to_md": 900.4}, autodriller=True))
+    assert result.history["weight_on_bit_N"].iloc[-1] == pytest.approx(4e4, rel=0.02)
+
+
+def test_a_motor_drills_while_the_string_slides() -> None:
+    _, result = run_of(drilling(SLIDING, {"motor": {"flow": "2000 L/min", "revolutions_per_liter": 0.06}}))
+    last = result.history.iloc[-1]
+    assert last["bit_rpm"] == pytest.approx(120.0, rel=0.05)
+    assert last["top_rpm"] == 0.0
+    # Reactive: the string takes the torque of the bit, and only the mud holds it.
+    assert last["surface_torque_N_m"] == pytest.approx(last["bit_torque_N_m"], rel=0.05)
+    assert last["hole_made_m"] > 0.05
+
+
+def test_given_loads_are_on_the_bit() -> None:
+    _, result = run_of(drilling(bit={"rock": {"law": "given"}}))
+    last = result.history.iloc[-1]
+    assert (last["weight_on_bit_N"], last["bit_torque_N_m"]) == pytest.approx((4e4, 1500.0))
+
+
+def test_more_weight_than_the_string_has_is_refused() -> None:
+    with pytest.raises(InputError, match=r'bit\.weight_on_bit = "600000 N": expected less than the weight'):
+        prepare(drilling(bit={"weight_on_bit": 6e5, "rock": {"law": "given"}}))
+
+
+def test_an_autodriller_makes_no_connection() -> None:
+    case = drilling(ROTATING | {"to_md": 940.0}, autodriller=True, feed="stands")
+    with pytest.raises(InputError, match=r"rig\.autodriller = true: expected false, or operations without"):
+        prepare(case)
