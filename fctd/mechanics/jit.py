@@ -1,4 +1,4 @@
-"""How the engine's functions are compiled: three decorators that set every option.
+"""How the engine's functions are compiled: four decorators that set every option.
 
 In numba a function that does not set ``fastmath``, ``error_model`` or ``forceinline`` takes it from the caller that
 compiles it first.  The same source would then give different machine code, with different rounding, depending on
@@ -16,6 +16,8 @@ from fctd.mechanics.compile_cache import STORE, KeptCode, Store
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}, "forceinline": False}
 # Expanded wherever they are called: LLVM cannot pack a loop with calls.
 INLINED: Any = OPTIONS | {"forceinline": True}
+# Every product and sum is rounded, as numpy does.
+ROUNDED: Any = OPTIONS | {"fastmath": False}
 
 
 def kernel(function: Callable[..., Any]) -> Any:
@@ -26,6 +28,11 @@ def kernel(function: Callable[..., Any]) -> Any:
 def inlined(function: Callable[..., Any]) -> Any:
     """Compile a function into every function that calls it."""
     return njit(**INLINED)(function)
+
+
+def rounded(function: Callable[..., Any]) -> Any:
+    """Compile a function that other compiled functions call, with the rounding of numpy."""
+    return njit(**ROUNDED)(function)
 
 
 def entry(function: Callable[..., Any], store: Store = STORE) -> Any:
