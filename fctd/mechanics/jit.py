@@ -36,8 +36,11 @@ def rounded(function: Callable[..., Any]) -> Any:
 
 
 def entry(function: Callable[..., Any], store: Store = STORE) -> Any:
-    """Compile a function that Python calls, and keep its code in a store on disk."""
-    compiled: Any = njit(**OPTIONS)(function)
+    """Compile a function that Python calls, and keep its code in a store on disk.
+
+    Other threads run while it does: what it writes to belongs to one thread.
+    """
+    compiled: Any = njit(**OPTIONS, nogil=True)(function)
     if hasattr(compiled, "_cache"):  # a plain function has none (NUMBA_DISABLE_JIT)
         compiled._cache = KeptCode(function, store)
     return compiled

@@ -326,13 +326,15 @@ def _check_width(string: String, hole: Wellbore, fed: float) -> None:
 
 def fill(S: Array, string: String, case: Case) -> PerMetre:
     """Write the string into a fresh buffer; returns the pipe fed at the top."""
-    section, mud = string.sections[string.component[0]], case.mud
-    pipe = PerMetre(
-        section.mass, section.weight, section.axial_inertia,
-        section.EA, section.GJ, section.EI, section.shear,
-        mud.axial_damping, mud.lateral_damping, mud.rotational_damping,
-    )  # fmt: skip
     # Absurd masses and stiffnesses overflow; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
-    per_metre = case.wellbore.stiffness_per_length is not None
-    fill_rows(S, string.length, string.component, string.table, string.long_segment, pipe, per_metre)
-    return pipe if string.long_segment else pipe._replace(weight=0.0)
+    pipe: PerMetre = fill_rows(
+        S, string.length, string.component, string.table, string.long_segment, damping_of(case),
+        case.wellbore.stiffness_per_length is not None,
+    )  # fmt: skip
+    return pipe
+
+
+def damping_of(case: Case) -> tuple[float, float, float]:
+    """Damping by the mud per metre of string: along, across [N s/m²] and about the axis [N s]."""
+    mud = case.mud
+    return float(mud.axial_damping), float(mud.lateral_damping), float(mud.rotational_damping)

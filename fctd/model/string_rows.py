@@ -6,7 +6,7 @@ A string is given by the length [m] and the component (n,) of its segments, from
 
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry, rounded
-from fctd.mechanics.topdrive import set_long_segment
+from fctd.mechanics.topdrive import PerMetre, set_long_segment
 
 # Columns of a table of sections: the fields of ``drillstring.Section``.
 MASS, WEIGHT, AXIAL_INERTIA, TILT_INERTIA, EA, GJ, EI, SHEAR, OUTER, INNER, CONTACT_RADIUS, YIELD_STRENGTH = range(12)
@@ -69,7 +69,7 @@ def find_stiffness(length, component, sections, long_segment, column, stiffness)
 
 
 @rounded
-def fill_segment(S, length, component, sections, long_segment, pipe, per_metre, j):
+def fill_segment(S, length, component, sections, long_segment, damping, per_metre, j):
     """Write segment j, counted from 0, into the buffer."""
     k, h, at = component[j], length[j], j + 1
     middle, radius, tributary = contact_point(length, component, sections, long_segment, j)
@@ -81,9 +81,9 @@ def fill_segment(S, length, component, sections, long_segment, pipe, per_metre, 
     S[state.ARM_CONTACT + at] = 0.0 if middle else 0.5 * h
     S[state.RADIUS + at] = radius
     S[state.TRIBUTARY + at] = tributary if per_metre else 1.0
-    S[state.MUD_AXIAL + at] = pipe.mud_axial * h
-    S[state.MUD_LATERAL + at] = pipe.mud_lateral * h
-    S[state.MUD_SPIN + at] = pipe.mud_spin * h
+    S[state.MUD_AXIAL + at] = damping[0] * h
+    S[state.MUD_LATERAL + at] = damping[1] * h
+    S[state.MUD_SPIN + at] = damping[2] * h
     S[state.K_AXIAL + at] = joint_stiffness(length, component, sections, long_segment, EA, j)
     S[state.K_SHEAR + at] = joint_stiffness(length, component, sections, long_segment, SHEAR, j)
     S[state.K_BEND + at] = joint_stiffness(length, component, sections, long_segment, EI, j)
@@ -91,13 +91,19 @@ def fill_segment(S, length, component, sections, long_segment, pipe, per_metre, 
 
 
 @entry
-def fill_rows(S, length, component, sections, long_segment, pipe, per_metre):
-    """Write a string into a fresh buffer.
+def fill_rows(S, length, component, sections, long_segment, damping, per_metre):
+    """Write a string into a fresh buffer; returns the pipe fed at the top, ``topdrive.PerMetre``.
 
-    pipe : ``topdrive.PerMetre`` of the topmost component; per_metre : whether the wall's stiffness is one per length.
+    damping : by mud along, across and about the axis, per metre; per_metre : whether the wall's stiffness is one per
+    length.
     """
     for j in range(len(length)):
-        fill_segment(S, length, component, sections, long_segment, pipe, per_metre, j)
+        fill_segment(S, length, component, sections, long_segment, damping, per_metre, j)
+    k = component[0]
+    pipe = PerMetre(
+        sections[k, MASS], sections[k, WEIGHT] if long_segment else 0.0, sections[k, AXIAL_INERTIA], sections[k, EA],
+        sections[k, GJ], sections[k, EI], sections[k, SHEAR], damping[0], damping[1], damping[2],
+    )  # fmt: skip
     if long_segment:
         S[state.ARM_BOTTOM + 1] = S[state.ARM_CONTACT + 1] = 0.0
         set_long_segment(S, length[0], pipe)
@@ -105,3 +111,4 @@ def fill_rows(S, length, component, sections, long_segment, pipe, per_metre):
         S[state.INVERSE_MASS + at] = 1 / S[state.MASS + at]
         S[state.INVERSE_JT + at] = 1 / S[state.J_TRANSVERSE + at]
         S[state.INVERSE_JA + at] = 1 / S[state.J_AXIAL + at]
+    return pipe
