@@ -118,19 +118,22 @@ def solve_batches(
     A few batches beyond those that the threads work on are solved ahead, so that the answers of a long chart do not
     fill the memory.
     """
-    hole, waiting = hole_of(case, holes), deque[Future[list[Answer]]]()
-    spare = deque(Workspace(0) for _ in range(2 * threads))
+    hole = hole_of(case, holes)
 
     def solve(rows: Sequence[Row], work: Workspace) -> list[Answer]:
         return solve_batch(case, hole, rows, work) if rows else []
 
+    spare, waiting = deque(Workspace(0) for _ in range(2 * threads)), deque[Future[list[Answer]]]()
     with ThreadPoolExecutor(threads) as pool:
         for rows in batches:
             if len(waiting) == len(spare):
                 yield waiting.popleft().result()
             spare.rotate(-1)  # the oldest, whose batch is done
             spare[0] = spare[0].for_segments(max((row.laid.string.segments for row in rows), default=0))
-            waiting.append(pool.submit(solve, rows, spare[0]))
+            if threads == 1:  # in this thread, whose clock then counts the work
+                yield solve(rows, spare[0])
+            else:
+                waiting.append(pool.submit(solve, rows, spare[0]))
         while waiting:
             yield waiting.popleft().result()
 
