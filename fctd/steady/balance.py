@@ -9,9 +9,6 @@ from fctd.steady.problem import Pose, Problem
 ATTEMPTS = (
     (25, 0.2, 3.0, 1.0, 0.05),
     (60, 0.05, 3.0, 0.3, 0.02),
-    (80, 0.1, 1.5, 1.0, 0.02),
-    (200, 0.1, 1.1, 1.0, 0.01),
-    (300, 0.05, 1.5, 0.3, 0.005),
 )
 LARGEST_TURN = 0.1  # [rad] per step
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.steady.continuation import CONVERGED
+from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS
 from fctd.steady.problem import Pose, Problem, Share
 from fctd.steady.relaxation import Creep
 
@@ -25,13 +25,18 @@ START_ITERATIONS, STEP_ITERATIONS = 1500, 400
 # A string that rolls round the hole is not worth smaller steps than this.  It rolls where so much of the motion of its
 # points in a few iterations goes one way round.
 ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
-# Lock-up is where 1/push, extrapolated by a line through two balances, is 0.  It is known where the extrapolations of
-# ``STEPS`` steps differ by less than ``AGREEING`` of it, or where the push is beyond any rig's, ``BEYOND`` weights: two
-# agree by chance while the helix still grows longer.  Where no shape is found before, the last one is taken from a push
-# of one weight on.
-AGREEING, STEPS, BEYOND = 0.01, 3, 10.0
-# A lock-up below this share of the loads is one before them for any error of the extrapolation.
+# Lock-up is where 1/push, extrapolated by a line through two balances, is 0: the last one and the last with at most a
+# share ``APART`` of its push, since shapes differ by a little from balance to balance.  It is known where the
+# extrapolations of ``STEPS`` steps differ by less than ``AGREEING`` of it, or where the push is beyond any rig's,
+# ``BEYOND`` weights: two agree by chance while the helix still grows longer.  Where no shape is found before, from a
+# push of one weight on, it is the last extrapolation or, if that is less by far, where no shape was found: the wall's
+# springs give way under a large push.
+APART, AGREEING, STEPS, BEYOND = 0.75, 0.01, 3, 10.0
+# A lock-up below this share of the loads is one before them for any error of the extrapolation.  A pushed string with a
+# balance at more than this share of where none was found is not followed any nearer.
 DECIDED = 0.97
+# A relaxation that has not come to rest begins again with small steps after so many iterations.
+AGAIN = 100
 # From a push of so many weights on, a step goes so far towards lock-up as it is extrapolated there.
 PUSHED, TOWARDS = 0.25, 0.6
 # The compression for which segments are cut is that of a push of at most this share of the weight beyond the block's,
@@ -63,8 +68,9 @@ class Climb:
     pose : at full loads, None where the path ends before; sound : the last balance up to there in which the string is
     hardly pushed (``SOUND``), or has not all of its weight on bit; iterations : all.
     spent_at : share of the loads at which the hook load is −block weight; locked_at : at which no push suffices; NaN
-    where the path does not get there.  ends_at : share at which a path ends before the loads, else NaN; rolls : whether
-    the string then goes round the hole; is_cut : whether the row's allowance of work ended the path.
+    where the path does not get there.  fails_at : least share of the friction beyond all balances at which no shape was
+    found, else NaN.  ends_at : share at which a path ends before the loads, else NaN; rolls : whether the string then
+    goes round the hole; is_cut : whether the row's allowance of work ended the path.
     """
 
     balances: list[Balance] = field(default_factory=list)
@@ -75,6 +81,7 @@ class Climb:
     iterations: int = 0
     spent_at: float = float("nan")
     locked_at: float = float("nan")
+    fails_at: float = float("nan")
     ends_at: float = float("nan")
     rolls: bool = False
     is_cut: bool = False
@@ -96,12 +103,21 @@ def come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, 
     A straight string stays straight above its buckling limit until something moves it aside.  A string that comes back
     to rest where it was is taken as it is: its friction holds it in modes that are counted without friction.
     """
-    code, done = problem.relax(creep_of(problem, iterations), share)
+    code, done = _relax(problem, iterations, share)
     for _ in range(SHAKES):
         if code != CONVERGED or problem.unstable_modes(share) == 0:
             break
         problem.shake()
-        code, more = problem.relax(creep_of(problem, iterations), share)
+        code, more = _relax(problem, iterations, share)
+        done += more
+    return code, done
+
+
+def _relax(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:
+    """Relax the string, again and again from small steps; returns code and iterations."""
+    code, done = MAX_ITERATIONS, 0
+    while code == MAX_ITERATIONS and done < iterations and not problem.is_spent:
+        code, more = problem.relax(creep_of(problem, min(AGAIN, iterations - done)), share)
         done += more
     return code, done
 
@@ -120,7 +136,7 @@ def climb(
         problem.put_pose(path.balances[-1].pose)
         if _rise(problem, path, 1.0, prepare, most):
             path.pose = path.balances[-1].pose
-    _close(problem, path)
+    close(problem, path)
     return path
 
 
@@ -129,7 +145,7 @@ def lock_up(problem: Problem, path: Climb, prepare: Callable[[Share], object] | 
     if path.pose is not None and _push(problem, path) > 0:
         problem.put_pose(path.pose)
         _rise(problem, path, FARTHEST, prepare, BEYOND)
-        _close(problem, path)
+        close(problem, path)
 
 
 def keep(problem: Problem, path: Climb, share: Share) -> None:
@@ -138,6 +154,8 @@ def keep(problem: Problem, path: Climb, share: Share) -> None:
     if path.of_weight != of_weight:
         path.steps.clear()
     path.of_weight = of_weight
+    if share.friction >= path.fails_at:
+        path.fails_at = float("nan")
     path.balances.append(balance)
     path.steps.append(Step(share.weight if of_weight else share.friction, problem.reactions(share).hookload))
     if of_weight or (share.friction <= 1 and _push(problem, path) < SOUND * problem.weight):
@@ -172,7 +190,9 @@ def _rise(
         if code != CONVERGED:
             step = 0.5 * (aim.weight - share.weight if share.weight < 1 else aim.friction - share.friction)
             path.is_cut = problem.is_spent
-            path.rolls = step < ROLLING_STEP and not path.is_cut and _rolls(problem, aim)
+            if share.weight == 1 and not path.is_cut:
+                path.fails_at = aim.friction
+            path.rolls = step < ROLLING_STEP and not path.is_cut and rolls(problem, aim)
             problem.put_pose(kept)
             if path.is_cut or path.rolls or step < SMALLEST or _is_near_lock_up(problem, path):
                 return False
@@ -208,7 +228,9 @@ def _is_near_lock_up(problem: Problem, path: Climb) -> bool:
     """Whether the last balance is so near lock-up that smaller steps would hardly change its share of the loads."""
     if len(path.steps) < 2 or _push(problem, path) < problem.weight:
         return False
-    return path.steps[-1].share >= 1 or _extrapolated(path.steps) < DECIDED
+    last = path.steps[-1].share
+    is_near = last > DECIDED * path.fails_at and (last >= 1 or path.fails_at < DECIDED)
+    return is_near or _extrapolated(path.steps) < DECIDED
 
 
 def _locked_at(problem: Problem, path: Climb) -> float:
@@ -225,14 +247,15 @@ def _locked_at(problem: Problem, path: Climb) -> float:
 
 
 def _extrapolated(steps: list[Step]) -> float:
-    """Share at which 1/push, by a line through the last two steps, is 0; infinite where the push does not grow."""
-    (before, pull), (now, pulled) = steps[-2:]
+    """Share at which 1/push, by a line through two balances, is 0; infinite where the push does not grow."""
+    now, pulled = steps[-1]
+    before, pull = next((step for step in reversed(steps) if step.hookload > APART * pulled), steps[0])
     if not pulled < pull < 0:
         return float("inf")
     return now + (now - before) * pull / (pulled - pull)
 
 
-def _rolls(problem: Problem, share: Share) -> bool:
+def rolls(problem: Problem, share: Share) -> bool:
     """Whether the string in its pose, far from balance, goes round the hole in one direction all along."""
     before = problem.walls(problem.reactions(share).contacts)
     problem.relax(creep_of(problem, ROLLING_ITERATIONS), share)
@@ -242,7 +265,7 @@ def _rolls(problem: Problem, share: Share) -> bool:
     return bool(abs(swept.sum()) > ONE_WAY * np.abs(swept).sum())
 
 
-def _close(problem: Problem, path: Climb) -> None:
+def close(problem: Problem, path: Climb) -> None:
     """Find where slack-off is spent and where the path ends."""
     share = np.array([step.share for step in path.steps])
     left = np.array([step.hookload for step in path.steps]) + problem.case.rig.push
@@ -256,7 +279,27 @@ def _close(problem: Problem, path: Climb) -> None:
     path.ends_at = float("nan")
     if np.isnan(path.locked_at) and len(share) > 1 and _push(problem, path) > problem.weight:
         path.locked_at = _extrapolated(path.steps)
+        if path.fails_at < DECIDED * path.locked_at and not path.rolls:
+            path.locked_at = path.fails_at
     # A lock-up beyond the loads of the operation does not say why the string has no loads there.
     known = path.locked_at <= 1 if path.pose is None else np.isfinite(path.locked_at) or not path.is_cut
     if not known:
         path.ends_at = float(share[-1]) if len(share) else 0.0
+
+
+def end_of(problem: Problem, path: Climb) -> str:
+    """What ends a path, in words; empty where nothing does."""
+    ends = (
+        (f"slack-off is spent {'at' if path.spent_at > path.least else 'below'}", path.spent_at),
+        ("the string is locked up at", path.locked_at),
+        ("the work of a row ends at" if path.is_cut else "no steady shape was found beyond", path.ends_at),
+    )
+    parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
+    if not parts:
+        return ""
+    text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
+    remedy = "; drill there with less weight on bit" if path.of_weight else ""
+    if not path.rolls or np.isnan(path.ends_at):
+        return text + remedy
+    cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
+    return (f"{text}: {cause} rolls the buckled string round the hole" if cause else text) + remedy

@@ -30,11 +30,12 @@ from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
 from fctd.steady.batch import Hole, Row, hole_of, solve_batch
-from fctd.steady.climb import BEYOND, SOUND, Climb, climb, lock_up
+from fctd.steady.bisection import bisect
+from fctd.steady.climb import BEYOND, SOUND, Climb, climb, end_of, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.laid_string import LaidString
-from fctd.steady.post_buckling import resolve
+from fctd.steady.post_buckling import is_resolved, resolve
 from fctd.steady.problem import WORK, Allowance, Problem, Workspace
 from fctd.steady.reading import NOTABLE, OUTSIDE, SHAPE, SOLVED, SUM_NORMAL, SUM_R_MU_FN, TOP, Answer
 from fctd.steady.shape import Shape
@@ -221,18 +222,30 @@ class Solver:
                 return resolved
             problem = self.problem(problem.operation, problem.rates, problem.laid)
             point = self.stable(problem, point, code) if unsolved else point
-            return replace(point, message=f"{TOO_MUCH}; with the segments of the case: {point.message}")
+            found = point.message or str(point.status)
+            return replace(point, message=f"{TOO_MUCH}; with the segments of the case: {found}")
         return self.stable(problem, point, code) if unsolved else point
 
     def stable(self, problem: Problem, point: Equilibrium, code: int) -> Equilibrium:
         """The string of a problem followed from small loads, where its balance ``point`` is none or an unstable one."""
         problem.at_axis = 1
-        path = climb(problem)
-        lock_up(problem, path)
+        path, coarse = bisect(problem), False
         path.iterations += point.iterations
+        if path.pose is None:
+            coarse = bool(path.balances) and not is_resolved(problem, path)
+            if coarse:
+                problem.put_pose(path.balances[-1].pose)
+            else:
+                path = climb(problem, path=path if path.balances else None)
+                lock_up(problem, path)
         followed = self.follow(problem, path)
-        if point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE):
-            return followed if followed.answered else point
+        out_of_wall = point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE)
+        if out_of_wall and not followed.answered and (code == CONVERGED or not path.balances):
+            return point
+        if code != CONVERGED and coarse and followed.status == SteadyStatus.UNSTABLE and not path.rolls:
+            # Whether the string has a shape is not known: its segments cannot bend into it.
+            message = f"{followed.message}; {followed._shape.buckling.shortfall}"
+            return replace(followed, status=SteadyStatus.UNDER_RESOLVED, message=message)
         if code != CONVERGED or followed.answered or followed.status == SteadyStatus.LOCKED_UP:
             return followed
         message = f"the string would leave this balance, and {followed.message}"
@@ -291,7 +304,7 @@ class Solver:
             point = replace(point.without_loads(), status=status, message=status.message)
         if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.MAX_ITERATIONS):
             return point
-        return replace(point, message=_end_of(problem, path) or point.message)
+        return replace(point, message=end_of(problem, path) or point.message)
 
     def problem(self, operation: str, rates: SteadyRates, laid: LaidString, cut: Case | None = None) -> Problem:
         """A laid-out string as a problem; cut : the case with other segments, of which it has been laid out."""
@@ -355,24 +368,6 @@ class Solver:
             modes = f"{negative} mode{'s' * (negative > 1)}"
             return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {modes}"
         return SteadyStatus.CONVERGED, ""
-
-
-def _end_of(problem: Problem, path: Climb) -> str:
-    """What ends a path, in words; empty where nothing does."""
-    ends = (
-        (f"slack-off is spent {'at' if path.spent_at > path.least else 'below'}", path.spent_at),
-        ("the string is locked up at", path.locked_at),
-        ("the work of a row ends at" if path.is_cut else "no steady shape was found beyond", path.ends_at),
-    )
-    parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
-    if not parts:
-        return ""
-    text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
-    remedy = "; drill there with less weight on bit" if path.of_weight else ""
-    if not path.rolls or np.isnan(path.ends_at):
-        return text + remedy
-    cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
-    return (f"{text}: {cause} rolls the buckled string round the hole" if cause else text) + remedy
 
 
 def equilibrium(

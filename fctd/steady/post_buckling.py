@@ -58,7 +58,7 @@ def resolve(case: Case, coarse: Climb, problem: Problem, lay: Callable[[Case], P
         problem = lay(finer)
         path = climb(problem, most=SOUND)
         total += path.iterations
-        if _is_resolved(problem, path):
+        if is_resolved(problem, path):
             break
     path.iterations = total
     wound = _wind(problem, path)
@@ -122,7 +122,7 @@ def _lay(problem: Problem, helix: Helix, path: Climb) -> bool:
     return helix.turns == 0 or helix.stands()
 
 
-def _is_resolved(problem: Problem, path: Climb) -> bool:
+def is_resolved(problem: Problem, path: Climb) -> bool:
     """Whether the segments are short enough at the end of a path."""
     here = _end_of(problem, path)
     needed = np.where(here.rows[:, MODE] == NEITHER, np.inf, _half_wave(here.EI, here.compression) / IN_HALF_WAVE)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fctd.model.drillstring import section_of
-from fctd.steady.climb import LOW, Climb, Step, _close, climb, lock_up
+from fctd.steady.climb import LOW, Climb, Step, climb, close, lock_up
 from fctd.steady.problem import Share
 from tests.steady.buckled import level_case, problem_of
 
@@ -49,11 +49,11 @@ def test_lock_up_is_where_no_push_suffices(lock: float) -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     friction = lock * np.array([0.5, 0.7, 0.9, 0.99])
     path = Climb(steps=[Step(float(f), -problem.weight / (3 * (1 - f / lock))) for f in friction])
-    _close(problem, path)
+    close(problem, path)
     assert path.locked_at == pytest.approx(lock)
     assert np.isnan(path.ends_at)
     path = Climb(steps=[Step(float(f), -0.1 * problem.weight * f) for f in friction])
-    _close(problem, path)
+    close(problem, path)
     assert path.ends_at == pytest.approx(friction[-1])
     assert np.isnan(path.locked_at)
 
@@ -66,7 +66,7 @@ def test_two_extrapolations_that_agree_by_chance_are_not_lock_up() -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     pushes = ((0.6, 0.1244), (0.825, 0.2139), (1.0, 0.3717), (1.1, 0.6466))
     path = Climb(steps=[Step(share, -push * problem.weight) for share, push in pushes])
-    _close(problem, path)
+    close(problem, path)
     assert np.isnan(path.locked_at)
 
 
@@ -75,13 +75,36 @@ def test_lock_up_is_not_known_where_extrapolations_differ() -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     steps = [Step(f, -problem.weight / (3 * (1 - f) ** 2)) for f in (0.1, 0.2, 0.3)]
     path = Climb(steps=steps)
-    _close(problem, path)
+    close(problem, path)
     assert np.isnan(path.locked_at)
     assert path.ends_at == 0.3
     # From a push beyond any rig's on it is, of 15 weights here.
     path = Climb(steps=[Step(f, -problem.weight / (3 * (1 - f) ** 2)) for f in (0.3, 0.7, 0.85)])
-    _close(problem, path)
+    close(problem, path)
     assert path.locked_at == pytest.approx(0.85 + 0.15 * 0.15**2 / (0.3**2 - 0.15**2))
+
+
+def test_lock_up_does_not_hang_on_two_close_balances() -> None:
+    """1/push falls linearly to 0 at 1.2; the last balance has 1 % less push than on the line, as other shapes have."""
+    problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
+    shares = (0.6, 0.8, 0.9, 1.0, 1.005)
+    steps = [Step(f, -problem.weight / (5 * (1 - f / 1.2))) for f in shares]
+    path = Climb(steps=[*steps[:-1], Step(1.005, 0.99 * steps[-1].hookload)])
+    close(problem, path)
+    # By a line through the last two it would be 1.33.
+    assert path.locked_at == pytest.approx(1.2, rel=0.01)
+
+
+def test_a_string_that_is_pushed_locks_up_at_the_latest_where_it_has_no_shape() -> None:
+    """The wall's springs give way under a large push, here of 1.6 weights, before the 1.2 to which 1/push falls."""
+    problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
+    steps = [Step(f, -problem.weight / (5 * (1 - f / 1.2) ** 0.9)) for f in (0.6, 0.8, 0.95, 1.08)]
+    path = Climb(steps=steps, fails_at=1.1)
+    close(problem, path)
+    assert path.locked_at == 1.1
+    path = Climb(steps=steps, fails_at=1.1, rolls=True)
+    close(problem, path)
+    assert path.locked_at > 1.1
 
 
 def test_a_path_that_ends_before_its_loads_says_so_beside_a_later_lock_up() -> None:
@@ -89,18 +112,18 @@ def test_a_path_that_ends_before_its_loads_says_so_beside_a_later_lock_up() -> N
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     steps = [Step(f, -problem.weight / (3 * (1 - f / 1.04))) for f in (0.5, 0.8, 0.9, 0.98)]
     path = Climb(steps=steps)
-    _close(problem, path)
+    close(problem, path)
     assert path.locked_at == pytest.approx(1.04)
     assert path.ends_at == 0.98
     path = Climb(steps=steps, pose=problem.copy_pose())
-    _close(problem, path)
+    close(problem, path)
     assert np.isnan(path.ends_at)
 
 
 def test_slack_off_is_spent_at_the_root_of_the_hook_load() -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0))
     path = Climb(steps=[Step(f, 1e5 * (0.7 - f)) for f in (0.1, 0.4, 0.6, 0.8, 1.0)])
-    _close(problem, path)
+    close(problem, path)
     assert path.spent_at == pytest.approx(0.7)
 
 

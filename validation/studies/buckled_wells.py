@@ -31,13 +31,15 @@ FRICTIONS = (0.2, 0.3, 0.4, 0.5)
 WEIGHTS = (0.0, 100e3, 200e3, 300e3)  # on bit [N]
 STEP, DEEPEST = 500.0, 8000.0  # [m]
 WELLS, SHARES = 200, (0.4, 0.7, 1.0)  # of the depths that a string can reach
-RESOLVED, RESOLVED_WELLS = 60, 60  # rows, drawn from those that are buckled or locked up
+RESOLVED, RESOLVED_WELLS = 10, 20  # rows, drawn from those that are buckled or locked up
 LIMITS, BELOW, ABOVE = 30, 0.97, 1.03
+SHORT = 2000.0  # more locked strings for the limits are at most as long [m]
 THOUSAND = (800, 1200)  # segments of the rows whose time is judged
 SLID = 4  # strings that trip in, at both shares
 HALVED = (0.3, 0.6, 0.9)  # of the friction at lock-up
 BEYOND_LOCK_UP = 0.34  # friction factor
 AMPLE = 10 * WORK  # for strings of twice the segments
+Row = tuple[Case, str, float]  # case, operation, bit depth
 # What a row may say.
 REASONED = (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.UNDER_RESOLVED)
 
@@ -94,9 +96,9 @@ def random_rows(count: int) -> Iterable[tuple[int, Case, str, float]]:
                 yield seed, case, kind, round(top + share * (bottom - top), 2)
 
 
-def statuses(context: Context) -> tuple[pd.DataFrame, list[tuple[Case, str, float]]]:
-    """Every row with the segments of its case, and those that are to be resolved: buckled, or without an answer."""
-    rows, hard = [], []
+def statuses(context: Context) -> tuple[pd.DataFrame, list[Row], list[Row]]:
+    """Every row with the segments of its case, those that are to be resolved, and locked ones for their limits."""
+    rows, hard, locked = [], [], []
     real, drawn = list(real_rows(context)), list(random_rows(1 if context.quick else WELLS))
     for case, kind, depth, friction in context.progress(real, "rows of a real well"):
         point = solve(case, kind, depth)
@@ -111,8 +113,11 @@ def statuses(context: Context) -> tuple[pd.DataFrame, list[tuple[Case, str, floa
         rows.append(row_of(f"random {seed}", point, friction=np.nan))
         if point.status != SteadyStatus.CONVERGED:
             hard.append((case, kind, depth))
+        if point.status == SteadyStatus.LOCKED_UP and depth <= SHORT:
+            locked.append((case, kind, depth))
     picked += [hard[k] for k in rng.permutation(len(hard))[:RESOLVED_WELLS]]
-    return pd.DataFrame(rows), picked[:1] if context.quick else picked
+    more = [locked[k] for k in rng.permutation(len(locked))]
+    return pd.DataFrame(rows), picked[:1] if context.quick else picked, [] if context.quick else more
 
 
 class Locked(NamedTuple):
@@ -124,13 +129,18 @@ class Locked(NamedTuple):
 
 
 def resolved_rows(
-    context: Context, picked: list[tuple[Case, str, float]]
+    context: Context, picked: list[Row], more: list[Row]
 ) -> tuple[pd.DataFrame, pd.DataFrame, list[Locked]]:
-    """Rows with their buckling resolved, and those that lock up on both sides of their limit."""
+    """Rows with their buckling resolved, and those that lock up on both sides of their limit.
+
+    more : rows that are resolved until there are ``LIMITS`` of the second kind.
+    """
     rows: list[dict[str, Any]] = []
     limits: list[dict[str, Any]] = []
     locked: list[Locked] = []
-    for case, kind, depth in context.progress(picked, "resolved rows"):
+    for k, (case, kind, depth) in enumerate(context.progress(picked + more, "resolved rows")):
+        if k >= len(picked) and len(limits) >= LIMITS:
+            break
         fine = resolving(case)
         began = time.process_time()
         point = solve(fine, kind, depth)
@@ -206,8 +216,8 @@ def halved() -> pd.DataFrame:
 
 def run(context: Context) -> Outcome:
     """Statuses, resolved rows and their limits; the full run halves segments as well."""
-    rows, picked = statuses(context)
-    resolved, limits, locked = resolved_rows(context, picked)
+    rows, picked, more = statuses(context)
+    resolved, limits, locked = resolved_rows(context, picked, more)
     tables = {"rows": rows, "counts": _counts(rows), "resolved": resolved, "resolved_counts": _counts(resolved)}
     display = {"counts": "Rows by status", "resolved_counts": "Rows with buckling resolved, by status"}
     if len(limits):
@@ -226,7 +236,8 @@ def run(context: Context) -> Outcome:
         notes=[
             "Hole, string and friction of the real well are assumed, its survey is real. Random wells are those of the "
             f"seeds 0 to {WELLS - 1}; the full run resolves {RESOLVED} rows of the real well and {RESOLVED_WELLS} of "
-            "the random ones, drawn from those that are not converged.",
+            "the random ones, drawn from those that are not converged, and then locked rows of random wells with at "
+            f"most {SHORT:g} m of string until {LIMITS} limits have been tried.",
         ],
         display=display,
     )

@@ -1,0 +1,91 @@
+"""Up to which loads a string has a balance, in a few trials.
+
+A string whose segments are too long for its waves has no shape that is worth many small steps (climb.py).  Halving the
+loads says whether it lies still under those of the operation, whether its slack-off is spent, or up to which share of
+them a shape was found.
+"""
+
+from fctd.steady.balance import LARGEST_TURN
+from fctd.steady.climb import LOW, Climb, Step, close, come_to_rest, keep, rolls
+from fctd.steady.continuation import CONVERGED, Pace
+from fctd.steady.problem import FULL, Problem, Share
+
+# A balance that is found from the guess of a soft string takes 10 to 60 iterations, seldom more than 100.
+ITERATIONS = 100
+# With three trials the end is known to an eighth of what lies between the first balance and the loads.
+TRIALS = 3
+# Small steps of Newton's method find strings that are pushed so hard that they lie far from the guess: iterations,
+# first pseudo-time [s], growth, shrink, largest lateral step [m].
+PATIENT = (300, 0.05, 1.5, 0.3, 0.005)
+
+
+def bisect(problem: Problem) -> Climb:
+    """A path of a few balances from less to more friction, or, without one at little friction, to more weight on bit.
+
+    Its pose is that at full loads where they have a balance; then it has no other.  Else the problem is left in the
+    last balance.  Without any balance the path is empty.
+    """
+    path = Climb()
+    if _is_found(problem, path, FULL) or _is_found_patiently(problem, path):
+        path.pose = path.balances[0].pose
+        return path
+    if _is_found(problem, path, Share(LOW, 1.0)):
+        high = FULL
+    elif problem.weight_on_bit > 0 and _is_found(problem, path, Share(LOW, 0.0)):
+        high = Share(LOW, 1.0)
+    else:
+        return path
+    is_driven = problem.rates.spin != 0 or problem.bit_torque != 0
+    for _ in range(TRIALS):
+        low = path.balances[-1].share
+        aim = Share(0.5 * (low.friction + high.friction), 0.5 * (low.weight + high.weight))
+        if not _settles(problem, path, aim):
+            high, path.rolls = aim, is_driven and rolls(problem, aim)
+            problem.put_pose(path.balances[-1].pose)
+        spent_at = _spent_at(path.steps, problem.case.rig.push)
+        if path.rolls or spent_at < 1:
+            break  # what keeps the string from its loads is known
+    path.is_cut = problem.is_spent
+    close(problem, path)
+    if not path.spent_at < 1:
+        path.spent_at = spent_at
+    return path
+
+
+def _is_found(problem: Problem, path: Climb, share: Share) -> bool:
+    """Whether the guess of a soft string comes to rest."""
+    problem.lay_guess(share)
+    return _settles(problem, path, share)
+
+
+def _is_found_patiently(problem: Problem, path: Climb) -> bool:
+    """Whether small steps of Newton's method find a string that slides; one that turns would roll round the hole."""
+    if problem.rates.spin != 0:
+        return False
+    problem.lay_guess()
+    code, done = problem.iterate(Pace(*PATIENT, LARGEST_TURN, problem.allowed, problem.allowed))
+    path.iterations += done
+    return code == CONVERGED and _settles(problem, path, FULL)
+
+
+def _settles(problem: Problem, path: Climb, share: Share) -> bool:
+    """Whether the string comes to rest from its pose; its balance is added to the path."""
+    code, done = come_to_rest(problem, ITERATIONS, share)
+    path.iterations += done
+    if code == CONVERGED:
+        keep(problem, path, share)
+    return code == CONVERGED
+
+
+def _spent_at(steps: list[Step], push: float) -> float:
+    """Share of the loads at which slack-off is spent, at the latest: NaN beyond the loads of the operation.
+
+    By a line through the last two balances: a hook load falls faster, as friction grows with the compression.
+
+    push : of the block [N].
+    """
+    if len(steps) < 2 or not steps[-1].hookload < steps[-2].hookload:
+        return float("nan")
+    (before, held), (now, holds) = steps[-2:]
+    at = now + (now - before) * (holds + push) / (held - holds)
+    return at if at < 1 else float("nan")
