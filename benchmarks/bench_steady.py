@@ -1,5 +1,6 @@
 """The steady solver: one bit depth, layout included, and a whole chart."""
 
+import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
@@ -9,7 +10,9 @@ from fctd import torque_drag
 from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
+from fctd.steady.torque_drag import chart_rows
 
+DEPTHS = [float(depth) for depth in range(1750, 2451, 10)]
 ON_BOTTOM = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
 LONGER = {
     "string__components[0]__segments": 41,
@@ -36,9 +39,21 @@ def bench_depth(benchmark: BenchmarkFixture, segments: int, kind: str) -> None:
     }
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("segments", [61, 500])
+def bench_depths(benchmark: BenchmarkFixture, segments: int, threads: int) -> None:
+    """71 bit depths of paper-well, tripping out, layout included."""
+    case = trip(1750.0, BIT, **({} if segments == 61 else LONGER))
+    describe(benchmark, f"chart of one operation, {segments} segments", depths=len(DEPTHS), threads=threads)
+    chart = benchmark.pedantic(
+        chart_rows, args=(case, "trip_out", DEPTHS), kwargs={"threads": threads}, rounds=7, warmup_rounds=1
+    )
+    benchmark.extra_info["converged_percent"] = 100 * float(np.mean([row["status"] == "converged" for row in chart]))
+
+
 def bench_chart(benchmark: BenchmarkFixture) -> None:
     """71 bit depths of paper-well, six operations."""
-    case, depths = trip(1750.0, BIT, **ON_BOTTOM), [float(depth) for depth in range(1750, 2451, 10)]
+    case, depths = trip(1750.0, BIT, **ON_BOTTOM), DEPTHS
     describe(benchmark, "chart", depths=len(depths), operations=len(KINDS))
     chart = benchmark.pedantic(torque_drag, args=(case, list(KINDS), depths), rounds=3, warmup_rounds=1)
     benchmark.extra_info["converged_percent"] = 100 * float((chart["status"] == "converged").mean())

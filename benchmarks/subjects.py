@@ -21,6 +21,7 @@ from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import steady_rates
 from fctd.simulation.run import Run, contact_points, prepare, settle, start_from_rest
 from fctd.steady.equilibrium import Solver
+from fctd.steady.torque_drag import chart_rows
 from references import contact
 
 CASE = Path(__file__).parents[1] / "validation" / "cases" / "curved_chain.toml"
@@ -83,6 +84,7 @@ def subjects() -> dict[str, Subject]:
         "query, cylinders": _query(touching, 60),
         "query, arcs": _query(arcs, 20),
         "steady depth": _steady(touching, 2),
+        "chart row": _chart(touching),
     }
     try:
         wall = contact.build("fcl", touching.case)
@@ -135,3 +137,11 @@ def _steady(run: Run, count: int) -> Subject:
             solver.solve("trip_out", rates, BIT_DEPTH)
 
     return Subject(act, count, "depth", f"{SEGMENTS} segments")
+
+
+def _chart(run: Run) -> Subject:
+    """A chart of one operation, in this thread: the clock of a subject is that of its thread."""
+    depths = [BIT_DEPTH - 20.0 * k for k in reversed(range(16))]
+    return Subject(
+        lambda: chart_rows(run.case, "trip_out", depths, threads=1), len(depths), "depth", f"{SEGMENTS} segments"
+    )

@@ -17,7 +17,7 @@ from fctd.model.drillstring import section_of
 from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
-from fctd.steady.laid_string import LaidString, lay
+from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Workspace
 from fctd.steady.sensitivity import Changed, solve_with_changes
 
@@ -203,7 +203,7 @@ class Forward:
             sections = tuple(section_of(part, solver.case.mud.density) for part in parts)
             same = [laid for laid in (of_case, *strings[:1]) if laid.string.sections == sections]
             other = replace(of_case.string, sections=sections)
-            strings.append(same[0] if same else lay(solver.case, solver.hole, other, solver.work.S))
+            strings.append(same[0] if same else LaidString(solver.case, solver.hole, other))
         changes = [Changed(solver, laid) for solver, laid in zip(solvers[1:], strings[1:], strict=True)]
         try:
             point, by = solve_with_changes(solvers[0], row.operation, row.rates, strings[0], changes)

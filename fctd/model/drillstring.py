@@ -11,9 +11,10 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
-from fctd.mechanics.topdrive import GRAVITY, PerMetre, put_long_segment
+from fctd.mechanics.topdrive import GRAVITY, PerMetre
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.mud import hole_radius, steady_resistance
+from fctd.model.string_rows import fill_rows, find_contacts, find_stiffness
 from fctd.model.wellbore import RADIUS, TO_MD, Wellbore
 
 Array = NDArray[np.float64]
@@ -117,8 +118,9 @@ class String:
         if self.length.min() <= 0:
             raise AssertionError(f"a segment of {self.length.min():g} m")
         # From the top down the components follow each other in reverse order of the list, without a gap.
-        steps = np.diff(self.component, prepend=len(self.sections), append=-1)
-        if len(self.component) != len(self.length) or not ((steps == 0) | (steps == -1)).all():
+        steps = self.component[:-1] - self.component[1:]
+        ends = self.component[0] == len(self.sections) - 1 and self.component[-1] == 0
+        if len(self.component) != len(self.length) or not (ends and ((steps == 0) | (steps == 1)).all()):
             raise AssertionError("the segments do not follow the order of the components")
 
     @property
@@ -136,24 +138,23 @@ class String:
         return replace(self, bit_depth=self.bit_depth + by, length=longer)
 
     @cached_property
-    def _short(self) -> NDArray[np.bool_]:
-        """Components of one segment that is shorter than its neighbours: a stabiliser, a bit."""
-        longer_above = np.concatenate([[False], self.length[1:] < self.length[:-1] - 1e-9])
-        longer_below = np.concatenate([self.length[:-1] < self.length[1:] - 1e-9, [True]])
-        alone = np.bincount(self.component, minlength=len(self.sections))[self.component] == 1
-        return np.asarray(longer_above & longer_below & alone)
+    def table(self) -> Array:
+        """The sections (k, ...), a column for each property."""
+        return np.array(self.sections)
+
+    @cached_property
+    def _contacts(self) -> tuple[NDArray[np.bool_], Array, Array]:
+        middle, radius, tributary = np.empty(self.segments, np.bool_), *np.empty((2, self.segments))
+        find_contacts(self.length, self.component, self.table, self.long_segment, middle, radius, tributary)
+        return middle, radius, tributary
 
     def mid_contact(self) -> NDArray[np.bool_]:
         """Which segments (n,) touch at their middle: short components, but for the bit, which touches at its end."""
-        short = self._short.copy()
-        short[-1] = False
-        return short
+        return self._contacts[0]
 
     def contact_radius(self) -> Array:
         """Radii (n,) at contact points [m]: the larger one of unlike neighbours; a short component has its own."""
-        own = self.of("contact_radius")
-        below = np.append(np.where(self._short, 0.0, own)[1:], 0.0)
-        return np.asarray(np.where(self.mid_contact(), own, np.maximum(own, below)))
+        return self._contacts[1]
 
     @property
     def longest(self) -> float:
@@ -161,29 +162,17 @@ class String:
         return float(self.length[1:].max(initial=0.0))
 
     def tributary(self) -> Array:
-        """Length (n,) of pipe whose wall force the contact points bear [m].
-
-        Half of each neighbouring segment, none of a long one; a contact in the middle has the length of its segment.
-        """
-        above = self.length.copy()
-        if self.long_segment:
-            above[0] = 0.0
-        return np.asarray(np.where(self.mid_contact(), self.length, 0.5 * (above + np.append(self.length[1:], 0.0))))
+        """Length (n,) of pipe whose wall force the contact points bear [m]; see ``contact_point``."""
+        return self._contacts[2]
 
     def joints(self, name: str) -> Array:
-        """Stiffness (n,) of the joints for a section stiffness per length (Eqs 17–19): half segments in series.
+        """Stiffness (n,) of the joints for a section stiffness per length, see ``joint_stiffness``.
 
         EA and shear [N] give [N/m]; EI and GJ [N m^2] give [N m/rad].
-
-        The first joint is the clamp at the top drive, half a segment away; a long segment puts its whole
-        length there, and the next joint has only the half segment below it.
         """
-        compliance = 0.5 * self.length / self.of(name)
-        above = np.concatenate([[0.0], compliance[:-1]])
-        if self.long_segment:
-            compliance[0] *= 2
-            above[1:2] = 0.0
-        return np.asarray(1 / (above + compliance))
+        stiffness, column = np.empty(self.segments), Section._fields.index(name)
+        find_stiffness(self.length, self.component, self.table, self.long_segment, column, stiffness)
+        return stiffness
 
 
 def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> String:
@@ -314,16 +303,19 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
             key=f"string.components[{int(string.component[shortest])}]",
             value=f"{string.length[shortest]:.3g} m of it in one segment",
         )
-    grown = string.lengthened(deepest - string.bit_depth) if string.long_segment else string
-    bottom = grown.top_md + np.cumsum(grown.length)
-    check_clearance(string, hole, string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]]), bottom)
+    fed = deepest - string.bit_depth if string.long_segment else 0.0
+    if max(section.contact_radius for section in string.sections) > hole.intervals[:, RADIUS].min():
+        bottom = string.top_md + np.cumsum(string.lengthened(fed).length)
+        check_clearance(string, hole, string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]]), bottom)
     if string.long_segment:
-        tilt = hole.inclination(np.linspace(grown.top_md, bottom[0], 200)).max()
+        length = float(string.length[0]) + fed
+        md = np.linspace(string.top_md, string.top_md + length, 200)
+        tilt = hole.inclination(md).max()
         if tilt > LONG_SEGMENT_TILT:
             raise LongSegmentError(
                 "a hole within 1 deg of vertical along the top segment (a shorter trip, or more segments)",
                 key=f"string.components[{int(string.component[0])}]",
-                value=f"{grown.length[0]:.4g} m at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
+                value=f"{length:.4g} m at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
             )
 
 
@@ -345,53 +337,24 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
             )
 
 
-# Absurd masses and stiffnesses overflow here; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
-@np.errstate(divide="ignore", over="ignore", invalid="ignore")
 def fill(S: Array, string: String, case: Case) -> PerMetre:
     """Write the string into a fresh buffer; returns the pipe fed at the top.
 
     Mud that moves sideways with the string is left out; ``fctd.simulation.carried_mud.take_along`` adds it.
     """
-    n, length = string.segments, string.length
-    row = state.row
-    axial, rotational = steady_resistance(case, string.of("outer"), hole_radius(case, string.top_md, length))
-    row(S, state.MASS, n)[:] = string.of("mass") * length
-    row(S, state.WEIGHT, n)[:] = string.of("weight") * length
-    row(S, state.J_AXIAL, n)[:] = string.of("axial_inertia") * length
-    row(S, state.J_TRANSVERSE, n)[:] = string.of("mass") * length**3 / 12 + string.of("tilt_inertia") * length
-    middle = string.mid_contact()
-    row(S, state.ARM_TOP, n)[:] = row(S, state.ARM_BOTTOM, n)[:] = 0.5 * length
-    row(S, state.ARM_CONTACT, n)[:] = np.where(middle, 0.0, 0.5 * length)
-    row(S, state.RADIUS, n)[:] = string.contact_radius()
-    per_metre = case.wellbore.stiffness_per_length is not None
-    row(S, state.TRIBUTARY, n)[:] = string.tributary() if per_metre else 1.0
-    lateral = case.mud.lateral_damping or 0.0
-    for target, per_length in (
-        (state.MUD_AXIAL, axial), (state.MUD_LATERAL, lateral), (state.MUD_SPIN, rotational)
-    ):  # fmt: skip
-        row(S, target, n)[:] = per_length * length
-    for target, name in (
-        (state.K_AXIAL, "EA"),
-        (state.K_SHEAR, "shear"),
-        (state.K_BEND, "EI"),
-        (state.K_TWIST, "GJ"),
-    ):
-        row(S, target, n)[:] = string.joints(name)
-    section = string.sections[string.component[0]]
-    pipe = PerMetre(
-        section.mass, section.weight, section.axial_inertia,
-        section.EA, section.GJ, section.EI, section.shear,
-        float(axial[0]), lateral, float(rotational[0]),
+    # Absurd masses and stiffnesses overflow; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
+    pipe: PerMetre = fill_rows(
+        S, string.length, string.component, string.table, string.long_segment, damping_of(case, string),
+        case.wellbore.stiffness_per_length is not None,
     )  # fmt: skip
-    if string.long_segment:
-        row(S, state.ARM_BOTTOM, n)[0] = row(S, state.ARM_CONTACT, n)[0] = 0.0
-        put_long_segment(S, length[0], pipe)
-    else:
-        pipe = pipe._replace(weight=0.0)
-    for inverse, of in (
-        (state.INVERSE_MASS, state.MASS),
-        (state.INVERSE_JT, state.J_TRANSVERSE),
-        (state.INVERSE_JA, state.J_AXIAL),
-    ):
-        row(S, inverse, n)[:] = 1 / row(S, of, n)
     return pipe
+
+
+def damping_of(case: Case, string: String) -> Array:
+    """Damping by the mud per metre of every segment (n, 3): along, across [N s/m²] and about the axis [N s]."""
+    mud, damping = case.mud, np.empty((string.segments, 3))
+    damping[:] = mud.axial_damping or 0.0, mud.lateral_damping or 0.0, mud.rotational_damping or 0.0
+    if mud.viscosity:
+        hole = hole_radius(case, string.top_md, string.length)
+        damping[:, 0], damping[:, 2] = steady_resistance(case, string.of("outer"), hole)
+    return damping

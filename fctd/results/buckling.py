@@ -112,10 +112,15 @@ def buckling_along(
     mode, first, last, longest, needed, excess = find_buckling(
         hole.bends, float(top_md), md, hole_radius, tension, float(bit_tension), *pipe, rows
     )
-    if mode == NEITHER:
-        return rows, NOT_BUCKLED
     start, end = (float(md[k - 1]) if k else top_md for k in (first, last))
-    return rows, Buckling(str(MODES[mode]), start, end, longest, rounded_down(needed), excess)
+    return rows, buckling_of(mode, start, end, longest, needed, excess)
+
+
+def buckling_of(mode: int, from_md: float, to_md: float, longest: float, needed: float, excess: float) -> Buckling:
+    """The buckled part of a string from the numbers of ``find_buckling``."""
+    if mode == NEITHER:
+        return NOT_BUCKLED
+    return Buckling(str(MODES[mode]), from_md, to_md, longest, rounded_down(needed), excess)
 
 
 def rounded_down(length: float) -> float:

@@ -11,8 +11,10 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String
+from fctd.model.string_rows import INNER, OUTER, YIELD_STRENGTH
 from fctd.results.buckling import Buckling
 from fctd.results.profile import Loads, at_contacts, von_mises
 
@@ -137,15 +139,48 @@ def string_notes(
     hookload [N]; walls : beside the n contact points; radius (n,) : of the contact points [m]; in_hole : whether
     there is a wall.
     """
-    found = [_penetration(walls, radius) if in_hole else None, _stress(string, loads, walls), _pull(string, hookload)]
+    penetration = np.sqrt((walls.offset**2).sum(axis=1)) - (walls.radius - radius)
+    if not could_have_notes(
+        float(penetration.max()) if in_hole else 0.0, float(np.abs(loads.tension).max()), loads.bit_tension,
+        float(np.abs(loads.torque).max()), loads.bit_torque, float(loads.bending.max()), string.table,
+        int(string.component[0]), float(hookload),
+    ):  # fmt: skip
+        return ()
+    found = [
+        _penetration(walls, radius, penetration) if in_hole else None,
+        _stress(string, loads, walls),
+        _pull(string, hookload),
+    ]
     return tuple(note for note in found if note is not None)
 
 
-def _penetration(walls: Walls, radius: Array) -> Note | None:
+stress_of = inlined(von_mises)
+
+
+@entry
+def could_have_notes(
+    penetration: float, tension: float, bit_tension: float, torque: float, bit_torque: float, bending: float,
+    sections: Array, top: int, hookload: float,
+) -> bool:  # fmt: skip
+    """Whether ``string_notes`` may find something, from the largest loads alone: most strings have no notes.
+
+    penetration of the wall [m]; tension, hookload [N], torque, bending [N m]; sections : a row for each component, the
+    uppermost in row ``top``.
+    """
+    capacity = sections[top, YIELD_STRENGTH] * np.pi * (sections[top, OUTER] ** 2 - sections[top, INNER] ** 2)
+    if penetration > LEAST_PENETRATION or hookload > capacity:
+        return True
+    tension, torque = max(tension, abs(bit_tension)), max(torque, abs(bit_torque))
+    for k in range(top + 1):
+        # The largest loads combined are an upper bound of the stress.
+        stress = stress_of(tension, torque, bending, sections[k, OUTER], sections[k, INNER])
+        if stress > sections[k, YIELD_STRENGTH]:
+            return True
+    return False
+
+
+def _penetration(walls: Walls, radius: Array, penetration: Array) -> Note | None:
     clearance = walls.radius - radius
-    penetration = np.sqrt((walls.offset**2).sum(axis=1)) - clearance
-    if not penetration.max() > LEAST_PENETRATION:
-        return None
     excess = penetration / np.clip(SHARE_OF_CLEARANCE * clearance, LEAST_PENETRATION, MOST_PENETRATION)
     k = int(excess.argmax())
     if not excess[k] > 1:
@@ -158,14 +193,6 @@ def _penetration(walls: Walls, radius: Array) -> Note | None:
 
 
 def _stress(string: String, loads: Loads, walls: Walls) -> Note | None:
-    # The largest loads combined are an upper bound of the stress, which is enough for most strings.
-    tension = max(float(np.abs(loads.tension).max()), abs(loads.bit_tension))
-    torque = max(float(np.abs(loads.torque).max()), abs(loads.bit_torque))
-    bending = float(loads.bending.max())
-    most = max(float(von_mises(tension, torque, bending, s.outer, s.inner)) / s.yield_strength for s in string.sections)
-    if not most > 1:
-        return None
-
     def of(name: str) -> Array:
         values = string.of(name)
         return np.append(values[0], values)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,8 +49,8 @@ def at_contacts(string: String, loads: Loads) -> tuple[Array, Array, Array]:
     return along(loads.tension, loads.bit_tension), along(loads.torque, loads.bit_torque), along(loads.bending, 0.0)
 
 
-def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Load) -> Array:
-    """Von Mises stress at the outer fibre [Pa].
+def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Load) -> Any:
+    """Von Mises stress at the outer fibre [Pa]; also compiled (``notes.could_have_notes``).
 
     tension (effective) [N], torque, bending [N m]; outer and inner radius [m].  Equal pressure on all sides adds
     the same to every normal stress, and does not change it.
@@ -58,7 +58,7 @@ def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Lo
     steel, second = np.pi * (outer**2 - inner**2), np.pi / 4 * (outer**4 - inner**4)
     axial = np.abs(tension) / steel + bending * outer / second
     shear = torque * outer / (2 * second)
-    return np.asarray(np.sqrt(axial**2 + 3 * shear**2))
+    return np.sqrt(axial**2 + 3 * shear**2)
 
 
 def profile_table(

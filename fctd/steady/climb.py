@@ -285,3 +285,21 @@ def close(problem: Problem, path: Climb) -> None:
     known = path.locked_at <= 1 if path.pose is None else np.isfinite(path.locked_at) or not path.is_cut
     if not known:
         path.ends_at = float(share[-1]) if len(share) else 0.0
+
+
+def end_of(problem: Problem, path: Climb) -> str:
+    """What ends a path, in words; empty where nothing does."""
+    ends = (
+        (f"slack-off is spent {'at' if path.spent_at > path.least else 'below'}", path.spent_at),
+        ("the string is locked up at", path.locked_at),
+        ("the work of a row ends at" if path.is_cut else "no steady shape was found beyond", path.ends_at),
+    )
+    parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
+    if not parts:
+        return ""
+    text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
+    remedy = "; drill there with less weight on bit" if path.of_weight else ""
+    if not path.rolls or np.isnan(path.ends_at):
+        return text + remedy
+    cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
+    return (f"{text}: {cause} rolls the buckled string round the hole" if cause else text) + remedy

@@ -12,11 +12,14 @@ import numpy as np
 
 from fctd.mechanics.jit import entry, kernel
 from fctd.mechanics.rotations import rotation_columns, turned
-from fctd.mechanics.state import ARM_CONTACT, J_AXIAL, J_TRANSVERSE, MASS, TINY
+from fctd.mechanics.state import ARM_CONTACT, J_AXIAL, J_TRANSVERSE, K_AXIAL, MASS, TINY, WEIGHT
 from fctd.steady.block_thomas import eliminate
 from fctd.steady.tangent import SPIN, assemble, quaternion
 
 CONVERGED, MAX_ITERATIONS, NOT_FINITE, UNSOUND = range(4)
+# Largest force out of balance at a body, over the weight of the string.
+TOLERANCE = 1e-7
+EPSILON = float(np.finfo(float).eps)
 
 
 class Pace(NamedTuple):
@@ -36,6 +39,17 @@ class Pace(NamedTuple):
     turn: float
     force: float
     moment: float
+
+
+@entry
+def limits(S, n, bit_depth, weight_on_bit):
+    """Weight of the string and on the bit, and largest imbalance of a body when converged [N]."""
+    weight, stiffest = weight_on_bit, 0.0
+    for j in range(1, n + 1):
+        weight += S[WEIGHT + j]
+        stiffest = max(stiffest, S[K_AXIAL + j])
+    # The stiffness of the shortest segments turns the rounding of positions into force.
+    return weight, max(TOLERANCE * weight, 16 * EPSILON * bit_depth * stiffest)
 
 
 @kernel

@@ -30,15 +30,17 @@ from fctd.results.notes import Note, string_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
+from fctd.steady.batch import Hole, Row, hole_of, solve_batch
 from fctd.steady.bisection import bisect
-from fctd.steady.climb import BEYOND, SOUND, Climb, climb, lock_up
+from fctd.steady.climb import BEYOND, SOUND, Climb, climb, end_of, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
-from fctd.steady.laid_string import LaidString, lay
+from fctd.steady.laid_string import LaidString
 from fctd.steady.post_buckling import is_resolved, resolve
 from fctd.steady.problem import WORK, Allowance, Problem, Workspace
+from fctd.steady.reading import NOTABLE, OUTSIDE, SHAPE, SOLVED, SUM_NORMAL, SUM_R_MU_FN, TOP, Answer
 from fctd.steady.shape import Shape
-from fctd.steady.tangent import NORMAL_FORCE, PLACE, R_FT, R_MU_FN
+from fctd.steady.tangent import PLACE
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -138,7 +140,7 @@ class Equilibrium:
     @cached_property
     def notes(self) -> tuple[Note, ...]:
         """Warnings about the loads; empty where there are no loads."""
-        if not self.answered:
+        if not self.answered or not self._shape.numbers[NOTABLE]:
             return ()
         shape, in_hole = self._shape, self.case.contact.enabled
         string, radius = shape.laid.string, shape.radius
@@ -166,7 +168,7 @@ class Solver:
         check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
         string = lay_out(self.case, bit_depth)
         check_fit(self.case, string, self.hole, bit_depth)
-        return lay(self.case, self.hole, string, self.work.S)
+        return LaidString(self.case, self.hole, string)
 
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""
@@ -177,7 +179,25 @@ class Solver:
 
         Raises InputError when a resolved string has too many segments.
         """
+        self.work = self.work.for_segments(laid.string.segments)
+        answer = solve_batch(self.case, self._hole, [Row(laid, 0, operation, rates)], self.work)[0]
+        return self.finish(operation, rates, laid, answer)
+
+    def finish(self, operation: str, rates: SteadyRates, laid: LaidString, answer: Answer) -> Equilibrium:
+        """The steady string of a row of a batch, by other methods where its first attempt found none.
+
+        Raises InputError when a resolved string has too many segments.
+        """
+        if answer.numbers[SOLVED]:
+            point = self.point(operation, rates, laid, answer, CONVERGED, 0)
+            as_cut = self.case.solver.buckling != "resolve" and self.case.contact.helical_force != "analytic"
+            if as_cut or point.buckling.mode == NOT_BUCKLED.mode:
+                return point
         return self.solve_problem(self.problem(operation, rates, laid))
+
+    @cached_property
+    def _hole(self) -> Hole:
+        return hole_of(self.case, [self.hole])
 
     # Of an iteration that diverged only the status is used; its numbers may overflow.
     @np.errstate(over="ignore", invalid="ignore")
@@ -256,7 +276,7 @@ class Solver:
         coarse.iterations += iterations
 
         def lay_finer(case: Case) -> Problem:
-            laid = lay(case, self.hole, lay_out(case, problem.string.bit_depth), self.work.S)
+            laid = LaidString(case, self.hole, lay_out(case, problem.string.bit_depth))
             finer = self.problem(problem.operation, problem.rates, laid, case)
             finer.at_axis, finer.allowance = 1, problem.allowance
             return finer
@@ -285,14 +305,12 @@ class Solver:
             point = replace(point.without_loads(), status=status, message=status.message)
         if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.MAX_ITERATIONS):
             return point
-        return replace(point, message=_end_of(problem, path) or point.message)
+        return replace(point, message=end_of(problem, path) or point.message)
 
     def problem(self, operation: str, rates: SteadyRates, laid: LaidString, cut: Case | None = None) -> Problem:
         """A laid-out string as a problem; cut : the case with other segments, of which it has been laid out."""
         case = self.case if cut is None else cut
-        if self.work.segments < laid.string.segments:
-            # The depths of a chart rise.
-            self.work = Workspace(min(laid.string.segments * 3 // 2, state.MAX_SEGMENTS))
+        self.work = self.work.for_segments(laid.string.segments)
         return Problem(case, self.hole, self.work, laid, operation, rates, Allowance(self.allowance))
 
     def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
@@ -300,21 +318,29 @@ class Solver:
 
         code, iterations : of the iteration; negative : number of unstable modes.
         """
-        case, string, n = self.case, problem.string, problem.n
-        found = problem.reactions()
+        answer = problem.answer(iterations)
+        return self.point(problem.operation, problem.rates, problem.laid, answer, code, negative)
+
+    def point(
+        self, operation: str, rates: SteadyRates, laid: LaidString, answer: Answer, code: int, negative: int
+    ) -> Equilibrium:
+        """The steady string of an answer; code : of the iteration; negative : number of unstable modes."""
+        case, kind, numbers = self.case, KINDS[operation], answer.numbers
+        on_bottom = (case.bit.weight_on_bit, case.bit.torque) if kind.on_bottom else (0.0, 0.0)
         shape = Shape(
-            self.hole, problem.laid, problem.work.P[0, PLACE].copy(), found.joints, found.contacts,
-            problem.work.owner[1 : n + 1].copy(), -problem.weight_on_bit, problem.bit_torque,
+            self.hole, laid, numbers[TOP:SHAPE], answer.joints, answer.contacts, answer.walls, numbers[SHAPE:],
+            -on_bottom[0], on_bottom[1],
         )  # fmt: skip
+        _, iterations, hookload, torque, imbalance, allowed = numbers[:TOP].tolist()
         # The hook load of a horizontal string is 0 within rounding.
-        pushed = -found.hookload - case.rig.push > n * problem.allowed
-        status, message = self._judge(code, negative, pushed, shape, found.imbalance)
-        indicator = weight_indicator(case.rig, KINDS[problem.operation].direction, found.hookload)
-        drive = drive_torque(case.rig, problem.rates.spin, found.torque)
-        normal, r_ft, r_mu_n = (float(found.contacts[:, k].sum()) for k in (NORMAL_FORCE, R_FT, R_MU_FN))
+        pushed = -hookload - case.rig.push > laid.string.segments * allowed
+        status, message = self._judge(code, negative, pushed, shape, imbalance)
+        indicator = weight_indicator(case.rig, kind.direction, hookload)
+        drive = drive_torque(case.rig, rates.spin, torque)
+        normal, r_ft, r_mu_n = shape.numbers[SUM_NORMAL : SUM_R_MU_FN + 1].tolist()
         return Equilibrium(
-            case, problem.operation, string.bit_depth, status, message, iterations, found.hookload, found.torque,
-            indicator, drive, normal, r_ft, r_mu_n, found.imbalance, shape,
+            case, operation, laid.string.bit_depth, status, message, int(iterations), hookload, torque,
+            indicator, drive, normal, r_ft, r_mu_n, imbalance, shape,
         )  # fmt: skip
 
     def _judge(
@@ -324,10 +350,9 @@ class Solver:
         if code == NOT_FINITE:
             return SteadyStatus.NOT_FINITE, SteadyStatus.NOT_FINITE.message
         if self.geometry != state.OPEN:
-            # The limit of a string in motion (faults.py): deeper in the wall than the hole's radius.
-            outside = np.linalg.norm(shape.walls.offset, axis=1) + shape.radius > 2 * shape.walls.radius
-            if outside.any():
-                text = f"segment {int(np.argmax(outside)) + 1} lies deeper in the wall than the hole's radius"
+            outside = int(shape.numbers[OUTSIDE])
+            if outside:
+                text = f"segment {outside} lies deeper in the wall than the hole's radius"
                 return SteadyStatus.DIVERGED, f"{text}: use a stiffer wall or a smaller load"
         if code != CONVERGED:
             return (
@@ -346,24 +371,6 @@ class Solver:
             modes = f"{negative} mode{'s' * (negative > 1)}"
             return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {modes}"
         return SteadyStatus.CONVERGED, ""
-
-
-def _end_of(problem: Problem, path: Climb) -> str:
-    """What ends a path, in words; empty where nothing does."""
-    ends = (
-        (f"slack-off is spent {'at' if path.spent_at > path.least else 'below'}", path.spent_at),
-        ("the string is locked up at", path.locked_at),
-        ("the work of a row ends at" if path.is_cut else "no steady shape was found beyond", path.ends_at),
-    )
-    parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
-    if not parts:
-        return ""
-    text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
-    remedy = "; drill there with less weight on bit" if path.of_weight else ""
-    if not path.rolls or np.isnan(path.ends_at):
-        return text + remedy
-    cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
-    return (f"{text}: {cause} rolls the buckled string round the hole" if cause else text) + remedy
 
 
 def equilibrium(

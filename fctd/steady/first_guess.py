@@ -175,3 +175,12 @@ def guess(S, n, C, laws, top_md, bit_tension, seed, G, P):
 def lay_guess(S, n, C, geometry, G, P):
     """Fill pose P (n + 1, POSE) from nodes G (n + 1, NODE) as they are, without an imperfection."""
     lay_chain(S, n, C, geometry, G, 0.0, P)
+
+
+@entry
+def find_owners(C, n, G, owner):
+    """Fill the pieces of hole (n + 1,) in which the nodes G lie."""
+    i = 0
+    for j in range(1, n + 1):
+        i = piece_at(C, i, G[j, MD])
+        owner[j] = i

@@ -9,25 +9,22 @@ from numpy.typing import NDArray
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
-from fctd.mechanics.contact import START_MD
 from fctd.mechanics.laws import CODES
-from fctd.mechanics.query import Walls
+from fctd.mechanics.query import WALL_COLUMNS, Walls
 from fctd.model.operations import SteadyRates
 from fctd.model.wellbore import Wellbore, hole_frame
 from fctd.results.buckling import buckling_along
 from fctd.steady import tangent
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
-from fctd.steady.continuation import NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, take_step
-from fctd.steady.first_guess import MD, NODE, guess, lay_guess
+from fctd.steady.continuation import NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, limits, take_step
+from fctd.steady.first_guess import MD, NODE, find_owners, guess, lay_guess
 from fctd.steady.laid_string import LaidString
+from fctd.steady.reading import ANSWER, SHAPE, STEPS, TOP, Answer, read_shape, read_top
 from fctd.steady.relaxation import Creep, relax
 from fctd.steady.tangent import (
-    AXIAL_MOMENT,
     CONTACT_COLUMNS,
-    FORCE,
     JOINT_COLUMNS,
     JOINT_TENSION,
-    JOINT_TORQUE,
     NORMAL_FORCE,
     PLACE,
     POSE,
@@ -35,14 +32,10 @@ from fctd.steady.tangent import (
     Steady,
     assemble,
     frictionless_tangent,
-    read_loads,
 )
 
 Array = NDArray[np.float64]
 
-# Largest force out of balance at a body, over the weight of the string.
-TOLERANCE = 1e-7
-EPSILON = float(np.finfo(float).eps)
 # Lateral imperfection of the first guess, so that a straight string may buckle [m].
 SEED = 1e-4
 # Work of the relaxations of a row, iterations times segments: some twenty seconds.
@@ -64,6 +57,10 @@ class Workspace:
         self.D, self.A, self.U = (np.zeros((rows, SIZE, SIZE)) for _ in range(3))
         self.W = np.zeros((rows, SIZE, SIZE + 1))
         self.owner = np.zeros(rows, np.int64)
+
+    def for_segments(self, segments: int) -> "Workspace":
+        """This, or a larger one where it is too small; the depths of a chart rise."""
+        return self if self.segments >= segments else Workspace(min(segments * 3 // 2, state.MAX_SEGMENTS))
 
 
 class Share(NamedTuple):
@@ -128,14 +125,11 @@ class Problem:
         self.operation = operation
         self.string = laid.string
         self.n = self.string.segments
-        laid.put(work.S)
+        self.fed = laid.put(work.S)
         kind = KINDS[operation]
         self.weight_on_bit = case.bit.weight_on_bit if kind.on_bottom else 0.0
         self.bit_torque = case.bit.torque if kind.on_bottom else 0.0
-        self.weight = laid.weight + self.weight_on_bit
-        # The stiffness of the shortest segments turns the rounding of positions into force.
-        rounding = 16 * EPSILON * self.string.bit_depth * laid.stiffest
-        self.allowed = max(TOLERANCE * self.weight, rounding)
+        self.weight, self.allowed = limits(work.S, self.n, self.string.bit_depth, self.weight_on_bit)
         self.kinks = np.zeros((self.n + 2, 4))
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
@@ -222,16 +216,23 @@ class Problem:
         args = w.S, n, w.P, self.kinks, self.hole.pieces, w.owner, laws
         assemble(*args, w.R, w.D, w.A, w.U)
         joints, contacts = np.zeros((n + 1, JOINT_COLUMNS)), np.zeros((n + 1, CONTACT_COLUMNS))
-        read_loads(*args, joints, contacts)
+        long = float(string.length[0]) if string.long_segment else 0.0
+        hookload, torque, imbalance = read_top(*args, w.R, self.fed, long, self.laid.top_axis, joints, contacts)
         contacts[1:, NORMAL_FORCE:] += self.added
-        # Half of a long segment is lumped at the top: the top drive carries its weight and mud load.
-        half = 0.5 * string.length[0] if string.long_segment else 0.0
-        rates, pipe = self.rates, self.laid.fed
-        hung, resisted = half * (pipe.weight - pipe.mud_axial * rates.speed), half * pipe.mud_spin * rates.spin
-        joints[1, [JOINT_TENSION, JOINT_TORQUE]] += hung, resisted
-        hookload, torque = float(w.R[0, FORCE] @ self.laid.top_axis) + hung, resisted - float(w.R[0, AXIAL_MOMENT])
-        imbalance = float(np.linalg.norm(w.R[1 : n + 1, FORCE], axis=1).max())
         return Reactions(hookload, torque, imbalance, joints[1:], contacts[1:])
+
+    def answer(self, iterations: int) -> Answer:
+        """What is read from the string in its pose; iterations : that it took."""
+        n, found, numbers, string, hole = self.n, self.reactions(), np.zeros(ANSWER), self.string, self.hole
+        walls = np.empty((n, WALL_COLUMNS))
+        read_shape(
+            hole.pieces, hole.geometry, self.case.contact.enabled, hole.bends, float(string.top_md), self.laid.pipe,
+            string.table, int(string.component[0]), self.bit_tension(), self.bit_torque, found.hookload,
+            self.work.owner[1 : n + 1], found.joints, found.contacts, walls, numbers[SHAPE:],
+        )  # fmt: skip
+        numbers[STEPS:TOP] = iterations, found.hookload, found.torque, found.imbalance, self.allowed
+        numbers[TOP:SHAPE] = self.work.P[0, PLACE]
+        return Answer(numbers, found.joints, found.contacts, walls)
 
     def walls(self, contacts: Array) -> Walls:
         """Walls beside the contact points (n, ...) of ``reactions``."""
@@ -262,8 +263,7 @@ class Problem:
         self.work.P[: self.n + 1], self.work.owner[: self.n + 1] = pose
 
     def _find_owners(self) -> None:
-        md = self.work.G[1 : self.n + 1, MD]
-        self.work.owner[1 : self.n + 1] = np.searchsorted(self.hole.pieces[:, START_MD], md, side="right") - 1
+        find_owners(self.hole.pieces, self.n, self.work.G, self.work.owner)
 
     def _bend(self) -> None:
         """Write the bent housings into ``kinks``; the workspace must contain the first guess."""

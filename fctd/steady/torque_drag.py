@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,8 +17,10 @@ from fctd.results.buckling import UNKNOWN
 from fctd.results.columns import IN_CHART, SHAPES, SHARES
 from fctd.results.notes import codes_of
 from fctd.results.status import SteadyStatus
+from fctd.steady import batch
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
+from fctd.steady.reading import Answer
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int], None]
 FrictionChoice = float | Mapping[str, float] | FrictionSet
 Row = dict[str, Any]
+# Largest number of rows in a batch: the progress of a chart comes in steps of it.
+ROWS = 16
 
 
 def torque_drag(
@@ -37,12 +41,14 @@ def torque_drag(
     speed: float | str | None = None,
     rpm: float | str | None = None,
     progress: Progress | None = None,
+    threads: int | None = None,
 ) -> pd.DataFrame:
     """A row per operation, friction and depth.
 
     operation : kind or kinds; bit_depths [m], or texts with units : rising; friction : None for the case's own, or what
     is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2, "open": 0.3}.
-    speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.
+    speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.  threads : by default as many as processors;
+    the rows do not depend on it.
     Columns: operation, friction (NaN where intervals differ), friction_label ("0.25", "cased 0.20, open 0.30", or the
     case's own factors with their depths), bit_depth_m, the loads of
     ``columns.IN_CHART`` (hookload_N and so on), buckling (none, sinusoidal, helical, or unknown without loads),
@@ -56,7 +62,7 @@ def torque_drag(
     """
     import pandas as pd  # slow to import, and a command that prints rows needs none
 
-    return pd.DataFrame(chart_rows(case, operation, bit_depths, friction, speed, rpm, progress))
+    return pd.DataFrame(chart_rows(case, operation, bit_depths, friction, speed, rpm, progress, threads))
 
 
 def chart_rows(
@@ -67,6 +73,7 @@ def chart_rows(
     speed: float | str | None = None,
     rpm: float | str | None = None,
     progress: Progress | None = None,
+    threads: int | None = None,
 ) -> list[Row]:
     """The rows of ``torque_drag``, each a mapping from column to value."""
     with naming_file(case):
@@ -78,20 +85,34 @@ def chart_rows(
         sets = None if friction is None else friction_sets(friction)
         hole = build_wellbore(case)
         solvers = _solvers(case, hole, sets)
-        total = len(kinds) * len(solvers) * len(depths)
+        loads = [(kind, k) for kind in kinds for k in range(len(solvers))]
+        threads = batch.cores() if threads is None else threads
+        size = max(1, min(len(depths) // (4 * threads), ROWS // len(loads)))
+        parts = [depths[k : k + size] for k in range(0, len(depths), size)]
+        laid: dict[float, LaidString | InputError] = {}
+
+        def batches() -> Iterator[list[batch.Row]]:
+            for part in parts:
+                # The string is laid out once a depth, for all operations and frictions.
+                strings = [laid.setdefault(depth, _lay_out(solvers[0][1], depth)) for depth in part]
+                fit = [string for string in strings if isinstance(string, LaidString)]
+                yield [batch.Row(string, k, kind, rates[kind]) for string in fit for kind, k in loads]
+
         rows: list[list[Row]] = []
         unfit: list[InputError] = []
-        # The string is laid out once a depth, for all operations and frictions.
-        for depth in depths:
-            laid = _lay_out(solvers[0][1], depth)
-            rows.append([])
-            if isinstance(laid, InputError):
-                unfit.append(laid)
-            for kind in kinds:
-                for label, solver in solvers:
-                    rows[-1].append(_row(label, solver, kind, rates[kind], depth, laid))
+        solved = batch.solve_batches(case, [solver.hole for _, solver in solvers], batches(), threads)
+        for part, answers in zip(parts, solved, strict=True):
+            of = iter(answers)
+            for depth in part:
+                rows.append([])
+                string = laid.pop(depth)
+                if isinstance(string, InputError):
+                    unfit.append(string)
+                for kind, k in loads:
+                    attempt = string if isinstance(string, InputError) else (string, next(of))
+                    rows[-1].append(_row(*solvers[k], kind, rates[kind], depth, attempt))
                     if progress is not None:
-                        progress((len(rows) - 1) * len(rows[0]) + len(rows[-1]), total)
+                        progress((len(rows) - 1) * len(loads) + len(rows[-1]), len(depths) * len(loads))
         if len(unfit) == len(depths):
             raise unfit[0]
         return [row for series in zip(*rows, strict=True) for row in series]
@@ -127,14 +148,17 @@ def _lay_out(solver: Solver, depth: float) -> LaidString | InputError:
         return error
 
 
-def _row(label: str, solver: Solver, kind: str, rates: SteadyRates, depth: float, laid: LaidString | InputError) -> Row:
+def _row(
+    label: str, solver: Solver, kind: str, rates: SteadyRates, depth: float,
+    attempt: tuple[LaidString, Answer] | InputError,
+) -> Row:  # fmt: skip
     """A chart row, of a string in balance or of a depth where string and hole do not fit."""
     point, misfit = None, ""
-    if isinstance(laid, InputError):
-        misfit = str(laid)
+    if isinstance(attempt, InputError):
+        misfit = str(attempt)
     else:
         try:
-            point = solver.solve_string(kind, rates, laid)
+            point = solver.finish(kind, rates, *attempt)
         except InputError as error:  # as of a resolved string with too many segments
             misfit = str(error)
     answer = point if point is not None and point.answered else None

@@ -12,7 +12,7 @@ from fctd.mechanics import state
 from fctd.model.drillstring import fill, lay_out
 from fctd.model.wellbore import build_wellbore
 from fctd.steady import equilibrium
-from fctd.steady.laid_string import lay
+from fctd.steady.laid_string import LaidString
 from tests.cases import make_case, pipe
 
 KINDS = ["trip_in", "back_ream", "drill_sliding"]
@@ -61,17 +61,13 @@ def test_the_string_is_laid_out_once_a_depth(monkeypatch: pytest.MonkeyPatch) ->
     assert depths == DEPTHS
 
 
-def test_the_constants_are_those_of_a_filled_buffer() -> None:
+def test_it_fills_a_buffer_with_the_string_of_its_case() -> None:
     case = bent_case()
     string = lay_out(case, 700.0)
-    laid = lay(case, build_wellbore(case), string, state.new_state(string.segments))
+    laid = LaidString(case, build_wellbore(case), string)
     S, filled = state.new_state(string.segments), state.new_state(string.segments)
-    assert laid.fed == fill(filled, string, case)
-    laid.put(S)
+    assert laid.put(S) == fill(filled, string, case)
     assert np.array_equal(S, filled)
-    # What is put into a buffer is a copy: a solver may change it.
-    S[state.MUD_AXIAL : state.MUD_AXIAL + state.STRIDE] = 7.0
-    laid.put(S)
-    assert np.array_equal(
-        state.row(S, state.MUD_AXIAL, string.segments), state.row(filled, state.MUD_AXIAL, string.segments)
-    )
+    assert laid.is_bent
+    assert np.array_equal(laid.pipe.radius, string.contact_radius())
+    assert laid.top_axis.tolist() == [0.0, 0.0, 1.0]

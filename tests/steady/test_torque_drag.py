@@ -10,6 +10,7 @@ from fctd import InputError, equilibrium, load_case, torque_drag
 from fctd.model.operations import SteadyRates
 from fctd.steady.equilibrium import Equilibrium, Solver
 from fctd.steady.laid_string import LaidString
+from fctd.steady.reading import Answer
 from tests.cases import level_case, make_case, pipe
 
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
@@ -143,14 +144,14 @@ def test_a_depth_that_does_not_fit_is_a_row_with_its_reason() -> None:
 
 def test_a_row_that_cannot_be_laid_out_does_not_end_the_chart(monkeypatch: pytest.MonkeyPatch) -> None:
     """As a resolved string may be, of which only the solver finds out."""
-    solve = Solver.solve_string
+    finish = Solver.finish
 
-    def fails_at_800(solver: Solver, kind: str, rates: SteadyRates, laid: LaidString) -> Equilibrium:
+    def fails_at_800(solver: Solver, kind: str, rates: SteadyRates, laid: LaidString, answer: Answer) -> Equilibrium:
         if laid.string.bit_depth == 800:
             raise InputError("at most 10 segments", key="string.components")
-        return solve(solver, kind, rates, laid)
+        return finish(solver, kind, rates, laid, answer)
 
-    monkeypatch.setattr(Solver, "solve_string", fails_at_800)
+    monkeypatch.setattr(Solver, "finish", fails_at_800)
     chart = torque_drag(case_of(), "trip_out", [700.0, 800.0, 850.0])
     assert chart["status"].tolist() == ["converged", "not_possible", "converged"]
     assert chart["reason"][1] == "string.components is missing: expected at most 10 segments"

@@ -1,0 +1,246 @@
+"""Many steady strings of a case in one compiled call: layout, first guess, Newton's method, readings.
+
+A row is a string at one depth under the loads of one operation, in a hole with one set of friction factors.  It does
+not depend on the rows beside it, nor on the thread that solves it.  A row that is not in a stable balance after the
+first attempt (balance.py) is left to the methods in Python.
+"""
+
+import os
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.mechanics import state
+from fctd.mechanics.jit import entry, kernel
+from fctd.mechanics.laws import CODES
+from fctd.model.drillstring import String, damping_of
+from fctd.model.operations import SteadyRates
+from fctd.model.string_rows import EI, WEIGHT, fill_rows, find_contacts
+from fctd.model.wellbore import Wellbore
+from fctd.results.buckling import Pipe
+from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
+from fctd.steady.block_thomas import negative_pivots
+from fctd.steady.continuation import CONVERGED, Pace, converge, limits
+from fctd.steady.first_guess import axis_at, find_owners, guess, piece_at
+from fctd.steady.laid_string import LaidString
+from fctd.steady.problem import SEED, Workspace
+from fctd.steady.reading import (
+    ALLOWED,
+    ANSWER,
+    HOOKLOAD,
+    IMBALANCE,
+    SHAPE,
+    SHAPE_COLUMNS,
+    SOLVED,
+    STEPS,
+    TOP,
+    TORQUE,
+    Answer,
+    read_shape,
+    read_top,
+)
+from fctd.steady.tangent import Steady, frictionless_tangent
+
+Array = NDArray[np.float64]
+
+ITERATIONS, TAU, GROWTH, SHRINK, SHIFT = ATTEMPTS[0]
+# Columns of the loads of a row.
+SPEED, SPIN, WEIGHT_ON_BIT, BIT_TORQUE, LOADS = 0, 1, 2, 3, 4
+
+
+class Row(NamedTuple):
+    """A row of a batch; friction : index of the hole."""
+
+    laid: LaidString
+    friction: int
+    operation: str
+    rates: SteadyRates
+
+
+class Hole(NamedTuple):
+    """The hole with its sets of friction factors: a table of pieces for each of them.
+
+    with_wall : its geometry, or OPEN where the string does not touch it; bends : of ``Wellbore``; wall_exponent,
+    wall_reference : as in ``Laws``.
+    """
+
+    pieces: Array
+    geometry: int
+    with_wall: int
+    law: int
+    bends: Array
+    wall_exponent: float
+    wall_reference: float
+
+
+class Strings(NamedTuple):
+    """Strings of a case, one after the other.
+
+    first (m + 1,) : of their segments in length [m] and component (N,); long_segment (m,); bit_depth (m,) [m];
+    sections : a row for each component; damping (N, 3), per_metre : see ``fill_rows``.
+    """
+
+    first: NDArray[np.int64]
+    length: Array
+    component: NDArray[np.int64]
+    long_segment: NDArray[np.bool_]
+    bit_depth: Array
+    top_md: float
+    sections: Array
+    damping: Array
+    per_metre: bool
+
+
+def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
+    """The hole of a case; holes : it with each set of friction factors."""
+    geometry = holes[0].geometry
+    pieces = np.stack([hole.pieces for hole in holes]) if len(holes) > 1 else holes[0].pieces[None]
+    with_wall = geometry if case.contact.enabled else state.OPEN
+    law = CODES[case.contact.friction_law]
+    return Hole(pieces, geometry, with_wall, law, holes[0].bends, *map(float, case.contact.wall_law))
+
+
+UNSOLVED = Answer(np.zeros(ANSWER), *(np.zeros((0, k)) for k in SHAPE_COLUMNS))
+
+
+def cores() -> int:
+    """Number of processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def solve_batches(
+    case: Case, holes: Sequence[Wellbore], batches: Iterable[Sequence[Row]], threads: int
+) -> Iterator[list[Answer]]:
+    """``solve_batch`` of each of many batches, in their order, on a number of threads.
+
+    A few batches beyond those that the threads work on are solved ahead, so that the answers of a long chart do not
+    fill the memory.
+    """
+    hole = hole_of(case, holes)
+
+    def solve(rows: Sequence[Row], work: Workspace) -> list[Answer]:
+        return solve_batch(case, hole, rows, work) if rows else []
+
+    spare, waiting = deque(Workspace(0) for _ in range(2 * threads)), deque[Future[list[Answer]]]()
+    with ThreadPoolExecutor(threads) as pool:
+        for rows in batches:
+            if len(waiting) == len(spare):
+                yield waiting.popleft().result()
+            spare.rotate(-1)  # the oldest, whose batch is done
+            spare[0] = spare[0].for_segments(max((row.laid.string.segments for row in rows), default=0))
+            if threads == 1:  # in this thread, whose clock then counts the work
+                yield solve(rows, spare[0])
+            else:
+                waiting.append(pool.submit(solve, rows, spare[0]))
+        while waiting:
+            yield waiting.popleft().result()
+
+
+def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) -> list[Answer]:
+    """What the first attempt finds of rows of a case; work : for as many segments as the longest string has.
+
+    Nothing of a string with a bent housing, which only the methods in Python know.
+    """
+    straight = [row for row in rows if not row.laid.is_bent]
+    if len(straight) < len(rows):
+        found = iter(solve_batch(case, hole, straight, work) if straight else ())
+        return [UNSOLVED if row.laid.is_bent else next(found) for row in rows]
+    laid = {id(row.laid): row.laid for row in rows}
+    places = {key: k for k, key in enumerate(laid)}
+    which = np.array([(places[id(row.laid)], row.friction) for row in rows])
+    bit = {False: (0.0, 0.0), True: (case.bit.weight_on_bit, case.bit.torque)}
+    loads = np.array([(*row.rates, *bit[KINDS[row.operation].on_bottom]) for row in rows], float)
+    packed, w = _pack(case, [of.string for of in laid.values()]), work
+    answers = np.zeros((len(rows), ANSWER))
+    most = int(np.diff(packed.first).max()) + 1
+    joints, contacts, walls = (np.zeros((len(rows), most, k)) for k in SHAPE_COLUMNS)
+    solve_rows(
+        hole, packed, which, loads, w.S, w.P, w.G, w.R, w.D, w.A, w.U, w.W, w.owner, answers, joints, contacts, walls
+    )
+    ends = [row.laid.string.segments + 1 for row in rows]
+    return [Answer(answers[k], *(of[k, 1:end] for of in (joints, contacts, walls))) for k, end in enumerate(ends)]
+
+
+def _pack(case: Case, strings: Sequence[String]) -> Strings:
+    return Strings(
+        np.cumsum([0, *(string.segments for string in strings)]),
+        np.concatenate([string.length for string in strings]),
+        np.concatenate([string.component for string in strings]),
+        np.array([string.long_segment for string in strings]),
+        np.array([string.bit_depth for string in strings], float),
+        float(case.string.top_md),
+        max((string.table for string in strings), key=len),
+        np.concatenate([damping_of(case, string) for string in strings]),
+        case.wellbore.stiffness_per_length is not None,
+    )
+
+
+@entry
+def solve_rows(hole, strings, which, loads, S, P, G, R, D, A, U, W, owner, answers, joints, contacts, walls):
+    """Fill answers (r, ANSWER), joints, contacts and walls (r, n + 1, ...) of rows.
+
+    which (r, 2) : string and set of friction factors; loads (r, LOADS); the other arrays : of ``Workspace``.
+    """
+    most = len(owner)
+    kinks = np.zeros((most, 4))
+    kinks[:, 0] = 1.0
+    middle, radius, tributary = np.empty(most, np.bool_), np.empty(most), np.empty(most)
+    stiffness, weight = np.empty(most), np.empty(most)
+    for r in range(len(which)):
+        k = which[r, 0]
+        first, last = strings.first[k], strings.first[k + 1]
+        n, long_segment = last - first, strings.long_segment[k]
+        length, component = strings.length[first:last], strings.component[first:last]
+        damping = strings.damping[first:last]
+        fed = fill_rows(S, length, component, strings.sections, long_segment, damping, strings.per_metre)
+        find_contacts(length, component, strings.sections, long_segment, middle, radius, tributary)
+        for j in range(n):
+            stiffness[j], weight[j] = strings.sections[component[j], EI], strings.sections[component[j], WEIGHT]
+        pipe = Pipe(stiffness[:n], weight[:n], radius[:n], length, middle[:n])
+        solve_row(
+            S, n, P, kinks, hole.pieces[which[r, 1]], hole, pipe, fed, length[0] if long_segment else 0.0,
+            strings.top_md, strings.bit_depth[k], strings.sections, component[0], loads[r], G, R, D, A, U, W, owner,
+            answers[r], joints[r, : n + 1], contacts[r, : n + 1], walls[r, 1 : n + 1],
+        )  # fmt: skip
+
+
+@kernel
+def solve_row(
+    S, n, P, kinks, C, hole, pipe, fed, top_length, top_md, bit_depth, sections, top, loads, G, R, D, A, U, W, owner,
+    answer, joints, contacts, walls,
+):  # fmt: skip
+    """Fill the answer of one string, whose constants are in S; its pose is then in P."""
+    pressing, torque = loads[WEIGHT_ON_BIT], loads[BIT_TORQUE]
+    i = piece_at(C, C.shape[0] - 1, bit_depth)
+    _, _, _, bx, by, bz = axis_at(C, hole.geometry, i, bit_depth)
+    laws = Steady(
+        hole.with_wall, hole.law, 1.0, loads[SPEED], loads[SPIN], -pressing * bx, -pressing * by, -pressing * bz,
+        torque, 0, hole.wall_exponent, hole.wall_reference,
+    )  # fmt: skip
+    _, allowed = limits(S, n, bit_depth, pressing)
+    guess(S, n, C, laws, top_md, -pressing, SEED, G, P)
+    find_owners(C, n, G, owner)
+    pace = Pace(ITERATIONS, TAU, GROWTH, SHRINK, SHIFT, LARGEST_TURN, allowed, allowed)
+    code, steps, _ = converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, TAU)
+    if code != CONVERGED:
+        return
+    # The forces out of balance are still in R.
+    axis = np.empty(3)
+    _, _, _, axis[0], axis[1], axis[2] = axis_at(C, hole.geometry, piece_at(C, 0, top_md), top_md)
+    hookload, reaction, imbalance = read_top(S, n, P, kinks, C, owner, laws, R, fed, top_length, axis, joints, contacts)
+    frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U)
+    if negative_pivots(D, A, U, n) > 0:
+        return
+    answer[SOLVED], answer[STEPS], answer[ALLOWED] = 1.0, steps, allowed
+    answer[HOOKLOAD], answer[TORQUE], answer[IMBALANCE] = hookload, reaction, imbalance
+    answer[TOP], answer[TOP + 1], answer[TOP + 2] = P[0, 0], P[0, 1], P[0, 2]
+    read_shape(
+        C, hole.geometry, hole.with_wall != state.OPEN, hole.bends, top_md, pipe, sections, top, -pressing, torque,
+        hookload, owner[1 : n + 1], joints[1:], contacts[1:], walls, answer[SHAPE:],
+    )  # fmt: skip
