@@ -94,8 +94,8 @@ def fill_segment(S, length, component, sections, long_segment, damping, per_metr
 def fill_rows(S, length, component, sections, long_segment, damping, per_metre):
     """Write a string into a fresh buffer; returns the pipe fed at the top, ``topdrive.PerMetre``.
 
-    damping (n, 3) : by mud along, across and about the axis, per metre; per_metre : whether the wall's stiffness is one per
-    length.
+    damping (n, 3) : by mud along, across and about the axis, per metre; per_metre : whether the wall's stiffness is one
+    per length.
     """
     for j in range(len(length)):
         fill_segment(S, length, component, sections, long_segment, damping, per_metre, j)
