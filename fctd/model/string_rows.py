@@ -10,6 +10,7 @@ from fctd.mechanics.topdrive import PerMetre, set_long_segment
 
 # Columns of a table of sections: the fields of ``drillstring.Section``.
 MASS, WEIGHT, AXIAL_INERTIA, TILT_INERTIA, EA, GJ, EI, SHEAR, OUTER, INNER, CONTACT_RADIUS, YIELD_STRENGTH = range(12)
+ECCENTRICITY = 12
 
 
 @rounded
@@ -102,7 +103,7 @@ def fill_rows(S, length, component, sections, long_segment, damping, per_metre):
     k = component[0]
     pipe = PerMetre(
         sections[k, MASS], sections[k, WEIGHT] if long_segment else 0.0, sections[k, AXIAL_INERTIA], sections[k, EA],
-        sections[k, GJ], sections[k, EI], sections[k, SHEAR], damping[0, 0], damping[0, 1], damping[0, 2],
+        sections[k, GJ], sections[k, EI], sections[k, SHEAR], damping[0, 0], damping[0, 1], damping[0, 2], 0.0,
     )  # fmt: skip
     if long_segment:
         S[state.ARM_BOTTOM + 1] = S[state.ARM_CONTACT + 1] = 0.0
