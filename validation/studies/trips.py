@@ -30,8 +30,8 @@ WELL_9 = {"md": "Measured Depth ( ft )", "inc": "Inclination ( deg )", "azi": "A
 # Survey, depth [m], length of the segments [m] and columns of the survey.
 WELLS: dict[str, tuple[str, float, float, dict[str, str] | None]] = {
     "K05-ENC-05-S1": ("nlog_K05-ENC-05-S1.csv", 8161.0, 28.5, None),
-    "ISCWSA reference": ("iscwsa_reference_well.csv", 2940.0, 14.25, None),
-    "well 9": ("wellpathpy_well9_horizontal_reference.csv", 2400.0, 14.25, WELL_9),
+    "ISCWSA reference": ("iscwsa_reference_well.csv", 2940.0, 28.5, None),
+    "well 9": ("wellpathpy_well9_horizontal_reference.csv", 2400.0, 28.5, WELL_9),
 }
 
 
@@ -86,15 +86,15 @@ def trips(context: Context) -> dict[str, Trip]:
 
 
 def measured(phases: list[Phase], of: Trip) -> list[bool]:
-    """Which phases are at full speed past one of the depths."""
-    depth, found = of.shallow, []
-    for motion, _ in phases:
+    """Which phases are those at full speed, in and out, that are nearest to the depths."""
+    depth, middles = of.shallow, np.full((2, len(phases)), np.inf)
+    for k, (motion, operation) in enumerate(phases):
         fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration
-        low, high = sorted((depth, depth + fed))
-        cruise = motion.feed_from == motion.feed_to != 0
-        found.append(cruise and any(low <= wanted < high for wanted in of.depths))
+        if motion.feed_from == motion.feed_to != 0:
+            middles[operation, k] = depth + 0.5 * fed
         depth += fed
-    return found
+    nearest = {int(np.argmin(np.abs(way - wanted))) for way in middles for wanted in of.depths}
+    return [k in nearest for k in range(len(phases))]
 
 
 def recorded(phases: list[Phase], often: list[bool]) -> list[Interval]:
