@@ -113,7 +113,8 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     (
         "wellbore.intervals[0].dia",
         "8.5 in",
-        "one of the keys to_md, diameter, friction, kind, name, stiffness, stiffness_per_length",
+        "one of the keys to_md, diameter, friction, kind, name, stiffness, stiffness_per_length, static_friction, "
+        "decay_speed, overbalance",
     ),
     ("wellbore.geometry", "arc", "'cylinders' or 'arcs'"),
     ("string", None, "a table [string]"),

@@ -388,3 +388,19 @@ def test_a_string_whirls_where_it_moves_sideways_and_hardly_slides() -> None:
     assert notes.whirls(0.2, 2.0, 500.0, 5000.0) is None  # hardly sideways
     assert notes.whirls(1.0, 2.0, 4800.0, 5000.0) is None  # slides
     assert notes.whirls(1.0, 2.0, 0.0, 0.0) is None  # without friction
+
+
+def test_a_run_deeper_in_the_wall_than_its_step_holds_for_gets_a_note() -> None:
+    assert notes.too_deep(0.005, 0.005) is None
+    note = notes.too_deep(0.0075, 0.005)
+    assert note is not None
+    assert (note.code, note.excess) == ("wall", pytest.approx(1.5))
+    assert "7.5 mm deep" in str(note)
+    assert "largest_penetration" in str(note)
+
+
+def test_segments_too_long_for_a_winding_hole_get_a_note() -> None:
+    assert notes.winds_too_much("", 1.0, 1.25) is None
+    note = notes.winds_too_much("segments are too long", 2.5, 1.25)
+    assert note is not None
+    assert (note.code, note.excess) == ("tortuosity", 2.0)

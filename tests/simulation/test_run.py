@@ -17,7 +17,7 @@ from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.model.layouts import graded, uniform, with_components
 from fctd.model.operations import Phase, depth_range, schedule
 from fctd.simulation import run as run_module
-from fctd.simulation.run import Run, contact_points, prepare, relaxing
+from fctd.simulation.run import Run, contact_points, prepare, relaxing, start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]
@@ -306,3 +306,40 @@ def test_masses_and_stiffnesses_without_a_finite_frequency_are_refused(more: dic
     light = pipe(1000, 20, **{"linear_mass": 1e-10} | more)
     with pytest.raises(InputError, match=r"string\.components = \"a stiffest mode of inf rad/s\""):
         prepare(make_case(components=[light], operations=[rotation(1000, 1)]))
+
+
+def test_the_step_holds_for_a_wall_of_another_power_at_its_largest_penetration() -> None:
+    """The wall rules the step of short heavy segments; its tangent there is 1.5 √5 times the linear stiffness."""
+
+    def step(contact: dict[str, Any], stiffness: float = 1e9) -> float:
+        return prepare(
+            make_case(wellbore={"stiffness": stiffness}, operations=[rotation(900, 1)], contact=contact)
+        )[0].step  # fmt: skip
+
+    power = step({"law": "power"})
+    assert power == pytest.approx(step({}, stiffness=1e9 * 1.5 * 5**0.5), rel=1e-9)
+    assert step({"law": "power", "largest_penetration": "2 mm"}) > power
+    assert step({"law": "power", "exponent": 1.0}) == step({})
+
+
+def test_mud_cake_is_as_old_as_the_string_has_rested() -> None:
+    intervals = [{"to_md": 1000, "diameter": 0.2159, "friction": 0.2, "overbalance": 5e6}]
+    case = make_case(
+        wellbore={"intervals": intervals}, operations=[rotation(900, 1)], contact={"friction_law": "karnopp"},
+        mud={"cake": {"friction": 0.1, "rested": "2 h"}},
+    )  # fmt: skip
+    run, _ = prepare(case)
+    start_from_rest(run)
+    assert (state.row(run.S, state.CAKE_AGE, run.segments) == 7200.0).all()
+    assert (run.laws.cake_thickness, run.laws.cake_friction) == (0.002, 0.1)
+    with pytest.raises(InputError, match=r"wellbore\.intervals.*no overbalance, since a contact method was passed"):
+        prepare(case, Untouched())
+
+
+class Untouched:
+    """A contact method that is never asked."""
+
+    name = "untouched"
+
+    def query(self, points: Any, radii: Any) -> Any:
+        raise AssertionError

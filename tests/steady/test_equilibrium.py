@@ -299,3 +299,38 @@ def test_arrays_for_deeper_strings_are_no_larger_than_the_buffer() -> None:
     assert laid.string.segments == 7000
     solver.problem("trip_in", steady_rates(case, "trip_in"), laid)
     assert solver.work.segments == state.MAX_SEGMENTS
+
+
+def test_a_wall_of_another_power_presses_by_its_law() -> None:
+    """F = K d₀ (d/d₀)^1.5 at every contact point; the loads are those of the linear wall within its penetration."""
+    wells = [[0, 0, 0], [100, 0, 0], [400, 60, 0], [600, 60, 0]]
+    points = [
+        fctd.equilibrium(
+            make_case(wells, [pipe(None, None, segment_length=20)], wellbore={"geometry": "arcs"}, contact=contact),
+            operation="trip_out", bit_depth=550.0,
+        )
+        for contact in ({}, {"law": "power"})
+    ]  # fmt: skip
+    linear, power = points
+    assert power.status == "converged"
+    assert power.hookload == pytest.approx(linear.hookload, rel=1e-3)
+    profile = power.profile[power.profile["contact_force_N"] > 0]
+    depth = np.hypot(profile["offset_high_m"], profile["offset_right_m"]) - profile["clearance_m"]
+    np.testing.assert_allclose(profile["contact_force_N"], 1e7 * 1e-3 * (depth / 1e-3) ** 1.5, rtol=1e-4)
+
+
+def test_segments_that_cannot_follow_a_winding_hole_are_under_resolved() -> None:
+    waves = {"amplitude": 0.01, "wavelength": 40.0}
+    wells = [[0, 0, 0], [100, 0, 0], [400, 60, 0], [600, 60, 0]]
+    status = [
+        fctd.equilibrium(
+            make_case(
+                wells, [pipe(None, None, segment_length=length)],
+                wellbore={"geometry": "arcs", "tortuosity": waves, "stiffness_per_length": 1e7},
+            ),
+            operation="rotate_off_bottom", bit_depth=550.0,
+        )
+        for length in (5.0, 10.0)
+    ]  # fmt: skip
+    assert [point.status for point in status] == ["converged", "under_resolved"]
+    assert "use segments of at most 5 m" in status[1].message
