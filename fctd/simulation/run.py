@@ -42,11 +42,15 @@ Settling = Callable[[float, float], None]
 
 @dataclass(kw_only=True)
 class Run(MovingString):
-    """The string of a case in motion, with the case, the hole and the string it was built from."""
+    """The string of a case in motion, with the case, the hole and the string it was built from.
+
+    mud_at : length of the long segment [m] and rotation [rev/min] to which the mud sideways belongs.
+    """
 
     case: Case
     hole: Wellbore
     string: String
+    mud_at: tuple[float, float] | None = None
 
     @property
     def laid_out(self) -> String:
@@ -57,8 +61,10 @@ class Run(MovingString):
 
     def take_mud_along(self, operation: Operation) -> None:
         """Update what the mud does to lateral motion, by the present depth and the rotation of an operation."""
-        if self.case.mud.sideways:
+        now = float(self.top[topdrive.TOP_LENGTH]), operation.rpm
+        if self.case.mud.sideways and now != self.mud_at:
             self.pipe = take_along(self.S, self.case, self.laid_out, self.pipe, operation.rpm)
+            self.mud_at = now
 
 
 def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Phase]]:
