@@ -49,12 +49,16 @@ Settling = Callable[[float, float], None]
 
 @dataclass(kw_only=True)
 class Run(MovingString):
-    """The string of a case in motion, with the case, the hole and the string it was built from."""
+    """The string of a case in motion, with the case, the hole and the string it was built from.
+
+    mud_at : length of the long segment [m] and rotation [rev/min] to which the mud sideways belongs.
+    """
 
     case: Case
     hole: Wellbore
     string: String
     hoist: Hoist | None = None
+    mud_at: tuple[float, int, float] | None = None
 
     @property
     def bit_depth(self) -> float:
@@ -87,9 +91,11 @@ class Run(MovingString):
 
     def take_mud_along(self, operation: Operation) -> None:
         """Update what the mud does to lateral motion, by the present depth and the rotation of an operation."""
-        if self.case.mud.sideways:
+        now = self.bit_depth, self.segments, operation.rpm
+        if self.case.mud.sideways and now != self.mud_at:
             string, in_derrick = self.laid_out, self.hoist is not None
             self.pipe = take_along(self.S, self.case, string, self.pipe, operation.rpm, in_derrick=in_derrick)
+            self.mud_at = now
 
 
 def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Phase]]:

@@ -358,6 +358,7 @@ def test_a_ladder_halves_the_step_and_compares_each_rung_with_the_next() -> None
         ("mujoco", {"contact": {"friction_law": "paper"}}, "contact.friction_law"),
         ("elastica", {"mud": {"axial_damping": 1.0}}, "mud.axial_damping"),
         ("bullet", {"mud": {"lateral_damping": 1.0}}, "mud.lateral_damping"),
+        ("bullet", {"mud": {"density": 1200.0}}, "mud.viscosity"),
         ("mujoco_chain", {}, "contact.enabled"),
         ("elastica", {"components": [pipe(450, 15), pipe(10, 1), pipe(40, 1)]}, "string.components[1].length"),
     ],
