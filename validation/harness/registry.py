@@ -24,6 +24,7 @@ STUDIES: dict[str, str] = {
     "top_drive": "validation.studies.top_drive",
     "stick_slip": "validation.studies.stick_slip",
     "drilling": "validation.studies.drilling",
+    "spin_up": "validation.studies.spin_up",
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
     "johancsik": "validation.studies.johancsik",
