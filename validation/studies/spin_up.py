@@ -9,13 +9,15 @@ from fctd.model.operations import rad_per_s
 from validation.harness.study import Check, Context, Outcome, Study
 
 LENGTH, RADIUS, FRICTION = 1000.0, 0.0635, 0.2  # of the string [m]; its contact radius [m]
-RPM = 3.0  # so slow that inertia does not matter: ζΩ is 3 % of the torque [rev/min]
+RPM = 2.0  # so slow that inertia does not matter: ζΩ is 2 % of the torque [rev/min]
+# So narrow that the pipe hardly rolls up the wall before it slides, which turns it by arctan μ (R − r)/r.
+HOLE = 0.135  # [m]
 PIPE = {"name": "pipe", "outer_diameter": 2 * RADIUS, "inner_diameter": 0.1086}
 
 
 def level(segment: float, duration: float) -> Case:
     """A level hole, and a string in segments of one length [m] that starts to turn."""
-    hole = {"to_md": LENGTH + 10, "diameter": 0.2159, "friction": FRICTION}
+    hole = {"to_md": LENGTH + 10, "diameter": HOLE, "friction": FRICTION}
     turning = {"kind": "rotate_off_bottom", "at_md": LENGTH, "duration": duration, "rpm": RPM, "ramp_time": 0.2}
     return Case.model_validate(
         {
@@ -31,7 +33,7 @@ def level(segment: float, duration: float) -> Case:
 
 def run(context: Context) -> Outcome:
     """The torque at the top over time, and √(2 m GJ Ω t) up to m L."""
-    case = level(20.0 if context.quick else 10.0, 40.0)
+    case = level(10.0, 20.0 if context.quick else 40.0)
     history = simulate(case).history
     pipe = section_of(case.string.components[0], 1200.0)
     # A string that slides round climbs the wall by arctan μ, and presses less on it.
@@ -42,7 +44,7 @@ def run(context: Context) -> Outcome:
     broken = per_metre * LENGTH**2 / (2 * pipe.GJ * rad_per_s(RPM))
     rising = (time > 0.2 * broken) & (time < 0.9 * broken)
     period = 4 * LENGTH * np.sqrt(pipe.axial_inertia / pipe.GJ)
-    late = (time > 2 * broken) & (time <= 2 * broken + 10 * period)
+    late = (time > broken) & (time <= broken + 4 * period)
     table = pd.DataFrame({"time_s": time, "torque_kN_m": torque / 1e3, "closed_form_kN_m": built / 1e3})
     found = np.interp(0.9 * per_metre * LENGTH, torque[: int(np.argmax(torque))], time[: int(np.argmax(torque))])
     return Outcome(
@@ -50,12 +52,16 @@ def run(context: Context) -> Outcome:
         checks=[
             Check("break-off torque against μ w r L/√(1 + μ²)",
                   100 * abs(float(torque[late].mean()) / (per_metre * LENGTH) - 1), 1.0, "at_most", "%",
-                  "closed form; target of this project; mean over ten periods after break-off"),
+                  "closed form; target of this project; mean over four periods after it"),
             Check("torque while it builds up against √(2 m GJ Ω t), largest difference over the break-off torque",
                   100 * float(np.abs(torque - built)[rising].max()) / (per_metre * LENGTH), 5.0, "at_most", "%",
-                  "closed form without inertia, after Aarsnes & Shor 2018; waves of ζΩ are 3 %"),
+                  "closed form without inertia, after Aarsnes & Shor 2018; waves of ζΩ are 2 %"),
             Check("time to nine tenths of the break-off torque against m L²/(2 GJ Ω)",
                   100 * abs((found - 0.125) / (0.81 * broken) - 1), 5.0, "at_most", "%", "closed form without inertia"),
+        ],
+        notes=[
+            "The clamp at the top bears half of the first segment, so that half a segment of friction is missing.",
+            "After break-off the mean torque rises further, by 0.8 % in half a minute; the study does not say why.",
         ],
         display={"torque": "Torque at the top of a string that starts to turn"},
     )  # fmt: skip
