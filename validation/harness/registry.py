@@ -28,6 +28,7 @@ STUDIES: dict[str, str] = {
     "stick_slip": "validation.studies.stick_slip",
     "whirl": "validation.studies.whirl",
     "drilling": "validation.studies.drilling",
+    "spin_up": "validation.studies.spin_up",
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
     "johancsik": "validation.studies.johancsik",
