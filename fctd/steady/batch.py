@@ -123,23 +123,26 @@ def solve_batches(
     fill the memory.
     """
     hole = hole_of(case, holes)
-
-    def solve(rows: Sequence[Row], work: Workspace) -> list[Answer]:
-        return solve_batch(case, hole, rows, work) if rows else []
-
+    if threads == 1:  # in this thread, whose clock then counts the work
+        work = Workspace(0)
+        for rows in batches:
+            work = work.for_segments(_longest(rows))
+            yield solve_batch(case, hole, rows, work)
+        return
     spare, waiting = deque(Workspace(0) for _ in range(2 * threads)), deque[Future[list[Answer]]]()
     with ThreadPoolExecutor(threads) as pool:
         for rows in batches:
             if len(waiting) == len(spare):
                 yield waiting.popleft().result()
             spare.rotate(-1)  # the oldest, whose batch is done
-            spare[0] = spare[0].for_segments(max((row.laid.string.segments for row in rows), default=0))
-            if threads == 1:  # in this thread, whose clock then counts the work
-                yield solve(rows, spare[0])
-            else:
-                waiting.append(pool.submit(solve, rows, spare[0]))
+            spare[0] = spare[0].for_segments(_longest(rows))
+            waiting.append(pool.submit(solve_batch, case, hole, rows, spare[0]))
         while waiting:
             yield waiting.popleft().result()
+
+
+def _longest(rows: Sequence[Row]) -> int:
+    return max((row.laid.string.segments for row in rows), default=0)
 
 
 def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) -> list[Answer]:
@@ -149,8 +152,10 @@ def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) ->
     """
     straight = [row for row in rows if not row.laid.is_bent]
     if len(straight) < len(rows):
-        found = iter(solve_batch(case, hole, straight, work) if straight else ())
+        found = iter(solve_batch(case, hole, straight, work))
         return [UNSOLVED if row.laid.is_bent else next(found) for row in rows]
+    if not rows:
+        return []
     laid = {id(row.laid): row.laid for row in rows}
     places = {key: k for k, key in enumerate(laid)}
     which = np.array([(places[id(row.laid)], row.friction) for row in rows])
@@ -223,7 +228,7 @@ def solve_row(
         hole.with_wall, hole.law, 1.0, loads[SPEED], loads[SPIN], -pressing * bx, -pressing * by, -pressing * bz,
         torque, 0, hole.wall_exponent, hole.wall_reference,
     )  # fmt: skip
-    _, allowed = limits(S, n, bit_depth, pressing)
+    _, allowed = limits(S, n, bit_depth, pressing, fed, top_length)
     guess(S, n, C, laws, top_md, -pressing, SEED, G, P)
     find_owners(C, n, G, owner)
     pace = Pace(ITERATIONS, TAU, GROWTH, SHRINK, SHIFT, LARGEST_TURN, allowed, allowed)

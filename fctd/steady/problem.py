@@ -129,13 +129,20 @@ class Problem:
         kind = KINDS[operation]
         self.weight_on_bit = case.bit.weight_on_bit if kind.on_bottom else 0.0
         self.bit_torque = case.bit.torque if kind.on_bottom else 0.0
-        self.weight, self.allowed = limits(work.S, self.n, self.string.bit_depth, self.weight_on_bit)
+        self.weight, self.allowed = limits(
+            work.S, self.n, self.string.bit_depth, self.weight_on_bit, self.fed, self._top_length
+        )
         self.kinks = np.zeros((self.n + 2, 4))
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
         self.wall_law = case.contact.wall_law
         self.added = np.zeros((self.n, 3))
         self.allowance = allowance
+
+    @property
+    def _top_length(self) -> float:
+        """Length of a long segment at the top [m], else 0."""
+        return float(self.string.length[0]) if self.string.long_segment else 0.0
 
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
@@ -212,12 +219,13 @@ class Problem:
 
     def reactions(self, share: Share = FULL) -> Reactions:
         """Loads of the string in its pose."""
-        w, n, laws, string = self.work, self.n, self.laws(share), self.string
+        w, n, laws = self.work, self.n, self.laws(share)
         args = w.S, n, w.P, self.kinks, self.hole.pieces, w.owner, laws
         assemble(*args, w.R, w.D, w.A, w.U)
         joints, contacts = np.zeros((n + 1, JOINT_COLUMNS)), np.zeros((n + 1, CONTACT_COLUMNS))
-        long = float(string.length[0]) if string.long_segment else 0.0
-        hookload, torque, imbalance = read_top(*args, w.R, self.fed, long, self.laid.top_axis, joints, contacts)
+        hookload, torque, imbalance = read_top(
+            *args, w.R, self.fed, self._top_length, self.laid.top_axis, joints, contacts
+        )
         contacts[1:, NORMAL_FORCE:] += self.added
         return Reactions(hookload, torque, imbalance, joints[1:], contacts[1:])
 

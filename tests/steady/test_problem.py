@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 
+from fctd.model.operations import steady_rates
 from fctd.steady.climb import creep_of
 from fctd.steady.continuation import CONVERGED
+from fctd.steady.equilibrium import Solver
 from fctd.steady.problem import FULL, Share
+from tests.cases import make_case, pipe
 from tests.steady.buckled import level_case, problem_of
 
 
@@ -63,3 +66,16 @@ def test_a_relaxation_stays_within_the_allowance() -> None:
     assert problem.allowance.left == pytest.approx(0.5 * problem.n)
     assert problem.is_spent
     assert problem.relax(creep_of(problem, 200))[1] == 0
+
+
+@pytest.mark.parametrize("long", [False, True])
+def test_the_weight_is_that_of_the_whole_string(long: bool) -> None:
+    """Also where half of a long segment hangs on the top drive; convergence is judged by it."""
+    top = pipe(None, 1) if long else pipe(None, None, segment_length=30.0)
+    case = make_case(components=[pipe(100.0, 5, outer=0.16), top], bit={"weight_on_bit": 1e4})
+    solver = Solver(case)
+    problem = solver.problem("drill_sliding", steady_rates(case, "drill_sliding"), solver.lay_out(900.0))
+    string = problem.string
+    assert string.long_segment == long
+    assert problem.weight == pytest.approx(float(string.of("weight") @ string.length) + 1e4, rel=1e-12)
+    assert problem.allowed == pytest.approx(1e-7 * problem.weight, rel=1e-12)
