@@ -51,7 +51,8 @@ Settling = Callable[[float, float], None]
 class Run(MovingString):
     """The string of a case in motion, with the case, the hole and the string it was built from.
 
-    mud_at : length of the long segment [m] and rotation [rev/min] to which the mud sideways belongs.
+    hoist : where it hangs from a block that moves.  mud_at : bit depth [m], segments and rotation [rev/min] to
+    which the mud sideways belongs.
     """
 
     case: Case
