@@ -28,8 +28,9 @@ def result(value: float) -> SimulationResult:
     """A result with one value in all of its tables."""
     frame = pd.DataFrame({"value": [value]})
     return SimulationResult(
-        make_case(), "completed", "", frame, frame, frame, {"segments": 1}, identity=f"run {value:g}"
-    )
+        make_case(), "completed", "", frame, frame, frame, {"segments": 1}, operations=frame, segments=frame,
+        identity=f"run {value:g}",
+    )  # fmt: skip
 
 
 def earlier(folder: Path) -> None:

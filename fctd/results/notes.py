@@ -67,7 +67,7 @@ MEANINGS: Final = {
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "torque": Meaning(
         "the surface torque at the end of the run is not steady",
-        "read the mean of its operation, rotate longer, or damp the torsion with mud.viscosity",
+        "read the mean of its operation, or rotate longer, with a record.interval of the torsional period",
     ),
     "whirl": Meaning(
         "the string whirls: it rolls around its hole in place of sliding",
