@@ -86,15 +86,15 @@ UNBALANCE = 81 * STRIDE
 
 # Friction that sticks (laws/sticking.py): 1 where friction stopped the contact point when it last acted, else 0; excess
 # of the static over the kinetic factor, as a share of it; speed at which half of the excess is left [m/s].
-STUCK, EXCESS, DECAY = 83 * STRIDE, 84 * STRIDE, 85 * STRIDE
+STUCK, EXCESS, DECAY = 82 * STRIDE, 83 * STRIDE, 84 * STRIDE
 # Mud cake (cake.py): age of the cake below the contact point [s], what its friction factor adds to the limit [N s].
-CAKE_AGE, CAKE_IMPULSE = 86 * STRIDE, 87 * STRIDE
+CAKE_AGE, CAKE_IMPULSE = 85 * STRIDE, 86 * STRIDE
 # Of a string that hangs from a moving block (derrick.py), whose upper part is in air: buoyancy of the whole body in mud
 # [N], the share of the body that is below the rotary table, and the mud damping of the whole body in mud.
-BUOYANCY, IMMERSED = 94 * STRIDE, 95 * STRIDE
-IN_MUD_AXIAL, IN_MUD_LATERAL, IN_MUD_SPIN = 96 * STRIDE, 97 * STRIDE, 98 * STRIDE
+BUOYANCY, IMMERSED = 87 * STRIDE, 88 * STRIDE
+IN_MUD_AXIAL, IN_MUD_LATERAL, IN_MUD_SPIN = 89 * STRIDE, 90 * STRIDE, 91 * STRIDE
 
-ROWS = 99
+ROWS = 92
 
 
 class Laws(NamedTuple):

@@ -137,5 +137,5 @@ def limits_of_track(
     joined = np.concatenate(values)
     low, high = float(joined.min()), float(joined.max())
     lacking = max(least - (high - low), 0.0) / 2
-    air = AIR * max(high - low, least)
+    air = AIR * max(high - low, least) or 1.0  # nothing but zeros
     return 0.0 if column == "contact_force_N" else low - lacking - air, high + lacking + air

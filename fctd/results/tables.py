@@ -41,7 +41,7 @@ ATTEMPTS = 20  # to read a folder that another process may be replacing
 def _no_rows() -> pd.DataFrame:
     import pandas as pd
 
-    return pd.DataFrame()
+    return pd.DataFrame(columns=[])
 
 
 @dataclass(frozen=True)

@@ -86,7 +86,7 @@ class Recorder:
             in_slips = hoist.in_slips
             indicator = weight_indicator(case.rig, hoist.direction, 0.0 if in_slips else hookload)
             drive = drive_torque(case.rig, spin, 0.0 if in_slips else torque)
-            block = {"block_height_m": float(self.run.top[topdrive.BLOCK_HEIGHT]), "in_slips": in_slips}
+            block = {"block_position_m": float(self.run.top[topdrive.BLOCK_HEIGHT]), "in_slips": in_slips}
         before = self.history[-1]["bit_depth_m"] if self.history else self.start_depth
         loads, (_, walls) = self._loads(), self._walls()
         buckling = self._buckling(loads, walls)

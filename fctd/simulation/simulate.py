@@ -25,7 +25,8 @@ from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.intervals import Window, whole_schedule, within
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.ringing import expected_ringing
-from fctd.simulation.run import Run, Settling, prepare, settle, start_from_rest
+from fctd.simulation.run import Run, prepare
+from fctd.simulation.settling import Settling, settle, start_from_rest
 
 if TYPE_CHECKING:
     import pandas as pd

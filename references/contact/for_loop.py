@@ -67,5 +67,6 @@ def find_walls(S, owner, n, packed, C, geometry):  # type: ignore[no-untyped-def
 def advance_with_for_loop(S, top, n, C, laws, motion, pipe, dt, steps):  # type: ignore[no-untyped-def]
     """The engine's ``dynamics.advance``, compiled as a whole, with the FOR-loop in place of its search."""
     update_axes(S, padded_columns(n))
+    owner = np.zeros(n + 2, np.int64)
     for _ in range(steps):
-        step(find_walls, S, top, None, n, C, laws, motion, pipe, dt)
+        step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt)

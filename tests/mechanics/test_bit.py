@@ -65,7 +65,6 @@ def test_the_bottom_moves_on_while_the_bit_turns() -> None:
     assert top[topdrive.BIT_WEIGHT] == pytest.approx(weight, rel=1e-6)
     assert top[topdrive.BIT_TORQUE] == pytest.approx(-0.09 * (weight - 5e3) - 0.03 * 5e3, rel=1e-6)
     assert top[topdrive.HOLE_MADE] == pytest.approx(20 * 0.004 - weight / 1e8, abs=1e-9)
-    assert top[topdrive.SUM_BIT_TURN] == pytest.approx(20 * 12.0)
 
 
 @pytest.mark.parametrize("spin", [0.0, -12.0])

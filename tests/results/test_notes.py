@@ -377,7 +377,7 @@ def test_a_torque_that_is_not_steady(last: float, mean: float, before: float, ex
     assert note is not None
     assert note.excess == pytest.approx(excess)
     assert f"{last / 1e3:.3g} kN·m, its mean over the last torsional period of 3.64 s 10 kN·m" in note.text
-    assert "record.interval" in note.remedy
+    assert "mean of its operation" in note.remedy
 
 
 def test_a_string_whirls_where_it_moves_sideways_and_hardly_slides() -> None:

@@ -12,7 +12,8 @@ from fctd.mechanics.energy import energy_of
 from fctd.model.drillstring import String, lay_out
 from fctd.model.mud import added_mass, hole_radius, lateral_damping, steady_resistance
 from fctd.simulation.carried_mud import sideways, take_along
-from fctd.simulation.run import prepare, start_from_rest
+from fctd.simulation.run import prepare
+from fctd.simulation.settling import start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
 
 STATIONS = [[0, 0, 0], [400, 0, 0], [850, 60, 0], [1200, 60, 0]]

@@ -12,7 +12,8 @@ from fctd.mechanics import state, topdrive
 from fctd.mechanics.derrick import read_joint
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.results.ledger import LOSSES
-from fctd.simulation.run import Run, prepare, settle, start_from_rest
+from fctd.simulation.run import Run, prepare
+from fctd.simulation.settling import settle, start_from_rest
 from fctd.simulation.simulate import Simulation
 from tests.bodies import PLACE, at
 from tests.cases import make_case, pipe, rotation, trip
@@ -145,7 +146,7 @@ def test_the_hook_carries_what_hangs() -> None:
     assert result.status == "completed"
     history, drag = result.history, 40.0
     slips = history["in_slips"].to_numpy()
-    height, depth = history["block_height_m"], history["bit_depth_m"]
+    height, depth = history["block_position_m"], history["bit_depth_m"]
     assert slips.sum() == 10
     np.testing.assert_allclose(height[slips], 0.0, atol=1e-3)
     assert (height[~slips] > -1e-3).all()
@@ -182,7 +183,7 @@ def test_a_trip_in_and_out_of_a_deviated_well() -> None:
     assert (result.profile["md_m"].iloc[0]) == pytest.approx(-run.top[topdrive.BLOCK_HEIGHT], abs=0.02)
     last = result.history[result.history["operation"] == "trip_out"].iloc[-8:]
     steady = equilibrium(case, operation="trip_out", bit_depth=float(last["bit_depth_m"].mean()))
-    pull = float((last["hookload_N"] - AIR * last["block_height_m"]).mean())
+    pull = float((last["hookload_N"] - AIR * last["block_position_m"]).mean())
     weight = float((run.string.of("weight") * run.string.length).sum())
     assert abs(pull - steady.hookload) < 0.005 * weight
 

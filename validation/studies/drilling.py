@@ -115,7 +115,7 @@ def row_of(case: Case, driller: str) -> dict[str, Any]:
         "specific_energy_MPa": energy / 1e6,
         "by_the_law_MPa": ((1 - FRICTION * RATIO) * ENERGY + FRICTION * strength) / 1e6,
         # The pipe above the rotary table hangs in air, and the steady string ends at the table.
-        "hookload_kN": float(mean["hookload_N"] - mean["block_height_m"] * in_air) / 1e3,
+        "hookload_kN": float(mean["hookload_N"] - mean["block_position_m"] * in_air) / 1e3,
         "steady_hookload_kN": steady.hookload / 1e3,
         "torque_kN_m": float(mean["surface_torque_N_m"]) / 1e3,
         "steady_torque_kN_m": steady.surface_torque / 1e3,

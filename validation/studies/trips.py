@@ -135,7 +135,7 @@ def stroke_rows(case: Case, of: Trip, simulation: Simulation, history: pd.DataFr
         stroke = stroke[stroke["time_s"] > end - whole]
         bit = float(stroke["bit_depth_m"].mean())
         kind = case.operations[operation].kind
-        pull = float((stroke["hookload_N"] - air * stroke["block_height_m"]).mean())
+        pull = float((stroke["hookload_N"] - air * stroke["block_position_m"]).mean())
         steady = equilibrium(case, operation=kind, bit_depth=bit)
         weight = section.weight * bit
         rows.append(

@@ -6,8 +6,9 @@ import pytest
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.faults import UnstableError
 from fctd.model.wellbore import Contacts, Wellbore, find_contacts
-from fctd.simulation import run as run_module
-from fctd.simulation.run import Run, prepare, relaxing, settle, start_from_rest
+from fctd.simulation import settling
+from fctd.simulation.run import Run, prepare
+from fctd.simulation.settling import relaxing, settle, start_from_rest
 from tests.cases import make_case, pipe, rotation
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [1400, 60, 0]]
@@ -29,7 +30,7 @@ def test_settling_ends_where_the_imbalance_is_small() -> None:
     assert seen[0][0] == pytest.approx(1 / laws.settling)
     assert run.time == pytest.approx(seen[-1][0] + len(seen) * run.step)
     start_from_rest(run)
-    run.advance(run_module.STILL, run.step, laws)
+    run.advance(settling.STILL, run.step, laws)
     mass = state.row(run.S, state.MASS, run.segments)
     # At rest joints and walls do not damp, so that it is somewhat smaller.
     assert 0.5 * residual < np.abs(mass * velocities(run)).max() / run.step / weight < residual
@@ -55,7 +56,7 @@ def test_the_imbalance_of_a_string_that_still_falls_is_that_of_its_forces() -> N
     for _ in range(8):
         residual = settle(run, np.inf)
         start_from_rest(run)
-        run.advance(run_module.STILL, run.step, laws)
+        run.advance(settling.STILL, run.step, laws)
         force = np.abs(state.row(run.S, state.MASS, run.segments) * velocities(run)).max() / run.step
         assert residual == pytest.approx(force / weight, rel=0.02)
 
@@ -71,14 +72,14 @@ def test_the_imbalance_on_average_is_that_of_the_motion_in_the_window() -> None:
     for _ in range(2):
         speeds = [velocities(run)]
         for _ in range(1000):
-            run.advance(run_module.STILL, window / 1000, laws)
+            run.advance(settling.STILL, window / 1000, laws)
             speeds.append(velocities(run))
         mean = (0.5 * (speeds[0] + speeds[-1]) + np.sum(speeds[1:-1], axis=0)) / 1000
         pull = (speeds[-1] - speeds[0]) / window + laws.settling * mean
         expected.append(np.abs(state.row(run.S, state.MASS, run.segments) * pull).max() / weight)
     again, _ = prepare(case)
     seen: list[tuple[float, float]] = []
-    run_module._settle_on_average(again, lambda *values: seen.append(values))
+    settling._settle_on_average(again, lambda *values: seen.append(values))
     assert [now for now, _ in seen[:2]] == pytest.approx([window, 2 * window])
     assert [imbalance for _, imbalance in seen[:2]] == pytest.approx(expected, rel=0.02)
 
@@ -88,7 +89,7 @@ def test_a_stretched_string_settles_on_average_up_to_a_thousandth_of_its_weight(
     run, _ = prepare(make_case(BUILD, [pipe(None, 40)], [rotation(1000, 1)]))
     state.row(run.S, state.Z, run.segments)[:] += np.linspace(0.0, 1.0, run.segments)
     seen: list[float] = []
-    residual = run_module._settle_on_average(run, lambda _, imbalance: seen.append(imbalance))
+    residual = settling._settle_on_average(run, lambda _, imbalance: seen.append(imbalance))
     assert len(seen) > 3
     assert residual == seen[-1] < 1e-3 <= min(seen[:-1])
 
@@ -125,8 +126,8 @@ def test_a_wall_that_jumps_is_settled_against_on_average(monkeypatch: pytest.Mon
     on_average = seen[next(k for k in range(1, len(seen)) if seen[k][0] < seen[k - 1][0]) :]
     assert [now for now, _ in on_average] == pytest.approx([k / laws.settling for k in (1, 2, 3)])
     assert residual == on_average[-1][1] < 1e-3
-    monkeypatch.setattr(run_module, "SETTLED_ON_AVERAGE", residual / 1e6)
-    monkeypatch.setattr(run_module, "LONGEST_SETTLING", 20.0)
+    monkeypatch.setattr(settling, "SETTLED_ON_AVERAGE", residual / 1e6)
+    monkeypatch.setattr(settling, "LONGEST_SETTLING", 20.0)
     seen.clear()
     with pytest.raises(UnstableError, match=r"forces are out of balance by .* of the weight after 20 s"):
         settle(run, progress=lambda *values: seen.append(values))
