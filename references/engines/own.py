@@ -36,6 +36,7 @@ class Fctd(InWindows):
     """FCTD's compiled stepper."""
 
     name: ClassVar[str] = "fctd"
+    own: ClassVar[bool] = True
     distribution: ClassVar[str] = "fctd"
     does: ClassVar[str] = "rigid segments, point-in-cylinder contact, symplectic Euler, compiled"
     Options: ClassVar[type[Table]] = StepOptions

@@ -2,11 +2,13 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from typing import ClassVar
 
 import numpy as np
 import pandas as pd
 
-from fctd.case.load import Case
+from fctd.case.errors import InputError
+from fctd.case.load import Case, naming_file
 from fctd.results.status import RunStatus
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
@@ -53,8 +55,31 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     )  # fmt: skip
 
 
+def check_supported(case: Case) -> None:
+    """Raise InputError for what FCTD's stepper alone computes: another engine would leave it out without a word."""
+    contact, drills = case.contact, any(operation.on_bottom for operation in case.operations)
+    uneven = next((k for k, part in enumerate(case.string.components) if part.eccentricity), None)
+    found = [
+        (contact.law != "linear", "contact.law", '"linear"', contact.law),
+        (contact.friction_law not in ("coulomb", "paper"), "contact.friction_law", '"coulomb"', contact.friction_law),
+        (case.rig.drive != "stiff", "rig.drive", '"stiff"', case.rig.drive),
+        (drills and case.bit.rock is not None, "bit.rock", "no rock", "a table"),
+        (case.mud.sideways > 0, "mud.viscosity", "0", case.mud.viscosity),
+        (uneven is not None, f"string.components[{uneven}].eccentricity", "0", "above 0"),
+    ]
+    with naming_file(case):
+        for present, key, needed, value in found:
+            if present:
+                raise InputError(f"{needed} in another engine than FCTD's", key=key, value=value)
+
+
 class InWindows(ABC):
-    """Common part of all engines: ``run_window`` runs them."""
+    """Common part of all engines: ``run_window`` runs them.
+
+    own : whether it is FCTD's stepper, which knows every key of a case.
+    """
+
+    own: ClassVar[bool] = False
 
     @abstractmethod
     def begin(self, run: Run) -> Stepper:
@@ -62,6 +87,8 @@ class InWindows(ABC):
 
     def run(self, case: Case, window: Window) -> EngineRun:
         """See ``StringEngine.run``."""
+        if not self.own:
+            check_supported(case)
         return run_window(case, window, self.begin)
 
 

@@ -8,7 +8,7 @@ pytest.importorskip("pytest_benchmark")
 
 from benchmarks import conftest, records
 from benchmarks.strings import chain, hanging, trip
-from fctd.simulation.run import UnstableError
+from fctd.mechanics.faults import UnstableError
 from references.timing.workloads import moving
 
 

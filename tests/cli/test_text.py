@@ -204,7 +204,7 @@ def test_columns_stay_below_each_other_in_ascii(here: Path, monkeypatch: pytest.
     table = [line for line in out.buffer.getvalue().decode().splitlines() if line.startswith(("|", "+"))]
     assert any(r"\u03a3" in line for line in table)
     widths = [len(line) for line in table]
-    assert len(list(itertools.groupby(widths))) == 2  # history and operations, each of one width
+    assert len(list(itertools.groupby(widths))) == 3  # history, operations and run, each of one width
 
 
 def test_the_list_of_references_in_ascii(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -21,7 +21,7 @@ from references.engines.best_step import best_step, ladder
 from references.engines.checks import axial_period, drift
 from references.engines.friction_law import lean_of_two_directions, sliding
 from references.engines.own import Fctd
-from references.engines.run import run_window
+from references.engines.run import check_supported, run_window
 from references.registry import absent
 from tests.cases import make_case, pipe, rotation
 from validation.cases import load
@@ -296,6 +296,23 @@ def test_a_fault_fails_the_check_for_it(fault: Callable[[Run], None], failed: st
     assert run.status == "invalid"
     assert failed in run.message
     assert not run.checks.set_index("check").loc[failed, "passed"]
+
+
+@pytest.mark.parametrize(
+    ("key", "table"),
+    [
+        ("contact.law", {"contact": {"law": "power"}}),
+        ("contact.friction_law", {"contact": {"friction_law": "karnopp"}}),
+        ("rig.drive", {"rig": {"drive": "impedance"}}),
+        ("mud.viscosity", {"mud": {"density": 1200.0}}),
+    ],
+)
+def test_another_engine_refuses_what_it_would_leave_out(key: str, table: dict[str, Any]) -> None:
+    case = turning(**table)
+    with pytest.raises(InputError, match="in another engine") as caught:
+        engines.build("bullet").run(case, WINDOW)
+    assert caught.value.key == key
+    check_supported(turning())
 
 
 def test_an_engine_that_is_unstable_at_once_is_invalid_with_a_message() -> None:
