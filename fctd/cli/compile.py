@@ -31,6 +31,24 @@ SMALL: dict[str, Any] = {
     },
     "operations": [{"kind": "rotate_off_bottom", "at_md": 90.0, "duration": 0.1, "rpm": 60.0, "ramp_time": 0.1}],
 }
+# What it leaves out: a stand is added, and the wall is not linear; an autodriller drills rock.
+IN_STANDS: dict[str, Any] = {
+    "string": {
+        "components": [
+            {"name": "pipe", "length": 80.0, "outer_diameter": 0.1, "inner_diameter": 0.05, "segment_length": 20.0}
+        ]
+    },
+    "contact": {"law": "power"},
+    "rig": {"feed": "stands", "stand_length": 20.0, "connection_time": 0.1},
+    "operations": [{"kind": "trip_in", "from_md": 39.0, "to_md": 41.0, "speed": 10.0, "ramp_time": 0.1}],
+}
+DRILLING: dict[str, Any] = {
+    "rig": {"autodriller": True},
+    "bit": {"weight_on_bit": 100.0, "rock": {}},
+    "operations": [
+        {"kind": "drill_rotating", "from_md": 90.0, "to_md": 90.001, "speed": 0.01, "rpm": 60.0, "ramp_time": 0.1}
+    ],
+}
 
 
 def compile_command(quiet: Quiet = False) -> None:
@@ -61,6 +79,8 @@ def compile_all() -> None:
     """Compile, and keep, every function that a run or a steady string calls."""
     case = Case.model_validate(SMALL)
     simulate(case)
+    for more in (IN_STANDS, DRILLING):
+        simulate(Case.model_validate(SMALL | more))
     equilibrium(case, operation="trip_out", bit_depth=90.0)
     for table in ({"solver": {"buckling": "resolve"}}, {"contact": {"helical_force": "analytic"}}):
         buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}} | table)

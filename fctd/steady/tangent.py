@@ -331,7 +331,7 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
 
 
-@entry
+@kernel
 def read_loads(S, n, P, kinks, C, owner, laws, joints, contacts):
     """Fill the loads of a steady string.
 
