@@ -233,7 +233,8 @@ class Solver:
         path, coarse = bisect(problem), False
         path.iterations += point.iterations
         if path.pose is None:
-            coarse = bool(path.balances) and not is_resolved(problem, path)
+            analytic = self.case.contact.helical_force == "analytic"  # needs loads to begin with
+            coarse = bool(path.balances) and not is_resolved(problem, path) and not analytic
             if coarse:
                 problem.put_pose(path.balances[-1].pose)
             else:
