@@ -10,6 +10,8 @@ ATTEMPTS = (
     (25, 0.2, 3.0, 1.0, 0.05),
     (60, 0.05, 3.0, 0.3, 0.02),
 )
+# Of a buckled string with the analytic force of the helix, which is added to the loads of a first balance.
+PATIENT = (*ATTEMPTS, (80, 0.1, 1.5, 1.0, 0.02), (200, 0.1, 1.1, 1.0, 0.01), (300, 0.05, 1.5, 0.3, 0.005))
 LARGEST_TURN = 0.1  # [rad] per step
 
 
@@ -20,7 +22,8 @@ def balance(problem: Problem) -> tuple[int, int, int]:
     """
     total, code, negative = 0, NOT_FINITE, 0
     unstable: tuple[int, Pose] | None = None
-    for iterations, tau, growth, shrink, shift in ATTEMPTS:
+    attempts = PATIENT if problem.case.contact.helical_force == "analytic" else ATTEMPTS
+    for iterations, tau, growth, shrink, shift in attempts:
         problem.lay_guess()
         allowed = problem.allowed
         code, done = problem.iterate(Pace(iterations, tau, growth, shrink, shift, LARGEST_TURN, allowed, allowed))
