@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 MapOf = Literal["contact_force_N", "effective_tension_N"]
 
 # Sizes [in]: of the panels, and of what stands beside and below them.
-WIDTH, LEFT, RIGHT, BELOW, BETWEEN = 7.0, 0.85, 1.05, 0.5, 0.14
+WIDTH, LEFT, RIGHT, BELOW, BETWEEN = 7.0, 1.05, 1.05, 0.5, 0.14
 LOAD, MAP = 1.25, 2.6
 DEPTHS, TIMES = 300, 800  # cells of the map, at most
 LOADS: Final = (("hookload", "N", "hook load"), ("surface_torque", "N_m", "surface torque"))
