@@ -6,23 +6,28 @@ from fctd.steady.problem import Pose, Problem
 # With large steps most strings converge in some eight iterations.  A string with little clearance needs a pseudo-time
 # that shrinks when the imbalance rises; one that buckles needs small steps to converge or to find a stable shape.
 # Fields of Pace: iterations, first pseudo-time [s], growth, shrink, largest lateral step [m].
-ATTEMPTS = (
+Attempt = tuple[int, float, float, float, float]
+ATTEMPTS: tuple[Attempt, ...] = (
     (25, 0.2, 3.0, 1.0, 0.05),
     (60, 0.05, 3.0, 0.3, 0.02),
 )
-# Of a buckled string with the analytic force of the helix, which is added to the loads of a first balance.
-PATIENT = (*ATTEMPTS, (80, 0.1, 1.5, 1.0, 0.02), (200, 0.1, 1.1, 1.0, 0.01), (300, 0.05, 1.5, 0.3, 0.005))
+# Of a string that has no balance under any share of its loads, such as one a thousand times as stiff as steel, and of
+# a buckled string with the analytic force of the helix, which is added to the loads of a first balance.
+PATIENT: tuple[Attempt, ...] = (
+    (80, 0.1, 1.5, 1.0, 0.02),
+    (200, 0.1, 1.1, 1.0, 0.01),
+    (300, 0.05, 1.5, 0.3, 0.005),
+)
 LARGEST_TURN = 0.1  # [rad] per step
 
 
-def balance(problem: Problem) -> tuple[int, int, int]:
+def balance(problem: Problem, attempts: tuple[Attempt, ...]) -> tuple[int, int, int]:
     """Iterate to a stable balance, more carefully with every attempt, or else to the first balance found.
 
     Returns code, iterations and number of unstable modes; leaves the pose in the problem.
     """
     total, code, negative = 0, NOT_FINITE, 0
     unstable: tuple[int, Pose] | None = None
-    attempts = PATIENT if problem.case.contact.helical_force == "analytic" else ATTEMPTS
     for iterations, tau, growth, shrink, shift in attempts:
         problem.lay_guess()
         allowed = problem.allowed

@@ -29,7 +29,7 @@ from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, string_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
-from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
+from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, PATIENT, balance
 from fctd.steady.batch import Hole, Row, hole_of, solve_batch
 from fctd.steady.bisection import bisect
 from fctd.steady.climb import BEYOND, SOUND, Climb, climb, end_of, lock_up
@@ -212,7 +212,8 @@ class Solver:
 
     def settle(self, problem: Problem) -> Equilibrium:
         """The string of a problem as its segments can lie, or resolved where the case says so."""
-        code, iterations, negative = balance(problem)
+        analytic = self.case.contact.helical_force == "analytic"
+        code, iterations, negative = balance(problem, (*ATTEMPTS, *PATIENT) if analytic else ATTEMPTS)
         point = self.answer(problem, code, iterations, negative)
         if self.geometry == state.OPEN:
             return point
@@ -229,11 +230,18 @@ class Solver:
 
     def stable(self, problem: Problem, point: Equilibrium, code: int) -> Equilibrium:
         """The string of a problem followed from small loads, where its balance ``point`` is none or an unstable one."""
+        analytic = self.case.contact.helical_force == "analytic"  # needs loads to begin with
         problem.at_axis = 1
         path, coarse = bisect(problem), False
         path.iterations += point.iterations
+        if not path.balances and not analytic:
+            problem.at_axis = 0
+            found, iterations, negative = balance(problem, PATIENT)
+            path.iterations += iterations
+            if found == CONVERGED and negative == 0:
+                return self.answer(problem, found, path.iterations, negative)
+            problem.at_axis = 1
         if path.pose is None:
-            analytic = self.case.contact.helical_force == "analytic"  # needs loads to begin with
             coarse = bool(path.balances) and not is_resolved(problem, path) and not analytic
             if coarse:
                 problem.put_pose(path.balances[-1].pose)

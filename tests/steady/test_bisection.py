@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fctd.steady.balance import balance
+from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.bisection import ITERATIONS, TRIALS, bisect
 from fctd.steady.climb import LOW, come_to_rest
 from fctd.steady.problem import FULL, Problem, Share
@@ -31,7 +31,7 @@ def test_a_balance_at_full_loads_needs_no_other() -> None:
     assert problem.reactions().imbalance <= problem.allowed
     held = problem.reactions().hookload
     problem.at_axis = 0
-    balance(problem)
+    balance(problem, ATTEMPTS)
     assert held == pytest.approx(problem.reactions().hookload, rel=1e-3)
 
 

@@ -9,7 +9,7 @@ from fctd.mechanics import state
 from fctd.model.drillstring import Section, section_of
 from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
-from fctd.steady.balance import balance
+from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.equilibrium import Solver
 from fctd.steady.helical_force import Helical
 from fctd.steady.problem import Problem
@@ -108,7 +108,7 @@ def pressed(case: Case, operation: str) -> tuple[Problem, float]:
     solver = Solver(case)
     problem = solver.problem(operation, rates, solver.lay_out(case.wellbore.intervals[-1].to_md))
     problem.weight_on_bit = case.bit.weight_on_bit
-    balance(problem)
+    balance(problem, ATTEMPTS)
     Helical(problem).add()
     return problem, rates.speed
 
