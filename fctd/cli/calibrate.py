@@ -35,12 +35,12 @@ from fctd.cli.options import (
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import file_option
 from fctd.results.tables import write_table
+from fctd.results.unit_systems import System, reworded, shown_unit
 
-# Units of the screen: label and factor of the SI unit.
-SHOWN = {"N": ("kN", 1e-3), "N*m": ("kN·m", 1e-3), "": ("", 1.0)}
 # Mean square of the residuals over the noise, by degree of freedom, beyond which the intervals are doubtful.
 MISFIT = 2.0
 LOADS = {"hookload": "N", "torque": "N*m"}
+Units = Annotated[System, typer.Option("--units", help="Units of screen and picture; files are in SI units.")]
 
 
 def calibrate_command(
@@ -75,6 +75,7 @@ def calibrate_command(
     plot: Annotated[
         Path | None, file_option("--plot", "Measured and fitted readings, residuals, correlations.")
     ] = None,
+    units: Units = "si",
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
@@ -88,7 +89,7 @@ def calibrate_command(
     case = read_case(case_file, changes)
     for key, path in {"--out": out, "--table": table, "--plot": plot}.items():
         refuse_sources(case, path, key)
-    tell(case, warnings_of(case), strict=strict)
+    tell(case, warnings_of(case), strict=strict, units=units)
     with messages.status("fitting") as status:
         if quiet:
             status.stop()
@@ -109,18 +110,18 @@ def calibrate_command(
         if plot is not None:
             from fctd import plots  # needs matplotlib
 
-            written += plots.save(plots.calibration_figure(found), plot)
+            written += plots.save(plots.calibration_figure(found, units), plot)
     finally:
-        print_calibration(found)
+        print_calibration(found, units)
     print_written(written)
 
 
-def print_calibration(found: Calibration) -> None:
+def print_calibration(found: Calibration, units: System) -> None:
     """Print unknowns, strong correlations, residuals, rows left out, and predictions of deeper sections."""
     screen.print(printable(f"{found.base.name}: {len(found.fit.used)} rows fitted"), style="bold", soft_wrap=True)
     unknowns = _table(["unknown", ""], ["value", "95 %", "interval"], ["interval from"])
     for row in found.table.to_dict("records"):
-        label, factor = SHOWN.get(str(row["unit"]), (str(row["unit"]), 1.0))
+        factor, label = shown_unit(str(row["unit"]), units)
         numbers = [f"{row[key] * factor:.4g}" for key in ("value", "low", "high")]
         unknowns.add_row(str(row["name"]), label, *numbers, f"{row['how']}{', at a bound' if row['at_bound'] else ''}")
     screen.print(unknowns)
@@ -133,7 +134,7 @@ def print_calibration(found: Calibration) -> None:
     table = found.leave_one_out
     without = dict(zip(zip(table["id"], table["load"], strict=True), table["predicted"], strict=True))
     for row in found.residuals.to_dict("records"):
-        label, factor = SHOWN[LOADS[str(row["load"])]]
+        factor, label = shown_unit(LOADS[str(row["load"])], units)
         key = str(row["id"]), str(row["load"])
         numbers = [_span(row["low"] * factor, row["high"] * factor)]
         numbers += [f"{row[name] * factor:z.1f}" for name in ("fitted", "residual")]
@@ -149,20 +150,20 @@ def print_calibration(found: Calibration) -> None:
             soft_wrap=True,
         )  # fmt: skip
     for name, doubt in found.doubts.items():
-        messages.print(printable(f"with care: {name}: {doubt}"), soft_wrap=True)
+        messages.print(printable(f"with care: {name}: {reworded(doubt, units)}"), soft_wrap=True)
     for name, reason in found.left_out.items():
-        messages.print(printable(f"not fitted: {name}: {reason}"), soft_wrap=True)
+        messages.print(printable(f"not fitted: {name}: {reworded(reason, units)}"), soft_wrap=True)
     if found.predicted is not None:
-        print_prediction(found.predicted)
+        print_prediction(found.predicted, units)
 
 
-def print_prediction(table: pd.DataFrame) -> None:
+def print_prediction(table: pd.DataFrame, units: System) -> None:
     """Print predicted readings with their bands, and how many measured ones lie inside."""
-    shown = _table(["row", "load"], ["predicted", "50 %", "95 %", "measured"], ["inside"])
+    rows = _table(["row", "load"], ["predicted", "50 %", "95 %", "measured"], ["inside"])
     for row in table.to_dict("records"):
-        label, factor = SHOWN[str(row["unit"])]
+        factor, label = shown_unit(str(row["unit"]), units)
         if row["reason"] != "none":
-            shown.add_row(str(row["id"]), f"{row['load']}, {label}", *["–"] * 4, "")
+            rows.add_row(str(row["id"]), f"{row['load']}, {label}", *["–"] * 4, "")
             continue
         numbers = [f"{row['predicted'] * factor:z.1f}"]
         numbers += [_span(row[f"low{band}"] * factor, row[f"high{band}"] * factor) for band in (50, 95)]
@@ -170,18 +171,18 @@ def print_prediction(table: pd.DataFrame) -> None:
         if row["inside95"] is not None:
             inside = "50 %" if row["inside50"] else "95 %" if row["inside95"] else "no"
             measured = _span(row["low"] * factor, row["high"] * factor)
-        shown.add_row(str(row["id"]), f"{row['load']}, {label}", *numbers, measured, inside)
-    screen.print(shown)
+        rows.add_row(str(row["id"]), f"{row['load']}, {label}", *numbers, measured, inside)
+    screen.print(rows)
     for name, reason in (
         table[table["reason"] != "none"].drop_duplicates("id")[["id", "reason"]].itertuples(index=False)
     ):
-        messages.print(printable(f"no prediction: {name}: {reason}"), soft_wrap=True)
+        messages.print(printable(f"no prediction: {name}: {reworded(reason, units)}"), soft_wrap=True)
     counts = coverage(table)
     if counts["inside95"][1]:
         half, most = (f"{got} of {of}" for got, of in counts.values())
         screen.print(f"inside the band of 50 %: {half}, of 95 %: {most}", soft_wrap=True)
         for load, unit in LOADS.items():
-            label, factor = SHOWN[unit]
+            factor, label = shown_unit(unit, units)
             scores = table.loc[(table["load"] == load) & table["crps"].notna(), "crps"]
             if len(scores):
                 screen.print(f"mean CRPS of {load}: {scores.mean() * factor:.3g} {label}", soft_wrap=True)

@@ -8,7 +8,7 @@ import typer
 from fctd.calibration.calibrate import predict
 from fctd.calibration.predict import posterior_file
 from fctd.case.text import printable
-from fctd.cli.calibrate import print_prediction
+from fctd.cli.calibrate import Units, print_prediction
 from fctd.cli.options import (
     CaseFile,
     Overrides,
@@ -40,6 +40,7 @@ def predict_command(
         Path | None, file_option("--out", "A row for every reading, with bands and scores, .csv, .parquet or .xlsx.")
     ] = None,
     plot: Annotated[Path | None, file_option("--plot", "Predicted and measured readings with bands.")] = None,
+    units: Units = "si",
     quiet: Quiet = False,
 ) -> None:
     """Predict hook loads and torques of a calibrated case with 50 and 95 % bands, and score measured ones."""
@@ -58,7 +59,7 @@ def predict_command(
     if plot is not None:
         from fctd import plots  # needs matplotlib
 
-        written += plots.save(plots.prediction_figure(table, f"{case.name}: predicted readings"), plot)
+        written += plots.save(plots.prediction_figure(table, f"{case.name}: predicted readings", units), plot)
     screen.print(printable(f"{case.name}: predicted readings"), style="bold", soft_wrap=True)
-    print_prediction(table)
+    print_prediction(table, units)
     print_written(written)

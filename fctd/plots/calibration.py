@@ -16,19 +16,20 @@ from fctd.calibration.result import Calibration
 from fctd.case.operations import KINDS
 from fctd.plots.palette import DARK, LOOKS, MEASURED, QUIET, SHADE
 from fctd.plots.style import RC, Sheet
+from fctd.results.unit_systems import System, shown_unit
 
 WIDTH, PANEL, LABELS = 10.0, 2.4, 1.15  # of the sheet, and height of a panel and of the names below it [in]
 LEFT, APART = 0.75, 0.9
-LOADS = {"hookload": ("weight indicator, kN", 1e-3), "torque": ("drive torque, kN·m", 1e-3)}
+LOADS = {"hookload": ("weight indicator", "N"), "torque": ("drive torque", "N*m")}
 _NO_LOOKS = (DARK, "X")  # of rows without a string
 _NO_KINDS = {"in_slips": "in slips", "tare": "free drive"}
 _MOST_NAMES = 40  # rows that are named below a panel
 
 
-def calibration_figure(found: Calibration) -> Figure:
+def calibration_figure(found: Calibration, units: System = "si") -> Figure:
     """Readings of the fitted rows with the bands of both sizes, residuals over the noise, and correlations."""
     table = predict_rows(found.posterior, found.forward.rows, found.forward.strings)
-    values = ", ".join(map(_in_words, found.table.to_dict("records")))
+    values = ", ".join(_in_words(row, units) for row in found.table.to_dict("records"))
     lines = [values, "Bands of 50 and 95 %: unknowns, noise and ranges of the source, declared error of the model."]
     title = f"{found.base.name}: calibrated on {len(found.fit.used)} rows"
     with mpl.rc_context(RC):
@@ -36,14 +37,14 @@ def calibration_figure(found: Calibration) -> Figure:
         half = (WIDTH - 2 * LEFT - APART) / 2
         for k, load in enumerate(LOADS):
             axes = sheet.axes(LEFT + k * (half + APART), 0.25, half, PANEL)
-            _readings(axes, table[table["load"] == load], load)
+            _readings(axes, table[table["load"] == load], load, units)
         _residuals(sheet.axes(LEFT, 0.55 + PANEL + LABELS, half, PANEL), found)
         side = min(half - 1.2, PANEL)
         _correlations(sheet.axes(LEFT + half + APART + 1.1, 0.55 + PANEL + LABELS, side, side), found)
     return sheet.figure
 
 
-def prediction_figure(table: pd.DataFrame, title: str) -> Figure:
+def prediction_figure(table: pd.DataFrame, title: str, units: System = "si") -> Figure:
     """Predicted readings with bands, and the measured ones; table : of ``predict_rows``."""
     table = table[table["reason"] == "none"]
     inside = coverage(table)
@@ -57,20 +58,21 @@ def prediction_figure(table: pd.DataFrame, title: str) -> Figure:
         half = (WIDTH - 2 * LEFT - APART) / 2
         for k, load in enumerate(LOADS):
             axes = sheet.axes(LEFT + k * (half + APART), 0.25, half, PANEL)
-            _readings(axes, table[table["load"] == load], load)
+            _readings(axes, table[table["load"] == load], load, units)
     return sheet.figure
 
 
-def _in_words(row: Mapping[Any, Any]) -> str:
-    """An unknown with its interval, forces and torques in thousands of the SI unit."""
-    factor, prefix = (1e-3, "k") if row["unit"] in ("N", "N*m") else (1.0, "")
+def _in_words(row: Mapping[Any, Any], units: System) -> str:
+    """An unknown with its interval."""
+    factor, label = shown_unit(row["unit"], units)
     value, low, high = (f"{row[key] * factor:.4g}".replace("-", "−") for key in ("value", "low", "high"))
-    return f"{row['name']} {value} ({low} to {high}) {prefix}{row['unit'].replace('*', '·')}".rstrip()
+    return f"{row['name']} {value} ({low} to {high}) {label}".rstrip()
 
 
-def _readings(axes: Axes, table: pd.DataFrame, load: str) -> None:
+def _readings(axes: Axes, table: pd.DataFrame, load: str, units: System) -> None:
     """Bands, predicted and measured readings, a column for each row."""
-    label, factor = LOADS[load]
+    name, unit = LOADS[load]
+    factor, label = shown_unit(unit, units)
     rows = table.to_dict("records")
     for x, row in enumerate(rows):
         low95, low50, _, high50, high95 = (row[band] * factor for band in BANDS)
@@ -83,7 +85,7 @@ def _readings(axes: Axes, table: pd.DataFrame, load: str) -> None:
             axes.plot([x, x], [low, high], color="black", linewidth=1.2, zorder=3)
             middle = 0.5 * (low + high)
             axes.plot(x, middle, "o", markerfacecolor=MEASURED, markeredgecolor="black", markersize=6, zorder=3)
-    axes.set_ylabel(label)
+    axes.set_ylabel(f"{name}, {label}")
     axes.use_sticky_edges = False  # of the bars, which would end the axis at the lowest band
     axes.margins(y=0.08)
     _name_rows(axes, [str(row["id"]) for row in rows])

@@ -47,6 +47,7 @@ SYMBOLS: Final = {
     "^": "triangle-up", "o": "circle", "v": "triangle-down", "D": "diamond", "s": "square", "P": "cross",
 }  # fmt: skip
 DASHES: Final = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
+MARKS: Final = 12  # markers on a curve of a profile, which tell operations apart in grey
 SHOE: Final = {"color": QUIET, "dash": "dot", "width": 1}
 CLEAR: Final = "rgba(0,0,0,0)"
 PANEL: Final = 560  # height of a row of panels [px]
@@ -132,7 +133,7 @@ def profile_page(
         place = {"row": 1, "col": col}
         name, unit = label_of(column, units, force)
         for point in answers:
-            colour, _ = LOOKS[point.operation]
+            colour, marker = LOOKS[point.operation]
             md, value = values_of(point, column, units, force)
             label = KINDS[point.operation].label
             if COLUMNS[column].across and point is answers[0]:
@@ -146,7 +147,9 @@ def profile_page(
             figure.add_trace(
                 go.Scatter(
                     x=value, y=md, name=label, legendgroup=label, showlegend=col == 1,
-                    mode="lines", line={"color": colour, "width": 1.6}, customdata=point.profile["buckling"],
+                    mode="lines+markers" if len(answers) > 1 else "lines", line={"color": colour, "width": 1.6},
+                    marker={"symbol": SYMBOLS[marker], "size": 7, "maxdisplayed": MARKS},
+                    customdata=point.profile["buckling"],
                     hovertemplate=f"%{{y:.1f}}: %{{x:.4g}} {unit}, buckling %{{customdata}}<extra>{label}</extra>",
                 ),
                 **place,

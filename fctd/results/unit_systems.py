@@ -61,6 +61,16 @@ def shown(column: str, system: System) -> Shown:
     return Shown(conversion(measure.table, unit), unit.replace("*", "·"))
 
 
+def shown_unit(unit: str, system: System) -> Shown:
+    """How to show values in an SI unit, such as "N*m" or "kg/m^3"; "" for plain numbers."""
+    measure = next((measure for measure in MEASURES if measure.table == unit), None)
+    if measure is not None:
+        label = measure.field if system == "field" else measure.si
+    else:
+        label = IN_MESSAGES.get(unit, unit) if system == "field" else unit
+    return Shown(conversion(unit, _PINTS.get(label, label)) if label != unit else 1.0, label.replace("*", "·"))
+
+
 def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
     """An SI table in field units: ``hookload_N`` becomes ``hookload_klbf``, ``bit_depth_m`` ``bit_depth_ft``."""
     import pandas as pd

@@ -45,6 +45,11 @@ def test_a_calibration_and_its_files(
     assert plot.read_bytes().startswith(b"\x89PNG")
     assert run(monkeypatch, "predict", out, files[1]) == 0
     assert "inside the band of 50 %" in capsys.readouterr().out
+    assert run(monkeypatch, "predict", out, files[1], "--units", "field") == 0
+    field = capsys.readouterr().out
+    assert "hookload, klbf" in field
+    assert "torque, kft·lbf" in field
+    assert "kN" not in field
 
 
 @pytest.mark.parametrize(

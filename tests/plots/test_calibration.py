@@ -30,4 +30,7 @@ def test_a_calibration_and_a_prediction_are_drawn() -> None:
     assert residuals.get_ylabel().endswith("over noise")
     assert texts_that_overlap(figure) == []
     table = predict_rows(found.posterior, rows, {"": CASE})
-    assert len(plots.prediction_figure(table, "well").axes) == 2
+    si, field = (plots.prediction_figure(table, "well", units).axes for units in ("si", "field"))
+    assert [axes.get_ylabel() for axes in field] == ["weight indicator, klbf", "drive torque, kft·lbf"]
+    loads = [[line.get_ydata()[0] for line in axes[0].lines if len(line.get_ydata()) == 1] for axes in (si, field)]
+    assert loads[1] == pytest.approx([load / 4.4482216152605 for load in loads[0]])

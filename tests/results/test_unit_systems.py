@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from fctd.results.unit_systems import in_field_units, measure_of, reworded, shown
+from fctd.results.unit_systems import in_field_units, measure_of, reworded, shown, shown_unit
 
 # Exact by definition (NIST SP 811, appendix B.8).
 LBF, FOOT, INCH = 4.4482216152605, 0.3048, 0.0254
@@ -88,3 +88,21 @@ def test_a_message_in_field_units(text: str, field: str | None) -> None:
     """900 m / 0.3048 m = 2952.8 ft, and so on; what is quoted and other units stay."""
     assert reworded(text, "field") == (text if field is None else field)
     assert reworded(text, "si") == text
+
+
+@pytest.mark.parametrize(
+    ("unit", "label", "factor"),
+    [
+        ("N", "klbf", 1 / (1000 * LBF)),
+        ("N*m", "kft·lbf", 1 / (1000 * LBF * FOOT)),
+        ("kg/m^3", "ppg", 231 * INCH**3 / 0.45359237),
+        ("kg/m", "lb/ft", FOOT / 0.45359237),
+        ("", "", 1.0),
+    ],
+)
+def test_values_whose_unit_stands_beside_them(unit: str, label: str, factor: float) -> None:
+    assert shown_unit(unit, "field") == (pytest.approx(factor, rel=1e-12), label)
+
+
+def test_metric_pictures_show_thousands_of_newtons() -> None:
+    assert [shown_unit(unit, "si") for unit in ("N", "N*m", "kg/m")] == [(1e-3, "kN"), (1e-3, "kN·m"), (1.0, "kg/m")]
