@@ -24,32 +24,39 @@ def copy(tmp_path: Path) -> Path:
     return root
 
 
-FOLDER = """
+PLACE = """
 import numba
 from fctd.mechanics import dynamics
+from fctd.mechanics.fingerprint import fingerprint
 print(dynamics.advance.stats.cache_path)
+print(fingerprint(dynamics.advance.py_func))
+print(numba.config.CACHE_DIR)
 """
 
 
-def cache_folder(root: Path, **environment: str) -> str:
-    """Where the package in ``root`` keeps compiled code, numba having been imported first."""
+def place_of_code(root: Path, **environment: str) -> list[str]:
+    """Where the package in ``root`` keeps compiled code, numba having been imported first: folder, key, and the folder
+    of functions that numba stores."""
     clean = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
     done = subprocess.run(
-        [sys.executable, "-c", FOLDER],
+        [sys.executable, "-c", PLACE],
         cwd=root, env={**clean, "PYTHONPATH": str(root), **environment}, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    return done.stdout.strip()
+    return done.stdout.split()
 
 
 @pytest.mark.slow
-def test_the_compile_cache_follows_the_sources(copy: Path, tmp_path: Path) -> None:
-    """numba does not see an edit in a function that a cached one calls; a folder per source hash does."""
-    before = cache_folder(copy)
-    assert cache_folder(copy) == before
+def test_compiled_code_follows_the_sources(copy: Path, tmp_path: Path) -> None:
+    """numba does not see an edit in a function that a cached one calls; the key does, and so does numba's folder."""
+    folder, key, others = place_of_code(copy)
+    assert place_of_code(copy) == [folder, key, others]
     with (copy / "fctd" / "mechanics" / "joints.py").open("a") as file:
         file.write("\n# edited\n")
-    assert cache_folder(copy) != before
-    assert Path(cache_folder(copy, NUMBA_CACHE_DIR=str(tmp_path / "mine"))) == tmp_path / "mine"
+    edited = place_of_code(copy)
+    assert edited[0] == folder
+    assert edited[1] != key
+    assert edited[2] != others
+    assert Path(place_of_code(copy, NUMBA_CACHE_DIR=str(tmp_path / "mine"))[0]) == tmp_path / "mine"
 
 
 WITHOUT_A_FOLDER = """

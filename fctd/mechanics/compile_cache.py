@@ -21,12 +21,16 @@ from typing import Any
 
 import llvmlite
 import numba
+import numpy as np
 from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
 from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 from numba.core.sigutils import normalize_signature
 
+from fctd.mechanics.fingerprint import fingerprint
+
+CODE = "code"  # the folder, below that of fctd in the user's cache
 HASH_SIZE = hashlib.sha256().digest_size
 
 
@@ -91,16 +95,13 @@ class Store:
 
 
 def open_store() -> Store:
-    """The folder for exactly these sources, or the one that NUMBA_CACHE_DIR names.
+    """The user's folder for compiled code, or the one that NUMBA_CACHE_DIR names.
 
     Where that folder cannot be used, a temporary one serves this run.
-
-    numba does not notice an edit in a function that a cached function calls, so the folder carries a hash of all
-    sources.
     """
     try:
         base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-        folder = Path(os.environ.get("NUMBA_CACHE_DIR") or base / "fctd" / _hash_of_sources()).absolute()
+        folder = Path(os.environ.get("NUMBA_CACHE_DIR") or base / "fctd" / CODE).absolute()
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         wrong = _exposed(folder.stat())
         if not wrong and os.access(folder, os.W_OK | os.X_OK):
@@ -126,9 +127,8 @@ class KeptCode(_Cache):
     def __init__(self, function: Callable[..., Any], store: Store) -> None:
         self._store = store
         self._label = f"{function.__module__}.{function.__qualname__}"
-        source = Path(function.__code__.co_filename).read_bytes()
-        # With argument types and processor, these decide whether stored code may be used.
-        self._versions = (numba.__version__, llvmlite.__version__, sys.version, hashlib.sha256(source).hexdigest())
+        self._function = function
+        self._sources = ""
         self._enabled = True
 
     @property
@@ -153,7 +153,10 @@ class KeptCode(_Cache):
 
     def _name(self, sig: Any, codegen: Any) -> str:
         types, _ = normalize_signature(sig)
-        key = repr((self._versions, types, codegen.magic_tuple()))
+        if not self._sources:
+            self._sources = fingerprint(self._function)
+        versions = numba.__version__, llvmlite.__version__, np.__version__, sys.version
+        key = repr((versions, self._sources, types, codegen.magic_tuple()))
         return f"{self._label}-{hashlib.sha256(key.encode()).hexdigest()[:16]}"
 
     def enable(self) -> None:
@@ -197,6 +200,8 @@ def _warn(text: str) -> None:
 
 STORE = open_store()
 if STORE.folder is not None:
-    # For functions outside the engine, which numba stores itself; numba reads the environment when it is imported.
-    os.environ["NUMBA_CACHE_DIR"] = str(STORE.folder)
-    setattr(numba.config, "CACHE_DIR", str(STORE.folder))  # noqa: B010 (numba defines it at run time)
+    if not STORE.lasting:  # the processes that this one starts use it too
+        os.environ["NUMBA_CACHE_DIR"] = str(STORE.folder)
+    # For functions outside the engine, which numba stores itself.  It does not notice an edit in a function that a
+    # cached function calls, so the folder carries a hash of all sources.
+    setattr(numba.config, "CACHE_DIR", str(STORE.folder / _hash_of_sources()))  # noqa: B010 (defined at run time)
