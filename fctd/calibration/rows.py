@@ -12,17 +12,13 @@ from fctd.case.load import Case, load_case
 from fctd.case.operations import KINDS
 from fctd.case.units import FLOW, FORCE, LENGTH, ROTATION, SPEED, TORQUE
 from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
-from fctd.results.measured import DEPTH
+from fctd.results.measured import DEPTH, GAUGE, STRINGLESS
 from fctd.results.measured_file import Field, Line, Text, read_lines, require
 
 Load = Literal["hookload", "torque"]
 
-# Readings without a string in the hole's grip: in slips the hook carries the block alone; a tare turns the free drive.
-STRINGLESS: Final = ("in_slips", "tare")
 OPERATIONS: Final = (*KINDS, *STRINGLESS)
-_HOOKLOAD: Final = Field(
-    "hookload", "N", FORCE, r"hook[ _]?load|weight[ _]indicator|indicator", "kN", ranged=True, at_least=0.0
-)
+_HOOKLOAD: Final = Field("hookload", "N", FORCE, GAUGE, "kN", ranged=True, at_least=0.0)
 _TORQUE: Final = Field("torque", "N_m", TORQUE, r"(?:surface[ _]|drive[ _])?torque", "kN_m", ranged=True)
 _SPEED: Final = Field("speed", "m_s", SPEED, "speed|velocity", "m_s", at_least=0.0)
 _ROTATION: Final = Field("rpm", "", ROTATION, r"rpm|rotation|rotary(?:[ _]speed)?", "rpm", at_least=0.0, bare="rpm")

@@ -115,7 +115,7 @@ def chart_command(
     side_force: ShownSideForce = "length",
     measured: Annotated[
         Path | None,
-        file_option("--measured", "Measured rows to draw, .csv with bit_depth_m, operation, hookload_kN, …"),
+        file_option("--measured", "Rows to draw, .csv: bit_depth_m, operation, hookload_kN (block included), …"),
     ] = None,
     units: Units = "si",
     quiet: Quiet = False,
@@ -238,7 +238,7 @@ def _print_chart(rows: list[Row], name: str, units: System) -> None:
             table.add_row(*(("",) * len(names) if k else names), *values, row["status"])
     screen.print(table)
     counts = ", ".join(f"{count} {status}" for status, count in Counter(row["status"] for row in rows).most_common())
-    left_out = f"; {printed} of them above, all in the file of --out" if printed < len(rows) else ""
+    left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""
     screen.print(f"{len(rows)} rows: {counts}{left_out}", soft_wrap=True)
     depth = units_of["bit_depth_m"]
     for (operation, friction), of in series.items():

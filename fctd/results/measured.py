@@ -16,11 +16,15 @@ from fctd.results.measured_file import ENDS, Field, Line, Text, read_lines, requ
 if TYPE_CHECKING:
     import pandas as pd
 
+# Readings without a string in the hole's grip: in slips the hook carries the block alone; a tare turns the free drive.
+STRINGLESS: Final = ("in_slips", "tare")
+# Headers of what the gauge of the rig reads, the block included.
+GAUGE: Final = r"hook[ _]?load|weight[ _]indicator|indicator"
 _BELOW: Final = 30.0  # m: a measured depth may exceed the last station of the survey by a joint or two
 DEPTH: Final = Field("bit_depth", "m", LENGTH, r"bit[ _]depth|depth|md", "m", at_least=0.0)
 _LOADS: Final = (
-    Field("hookload", "N", FORCE, r"hook[ _]?load|string[ _]load", "kN", ranged=True),
-    Field("weight_indicator", "N", FORCE, r"weight[ _]indicator|indicator", "kN", ranged=True),
+    Field("string_load", "N", FORCE, r"string[ _]load", "kN", ranged=True),
+    Field("hookload", "N", FORCE, GAUGE, "kN", ranged=True),
     Field("surface_torque", "N_m", TORQUE, r"(?:surface[ _])?torque", "kN_m", ranged=True),
 )
 _LOAD_COLUMNS: Final = tuple(field.column(end) for field in _LOADS for end in ENDS)
@@ -36,8 +40,10 @@ def measured_column(column: str, end: str) -> str:
 def read_measured(path: Path, case: Case) -> pd.DataFrame:
     """Measured rows of a CSV file, SI: operation, bit_depth_m, and loads with the low and high ends of their ranges.
 
-    Loads that the file does not have are NaN.  Hook loads are those of the string; a weight indicator's reading is
-    converted by the rig of the case, and the other way round.  Raises InputError, which names file, row and column.
+    Loads that the file does not have are NaN.  A measured hook load is the reading of the weight indicator, block
+    included, as in a calibration; the rig of the case converts it into that of the string, and the other way round.
+    Rows without a string (in slips, tare) have no place in a chart and are left out.  Raises InputError, which names
+    file, row and column.
     """
     try:
         operation = Text("operation", "operation|kind", _kind)
@@ -45,6 +51,9 @@ def read_measured(path: Path, case: Case) -> pd.DataFrame:
         require(lines, "bit depth", [DEPTH.column()], _HEADERS)
         require(lines, "operation", ["operation"], _HEADERS)
         require(lines, "load or torque", _LOAD_COLUMNS, _HEADERS)
+        lines = [line for line in lines if line.cells["operation"] not in STRINGLESS]
+        if not lines:
+            raise InputError(f"a row with a string in the hole, not {' and '.join(STRINGLESS)} alone")
         for line in lines:
             check_depth(line, case.depths[1])
     except InputError as error:
@@ -55,10 +64,9 @@ def read_measured(path: Path, case: Case) -> pd.DataFrame:
     table = table.reindex(columns=["operation", DEPTH.column(), *_LOAD_COLUMNS])
     direction = table["operation"].map(lambda kind: KINDS[kind].direction)
     for end in ENDS:
-        string, indicator = f"hookload{end}_N", f"weight_indicator{end}_N"
-        known = table[string].copy()
-        table[string] = known.fillna(string_load(case.rig, direction, table[indicator]))
-        table[indicator] = table[indicator].fillna(weight_indicator(case.rig, direction, known))
+        string, gauge = table.pop(f"string_load{end}_N"), table.pop(f"hookload{end}_N")
+        table[f"hookload{end}_N"] = string.fillna(string_load(case.rig, direction, gauge))
+        table[f"weight_indicator{end}_N"] = gauge.fillna(weight_indicator(case.rig, direction, string))
     return table
 
 
@@ -71,6 +79,6 @@ def check_depth(line: Line, deepest: float) -> None:
 
 
 def _kind(cell: str) -> str:
-    if cell not in KINDS:
+    if cell not in (*KINDS, *STRINGLESS):
         raise InputError(nearest(cell, KINDS, "kind"))
     return cell

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fctd.calibration.rows import read_rows
 from fctd.case.errors import InputError
 from fctd.results.measured import measured_column, read_measured
 from tests.cases import make_case, pipe
@@ -22,8 +23,8 @@ def written(tmp_path: Path, text: str) -> Path:
 @pytest.mark.parametrize(
     "headers",
     [
-        "depth_ft,operation,hookload_klbf,hookload_low_klbf,hookload_high_klbf,torque_kft_lbf,remark",
-        "Bit depth (ft),Operation,Hook load (klbf),Hook load low [klbf],HOOKLOAD HIGH (klbf),Torque (kft*lbf),x",
+        "depth_ft,operation,string_load_klbf,string_load_low_klbf,string_load_high_klbf,torque_kft_lbf,remark",
+        "Bit depth (ft),Operation,String load (klbf),String load low [klbf],STRING LOAD HIGH (klbf),Torque (kft*lbf),x",
         "MD [ft],kind,string load (klbf),string_load_low_klbf,string load high (klbf),surface_torque_kft_lbf,y",
     ],
 )
@@ -43,8 +44,17 @@ def test_the_indicator_and_the_string_are_converted_into_each_other(tmp_path: Pa
     table = read_measured(written(tmp_path, text + "10,trip_in,500,450,540\n20,trip_out,450,,\n"), CASE)
     np.testing.assert_allclose(table["hookload_N"], [500e3 * 0.9 - 1e5, 450e3 / 0.9 - 1e5])
     np.testing.assert_allclose(table["hookload_low_N"], [450e3 * 0.9 - 1e5, np.nan])
-    table = read_measured(written(tmp_path, "depth_m,operation,hookload_kN\n10,rotate_off_bottom,300\n"), CASE)
+    table = read_measured(written(tmp_path, "depth_m,operation,string_load_kN\n10,rotate_off_bottom,300\n"), CASE)
     np.testing.assert_allclose(table["weight_indicator_N"], [400e3])
+
+
+def test_a_measured_hook_load_has_the_block_in_it_as_in_a_calibration(tmp_path: Path) -> None:
+    rows = written(tmp_path, "depth_m,operation,hookload_kN\n10,rotate_off_bottom,400\n,in_slips,100\n,tare,\n")
+    table = read_measured(rows, CASE)
+    fitted, _ = read_rows(rows, CASE, {}, measured=False)
+    np.testing.assert_allclose(table["hookload_N"], [300e3])  # the rows without a string are left out
+    assert fitted[0].hookload is not None
+    assert table["weight_indicator_N"].tolist() == [fitted[0].hookload.middle]
 
 
 def test_columns_of_ranges() -> None:
@@ -71,6 +81,7 @@ GOOD = "depth_m,operation,hookload_kN,hookload_low_kN,hookload_high_kN\n"
         (GOOD + "1,trip_in,nan,,\n", ["row 2, hookload_kN", "a force"]),
         (GOOD + "-1,trip_in,5,,\n", ["row 2, depth_m", "at least 0"]),
         (GOOD + ",trip_in,5,,\n", ["row 2, depth_m", "a number"]),
+        (GOOD + ",in_slips,5,,\n,tare,,,\n", ["a row with a string in the hole"]),
         (GOOD + "1,trip_in,5,4,\n", ["row 2, hookload", "both ends"]),
         (GOOD + "1,trip_in,5,6,7\n", ["row 2, hookload", "that rise"]),
         (GOOD + "1,trip_in,,7,6\n", ["row 2, hookload", "that rise"]),
