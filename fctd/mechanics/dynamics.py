@@ -139,7 +139,11 @@ def free_motion(S, j, dt):
 
 @inlined
 def mud_factors(S, j, settling, dt):
-    """Factors by which mud and artificial settling damping multiply lateral, axial and spin velocity."""
+    """Factors by which mud and artificial settling damping multiply lateral, axial and spin velocity.
+
+    The lateral one is that of the spin across the axis too: the mud acts all along a segment of length L, with the
+    moment c L³/12 about its centre, and its inertia there is (m + a) L²/12.
+    """
     slow = 1 + dt * settling
     lateral = slow + dt * lateral_inverse_mass(S, j) * S[MUD_LATERAL + j]
     axial = slow + dt * S[INVERSE_MASS + j] * S[MUD_AXIAL + j]
@@ -153,12 +157,13 @@ def mud_factors(S, j, settling, dt):
 def brake(S, j, u, v, w, a, b, c, settling, dt):
     """Apply mud and settling damping to body j; returns its velocity and spin."""
     lateral, axial, rotational = mud_factors(S, j, settling, dt)
-    swing = 1 / (1 + dt * settling)
-    sideways = (u * u + v * v) * lateral * (1 - lateral)
+    share = lateral * (1 - lateral)
+    sideways = (u * u + v * v) * share
     lost = S[MASS + j] * (sideways + w * w * axial * (1 - axial)) + S[ADDED_MASS + j] * sideways
+    lost += S[J_TRANSVERSE + j] * (a * a + b * b) * share
     S[LOST_MUD + j] += lost + S[J_AXIAL + j] * c * c * rotational * (1 - rotational)
     S[SUM_MUD_TORQUE + j] += S[J_AXIAL + j] * c * (1 - rotational)
-    return u * lateral, v * lateral, w * axial, a * swing, b * swing, c * rotational
+    return u * lateral, v * lateral, w * axial, a * lateral, b * lateral, c * rotational
 
 
 @inlined

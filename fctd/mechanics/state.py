@@ -79,7 +79,8 @@ SUM_MUD_TORQUE, SUM_TENSION, SUM_TORQUE = 72 * STRIDE, 73 * STRIDE, 74 * STRIDE
 # Energy lost since the start of the run [J]: friction, contact damping, mud, joint damping.
 LOST_FRICTION, LOST_CONTACT, LOST_MUD, LOST_JOINT = 75 * STRIDE, 76 * STRIDE, 77 * STRIDE, 78 * STRIDE
 # Mud that moves sideways with a body: its mass a [kg], and by how much it lowers the inverse mass m⁻¹ sideways,
-# m⁻¹ − (m + a)⁻¹ [1/kg].  Both are 0 without such mud, and then change no result.
+# m⁻¹ − (m + a)⁻¹ [1/kg].  Both are 0 without such mud, and then change no result.  The transverse inertia holds its own
+# share of the mud.
 ADDED_MASS, HELD_BACK = 79 * STRIDE, 80 * STRIDE
 # Mass times the offset of its centre from the axis, along the body's own x [kg m].
 UNBALANCE = 81 * STRIDE

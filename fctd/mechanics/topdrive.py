@@ -137,7 +137,7 @@ def set_long_segment(S, length, pipe):
     S[MASS + 1] = pipe.mass * half
     S[WEIGHT + 1] = pipe.weight * half
     S[J_AXIAL + 1] = pipe.axial_inertia * half
-    S[J_TRANSVERSE + 1] = pipe.mass * half * length * length / 3
+    S[J_TRANSVERSE + 1] = (pipe.mass + pipe.added_mass) * half * length * length / 3
     S[INVERSE_MASS + 1] = 1 / S[MASS + 1]
     S[ADDED_MASS + 1] = pipe.added_mass * half
     S[HELD_BACK + 1] = S[INVERSE_MASS + 1] - 1 / (S[MASS + 1] + S[ADDED_MASS + 1])

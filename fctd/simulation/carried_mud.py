@@ -56,8 +56,12 @@ def take_along(
     )
     square = (velocity**2).sum(axis=0) - (velocity * axis).sum(axis=0) ** 2
     added, inverse = state.row(S, state.ADDED_MASS, n), state.row(S, state.INVERSE_MASS, n)
-    state.row(S, state.LOST_MUD, n)[:] -= 0.5 * (mass - added) * square
-    added[:] = mass
+    inertia, steel = state.row(S, state.J_TRANSVERSE, n), state.row(S, state.MASS, n)
+    # Spread along the segment as its own mass is, the mud has a moment of inertia in proportion.
+    turning = inertia * (steel + mass) / (steel + added)
+    across = state.row(S, state.WX, n) ** 2 + state.row(S, state.WY, n) ** 2
+    state.row(S, state.LOST_MUD, n)[:] -= 0.5 * ((mass - added) * square + (turning - inertia) * across)
+    added[:], inertia[:], state.row(S, state.INVERSE_JT, n)[:] = mass, turning, 1 / turning
     state.row(S, state.MUD_LATERAL, n)[:] = damping
-    state.row(S, state.HELD_BACK, n)[:] = inverse - 1 / (state.row(S, state.MASS, n) + mass)
+    state.row(S, state.HELD_BACK, n)[:] = inverse - 1 / (steel + mass)
     return pipe._replace(mud_lateral=float(found.damping[0]), added_mass=float(found.added_mass[0]))

@@ -37,9 +37,9 @@ def push(S: Array, law: int, force: list[float], moment: list[float]) -> None:
     update_velocities(S, state.LANES, Laws(state.ARCS, law, 1.0, 0.0, 0.0, 0.0), DT)
 
 
-def slide(S: Array) -> Array:
+def slide(S: Array, arm: float = ARM) -> Array:
     """Velocity of the body's surface along the wall (y, z) [m/s]."""
-    speed = at(S, 1, VELOCITY) + np.cross(at(S, 1, SPIN), [RADIUS, 0, ARM])
+    speed = at(S, 1, VELOCITY) + np.cross(at(S, 1, SPIN), [RADIUS, 0, arm])
     return speed[1:]
 
 
@@ -90,22 +90,34 @@ def test_a_sliding_body_feels_the_kinetic_factor_after_the_decay_speed(law, deca
 
 
 @pytest.mark.parametrize("law", LAWS)
-@given(velocity=st.tuples(small, small, small), spin=st.tuples(small, small, small))
-def test_with_equal_factors_a_sliding_body_is_that_of_coulomb(law: int, velocity, spin) -> None:
-    """Where the body goes on sliding; where it stops, ``coulomb`` leaves sliding across."""
-    bodies = []
-    for code in (law, CODES["coulomb"]):
-        S = body()
-        S[state.EXCESS + 1] = 0.0
-        put(S, 1, VELOCITY, list(velocity))
-        put(S, 1, SPIN, list(spin))
-        push(S, code, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
-        bodies.append(S)
-    if bodies[0][state.STUCK + 1] == 0:
-        for rows in (VELOCITY, SPIN):
-            np.testing.assert_allclose(at(bodies[0], 1, rows), at(bodies[1], 1, rows), atol=1e-14)
+@given(velocity=st.tuples(small, small), spin=st.tuples(small, small, small), arm=st.floats(0.0, 1.4))
+def test_friction_opposes_the_sliding_that_it_leaves(law: int, velocity, spin, arm) -> None:
+    """A body that is held at its end yields up to five times more across than along: an impulse against the sliding
+    before it would leave sliding in another direction."""
+    S = body(arm=arm)
+    S[state.EXCESS + 1] = 0.0
+    put(S, 1, VELOCITY, [0.0, *velocity])
+    put(S, 1, SPIN, [spin[0], spin[1], 5 * spin[2]])
+    before = at(S, 1, VELOCITY)
+    push(S, law, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
+    impulse, left = MASS * (at(S, 1, VELOCITY) - before)[1:], slide(S, arm)
+    limit = KINETIC * NORMAL * DT
+    if S[state.STUCK + 1] == 1:
+        np.testing.assert_allclose(left, 0.0, atol=1e-15)
+        assert np.linalg.norm(impulse) <= limit * (1 + 1e-9)
     else:
-        np.testing.assert_allclose(slide(bodies[0]), 0.0, atol=1e-15)
+        assert np.linalg.norm(impulse) == pytest.approx(limit, rel=1e-9)
+        angle = np.arctan2(abs(impulse[0] * left[1] - impulse[1] * left[0]), -impulse @ left)
+        assert np.degrees(angle) < 0.5
+
+
+def test_without_friction_a_point_slides_on() -> None:
+    S = body(stuck=0.0)
+    S[state.FRICTION + 1] = 0.0
+    put(S, 1, VELOCITY, [0.0, 0.3, 0.4])
+    push(S, LAWS[0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
+    assert at(S, 1, VELOCITY)[1:].tolist() == [0.3, 0.4]
+    assert S[state.STUCK + 1] == 0
 
 
 def test_a_body_off_the_wall_does_not_stick() -> None:

@@ -9,6 +9,7 @@ from fctd import Simulation, equilibrium, simulate
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.energy import energy_of
+from fctd.mechanics.topdrive import put_long_segment
 from fctd.model.drillstring import String, lay_out
 from fctd.model.mud import added_mass, hole_radius, lateral_damping, steady_resistance
 from fctd.simulation.carried_mud import sideways, take_along
@@ -123,6 +124,7 @@ def test_mud_that_joins_a_moving_body_keeps_the_sum_of_energy_and_loss() -> None
     start_from_rest(run)
     n = run.segments
     state.row(run.S, state.VX, n)[:], state.row(run.S, state.VZ, n)[:] = 0.3, -0.2
+    state.row(run.S, state.WX, n)[:] = 0.01
 
     def total() -> float:
         return energy_of(run.S, n).kinetic + float(state.row(run.S, state.LOST_MUD, n).sum())
@@ -132,3 +134,18 @@ def test_mud_that_joins_a_moving_body_keeps_the_sum_of_energy_and_loss() -> None
     pipe_ = take_along(run.S, heavier, run.laid_out, run.pipe, 0.0)
     assert total() == pytest.approx(before, rel=1e-12)
     assert pipe_.added_mass > run.pipe.added_mass
+
+
+def test_the_mud_adds_its_own_moment_of_inertia() -> None:
+    """(m + a) L²/12 of a segment, (m + a) L³/6 of the half of a long segment that its lower end has; and once only."""
+    string = make_case(components=[pipe(200, 10), pipe(None, 1)]).string
+    run, _ = prepare(well({"density": 1200.0}, trip(480, 540)).model_copy(update={"string": string}))
+    n, string = run.segments, run.string
+    run.pipe = take_along(run.S, run.case, run.laid_out, run.pipe, 60.0)
+    mass = state.row(run.S, state.MASS, n) + state.row(run.S, state.ADDED_MASS, n)
+    inertia = state.row(run.S, state.J_TRANSVERSE, n)
+    np.testing.assert_allclose(inertia[1:], (mass * string.length**2 / 12)[1:], rtol=1e-4)
+    assert inertia[0] == pytest.approx(mass[0] * string.length[0] ** 2 / 3, rel=1e-12)
+    np.testing.assert_allclose(inertia * state.row(run.S, state.INVERSE_JT, n), 1.0, rtol=1e-15)
+    put_long_segment(run.S, float(string.length[0]), run.pipe)
+    assert inertia[0] == pytest.approx(mass[0] * string.length[0] ** 2 / 3, rel=1e-12)

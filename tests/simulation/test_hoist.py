@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from fctd import InputError, equilibrium, simulate
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.derrick import read_joint
+from fctd.mechanics.energy import penetration
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.results.ledger import LOSSES
-from fctd.simulation.run import Run, prepare
+from fctd.simulation.run import Run, contact_points, prepare
 from fctd.simulation.settling import settle, start_from_rest
 from fctd.simulation.simulate import Simulation
 from tests.bodies import PLACE, at
@@ -197,3 +198,30 @@ def test_another_contact_method_or_engine_needs_the_long_segment() -> None:
         prepare(case, Method())  # type: ignore[arg-type]
     with pytest.raises(InputError, match=r"rig\.feed.*stands.*long_segment"):
         Simulation(case, stepper=lambda run: run)
+
+
+@pytest.mark.slow
+def test_a_sticking_string_stays_where_it_hangs_in_the_slips() -> None:
+    """3 km that slid into a winding hole: the slips hold it, and friction what slid; the hook load had crept up by
+    60 kN in half a minute, as segments that swung across lost their friction along the hole."""
+    winding = [[float(md), 70.0 + 3 * (-1) ** k, 4.0 * (k % 3)] for k, md in enumerate(range(1000, 3400, 150))]
+    string = [pipe(None, None, inner=0.1086, segment_length=28.5)]
+    moves = [trip(2952.5, 2997.5, speed=0.5)]
+    simulation = Simulation(make_case(
+        [[0, 0, 0], [200, 0, 0], *winding], string, moves, wellbore={"geometry": "arcs"}, mud=MUD,
+        contact={"friction_law": "karnopp"}, rig={"feed": "stands", "connection_time": 120.0},
+    ))  # fmt: skip
+    run = simulation.run
+    places, loads = [], []
+    for record in simulation:
+        if record["in_slips"]:
+            places.append(contact_points(run.S, run.segments))
+            loads.append(record["hookload_N"])
+        elif places:
+            break
+    touching = penetration(run.S, len(places[0])) > 0
+    way = np.linalg.norm(places[-2] - places[-62], axis=1)[touching]
+    assert len(loads) > 115
+    assert np.ptp(loads[5:]) < 2e3
+    # In an hour, from a minute.
+    assert 60 * way.max() < 1e-6
