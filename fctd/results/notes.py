@@ -261,8 +261,8 @@ def beyond_joints(bend: float, twist: float, joint: tuple[int, int]) -> Note | N
         ("bends", bend, MOST_BEND, joint[0]) if excess[0] >= excess[1] else ("twists", twist, MOST_TWIST, joint[1])
     )
     text = (
-        f"segment {j} {does} by {np.degrees(angle):.0f}° against the one above, where {np.degrees(most):.0f}° are within "
-        "the range of the joint"
+        f"segment {j} {does} by {np.degrees(angle):.0f}° against the one above, where {np.degrees(most):.0f}° are "
+        "within the range of the joint"
     )
     return _note("joint", text, max(excess))
 

@@ -6,7 +6,7 @@ Read back, the records are those that were written, bit by bit.
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -56,17 +56,34 @@ def chunk_since(recorder: Recorder, cursor: Cursor) -> dict[str, bytes]:
     return {name: _packed(table) for name, table in found.items()}
 
 
-def add_chunk(recorder: Recorder, chunk: Mapping[str, bytes]) -> None:
-    """Add the records of a chunk to a recorder; raises OSError or ValueError for a chunk that cannot be read."""
+def read_chunk(chunk: Mapping[str, bytes]) -> dict[str, Any]:
+    """The tables of a chunk; raises OSError or ValueError for one that cannot be read."""
+    import pyarrow.parquet as pq
+
+    return {name: pq.read_table(io.BytesIO(data), page_checksum_verification=True) for name, data in chunk.items()}
+
+
+def size_of(chunks: Iterable[Mapping[str, Any]]) -> tuple[int, int, int]:
+    """Number of records in history, in ledger and in profiles of the tables of chunks."""
+    sizes = [0, 0, 0]
+    for chunk in chunks:
+        for k, name in enumerate(("history", "energy")):
+            sizes[k] += chunk[name].num_rows if name in chunk else 0
+        sizes[2] += len(chunk["profile"].column(RECORDED_AT).unique()) if "profile" in chunk else 0
+    return sizes[0], sizes[1], sizes[2]
+
+
+def add_chunk(recorder: Recorder, chunk: Mapping[str, Any]) -> None:
+    """Add the records of a chunk's tables to a recorder."""
     for name, rows in (("history", recorder.history), ("energy", recorder.ledger)):
         if name in chunk:
-            rows.extend(_unpacked(chunk[name]).to_pylist())
+            rows.extend(chunk[name].to_pylist())
     if "profile" in chunk:
-        table: pd.DataFrame = _unpacked(chunk["profile"]).to_pandas()
+        table: pd.DataFrame = chunk["profile"].to_pandas()
         for time, part in table.groupby(RECORDED_AT, sort=False):
             recorder.profiles[float(str(time))] = part.drop(columns=RECORDED_AT).reset_index(drop=True)
     if "segments" in chunk:
-        read = _unpacked(chunk["segments"])
+        read = chunk["segments"]
         numbers = read.column(NUMBER).to_numpy()
         values = np.stack([read.column(name).to_numpy() for name in COLUMNS], axis=1)
         edges = np.flatnonzero(np.diff(numbers)) + 1
@@ -80,9 +97,3 @@ def _packed(table: Any) -> bytes:
     sink = io.BytesIO()
     pq.write_table(table, sink, write_page_checksum=True)
     return sink.getvalue()
-
-
-def _unpacked(data: bytes) -> Any:
-    import pyarrow.parquet as pq
-
-    return pq.read_table(io.BytesIO(data), page_checksum_verification=True)

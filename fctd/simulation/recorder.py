@@ -138,6 +138,7 @@ class Recorder:
             "simulated_s": self.last_time,
             "wall_s": wall,
             "real_time_factor": self.last_time / wall if wall > 0 else np.nan,
+            "guards_s": self.guards.seconds,
             "work_J": ledger.work(energy),
             "energy_error": ledger.error(energy),
             "settling_residual": residual,

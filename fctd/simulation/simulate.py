@@ -102,6 +102,7 @@ class Simulation(Iterator[Record]):
         self.done = 0  # number of completed intervals
         self.status, self.message = RunStatus.INTERRUPTED, "before the start"  # until the run ends in another way
         self.wall_s = 0.0  # wall-clock time since the start
+        self.kept_s = 0.0  # of which a keeper has spent so much beside it
         self.settling_residual = float("nan")
         self.stepper: Stepper = self.run
         self._begin, self._settling = stepper, settling
@@ -205,6 +206,7 @@ class Simulation(Iterator[Record]):
             return Recorder(self.run).result(self.status, self.message, 0.0, float("nan"))
         message = f"at {self.run.time:.4g} s" if self.status == RunStatus.INTERRUPTED else self.message
         result = self._recorder.result(self.status, message, self.wall_s, self.settling_residual)
+        result.run["checkpoints_s"] = self.kept_s
         table = operations_table(result.history, self._recorder.start_time, self._recorder.start_depth, self._spans())
         result = replace(result, operations=table)
         if self.status == RunStatus.COMPLETED:
