@@ -7,12 +7,16 @@ from rich.table import Table
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case, parse_override
+from fctd.cli.keeping import AcceptChanges, CheckpointEvery, Keeping, OptionalCase, Restart, Resume
 from fctd.cli.main import run
 from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, changes_of, screen
-from fctd.cli.simulate import simulate_file
+from fctd.cli.simulate import Shown, simulate_file
+from fctd.results.run_folder import about_of
 from references import contact, engines
 from references.contact import ContactMethod, build
 from references.registry import absent
+
+PROGRAM = "python -m references simulate"
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -43,8 +47,8 @@ def list_command() -> None:
 
 @app.command("simulate")
 def simulate_command(
-    case_file: CaseFile,
-    contact: Annotated[str, typer.Option("--contact", metavar="METHOD", help="A method of 'list'.")],
+    case_file: OptionalCase = None,
+    contact: Annotated[str | None, typer.Option("--contact", metavar="METHOD", help="A method of 'list'.")] = None,
     options: Annotated[
         list[str], typer.Option("--option", metavar="KEY=VALUE", help="An option of the method, e.g. facets=96.")
     ] = [],  # noqa: B006 (typer copies it)
@@ -52,14 +56,30 @@ def simulate_command(
     overrides: Overrides = [],  # noqa: B006
     friction: Friction = None,
     csv: Csv = False,
+    checkpoint_every: CheckpointEvery = None,
+    resume: Resume = None,
+    restart: Restart = False,
+    accept_changes: AcceptChanges = False,
     quiet: Quiet = False,
 ) -> None:
     """Run a case with another contact method in FCTD's loop; friction, force law and step stay the same."""
+    keeping = Keeping(checkpoint_every, resume, restart, accept_changes)
+    about = None if resume is None else about_of(resume)
+    if about is not None:
+        if contact is not None or options:
+            raise InputError("none with --resume: the run has its method", key="--contact", value=contact)
+        contact, options = about["options"].get("contact"), about["options"].get("options", [])
+    elif contact is None and resume is None:
+        raise InputError("a method of 'list'", key="--contact")
 
     def method(case: Case) -> ContactMethod:
-        return build(contact, case, **_chosen(options))
+        return build(str(contact), case, **_chosen(options))
 
-    simulate_file(case_file, out, overrides, friction, csv, quiet, method)
+    more = {"contact": contact, "options": options}
+    simulate_file(
+        case_file, out, overrides, friction, Shown(csv=csv, quiet=quiet), method, keeping=keeping, program=PROGRAM,
+        more=more,
+    )  # fmt: skip
 
 
 @app.command("engine")

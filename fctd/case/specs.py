@@ -62,7 +62,7 @@ Column = Annotated[ColumnSpec, BeforeValidator(_as_column, json_schema_input_typ
 class _Trajectory:
     """Stations and warnings, cached, and the keys they come from; all are equal, so that holes compare by keys."""
 
-    source: object = field(default=None, compare=False)
+    source: tuple[object, ...] = field(default=(), compare=False)
     stations: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)), compare=False)
     warnings: tuple[InputWarning, ...] = field(default=(), compare=False)
 
@@ -184,6 +184,12 @@ class WellboreSpec(Table):
             stations.flags.writeable = False
             self._trajectory = _Trajectory(source, stations, warnings)
         return self._trajectory
+
+    def read_from(self, copy: Path) -> Self:
+        """The same hole, with the stations of a copy of its survey file."""
+        read, here = self.model_copy(update={"survey": copy})._read_trajectory(), self.model_copy()
+        here._trajectory = _Trajectory((self.survey, *read.source[1:]), read.stations, read.warnings)
+        return here
 
     def _resolve(self) -> Survey:
         if self.survey is not None:

@@ -1,16 +1,15 @@
 """``fctd chart CASE``: steady strings of several operations at many bit depths."""
 
-from collections import Counter
-from collections.abc import Sequence
-from itertools import groupby
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
+from uuid import uuid4
 
 import numpy as np
 import typer
-from rich.box import SIMPLE_HEAD
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.table import Table
 
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
@@ -19,8 +18,25 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.case.units import LENGTH
+from fctd.cli.chart_table import print_chart
+from fctd.cli.keeping import (
+    EVERY_CHART,
+    AcceptChanges,
+    CheckpointEvery,
+    Keeping,
+    MemoryLimit,
+    OptionalCase,
+    Restart,
+    Resume,
+    TimeLimit,
+    case_of,
+    description_of,
+    kept_folder,
+    resumed_folder,
+    say_how_to_go_on,
+)
 from fctd.cli.options import (
-    CaseFile,
+    FAILED,
     Overrides,
     Quiet,
     Strict,
@@ -31,7 +47,6 @@ from fctd.cli.options import (
     read_case,
     read_quantity,
     refuse_sources,
-    screen,
     tell,
 )
 from fctd.cli.pictures import (
@@ -57,14 +72,14 @@ from fctd.cli.steady import (
 )
 from fctd.model.operations import rates_of_all
 from fctd.plots.loads import ChartLook
-from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
 from fctd.results.measured import read_measured
-from fctd.results.notes import MEANINGS, meanings_of
-from fctd.results.series import FRICTION_LABEL, in_words
+from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.results.tables import write_table
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System
+from fctd.simulation.limits import LimitReached
 from fctd.steady.equilibrium import Solver
+from fctd.steady.kept_rows import KeptRows
 from fctd.steady.torque_drag import Row, chart_rows, with_friction
 
 if TYPE_CHECKING:
@@ -75,21 +90,19 @@ DEPTHS_HELP = (
     "always among them."
 )
 MOST_DEPTHS = 10_000  # more is a slip in the step
-SCREEN_ROWS = 36
-# Columns of a chart on the screen.
-SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
+PROGRAM = "fctd chart"
 
 
 def chart_command(
-    case_file: CaseFile,
+    case_file: OptionalCase = None,
     operations: Annotated[
         list[str],
         typer.Option("--operation", metavar="KINDS", help=f"{KIND_HELP}; several with commas between them, or all."),
-    ],
+    ] = [],  # noqa: B006 (typer copies it)
     depths: Annotated[
-        str,
-        typer.Option("--depths", metavar="FROM:TO:STEP", help=DEPTHS_HELP),
-    ],
+        str | None,
+        typer.Option("--depths", metavar="FROM:TO:STEP", help=DEPTHS_HELP, show_default=False),
+    ] = None,
     frictions: Annotated[
         list[str],
         typer.Option(
@@ -98,11 +111,11 @@ def chart_command(
             help="Friction factor of every interval, 0.25, a list, 0.1,0.2,0.3, or by kind, cased=0.2,open=0.3; "
             "may be repeated.",
         ),
-    ] = [],  # noqa: B006 (typer copies it)
+    ] = [],  # noqa: B006
     speed: Speed = None,
     rpm: Rpm = None,
     resolve_buckling: ResolveBuckling = None,
-    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    overrides: Overrides = [],  # noqa: B006
     out: Annotated[
         Path | None, file_option("--out", "The chart, a row for every string, .csv, .parquet or .xlsx, or its picture.")
     ] = None,
@@ -118,55 +131,162 @@ def chart_command(
         file_option("--measured", "Rows to draw, .csv: bit_depth_m, operation, hookload_kN (block included), …"),
     ] = None,
     units: Units = "si",
+    checkpoint_every: CheckpointEvery = None,
+    resume: Resume = None,
+    restart: Restart = False,
+    accept_changes: AcceptChanges = False,
+    time_limit: TimeLimit = None,
+    memory_limit: MemoryLimit = None,
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
     """Compute a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
-    out, plot = check_targets(out, plot, plot_profile)
+    keeping = Keeping(checkpoint_every, resume, restart, accept_changes, time_limit, memory_limit)
+    keeping.check({
+        "CASE": case_file, "--operation": operations or None, "--depths": depths, "--friction": frictions or None,
+        "--speed": speed, "--rpm": rpm, "--set": overrides or None, "--resolve-buckling": resolve_buckling,
+        "--out": out, "--plot": plot, "--plot-profile": plot_profile, "--measured": measured,
+    })  # fmt: skip
+    if resume is not None:
+        with resumed_folder(resume, PROGRAM, accept_changes=accept_changes) as (folder, about):
+            asked = Asked.read(about["options"])
+            kept = KeptRows(folder, keeping.interval(EVERY_CHART), key="--resume")
+            _chart(case_of(folder, about), asked, keeping, quiet, resume, lambda _: nullcontext(kept))
+        return
+    if case_file is None or depths is None:
+        raise InputError("a case file, or --resume with an unfinished chart", key="CASE")
+    files = {"out": out, "plot": plot, "plot_profile": plot_profile, "measured": measured}
+    asked = Asked(operations, depths, frictions, speed, rpm, load, side_force, units, strict, **files)
+    check_targets(out, plot, plot_profile)
     case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
+    target = out or plot or plot_profile
+
+    @contextmanager
+    def begin(case: Case) -> Iterator[KeptRows | None]:
+        if target is None:
+            yield None
+            return
+        with kept_folder(target, "--out", restart=restart) as folder:
+            yield KeptRows(
+                folder, keeping.interval(EVERY_CHART),
+                lambda: description_of(case, PROGRAM, "chart", asked.kept, uuid4().hex), "--out",
+            )  # fmt: skip
+
+    _chart(case, asked, keeping, quiet, target, begin)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a chart is to have; the options of ``chart_command``."""
+
+    operations: list[str]
+    depths: str
+    frictions: list[str]
+    speed: str | None
+    rpm: str | None
+    load: ShownLoad
+    side_force: ShownSideForce
+    units: Units
+    strict: bool
+    out: Path | None
+    plot: Path | None
+    plot_profile: Path | None
+    measured: Path | None
+
+    @property
+    def kept(self) -> dict[str, Any]:
+        """All of it as JSON takes it."""
+        return {name: str(value.absolute()) if isinstance(value, Path) else value for name, value in vars(self).items()}
+
+    @classmethod
+    def read(cls, kept: Mapping[str, Any]) -> "Asked":
+        """The options that ``kept`` gave."""
+        files = {name: kept[name] for name in ("out", "plot", "plot_profile", "measured")}
+        return cls(**{**kept, **{name: None if path is None else Path(path) for name, path in files.items()}})
+
+
+def _chart(
+    case: Case, asked: Asked, keeping: Keeping, quiet: bool, target: Path | None,
+    kept_rows: Callable[[Case], AbstractContextManager[KeptRows | None]],
+) -> None:  # fmt: skip
+    """Compute a chart, or the rest of one, write and print it.
+
+    target : of its folder; kept_rows : opens the folder once all input has been checked.
+    """
+    units, plot_profile = asked.units, asked.plot_profile
+    out, plot = check_targets(asked.out, asked.plot, plot_profile)
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key)
-    bit_depths = read_depths(depths, case, units)
-    points_measured = None if measured is None else _measured(measured, case, plot)
-    names = [name.strip() for text in operations for name in text.split(",")]
+    bit_depths = read_depths(asked.depths, case, units)
+    points_measured = None if asked.measured is None else _measured(asked.measured, case, plot)
+    names = [name.strip() for text in asked.operations for name in text.split(",")]
     kinds = list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name])))
-    factors = parse_frictions(frictions, "--friction")
-    drive = read_drive(speed, rpm, units)
+    factors = parse_frictions(asked.frictions, "--friction")
+    drive = read_drive(asked.speed, asked.rpm, units)
     warnings = warnings_of(case, kinds, **drive, frictions=factors)
-    told = tell(case, warnings, strict=strict, units=units)
+    told = tell(case, warnings, strict=asked.strict, units=units)
+    limits = keeping.limits
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
-        task = bar.add_task("compiling", total=None)
+    with kept_rows(case) as kept:
+        with (
+            _kept_on_the_way_out(kept, target, total := len(bit_depths) * len(kinds) * max(len(factors), 1)),
+            Progress(*columns, console=messages, disable=quiet, transient=True) as bar,
+        ):
+            task = bar.add_task("compiling", total=None)
 
-        def show(done: int, total: int) -> None:
-            bar.update(task, description=printable(case.name), completed=done, total=total)
+            def show(done: int, total: int) -> None:
+                bar.update(task, description=printable(case.name), completed=done, total=total)
+                limits.check()
 
-        rows = chart_rows(case, kinds, bit_depths, factors or None, **drive, progress=show)
+            keep = {} if kept is None else {"known": kept.known, "keep": lambda rows: kept.keep(rows, total)}
+            rows = chart_rows(case, kinds, bit_depths, factors or None, **drive, progress=show, **keep)
 
-    # The last depth at which string and hole fit.
-    possible = [row["bit_depth_m"] for row in rows if row["status"] != SteadyStatus.NOT_POSSIBLE]
-    last = max(possible, default=float("nan"))
-    meanings = meanings_of(row["notes"] for row in rows)
-    written = []
-    try:  # written before anything is printed, as the terminal may be closed
-        if out is not None:
-            metadata = metadata_of(case, units, kinds, drive, warnings) | {"notes": meanings}
-            written += write_table(rows if units == "si" else in_units(units, _frame(rows)), out, metadata)
-        if plot is not None:
-            look = ChartLook(load, rates_of_all(case, kinds, **drive), points_measured, told)
-            written += draw_chart(plot, _frame(rows), units, case, look)
-        if plot_profile is not None:
-            one = with_friction(case, factors[0]) if factors else case
-            solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
-            points = [solver.solve(kind, rates[kind], last) for kind in kinds]
-            written += draw_profiles(plot_profile, points, units=units, force=side_force, warnings=told)
-    finally:
-        _print_chart(rows, case.name, units)
-        print_segments(case, last, units)
+        # The last depth at which string and hole fit.
+        possible = [row["bit_depth_m"] for row in rows if row["status"] != SteadyStatus.NOT_POSSIBLE]
+        last = max(possible, default=float("nan"))
+        meanings = meanings_of(row["notes"] for row in rows)
+        written = []
+        try:  # written before anything is printed, as the terminal may be closed
+            if out is not None:
+                metadata = metadata_of(case, units, kinds, drive, warnings) | {"notes": meanings}
+                written += write_table(rows if units == "si" else in_units(units, _frame(rows)), out, metadata)
+            if plot is not None:
+                look = ChartLook(asked.load, rates_of_all(case, kinds, **drive), points_measured, told)
+                written += draw_chart(plot, _frame(rows), units, case, look)
+            if plot_profile is not None:
+                one = with_friction(case, factors[0]) if factors else case
+                solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
+                points = [solver.solve(kind, rates[kind], last) for kind in kinds]
+                written += draw_profiles(plot_profile, points, units=units, force=asked.side_force, warnings=told)
+            if kept is not None:
+                kept.folder.clear()
+        finally:
+            print_chart(rows, case.name, units)
+            print_segments(case, last, units)
     print_written(written)
     acceptable = all(SteadyStatus(status).acceptable for status in {row["status"] for row in rows})
-    finish(acceptable, meanings, strict)
+    finish(acceptable, meanings, asked.strict)
+
+
+@contextmanager
+def _kept_on_the_way_out(kept: KeptRows | None, target: Path | None, total: int) -> Iterator[None]:
+    """A chart that reaches a limit or is interrupted keeps its rows, and says how to go on with it.
+
+    Interrupted before the first of them were due, it leaves nothing behind.
+    """
+    try:
+        yield
+    except (LimitReached, KeyboardInterrupt) as stop:
+        limit = isinstance(stop, LimitReached)
+        if kept is not None and target is not None:
+            if limit or kept.kept:
+                kept.write(total)
+            say_how_to_go_on(target)
+        if not limit:
+            raise
+        messages.print(f"stopped: {stop}", soft_wrap=True)
+        raise typer.Exit(FAILED) from None
 
 
 def _frame(rows: list[Row]) -> "pd.DataFrame":
@@ -201,82 +321,3 @@ def _measured(path: Path, case: Case, plot: Path | None) -> "pd.DataFrame":
     if plot is None:
         raise InputError("--plot beside it, the picture to draw them in", key="--measured", value=path)
     return read_measured(path, case)
-
-
-def _print_chart(rows: list[Row], name: str, units: System) -> None:
-    """Print a table that fits the screen, and a line for each run of rows with another status or a note."""
-    units_of = {column.name: shown(column.name, units) for column in SHOWN}
-    series: dict[tuple[str, str], list[Row]] = {}
-    for row in rows:
-        series.setdefault((row["operation"], reworded(row[FRICTION_LABEL], units)), []).append(row)
-    frictions = list(dict.fromkeys(friction for _, friction in series))
-    fan = len(frictions) > 1  # one set of factors, which may be a long text, stands above the table
-    screen.print(printable(name if fan else f"{name}; {in_words(frictions[0])}"), style="bold", soft_wrap=True)
-    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
-    table.add_column("operation", no_wrap=True)
-    if fan:
-        table.add_column("μ", overflow="fold")
-    for column in SHOWN:
-        table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
-    buckled = not all(np.isnan(row["buckled_from_md_m"]) for row in rows)
-    if buckled:
-        table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
-    table.add_column("status", overflow="fold")
-    each, printed = max(SCREEN_ROWS // len(series), 1), 0
-    for (operation, friction), of in series.items():
-        # Evenly spread rows, always with the deepest one.
-        picked = np.unique(np.linspace(len(of) - 1, 0, min(each, len(of))).round().astype(int))
-        printed += len(picked)
-        for k, row in enumerate(of[i] for i in picked):
-            values = [
-                "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
-                for name, digits in ((column.name, column.digits) for column in SHOWN)
-            ]
-            if buckled:
-                values.append(_buckled(row, units_of[DEPTH.name].factor))
-            names = (operation, friction) if fan else (operation,)
-            table.add_row(*(("",) * len(names) if k else names), *values, row["status"])
-    screen.print(table)
-    counts = ", ".join(f"{count} {status}" for status, count in Counter(row["status"] for row in rows).most_common())
-    left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""
-    screen.print(f"{len(rows)} rows: {counts}{left_out}", soft_wrap=True)
-    depth = units_of["bit_depth_m"]
-    for (operation, friction), of in series.items():
-        name = f"{operation}, friction {friction}" if fan else operation
-        for line in _exceptions(of, depth.factor, depth.label):
-            messages.print(reworded(f"{name}: {line}", units), soft_wrap=True)
-
-
-def _buckled(row: Row, factor: float) -> str:
-    """Mode and depths of the buckled part of a string, "helical 540–1500"."""
-    first, last = (row[column.name] * factor for column in BUCKLED)
-    return "–" if np.isnan(first) else f"{row['buckling']} {first:.0f}–{last:.0f}"
-
-
-def _exceptions(rows: list[Row], factor: float, label: str) -> list[str]:
-    """The runs of rows of one series that are not converged, and those with the same note, a line each."""
-    depths = [row["bit_depth_m"] * factor for row in rows]
-    reasons = {row["status"]: row["reason"] for row in rows}  # the last, at the greatest depth, of each status
-    lines = [
-        f"{status} at {where}: {reasons[status]}"
-        for status, where in _runs([row["status"] for row in rows], depths, label)
-        if status != SteadyStatus.CONVERGED
-    ]
-    for code, meaning in MEANINGS.items():
-        noted = [code in row["notes"].split(", ") for row in rows]
-        lines += [
-            f"note {code} at {where}: {meaning.headline}: {meaning.remedy}"
-            for has, where in _runs(noted, depths, label)
-            if has
-        ]
-    return lines
-
-
-def _runs(values: Sequence[Any], depths: Sequence[float], label: str) -> list[tuple[Any, str]]:
-    """Every run of equal values, with its depths as text."""
-    found = []
-    for value, run in groupby(zip(values, depths, strict=True), key=lambda row: row[0]):
-        at = [depth for _, depth in run]
-        span = f"{at[0]:g}" if len(at) == 1 else f"{at[0]:g} to {at[-1]:g}"
-        found.append((value, f"{span} {label} ({len(at)} of {len(depths)})"))
-    return found

@@ -7,6 +7,8 @@ import typer
 from typer.core import TyperCommand, TyperOption
 
 HELP = {"help_option_names": ["-h", "--help"]}
+# Options that a command needs where it does not go on with an earlier one.
+UNLESS_RESUMED = ("operations", "depths")
 SHORT = {"--out": "-o", "--quiet": "-q"}
 # ``--quiet`` of commands that compute nothing.
 Silent = Annotated[bool, typer.Option("--quiet", help="Print warnings and errors alone.")]
@@ -25,11 +27,13 @@ class Command(TyperCommand):
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the options after a check of their number; ends the command with exit code 2 where it is wrong."""
         given, _, order = self.make_parser(ctx).parse_args(args=list(args))
+        begins = any(option.name == "resume" for option in self._options()) and "resume" not in given
         for option in self._options():
             name = max(option.opts, key=len)
             if order.count(option) > 1 and not option.multiple:
                 ctx.fail(f"{name} is given {'twice' if order.count(option) == 2 else f'{order.count(option)} times'}.")
-            if option.required and option.name not in given and "help" not in given:
+            needed = option.required or (begins and option.name in UNLESS_RESUMED)
+            if needed and option.name not in given and "help" not in given:
                 ctx.fail(f"Missing option '{name}'. {option.help}")
         return super().parse_args(ctx, args)
 

@@ -1,20 +1,38 @@
 """``fctd simulate CASE``: run the operations of a case in time."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
+from uuid import uuid4
 
 import numpy as np
 import typer
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
+from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.text import file_name, printable
 from fctd.cli.interrupts import deferred
+from fctd.cli.keeping import (
+    EVERY_RUN,
+    AcceptChanges,
+    CheckpointEvery,
+    Keeping,
+    MemoryLimit,
+    OptionalCase,
+    Restart,
+    Resume,
+    TimeLimit,
+    case_of,
+    description_of,
+    kept_folder,
+    resumed_folder,
+    say_how_to_go_on,
+)
 from fctd.cli.options import (
     INTERRUPTED,
-    CaseFile,
     Csv,
     Friction,
     Out,
@@ -35,11 +53,13 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.results.columns import BUCKLED, COLUMNS
+from fctd.results.run_folder import RunFolder
 from fctd.results.status import RunStatus
 from fctd.results.swings import ENOUGH_PERIODS
-from fctd.results.tables import SimulationResult, check_result_folder, own_files, result_files
+from fctd.results.tables import SimulationResult, check_result_folder, identity_of, own_files, result_files
 from fctd.results.unit_systems import System, shown
 from fctd.simulation.external_contact import WallQuery
+from fctd.simulation.kept_run import KeptRun
 from fctd.simulation.run import LONGEST_SETTLING
 from fctd.simulation.simulate import simulate
 
@@ -49,7 +69,7 @@ ShownUnits = Annotated[
 
 
 def simulate_command(
-    case_file: CaseFile,
+    case_file: OptionalCase = None,
     out: Out = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
@@ -61,36 +81,92 @@ def simulate_command(
             "--plot", metavar="FILE", help="Picture of the run over time, .png, .svg or .pdf.", show_default=False
         ),
     ] = None,
+    checkpoint_every: CheckpointEvery = None,
+    resume: Resume = None,
+    restart: Restart = False,
+    accept_changes: AcceptChanges = False,
+    time_limit: TimeLimit = None,
+    memory_limit: MemoryLimit = None,
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
     """Run the operations of a case and write its tables: history, profile, energy, operations, segments."""
-    simulate_file(case_file, out, overrides, friction, csv, quiet, units=units, strict=strict, plot=plot)
+    keeping = Keeping(checkpoint_every, resume, restart, accept_changes, time_limit, memory_limit)
+    shown = Shown(csv, units, plot, strict, quiet)
+    simulate_file(case_file, out, overrides, friction, shown, keeping=keeping)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What is written and printed beside the tables; the options of ``simulate_command``."""
+
+    csv: bool = False
+    units: System = "si"
+    plot: Path | None = None
+    strict: bool = False
+    quiet: bool = False
+
+    @property
+    def kept(self) -> dict[str, Any]:
+        """What ``--resume`` does not need to be given again."""
+        plot = None if self.plot is None else str(self.plot.absolute())
+        return {"csv": self.csv, "units": self.units, "plot": plot, "strict": self.strict}
+
+    def beside(self, kept: Mapping[str, Any]) -> "Shown":
+        """These options beside those with which the run began."""
+        plot = None if kept["plot"] is None else Path(kept["plot"])
+        units = kept["units"] if self.units == "si" else self.units
+        return Shown(self.csv or kept["csv"], units, self.plot or plot, self.strict or kept["strict"], self.quiet)
 
 
 def simulate_file(
-    case_file: Path,
+    case_file: Path | None,
     out: Path | None,
     overrides: list[str],
     friction: str | None,
-    csv: bool,
-    quiet: bool,
+    shown: Shown,
     contact: Callable[[Case], WallQuery] | None = None,
     *,
-    units: System = "si",
-    strict: bool = False,
-    plot: Path | None = None,
+    keeping: Keeping,
+    program: str = "fctd simulate",
+    more: Mapping[str, Any] | None = None,
 ) -> None:
-    """Run ``fctd simulate``; ``contact`` builds another contact method for the case (see fctd.simulate)."""
-    if plot is not None:
-        check_pictures({"--plot": plot}, DRAWN)
+    """Run ``fctd simulate``; ``contact`` builds another contact method for the case (see fctd.simulate).
+
+    program : that goes on with the run; more : its own options, which it finds with the run.
+    """
+    given = {"CASE": case_file, "--out": out, "--set": overrides or None, "--friction": friction}
+    keeping.check(given)
+    if shown.plot is not None:
+        check_pictures({"--plot": shown.plot}, DRAWN)
+    if keeping.resume is not None:
+        folder = keeping.resume
+        with resumed_folder(folder, program, accept_changes=keeping.accept_changes) as (kept, about):
+            case, shown = case_of(kept, about), shown.beside(about["options"])
+            check_result_folder(folder, shown.csv, "--resume")
+            method = None if contact is None else contact(case)
+            _compute(case, folder, method, shown, keeping, kept, about["identity"])
+        return
+    if case_file is None:
+        raise InputError("a case file, or --resume with an unfinished result", key="CASE")
     case = read_case(case_file, changes_of(overrides, friction))
-    refuse_sources(case, plot, "--plot")
-    tell(case, case.warnings, strict=strict, units=units)
+    refuse_sources(case, shown.plot, "--plot")
+    tell(case, case.warnings, strict=shown.strict, units=shown.units)
     method = None if contact is None else contact(case)
     folder = out or Path(file_name(case.name, "-result"))
-    check_result_folder(folder, csv, "--out")  # before hours of computing
-    refuse_source_files(case, (folder / name for name in own_files(folder).union(result_files(csv))), "--out")
+    check_result_folder(folder, shown.csv, "--out")  # before hours of computing
+    refuse_source_files(case, (folder / name for name in own_files(folder).union(result_files(shown.csv))), "--out")
+    with kept_folder(folder, "--out", restart=keeping.restart) as kept:
+        identity = uuid4().hex
+        options = shown.kept | dict(more or {})
+        kept.describe(*description_of(case, program, "simulate", options, identity))
+        _compute(case, folder, method, shown, keeping, kept, identity)
+
+
+def _compute(
+    case: Case, folder: Path, method: WallQuery | None, shown: Shown, keeping: Keeping, kept: RunFolder, identity: str
+) -> None:
+    """Run a case, which is kept meanwhile, write its result and print what there is to say."""
     columns = (
         TextColumn("{task.description}", markup=False),
         BarColumn(),
@@ -98,33 +174,52 @@ def simulate_file(
         TimeElapsedColumn(),
         TimeRemainingColumn(),
     )
-    result, written = None, []
+    key = "--out" if keeping.resume is None else "--resume"
+    keeper = KeptRun(kept, keeping.interval(EVERY_RUN), csv=shown.csv, key=key, tell=_tell)
+    limits = keeping.limits
+    result, written, ended = None, [], False
     try:
-        with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
+        with Progress(*columns, console=messages, disable=shown.quiet, transient=True) as bar:
             task = bar.add_task("compiling, settling", total=1.0, factor="–")
 
             def settling(now: float, imbalance: float) -> None:
                 text = f"settling, forces out of balance by {imbalance:.0e} of the weight"
                 bar.update(task, description=text, total=LONGEST_SETTLING, completed=now)
+                limits.check()
 
             def show(now: float, total: float, factor: float) -> None:
                 bar.update(task, description=printable(case.name), total=total, completed=now, factor=f"{factor:.0f}")
+                limits.check()
 
-            result = simulate(case, progress=show, contact=method, settling=settling)
+            result = simulate(case, progress=show, contact=method, settling=settling, keeper=keeper)
+            ended = result.status not in (RunStatus.INTERRUPTED, RunStatus.STOPPED)
             # The files are written before anything is printed: the terminal may have been closed.
             with deferred():
-                written = result.save(folder, csv=csv, units=units)
-                if plot is not None and len(result.history):
-                    from fctd import plots
+                # A part of a run does not take the place of another run's result.
+                if ended or identity_of(folder) in ("", identity):
+                    whole = replace(result, identity=identity)
+                    written = whole.save(folder, csv=shown.csv, units=shown.units)
+                    if shown.plot is not None and len(result.history):
+                        from fctd import plots
 
-                    written += plots.save(plots.run_figure(result, units), plot)
+                        written += plots.save(plots.run_figure(result, shown.units), shown.plot)
+                if ended:
+                    kept.clear()
     finally:  # printed also where a file cannot be written, or a signal came meanwhile
         if result is not None:
-            _summarise(result, units)
+            _summarise(result, shown.units)
             print_written(written)
+            if not ended and not written:
+                _tell(f"the earlier result in {printable(str(folder))} stays as it was")
+        if not ended:
+            say_how_to_go_on(folder)
     if result.status is RunStatus.INTERRUPTED:
         raise typer.Exit(INTERRUPTED)
-    finish(result.status.acceptable, (note.code for note in result.notes), strict)
+    finish(result.status.acceptable, (note.code for note in result.notes), shown.strict)
+
+
+def _tell(text: str) -> None:
+    messages.print(text, soft_wrap=True)
 
 
 def _summarise(result: SimulationResult, units: System) -> None:

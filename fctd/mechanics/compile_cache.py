@@ -16,6 +16,7 @@ import tempfile
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -187,7 +188,9 @@ def _hash(name: str, data: bytes) -> bytes:
     return hashlib.sha256(name.encode() + b"\0" + data).digest()
 
 
-def _hash_of_sources() -> str:
+@cache
+def hash_of_sources() -> str:
+    """Hash of all source files of the engine."""
     digest, package = hashlib.sha256(), Path(__file__).parents[1]
     for source in sorted(package.rglob("*.py")):
         digest.update(str(source.relative_to(package)).encode() + source.read_bytes())
@@ -204,4 +207,4 @@ if STORE.folder is not None:
         os.environ["NUMBA_CACHE_DIR"] = str(STORE.folder)
     # For functions outside the engine, which numba stores itself.  It does not notice an edit in a function that a
     # cached function calls, so the folder carries a hash of all sources.
-    setattr(numba.config, "CACHE_DIR", str(STORE.folder / _hash_of_sources()))  # noqa: B010 (defined at run time)
+    setattr(numba.config, "CACHE_DIR", str(STORE.folder / hash_of_sources()))  # noqa: B010 (defined at run time)

@@ -1,11 +1,20 @@
 """Checks that end a run: a state that is not finite, or that the model cannot describe."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from fctd.mechanics.jit import entry
 from fctd.mechanics.state import HOLE, RADIUS, VX, WZ, axis, position, quaternion, radial
+
+
+class Worst(NamedTuple):
+    """The joints that bend and twist most: bend and twist between two segments [rad], and the lower one of each."""
+
+    bend: float
+    twist: float
+    joint: tuple[int, int]
 
 
 class UnstableError(Exception):
@@ -43,10 +52,10 @@ def _worst(S, n):
     return finite, outside, bend, twist
 
 
-def check(S: np.ndarray, n: int) -> None:
+def check(S: np.ndarray, n: int) -> Worst:
     """Raise UnstableError when the state is not finite, or the string has left the hole or bends or twists too far.
 
-    Axes and walls must belong to the positions.
+    Axes and walls must belong to the positions.  Returns the joints that bend and twist most.
     """
     finite, outside, bend, twist = _worst(S, n)
     if not finite:
@@ -58,3 +67,5 @@ def check(S: np.ndarray, n: int) -> None:
     if twist[0] < 0:
         text = f"segment {twist[1]} is twisted by more than half a turn against the one above"
         raise UnstableError(f"{text}: use shorter segments")
+    angles = (math.acos(min(bend[0], 1.0)), 2 * math.acos(min(twist[0], 1.0)))
+    return Worst(*angles, (bend[1], twist[1]))

@@ -14,7 +14,7 @@ from fctd.mechanics.contact import update_walls
 from fctd.mechanics.derrick import put_immersed
 from fctd.mechanics.drive import STIFF, Drive
 from fctd.mechanics.energy import Energy, energy_of
-from fctd.mechanics.faults import check
+from fctd.mechanics.faults import Worst, check
 from fctd.mechanics.state import Laws
 from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.mechanics.wall_law import put_stiffness
@@ -108,9 +108,9 @@ class MovingString:
         if self.laws.wall_exponent != 1:
             put_stiffness(self.S, self.top, self.segments, self.laws)
 
-    def check(self) -> None:
+    def check(self) -> Worst:
         """Raise UnstableError when the state is not finite or outside the model's range; see ``faults.check``."""
-        check(self.S, self.segments)
+        return check(self.S, self.segments)
 
     def energy(self) -> Energy:
         """Energy of the string and of the drive's inertia [J], after ``refresh``."""

@@ -31,6 +31,9 @@ DOUBTFUL, INACCURATE = 0.01, 0.10
 # The torque of a turning string differs from its mean over a torsional period, and this from the mean over the period
 # before, by at most this share; settled means differ by 1 %.  Below this lever [m] times the hook load, it is noise.
 UNSTEADY, LEVER = 0.05, 1e-3
+# The chord of a segment that bends by θ is shorter than its pipe by θ²/24, 1 % at the first angle.  Beyond half a turn
+# of twist a joint springs back to the other side: the second angle is half of that [rad].
+MOST_BEND, MOST_TWIST = float(np.radians(30.0)), float(np.radians(90.0))
 
 
 # A string that rolls without sliding moves sideways at the speed of its surface, r Ω, and its friction does no work.
@@ -63,6 +66,10 @@ MEANINGS: Final = {
     "wall": Meaning(
         "the string was pressed deeper into the wall than the time step is stable for",
         "raise contact.largest_penetration",
+    ),
+    "joint": Meaning(
+        "a joint bends or twists beyond the range in which a straight segment stands for its pipe",
+        "use shorter segments",
     ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "torque": Meaning(
@@ -240,6 +247,24 @@ def too_deep(penetration: float, largest: float) -> Note | None:
         f"a contact point was {1e3 * penetration:.3g} mm deep in the wall, the step is stable to {1e3 * largest:.3g} mm"
     )
     return _note("wall", text, penetration / largest)
+
+
+def beyond_joints(bend: float, twist: float, joint: tuple[int, int]) -> Note | None:
+    """A note where two segments bend or twist against each other beyond ``MOST_BEND`` or ``MOST_TWIST``.
+
+    bend, twist [rad]; joint : the lower segment of each.
+    """
+    excess = bend / MOST_BEND, twist / MOST_TWIST
+    if max(excess) <= 1:
+        return None
+    does, angle, most, j = (
+        ("bends", bend, MOST_BEND, joint[0]) if excess[0] >= excess[1] else ("twists", twist, MOST_TWIST, joint[1])
+    )
+    text = (
+        f"segment {j} {does} by {np.degrees(angle):.0f}° against the one above, where {np.degrees(most):.0f}° are "
+        "within the range of the joint"
+    )
+    return _note("joint", text, max(excess))
 
 
 def ledger_off(error: float) -> Note | None:

@@ -51,6 +51,7 @@ class RunStatus(Status):
     UNSTABLE = "unstable", "the computed motion is not that of a string in its hole", False, False
     UNSETTLED = "unsettled", "the string did not come to rest before the start", False, False
     INTERRUPTED = "interrupted", "the run was interrupted", True, False
+    STOPPED = "stopped", "the run reached its limit of time or memory", True, False
 
 
 class RefineStatus(Status):

@@ -201,6 +201,11 @@ def _read(folder: Path) -> SimulationResult:
         raise InputError(expected, value=folder / "history.parquet") from error
 
 
+def identity_of(folder: Path) -> str:
+    """Identity of the run whose result is in a folder; empty where there is none."""
+    return _metadata(folder / "history.parquet").get(b"identity", b"").decode()
+
+
 def _metadata(path: Path) -> dict[bytes, bytes]:
     """Metadata of a Parquet file; empty for another file."""
     import pyarrow.parquet as pq

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,10 +18,10 @@ from fctd.mechanics.rock import NO_ROCK
 from fctd.model.operations import drive_torque, weight_indicator
 from fctd.results import ledger
 from fctd.results.buckling import NOT_BUCKLED, Buckling, buckling_along, pipe_of
-from fctd.results.notes import Note, string_notes, under_resolved
 from fctd.results.profile import Loads, at_contacts, profile_table
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
+from fctd.simulation.guards import Guards
 from fctd.simulation.run import Run, contact_points
 from fctd.simulation.series import SegmentSeries
 
@@ -52,7 +51,7 @@ class Recorder:
         self.ledger: list[dict[str, float]] = []
         self.profiles: dict[float, pd.DataFrame] = {}  # by time
         self.wanted = list(run.case.record.profile_at)
-        self.notes: dict[str, Note] = {}  # by code, the one with the largest excess
+        self.guards = Guards(run)
         self.series = SegmentSeries()
 
     def rows(self, offset: int) -> Array:
@@ -114,7 +113,7 @@ class Recorder:
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
-        self._keep_notes(hookload, loads, walls, buckling)
+        self.guards.timed(self.guards.check_record, self.bit_depth, hookload, loads, walls, buckling, row)
         tension, twist, _ = at_contacts(self.run.string, loads)
         self.series.add(self.last_time, self.bit_depth, walls.md, tension[1:], twist[1:], loads.normal)
         low, high = sorted((before, self.bit_depth))
@@ -139,12 +138,13 @@ class Recorder:
             "simulated_s": self.last_time,
             "wall_s": wall,
             "real_time_factor": self.last_time / wall if wall > 0 else np.nan,
+            "guards_s": self.guards.seconds,
             "work_J": ledger.work(energy),
             "energy_error": ledger.error(energy),
             "settling_residual": residual,
         }
         profile = pd.concat(list(profiles.values()), ignore_index=True) if profiles else pd.DataFrame()
-        history, notes = pd.DataFrame(self.history), tuple(self.notes.values())
+        history, notes = pd.DataFrame(self.history), tuple(self.guards.notes.values())
         return SimulationResult(
             run.case, status, message, history, profile, energy, numbers, notes, run.case.warnings,
             segments=self.series.table(),
@@ -189,15 +189,6 @@ class Recorder:
         top_md = run.string.top_md
         pipe = pipe_of(run.string)
         return buckling_along(run.hole, pipe, top_md, walls.md, walls.radius, loads.tension, loads.bit_tension)[1]
-
-    def _keep_notes(self, hookload: float, loads: Loads, walls: Walls, buckling: Buckling) -> None:
-        """Keep each note that is new, or whose excess is larger than before."""
-        run = self.run
-        radius, in_hole = self.rows(state.RADIUS), run.case.contact.enabled
-        found = string_notes(run.string, loads, hookload, walls, radius, in_hole=in_hole)
-        for note in (under_resolved(buckling), *found):
-            if note is not None and (note.code not in self.notes or note.excess > self.notes[note.code].excess):
-                self.notes[note.code] = replace(note, text=f"{note.text}, with the bit at {self.bit_depth:.0f} m")
 
     def _loads(self) -> Loads:
         """Loads of the string: means over the last interval, but bending at its end."""

@@ -23,6 +23,7 @@ from fctd.results.swings import Span, operations_table
 from fctd.results.tables import SimulationResult
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.intervals import Window, whole_schedule, within
+from fctd.simulation.limits import LimitReached
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.ringing import expected_ringing
 from fctd.simulation.run import Run, prepare
@@ -50,6 +51,16 @@ class Stepper(Protocol):
 
     def energy(self) -> Energy:
         """Energy of the string [J], after ``refresh``."""
+
+
+class Keeper(Protocol):
+    """Keeps a run while it lasts, so that another process can go on with it."""
+
+    def begin(self, simulation: "Simulation") -> None:
+        """Put a run that has not started into the state in which another one stopped, if there is any."""
+
+    def keep(self, simulation: "Simulation", *, now: bool = False) -> None:
+        """Keep a run that has just recorded an interval, where it is time to, or now."""
 
 
 class Simulation(Iterator[Record]):
@@ -91,6 +102,7 @@ class Simulation(Iterator[Record]):
         self.done = 0  # number of completed intervals
         self.status, self.message = RunStatus.INTERRUPTED, "before the start"  # until the run ends in another way
         self.wall_s = 0.0  # wall-clock time since the start
+        self.kept_s = 0.0  # of which a keeper has spent so much beside it
         self.settling_residual = float("nan")
         self.stepper: Stepper = self.run
         self._begin, self._settling = stepper, settling
@@ -100,6 +112,16 @@ class Simulation(Iterator[Record]):
     def started(self) -> bool:
         """Whether the string has been settled and brought to the start."""
         return self._recorder is not None
+
+    @property
+    def recorder(self) -> Recorder:
+        """The records of a run that has started."""
+        assert self._recorder is not None
+        return self._recorder
+
+    def go_on(self, recorder: Recorder) -> None:
+        """Start where another process stopped: with the records of a run that has been put back (checkpoint.py)."""
+        self._recorder = recorder
 
     @property
     def end(self) -> float:
@@ -153,7 +175,7 @@ class Simulation(Iterator[Record]):
             self.run.take_mud_along(self.case.operations[operation])
             self.stepper.advance(motion, end - self.run.time)
             self.stepper.refresh()
-            self.run.check()
+            self.recorder.guards.timed(self.recorder.guards.check_state, self.run.bit_depth)
             record = self._record()
         finally:
             self.wall_s += time.perf_counter() - began
@@ -161,9 +183,8 @@ class Simulation(Iterator[Record]):
         return record
 
     def _record(self) -> Record:
-        assert self._recorder is not None
-        self._recorder.record(self.intervals[self.done].operation, self.run.drain())
-        return self._recorder.history[-1]
+        self.recorder.record(self.intervals[self.done].operation, self.run.drain())
+        return self.recorder.history[-1]
 
     def record_part(self) -> None:
         """Record the elapsed part of an interval that was interrupted before its end, if there is any.
@@ -174,15 +195,24 @@ class Simulation(Iterator[Record]):
             self.stepper.refresh()
             self._record()
 
+    def stop(self, reason: str) -> None:
+        """End a run before its end, at a limit."""
+        where = f"at {self.run.time:.4g} s" if self.started else "before the start"
+        self.status, self.message = RunStatus.STOPPED, f"{where}: {reason}"
+
     def result(self) -> SimulationResult:
         """The records so far, with status ``interrupted`` before the end.  A complete schedule gets its final notes."""
         if self._recorder is None:
             return Recorder(self.run).result(self.status, self.message, 0.0, float("nan"))
         message = f"at {self.run.time:.4g} s" if self.status == RunStatus.INTERRUPTED else self.message
         result = self._recorder.result(self.status, message, self.wall_s, self.settling_residual)
+        result.run["checkpoints_s"] = self.kept_s
         table = operations_table(result.history, self._recorder.start_time, self._recorder.start_depth, self._spans())
         result = replace(result, operations=table)
-        return self._judged(result) if self.status == RunStatus.COMPLETED and self.window is None else result
+        if self.status == RunStatus.COMPLETED:
+            return self._judged(result) if self.window is None else result
+        note = self.recorder.guards.of_the_ledger()
+        return result if note is None else replace(result, notes=(note, *result.notes))
 
     def _complete(self) -> None:
         if self.window is None:
@@ -280,18 +310,24 @@ def simulate(
     *,
     contact: WallQuery | None = None,
     settling: Settling | None = None,
+    keeper: Keeper | None = None,
 ) -> SimulationResult:
     """Simulate a case's operations.
 
     contact : another contact method, built for the hole of this case, that finds the wall at every step;
     friction, force law and step stay the same.  settling : called while the string settles before the start.
+    keeper : keeps the run while it lasts.
 
     Returns all records up to the end of the run: ``status`` is ``completed`` or the reason for the stop, ``message``
     its time.  Raises InputError for a case that cannot be simulated.
     """
     simulation = Simulation(case, contact, settling=settling)
     try:
+        if keeper is not None:
+            keeper.begin(simulation)
         for record in simulation:
+            if keeper is not None:
+                keeper.keep(simulation)
             if progress is not None:
                 now = record["time_s"]
                 progress(now, simulation.end, now / max(simulation.wall_s, 1e-9))
@@ -299,4 +335,8 @@ def simulate(
         if not simulation.started:
             raise
         simulation.record_part()
+    except LimitReached as limit:
+        simulation.stop(str(limit))
+        if keeper is not None and simulation.started:
+            keeper.keep(simulation, now=True)
     return simulation.result()

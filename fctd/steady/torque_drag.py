@@ -74,8 +74,15 @@ def chart_rows(
     rpm: float | str | None = None,
     progress: Progress | None = None,
     threads: int | None = None,
+    *,
+    known: Sequence[list[Row]] = (),
+    keep: Callable[[list[Row]], None] | None = None,
 ) -> list[Row]:
-    """The rows of ``torque_drag``, each a mapping from column to value."""
+    """The rows of ``torque_drag``, each a mapping from column to value.
+
+    known : the rows of the first depths, where another process has computed them; keep : called with those of each
+    other depth, in their order.
+    """
     with naming_file(case):
         depths = _check_depths(bit_depths)
         kinds = [operation] if isinstance(operation, str) else list(operation)
@@ -88,7 +95,7 @@ def chart_rows(
         loads = [(kind, k) for kind in kinds for k in range(len(solvers))]
         threads = batch.cores() if threads is None else threads
         size = max(1, min(len(depths) // (4 * threads), ROWS // len(loads)))
-        parts = [depths[k : k + size] for k in range(0, len(depths), size)]
+        parts = [depths[k : k + size] for k in range(len(known), len(depths), size)]
         laid: dict[float, LaidString | InputError] = {}
 
         def batches() -> Iterator[list[batch.Row]]:
@@ -98,8 +105,9 @@ def chart_rows(
                 fit = [string for string in strings if isinstance(string, LaidString)]
                 yield [batch.Row(string, k, kind, rates[kind]) for string in fit for kind, k in loads]
 
-        rows: list[list[Row]] = []
+        rows = list(known)
         unfit: list[InputError] = []
+        misfits = sum(all(row["status"] == SteadyStatus.NOT_POSSIBLE for row in at_depth) for at_depth in known)
         solved = batch.solve_batches(case, [solver.hole for _, solver in solvers], batches(), threads)
         for part, answers in zip(parts, solved, strict=True):
             of = iter(answers)
@@ -113,7 +121,9 @@ def chart_rows(
                     rows[-1].append(_row(*solvers[k], kind, rates[kind], depth, attempt))
                     if progress is not None:
                         progress((len(rows) - 1) * len(loads) + len(rows[-1]), len(depths) * len(loads))
-        if len(unfit) == len(depths):
+                if keep is not None:
+                    keep(rows[-1])
+        if unfit and misfits + len(unfit) == len(depths):
             raise unfit[0]
         return [row for series in zip(*rows, strict=True) for row in series]
 

@@ -79,7 +79,7 @@ def test_a_missing_package_is_exit_code_2_and_is_listed(
 
 
 def test_interrupted_is_exit_code_130(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    def stopped(*_: object) -> None:
+    def stopped(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(command, "simulate_file", stopped)

@@ -35,6 +35,7 @@ OUTCOMES = [
     ("simulate", "unstable", 1, False, "the last rows are not those of a string"),
     ("simulate", "unsettled", 1, False, "the motion never began"),
     ("simulate", "interrupted", 130, True, "the shell's number for Ctrl-C; the rows so far are as in a whole run"),
+    ("simulate", "stopped", 1, True, "the operations are not done; the rows so far are as in a whole run"),
     ("refine", "within_tolerance", 0, True, "the segments that were asked for"),
     ("refine", "not_reached", 1, True, "the finest string has loads, with a larger error than allowed"),
     ("refine", "no_answer", 1, False, "no string had loads"),

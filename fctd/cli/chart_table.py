@@ -1,0 +1,102 @@
+"""A chart on the screen: a table that fits it, and lines for what is not converged or has a note."""
+
+from collections import Counter
+from collections.abc import Sequence
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from fctd.case.text import printable
+from fctd.cli.options import messages, screen
+from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
+from fctd.results.notes import MEANINGS
+from fctd.results.series import FRICTION_LABEL, in_words
+from fctd.results.status import SteadyStatus
+from fctd.results.unit_systems import System, reworded, shown
+from fctd.steady.torque_drag import Row
+
+SCREEN_ROWS = 36
+# Columns of a chart on the screen.
+SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
+
+
+def print_chart(rows: list[Row], name: str, units: System) -> None:
+    """Print a table that fits the screen, and a line for each run of rows with another status or a note."""
+    units_of = {column.name: shown(column.name, units) for column in SHOWN}
+    series: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        series.setdefault((row["operation"], reworded(row[FRICTION_LABEL], units)), []).append(row)
+    frictions = list(dict.fromkeys(friction for _, friction in series))
+    fan = len(frictions) > 1  # one set of factors, which may be a long text, stands above the table
+    screen.print(printable(name if fan else f"{name}; {in_words(frictions[0])}"), style="bold", soft_wrap=True)
+    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
+    table.add_column("operation", no_wrap=True)
+    if fan:
+        table.add_column("μ", overflow="fold")
+    for column in SHOWN:
+        table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
+    buckled = not all(np.isnan(row["buckled_from_md_m"]) for row in rows)
+    if buckled:
+        table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
+    table.add_column("status", overflow="fold")
+    each, printed = max(SCREEN_ROWS // len(series), 1), 0
+    for (operation, friction), of in series.items():
+        # Evenly spread rows, always with the deepest one.
+        picked = np.unique(np.linspace(len(of) - 1, 0, min(each, len(of))).round().astype(int))
+        printed += len(picked)
+        for k, row in enumerate(of[i] for i in picked):
+            values = [
+                "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
+                for name, digits in ((column.name, column.digits) for column in SHOWN)
+            ]
+            if buckled:
+                values.append(_buckled(row, units_of[DEPTH.name].factor))
+            names = (operation, friction) if fan else (operation,)
+            table.add_row(*(("",) * len(names) if k else names), *values, row["status"])
+    screen.print(table)
+    counts = ", ".join(f"{count} {status}" for status, count in Counter(row["status"] for row in rows).most_common())
+    left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""
+    screen.print(f"{len(rows)} rows: {counts}{left_out}", soft_wrap=True)
+    depth = units_of["bit_depth_m"]
+    for (operation, friction), of in series.items():
+        name = f"{operation}, friction {friction}" if fan else operation
+        for line in _exceptions(of, depth.factor, depth.label):
+            messages.print(reworded(f"{name}: {line}", units), soft_wrap=True)
+
+
+def _buckled(row: Row, factor: float) -> str:
+    """Mode and depths of the buckled part of a string, "helical 540–1500"."""
+    first, last = (row[column.name] * factor for column in BUCKLED)
+    return "–" if np.isnan(first) else f"{row['buckling']} {first:.0f}–{last:.0f}"
+
+
+def _exceptions(rows: list[Row], factor: float, label: str) -> list[str]:
+    """The runs of rows of one series that are not converged, and those with the same note, a line each."""
+    depths = [row["bit_depth_m"] * factor for row in rows]
+    reasons = {row["status"]: row["reason"] for row in rows}  # the last, at the greatest depth, of each status
+    lines = [
+        f"{status} at {where}: {reasons[status]}"
+        for status, where in _runs([row["status"] for row in rows], depths, label)
+        if status != SteadyStatus.CONVERGED
+    ]
+    for code, meaning in MEANINGS.items():
+        noted = [code in row["notes"].split(", ") for row in rows]
+        lines += [
+            f"note {code} at {where}: {meaning.headline}: {meaning.remedy}"
+            for has, where in _runs(noted, depths, label)
+            if has
+        ]
+    return lines
+
+
+def _runs(values: Sequence[Any], depths: Sequence[float], label: str) -> list[tuple[Any, str]]:
+    """Every run of equal values, with its depths as text."""
+    found = []
+    for value, run in groupby(zip(values, depths, strict=True), key=lambda row: row[0]):
+        at = [depth for _, depth in run]
+        span = f"{at[0]:g}" if len(at) == 1 else f"{at[0]:g} to {at[-1]:g}"
+        found.append((value, f"{span} {label} ({len(at)} of {len(depths)})"))
+    return found

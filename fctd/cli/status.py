@@ -1,0 +1,76 @@
+"""``fctd status``: how far the run of a result is, and what its folder holds."""
+
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from fctd.case.errors import InputError
+from fctd.case.text import printable
+from fctd.cli.keeping import has_kept, way_on
+from fctd.cli.manners import Silent
+from fctd.cli.options import screen
+from fctd.results.run_folder import about_of, clock, progress_of, writer_of
+from fctd.results.tables import open_result
+
+
+def status_command(
+    result: Annotated[
+        Path,
+        typer.Argument(metavar="RESULT", help="Folder of a run, or table or picture of a chart.", show_default=False),
+    ],
+    quiet: Silent = False,
+) -> None:
+    """Say how far a run is, also while it lasts, and how to go on with one that has stopped."""
+    lines = [*_of_the_run(result), *_of_the_result(result)]
+    if not lines:
+        raise InputError("the result of fctd simulate or fctd chart, or the place of an unfinished one", value=result)
+    for line in () if quiet else lines:
+        screen.print(f"{printable(str(result))}: {line}", soft_wrap=True)
+
+
+def _of_the_run(target: Path) -> list[str]:
+    """What there is to say of a run that has not ended."""
+    about, writer, progress = about_of(target), writer_of(target), progress_of(target)
+    if about is None:
+        return [] if writer is None else [f"begun by process {writer.process} at {clock(writer.since)}"]
+    lines = []
+    if writer is not None:
+        lines.append(f"running since {clock(writer.since)}, process {writer.process}")
+    if progress is not None:
+        share = 100 * progress.done / progress.total if progress.total > 0 else 0.0
+        # The clock may have been set back since.
+        age = max(time.time() - progress.now, 0.0)
+        lines.append(
+            f"{progress.done:.4g} of {progress.total:.4g} {progress.unit} ({share:.0f} %) in {progress.took:.0f} s, "
+            f"{age:.0f} s ago; kept up to {progress.kept:.4g} {progress.unit}"
+        )
+    elif writer is not None:
+        lines.append("nothing computed yet")
+    if writer is None:
+        lines.append(_stopped(target, about))
+    return lines
+
+
+def _stopped(target: Path, about: dict[str, Any]) -> str:
+    if not has_kept(target):
+        return "stopped before anything was kept"
+    return f"stopped; `{way_on(target, about)}` goes on"
+
+
+def _of_the_result(target: Path) -> list[str]:
+    """What there is to say of a result that is there."""
+    if target.is_file():
+        return [f"a chart, written at {clock(target.stat().st_mtime)}"]
+    if not target.is_dir():
+        return []
+    try:
+        found = open_result(target, pause=0.0)
+    except InputError:
+        return []
+    line = f"a result: {found.status}, {len(found.history)} records"
+    if len(found.history):
+        last = found.history.iloc[-1]
+        line += f", {last['operation']} at {last['bit_depth_m']:.1f} m"
+    return [f"{line} ({found.message})" if found.message else line]

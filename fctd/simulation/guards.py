@@ -1,0 +1,75 @@
+"""Guards: what is checked at every record of a run, within a few per cent of the time of its records.
+
+- The state is finite, and no contact point lies deeper in the wall than the hole's radius: else the run ends
+  (``faults.check``).
+- Contact points that are deep in the wall, stress and hook load (``notes.string_notes``), and segments that cannot bend
+  as the buckled string does (``notes.under_resolved``).
+- Joints beyond the range of their law (``notes.beyond_joints``).
+- The energy ledger so far, by which a run that ends early is judged.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from time import perf_counter
+from typing import ParamSpec, TypeVar
+
+import numpy as np
+
+from fctd.mechanics import state
+from fctd.mechanics.query import Walls
+from fctd.results.buckling import Buckling
+from fctd.results.notes import Note, beyond_joints, ledger_off, string_notes, under_resolved
+from fctd.results.profile import Loads
+from fctd.simulation.run import Run
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+class Guards:
+    """The checks of a run: its notes so far by code, each where it was worst, and the time that they took.
+
+    seconds : by the process's own clock.  residual, work : the largest so far of the ledger [J].
+    """
+
+    def __init__(self, run: Run) -> None:
+        self.run = run
+        self.notes: dict[str, Note] = {}
+        self.seconds = self.residual = self.work = 0.0
+
+    def timed(self, check: Callable[P, R], *given: P.args, **more: P.kwargs) -> R:
+        """Call one of the checks below, and add its time."""
+        began = perf_counter()
+        try:
+            return check(*given, **more)
+        finally:
+            self.seconds += perf_counter() - began
+
+    def check_state(self, bit_depth: float) -> None:
+        """Raise UnstableError where the model cannot describe the state; bit_depth [m]."""
+        worst = self.run.check()
+        self._keep(beyond_joints(worst.bend, worst.twist, worst.joint), bit_depth)
+
+    def check_record(
+        self, bit_depth: float, hookload: float, loads: Loads, walls: Walls, buckling: Buckling,
+        entry: Mapping[str, float],
+    ) -> None:  # fmt: skip
+        """Keep the notes of a record; loads are means over its interval, entry is its row of the ledger."""
+        run = self.run
+        radius, in_hole = state.row(run.S, state.RADIUS, run.segments), run.case.contact.enabled
+        for note in string_notes(run.string, loads, hookload, walls, radius, in_hole=in_hole):
+            self._keep(note, bit_depth)
+        self._keep(under_resolved(buckling), bit_depth)
+        lost = abs(sum(value for name, value in entry.items() if name.startswith("lost_")))
+        beyond = abs(entry["top_drive_work_J"] - entry["gravity_J"])
+        self.work = float(np.fmax(self.work, max(lost, beyond)))
+        self.residual = float(np.fmax(self.residual, abs(entry["residual_J"])))
+
+    def of_the_ledger(self) -> Note | None:
+        """The note on a ledger that is off so far, as far as the run has turned over energy."""
+        return ledger_off(self.residual / self.work) if self.work > 0 else None
+
+    def _keep(self, note: Note | None, bit_depth: float) -> None:
+        """Keep a note that is new, or whose excess is larger than before."""
+        if note is not None and (note.code not in self.notes or note.excess > self.notes[note.code].excess):
+            self.notes[note.code] = replace(note, text=f"{note.text}, with the bit at {bit_depth:.0f} m")

@@ -1,0 +1,115 @@
+"""A run that is kept while it lasts, in its folder: chunks of records, checkpoints, and how far it is."""
+
+import io
+import json
+import time
+from collections.abc import Callable
+from zipfile import BadZipFile
+
+import numpy as np
+
+from fctd.results.run_folder import REPORTED_EVERY, SHARE, Progress, RunFolder, cannot_keep, numbered
+from fctd.simulation.checkpoint import Checkpoint, capture, put_back
+from fctd.simulation.chunks import NAMES, Cursor, add_chunk, chunk_since, read_chunk, size_of
+from fctd.simulation.disk import bytes_needed, check_disk
+from fctd.simulation.simulate import Simulation
+
+CHECKPOINT = "checkpoint.npz"
+# Checkpoints of a run, the last of which may be damaged.
+KEPT_CHECKPOINTS = 2
+UNREADABLE = (OSError, ValueError, KeyError, TypeError, BadZipFile)
+
+
+class KeptRun:
+    """Keeps a run in a folder; see ``Keeper``.
+
+    every : time between two checkpoints [s], longer where one takes long; csv : whether the result will have CSV files.
+    key : the option that names the place; tell : called with what the user should know.
+    seconds : that keeping took; kept : simulated time of the last checkpoint [s].
+    """
+
+    def __init__(
+        self, folder: RunFolder, every: float, *, csv: bool = False, key: str = "", tell: Callable[[str], None] = print
+    ) -> None:
+        self.folder, self.every, self.csv, self.key, self.tell = folder, every, csv, key, tell
+        self.seconds = self.kept = 0.0
+        self._number, self._cursor, self._cost, self._before = 0, Cursor(), 0.0, 0.0
+        self._began = self._last = self._reported = time.monotonic()
+
+    def begin(self, simulation: Simulation) -> None:
+        """Put a run into the state of the last checkpoint; InputError where the disk is too small for a new one."""
+        import pandas as pd  # noqa: F401 (imported here, so that the first chunk does not have to)
+        import pyarrow.parquet as pq  # noqa: F401
+
+        checkpoints = numbered(self.folder.path, CHECKPOINT)
+        for number in reversed(checkpoints):
+            try:
+                self._go_on(simulation, number)
+            except UNREADABLE as error:
+                self.tell(f"checkpoint {number} cannot be used ({getattr(error, 'strerror', None) or error})")
+            else:
+                break
+        self._remove_after(self._number)
+        if checkpoints:
+            self.tell(f"the run goes on from {self.kept:.4g} s")
+        else:
+            needed = bytes_needed(simulation.run, len(simulation.intervals), self.csv)
+            check_disk(self.folder.path, needed, self.key)
+
+    def keep(self, simulation: Simulation, *, now: bool = False) -> None:
+        """Write a chunk and a checkpoint where they are due; InputError where they cannot be written."""
+        began = time.monotonic()
+        due = began - self._last >= max(self.every, self._cost / SHARE)
+        if due or now:
+            try:
+                self._write(simulation)
+            except OSError as error:
+                raise cannot_keep(error, self.folder, self.key, f"{self.kept:.4g} s" if self.kept else "") from error
+        if due or now or began - self._reported >= REPORTED_EVERY:
+            self._reported = began
+            total, took = simulation.end, self._before + began - self._began
+            self.folder.report(Progress(simulation.run.time, total, "s", self.kept, took, time.time()))
+        ended = time.monotonic()
+        if due or now:
+            self._last, self._cost = ended, ended - began
+        self.seconds += ended - began
+        simulation.kept_s = self.seconds
+
+    def _write(self, simulation: Simulation) -> None:
+        number = self._number + 1
+        for name, content in chunk_since(simulation.recorder, self._cursor).items():
+            self.folder.write(f"{number}-{name}.parquet", content)
+        checkpoint = capture(simulation)
+        facts = checkpoint.facts | {
+            "took": self._before + time.monotonic() - self._began, "kept_s": self.seconds,
+            "cursor": [self._cursor.records, self._cursor.profiles, self._cursor.seen],
+        }  # fmt: skip
+        sink = io.BytesIO()
+        np.savez(sink, facts=np.frombuffer(json.dumps(facts).encode(), np.uint8), **checkpoint.arrays)
+        self.folder.write(f"{number}-{CHECKPOINT}", sink.getvalue())
+        self.folder.remove({f"{number - KEPT_CHECKPOINTS}-{CHECKPOINT}"})
+        self._number, self.kept = number, checkpoint.time
+
+    def _go_on(self, simulation: Simulation, number: int) -> None:
+        path = self.folder.path
+        with np.load(path / f"{number}-{CHECKPOINT}", allow_pickle=False) as read:
+            arrays = {name: read[name] for name in read.files}
+        facts = json.loads(arrays.pop("facts").tobytes())
+        chunks = []
+        for k in range(1, number + 1):
+            files = {name: path / f"{k}-{name}.parquet" for name in NAMES}
+            chunks.append(read_chunk({name: file.read_bytes() for name, file in files.items() if file.exists()}))
+        cursor = Cursor(*facts["cursor"])
+        if size_of(chunks) != (cursor.records, cursor.records, cursor.profiles):
+            raise ValueError("a chunk of its records is missing")
+        recorder = put_back(simulation, Checkpoint(arrays, facts))  # once all has been read
+        for chunk in chunks:
+            add_chunk(recorder, chunk)
+        simulation.go_on(recorder)
+        self._number, self._cursor, self.kept = number, cursor, facts["last_time"]
+        self._before, self.seconds = facts["took"], facts["kept_s"]
+
+    def _remove_after(self, number: int) -> None:
+        """Remove chunks and checkpoints after one, which a process had begun to write or which cannot be read."""
+        for kind in (CHECKPOINT, *(f"{name}.parquet" for name in NAMES)):
+            self.folder.remove({name for k, name in numbered(self.folder.path, kind).items() if k > number})
