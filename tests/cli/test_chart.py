@@ -147,7 +147,7 @@ def test_the_screen_says_how_many_rows_it_leaves_out(
 ) -> None:
     assert run(monkeypatch, "chart", case_file, "--operation", "trip_in", "--depths", "600:636:1") == 0
     printed = capsys.readouterr().out
-    assert "37 rows: 37 converged; 36 of them above, all in the file of --out" in printed
+    assert "37 rows: 37 converged; 36 of them above, all of them in a file by --out" in printed
     assert "636.0" in printed
 
 
