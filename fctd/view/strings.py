@@ -110,7 +110,7 @@ def of_chart(
             laid = solver.lay_out(float(depth))
             points += [solver.solve_string(kind, rates[kind], laid) for kind in kinds]
         except InputError as error:
-            unfit = error
+            unfit = unfit or error
         if progress is not None:
             progress(k, len(bit_depths))
     if not points:
