@@ -266,7 +266,7 @@ def _with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: i
     top = 58 + LINE * (len(lines) + 1)
     small = "".join(f"<br><span style='font-size:12px;font-weight:normal'>{_wrapped(line)}</span>" for line in lines)
     extra = sum(_wrapped(line).count("<br>") for line in lines) * LINE
-    title_text = f"<b>{_plain(title)}</b>{small}"
+    title_text = f"<b>{plain(title)}</b>{small}"
     figure.update_layout(
         title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 20}},
         height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 45, "b": 110},
@@ -283,7 +283,7 @@ def _new(name: str, named: set[str]) -> bool:
     return new
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
     """A text from outside as the page shows it: neither tags nor formulas."""
     return escape(printable(text)).replace("$", "&#36;")
 
@@ -296,4 +296,4 @@ def _wrapped(text: str, width: int = 150) -> str:
             lines, room = [*lines, ""], width
         lines[-1] += f" {word}" if lines[-1] else word
         room -= len(word) + 1
-    return "<br>".join(map(_plain, lines))
+    return "<br>".join(map(plain, lines))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fctd.simulation.recorder import Recorder
-from fctd.simulation.series import COLUMNS
+from fctd.simulation.series import KEPT
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -49,7 +49,7 @@ def chunk_since(recorder: Recorder, cursor: Cursor) -> dict[str, bytes]:
     if series := recorder.series.since(cursor.seen):
         numbers = np.concatenate([np.full(len(rows), number, np.int64) for number, rows in series])
         values = np.concatenate([rows for _, rows in series])
-        columns = {name: values[:, k] for k, name in enumerate(COLUMNS)}
+        columns = {name: values[:, k] for k, name in enumerate(KEPT)}
         found["segments"] = pa.table({NUMBER: numbers, **columns})
     cursor.records, cursor.profiles = len(recorder.history), len(recorder.profiles)
     cursor.seen = recorder.series.seen
@@ -85,7 +85,7 @@ def add_chunk(recorder: Recorder, chunk: Mapping[str, Any]) -> None:
     if "segments" in chunk:
         read = chunk["segments"]
         numbers = read.column(NUMBER).to_numpy()
-        values = np.stack([read.column(name).to_numpy() for name in COLUMNS], axis=1)
+        values = np.stack([read.column(name).to_numpy() for name in KEPT], axis=1)
         edges = np.flatnonzero(np.diff(numbers)) + 1
         for rows, first in zip(np.split(values, edges), [0, *edges], strict=True):
             recorder.series.put_back(int(numbers[first]), rows)

@@ -17,8 +17,17 @@ from fctd.mechanics.readings import Readings
 from fctd.mechanics.rock import NO_ROCK
 from fctd.model.operations import drive_torque, weight_indicator
 from fctd.results import ledger
-from fctd.results.buckling import NOT_BUCKLED, Buckling, buckling_along, pipe_of
-from fctd.results.profile import Loads, at_contacts, profile_table
+from fctd.results.buckling import (
+    HELICAL_LIMIT,
+    MODE,
+    NOT_BUCKLED,
+    ROW_COLUMNS,
+    SINUSOIDAL_LIMIT,
+    Buckling,
+    buckling_along,
+    pipe_of,
+)
+from fctd.results.profile import Loads, at_contacts, profile_table, von_mises
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
 from fctd.simulation.guards import Guards
@@ -88,7 +97,7 @@ class Recorder:
             block = {"block_position_m": float(self.run.top[topdrive.BLOCK_HEIGHT]), "in_slips": in_slips}
         before = self.history[-1]["bit_depth_m"] if self.history else self.start_depth
         loads, (_, walls) = self._loads(), self._walls()
-        buckling = self._buckling(loads, walls)
+        limits, buckling = self._buckling(loads, walls)
         self.history.append(
             {
                 "time_s": self.last_time,
@@ -114,8 +123,7 @@ class Recorder:
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
         self.guards.timed(self.guards.check_record, self.bit_depth, hookload, loads, walls, buckling, row)
-        tension, twist, _ = at_contacts(self.run.string, loads)
-        self.series.add(self.last_time, self.bit_depth, walls.md, tension[1:], twist[1:], loads.normal)
+        self._keep_segments(loads, walls, limits)
         low, high = sorted((before, self.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]
         if passed:
@@ -147,7 +155,7 @@ class Recorder:
         history, notes = pd.DataFrame(self.history), tuple(self.guards.notes.values())
         return SimulationResult(
             run.case, status, message, history, profile, energy, numbers, notes, run.case.warnings,
-            segments=self.series.table(),
+            segments=self.series.table(run.hole),
         )  # fmt: skip
 
     def _bit(self) -> dict[str, float]:
@@ -181,14 +189,29 @@ class Recorder:
         points = contact_points(self.run.S, self.run.segments)
         return points, self.run.hole.walls(points, self.run.owner[1 : self.run.segments + 1])
 
-    def _buckling(self, loads: Loads, walls: Walls) -> Buckling:
-        """Where the string is buckled; a string without a wall is not judged."""
+    def _buckling(self, loads: Loads, walls: Walls) -> tuple[Array | None, Buckling]:
+        """Limits of ``buckling_along`` and where the string is buckled; a string without a wall is not judged."""
         run = self.run
         if not run.case.contact.enabled or loads.tension.min() >= 0:
-            return NOT_BUCKLED
+            return None, NOT_BUCKLED
         top_md = run.string.top_md
         pipe = pipe_of(run.string)
-        return buckling_along(run.hole, pipe, top_md, walls.md, walls.radius, loads.tension, loads.bit_tension)[1]
+        return buckling_along(run.hole, pipe, top_md, walls.md, walls.radius, loads.tension, loads.bit_tension)
+
+    def _keep_segments(self, loads: Loads, walls: Walls, limits: Array | None) -> None:
+        """Add the contact points to the series where it keeps this record."""
+        if not self.series.wants_next:
+            self.series.skip()
+            return
+        string, n = self.run.string, self.run.segments
+        tension, twist, bending = (values[1:] for values in at_contacts(string, loads))
+        stress = von_mises(tension, twist, bending, string.of("outer"), string.of("inner"))
+        rows = np.full((n + 1, ROW_COLUMNS), np.nan) if limits is None else limits
+        mode = np.zeros(n) if limits is None else limits[1:, MODE]
+        self.series.add(
+            self.last_time, self.bit_depth, walls.md, (tension, twist, loads.normal, bending, stress),
+            walls.radius - string.contact_radius(), rows[1:, [SINUSOIDAL_LIMIT, HELICAL_LIMIT]], mode, walls.offset,
+        )  # fmt: skip
 
     def _loads(self) -> Loads:
         """Loads of the string: means over the last interval, but bending at its end."""

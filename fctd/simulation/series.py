@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from fctd.model.wellbore import Wellbore, hole_frame
+from fctd.results.buckling import MODES
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Array = NDArray[np.float64]
 
-# Rows kept of all records, a few megabytes; a picture shows no more.
-MOST_ROWS = 300_000
-COLUMNS = ("time_s", "bit_depth_m", "md_m", "effective_tension_N", "torque_N_m", "contact_force_N")
+# Rows kept of all records, some 25 megabytes; pictures and pages show no more.
+MOST_ROWS = 200_000
+LOADS = ("effective_tension_N", "torque_N_m", "contact_force_N", "bending_moment_N_m", "von_mises_Pa")
+LIMITS = ("sinusoidal_limit_N", "helical_limit_N")
+COLUMNS = ("time_s", "bit_depth_m", "md_m", *LOADS, "clearance_m", *LIMITS)
+# Of a record while the run lasts: the mode of buckling as a number, and the offset from the axis of the hole [m].
+KEPT = (*COLUMNS, "mode", "offset_x_m", "offset_y_m", "offset_z_m")
 
 
 class SegmentSeries:
@@ -28,11 +36,26 @@ class SegmentSeries:
         self._most, self.every, self.seen = most_rows, 1, 0
         self._kept: list[Array] = []
 
-    def add(self, time: float, bit_depth: float, md: Array, tension: Array, torque: Array, normal: Array) -> None:
-        """Add a record: time [s] and bit depth [m]; of the contact points (n,) md [m], loads [N, N m] and force [N]."""
-        if self.seen % self.every == 0:
-            rows = np.stack([np.full_like(md, time), np.full_like(md, bit_depth), md, tension, torque, normal], axis=1)
-            self._kept.append(rows)
+    @property
+    def wants_next(self) -> bool:
+        """Whether the next record is kept, and needs its rows."""
+        return self.seen % self.every == 0
+
+    def skip(self) -> None:
+        """Count a record that is not kept."""
+        self.seen += 1
+
+    def add(
+        self, time: float, bit_depth: float, md: Array, loads: Sequence[Array], clearance: Array, limits: Array,
+        mode: Array, offset: Array,
+    ) -> None:  # fmt: skip
+        """Add a record: time [s] and bit depth [m]; and of the n contact points, each (n,), what follows.
+
+        md [m]; loads : of ``LOADS``; clearance [m]; limits (n, 2) : of buckling [N], NaN where nothing is compressed;
+        mode : of buckling; offset (n, 3) : from the axis of the hole [m].
+        """
+        columns = [np.full_like(md, time), np.full_like(md, bit_depth), md, *loads, clearance, *limits.T, mode]
+        self._kept.append(np.column_stack([*columns, offset]))
         self.seen += 1
         while len(self._kept) > 2 and sum(map(len, self._kept)) > self._most:
             self._kept = self._kept[::2]
@@ -47,9 +70,15 @@ class SegmentSeries:
         if number % self.every == 0:
             self._kept.append(rows)
 
-    def table(self) -> pd.DataFrame:
-        """A row for every segment at every kept record."""
+    def table(self, hole: Wellbore) -> pd.DataFrame:
+        """A row for every segment at every kept record: ``COLUMNS``, offsets to high side and right, buckling."""
         import pandas as pd
 
-        rows = np.concatenate(self._kept) if self._kept else np.empty((0, len(COLUMNS)))
-        return pd.DataFrame(rows, columns=list(COLUMNS))
+        rows = np.concatenate(self._kept) if self._kept else np.empty((0, len(KEPT)))
+        table = pd.DataFrame(rows[:, : len(COLUMNS)], columns=list(COLUMNS))
+        if len(table):
+            offset = rows[:, -3:]
+            for name, side in zip(("high", "right"), hole_frame(hole.at(rows[:, 2])[1]), strict=True):
+                table[f"offset_{name}_m"] = (offset * side).sum(axis=1)
+            table["buckling"] = MODES[rows[:, len(COLUMNS)].astype(int)]
+        return table

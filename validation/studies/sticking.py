@@ -260,7 +260,7 @@ def costs() -> pd.DataFrame:
         turning[law] = run, phases[1].motion
     for state_of in ("turning", "at rest"):
         least = dict.fromkeys(turning, np.inf)
-        for law, (run, motion) in turning.items():
+        for run, motion in turning.values():
             run.advance(motion if state_of == "turning" else STILL, 1.0 if state_of == "turning" else 60.0)
         for _ in range(WINDOWS):
             for law, (run, motion) in turning.items():

@@ -1,0 +1,161 @@
+"""``fctd view SOURCE``: the string in its hole, as a page."""
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+from fctd.case.doubts import warnings_of
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.case.text import file_name, printable
+from fctd.cli.chart import DEPTHS_HELP, read_depths
+from fctd.cli.options import (
+    Friction,
+    Overrides,
+    Quiet,
+    changes_of,
+    check_target,
+    messages,
+    print_written,
+    read_case,
+    refuse_sources,
+    tell,
+)
+from fctd.cli.pictures import check_package
+from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive
+from fctd.plots.facts import shoes_of
+from fctd.results.tables import SimulationResult, open_result
+from fctd.results.unit_systems import System
+from fctd.view.quantities import QUANTITIES, quantity_of
+from fctd.view.strings import Strings, of_chart, of_run
+
+USUAL = ("trip_out", "rotate_off_bottom", "trip_in")
+DEPTHS = 40  # of a view without --depths
+
+
+def view_command(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RESULT|CASE", help="Case file (TOML), or the folder of fctd simulate.", show_default=False
+        ),
+    ],
+    operations: Annotated[
+        list[str],
+        typer.Option(
+            "--operation",
+            metavar="KINDS",
+            help=f"Of a case. {KIND_HELP}; several with commas between them, or all; default: {','.join(USUAL)}.",
+        ),
+    ] = [],  # noqa: B006 (typer copies it)
+    depths: Annotated[
+        str | None,
+        typer.Option(
+            "--depths",
+            metavar="FROM:TO:STEP",
+            help=f"Of a case. {DEPTHS_HELP} Default: {DEPTHS} depths from the last shoe to the end of the hole.",
+        ),
+    ] = None,
+    colour: Annotated[
+        str, typer.Option("--colour", metavar="QUANTITY", help=f"Of the string at first: {', '.join(QUANTITIES)}.")
+    ] = "side_force",
+    exaggeration: Annotated[
+        float | None,
+        typer.Option(
+            "--sideways",
+            metavar="X",
+            min=1.0,
+            show_default=False,
+            help="How many times as large offsets and clearance are drawn; default: a round number that shows them.",
+        ),
+    ] = None,
+    speed: Speed = None,
+    rpm: Rpm = None,
+    friction: Friction = None,
+    resolve_buckling: ResolveBuckling = None,
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    out: Annotated[Path | None, file_option("--out", "The page, .html; default: CASE-NAME-view.html.")] = None,
+    png: Annotated[
+        Path | None, file_option("--png", "A still picture of the page, .png, drawn by a browser of this machine.")
+    ] = None,
+    units: Units = "si",
+    quiet: Quiet = False,
+) -> None:
+    """Show where the string touches its hole: a page with the string in three dimensions over bit depth or time."""
+    quantity_of(colour, "--colour")
+    check_target(out, "--out", (".html",))
+    check_target(png, "--png", (".png",))
+    check_package(Path("view.html"), "view")
+    given = {"--operation": operations, "--depths": depths, "--speed": speed, "--rpm": rpm, "--friction": friction}
+    given |= {"--set": overrides, "--resolve-buckling": resolve_buckling}
+    if source.is_dir():
+        strings, told = _of_result(source, given), []
+    else:
+        case = read_case(source, changes_of(overrides, friction, resolve_buckling))
+        kinds = _kinds(operations)
+        wanted = _depths(case, depths, units)
+        drive = read_drive(speed, rpm, units)
+        told = tell(case, warnings_of(case, kinds, **drive), strict=False, units=units)
+        columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn())
+        with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
+            task = bar.add_task(printable(case.name), total=len(wanted))
+
+            def show(done: int, total: int) -> None:
+                bar.update(task, completed=done, total=total)
+
+            strings = of_chart(case, kinds, wanted, **drive, progress=show)
+    _write(strings, out, png, colour, units, exaggeration, told)
+
+
+def _of_result(folder: Path, given: dict[str, object]) -> Strings:
+    """The strings of a run; options of a case are refused."""
+    for key, value in given.items():
+        if value not in (None, []):
+            expected = "a case file in place of the folder, as the run is already computed"
+            raise InputError(expected, key=key, value=value)
+    result: SimulationResult = open_result(folder)
+    return of_run(result)
+
+
+def _kinds(operations: Sequence[str]) -> list[str]:
+    names = [name.strip() for text in operations for name in text.split(",")] or list(USUAL)
+    return list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name])))
+
+
+def _depths(case: Case, text: str | None, units: System) -> list[float]:
+    """The depths that are asked for, else even ones from the last shoe, or the middle of the hole, to its end."""
+    if text is not None:
+        return read_depths(text, case, units)
+    top, bottom = case.depths
+    first = next((shoe for shoe in reversed(shoes_of(case)) if top < shoe < bottom), top + 0.5 * (bottom - top))
+    return [round(float(depth), 3) for depth in np.linspace(first, bottom, DEPTHS)]
+
+
+def _write(
+    strings: Strings, out: Path | None, png: Path | None, colour: str, units: System, exaggeration: float | None,
+    told: Sequence[str],
+) -> None:  # fmt: skip
+    from fctd.view.page import save_view  # plotly is slow to import
+    from fctd.view.still import save_still
+
+    for key, path in {"--out": out, "--png": png}.items():
+        refuse_sources(strings.case, path, key)
+
+    def save(path: Path) -> list[Path]:
+        return save_view(strings, path, colour, units, exaggeration=exaggeration, warnings=told)
+
+    written: list[Path] = []
+    try:
+        if png is None or out is not None:
+            written += save(out or Path(file_name(strings.case.name, "-view.html")))
+        if png is not None:
+            with tempfile.TemporaryDirectory() as folder:
+                written += save_still(written[0] if written else save(Path(folder) / "view.html")[0], png)
+    finally:
+        print_written(written)

@@ -1,0 +1,86 @@
+"""What a view colours the string by."""
+
+from dataclasses import dataclass
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.errors import InputError, nearest
+from fctd.plots.tracks import side_force_unit
+from fctd.results.columns import COLUMNS
+from fctd.results.unit_systems import Shown, System, shown
+
+Array = NDArray[np.float64]
+Scale = Literal["magnitude", "nearness", "signed", "modes"]
+
+# Light to dark, so that they are told apart in grey and by colour-blind readers.
+_WARM: Final = ((0.0, "#c4c4c4"), (0.25, "#f0b27a"), (0.5, "#e06a2a"), (0.75, "#b43600"), (1.0, "#5c1400"))
+COLOURS: Final[dict[Scale, tuple[tuple[float, str], ...]]] = {
+    "magnitude": _WARM,
+    "nearness": tuple((1.0 - at, colour) for at, colour in reversed(_WARM)),
+    "signed": ((0.0, "#004C98"), (0.5, "#c4c4c4"), (1.0, "#B43600")),
+    "modes": (
+        (0.0, "#c4c4c4"), (0.34, "#c4c4c4"), (0.34, "#f08a24"), (0.67, "#f08a24"), (0.67, "#5c1400"), (1.0, "#5c1400"),
+    ),
+}  # fmt: skip
+# Above it lie so few values of all strings that they would leave the rest pale.
+BRIGHTEST: Final = 99.5  # percentile
+MODES: Final = ("none", "sinusoidal", "helical")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity of a string; column : of ``Snapshot.columns``; scale : how values become colours."""
+
+    name: str
+    label: str
+    column: str
+    scale: Scale = "magnitude"
+
+    def shown(self, units: System) -> Shown:
+        """Factor and unit in which it is shown."""
+        if self.scale == "modes":
+            return Shown(1.0, "")
+        if self.column == "side_force":
+            return side_force_unit(units, "length")
+        if self.column == "gap_m":
+            return shown("clearance_m", units)
+        return shown(self.column, units)
+
+    def limits(self, values: Array) -> tuple[float, float]:
+        """Values of the first and the last colour, for all values of a view; in the same unit."""
+        if self.scale == "modes":
+            return -0.5, 2.5
+        found = values[np.isfinite(values)]
+        if not len(found):
+            return 0.0, 1.0
+        if self.scale == "signed":
+            most = float(np.percentile(np.abs(found), BRIGHTEST)) or 1.0
+            return (-most, most) if found.min() < 0 else (0.0, most)
+        return 0.0, float(np.percentile(found, BRIGHTEST)) or 1.0
+
+    def colours(self, low: float) -> tuple[tuple[float, str], ...]:
+        """The colour scale; low : value of the first colour, 0 for a signed quantity that is never negative."""
+        return COLOURS["magnitude" if self.scale == "signed" and low == 0 else self.scale]
+
+
+QUANTITIES: Final = {
+    quantity.name: quantity
+    for quantity in (
+        Quantity("side_force", "side force per length", "side_force"),
+        Quantity("tension", COLUMNS["effective_tension_N"].label, "effective_tension_N", "signed"),
+        Quantity("torque", COLUMNS["torque_N_m"].label, "torque_N_m", "signed"),
+        Quantity("bending", COLUMNS["bending_moment_N_m"].label, "bending_moment_N_m"),
+        Quantity("clearance", "distance to the wall", "gap_m", "nearness"),
+        Quantity("buckling", "buckling", "buckling", "modes"),
+        Quantity("stress", COLUMNS["von_mises_Pa"].label, "von_mises_Pa"),
+    )
+}
+
+
+def quantity_of(name: str, key: str = "colour") -> Quantity:
+    """A quantity by its name; raises InputError, which names ``key``."""
+    if name not in QUANTITIES:
+        raise InputError(nearest(name, QUANTITIES, "quantity"), key=key, value=name)
+    return QUANTITIES[name]

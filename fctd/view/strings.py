@@ -1,0 +1,192 @@
+"""The strings of a view: one for each bit depth of a chart, or one for each kept record of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.model.operations import rates_of_all
+from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
+from fctd.plots.tracks import side_force
+from fctd.results.status import SteadyStatus
+from fctd.results.tables import SimulationResult
+from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.view.hole import DrawnHole, drawn_hole
+from fctd.view.quantities import MODES
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Array = NDArray[np.float64]
+Progress = Callable[[int, int], None]
+
+# Columns of a profile, and of a run's segments, that a view keeps.
+KEPT: Final = (
+    "md_m", "contact_force_N", "effective_tension_N", "torque_N_m", "bending_moment_N_m", "von_mises_Pa",
+    "clearance_m", "sinusoidal_limit_N", "helical_limit_N",
+)  # fmt: skip
+NEEDED: Final = (*KEPT, "offset_high_m", "offset_right_m", "buckling")
+# More records would make a page that opens slowly.
+MOST_RECORDS: Final = 200
+RUN: Final = "run"
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A string at one bit depth or time.
+
+    at : bit depth [m], or time [s]; group : operation of a chart, ``RUN`` of a run.  columns : of ``KEPT``,
+    ``side_force`` [N/m], ``gap_m`` to the wall (0 in touch), ``contact_angle_deg`` and ``buckling`` (index into
+    ``MODES``), each (n,), from the top to the bit; offset (n, 3) : from the axis of the hole [m].  Without a balance
+    they are empty, and ``status`` says why.
+    """
+
+    group: str
+    operation: str
+    at: float
+    bit_depth: float
+    status: str
+    hookload: float
+    torque: float
+    columns: Mapping[str, Array]
+    offset: Array
+
+    @property
+    def touching(self) -> NDArray[np.bool_]:
+        """Contact points (n,) that bear on the wall."""
+        return self.columns["contact_force_N"] > 0
+
+
+@dataclass(frozen=True)
+class Strings:
+    """What a view shows.  along : what its slider goes over."""
+
+    case: Case
+    along: Literal["bit depth", "time"]
+    snapshots: tuple[Snapshot, ...]
+    drawn: DrawnHole
+
+    @property
+    def groups(self) -> list[str]:
+        """Groups in order; the slider goes over the snapshots of one."""
+        return list(dict.fromkeys(one.group for one in self.snapshots))
+
+    def of(self, group: str) -> list[Snapshot]:
+        """The snapshots of a group."""
+        return [one for one in self.snapshots if one.group == group]
+
+    @cached_property
+    def typical_clearance(self) -> float:
+        """Median clearance of all strings [m]."""
+        found = [one.columns["clearance_m"] for one in self.snapshots if len(one.offset)]
+        return float(np.median(np.concatenate(found))) if found else float("nan")
+
+
+def of_chart(
+    case: Case,
+    operation: str | Sequence[str],
+    bit_depths: Sequence[float],
+    speed: float | str | None = None,
+    rpm: float | str | None = None,
+    progress: Progress | None = None,
+) -> Strings:
+    """Steady strings of operations at bit depths [m].
+
+    speed [m/s], rpm : as for ``fctd.torque_drag``.  Raises InputError where string and hole fit at none of the depths.
+    """
+    kinds = [operation] if isinstance(operation, str) else list(operation)
+    rates, solver = rates_of_all(case, kinds, speed, rpm), Solver(case)
+    points, unfit = [], None
+    for k, depth in enumerate(bit_depths, start=1):
+        try:
+            laid = solver.lay_out(float(depth))
+            points += [solver.solve_string(kind, rates[kind], laid) for kind in kinds]
+        except InputError as error:
+            unfit = unfit or error
+        if progress is not None:
+            progress(k, len(bit_depths))
+    if not points:
+        raise unfit or InputError("at least one bit depth", key="bit_depths", value=[])
+    points.sort(key=lambda point: kinds.index(point.operation))
+    return of_points(points, solver.hole)
+
+
+def of_points(points: Sequence[Equilibrium], hole: Wellbore | None = None) -> Strings:
+    """Steady strings of one case; hole : the case's, if it has been built already."""
+    case = points[0].case
+    hole = build_wellbore(case) if hole is None else hole
+    snapshots = tuple(
+        Snapshot(
+            point.operation, point.operation, point.bit_depth, point.bit_depth, _status(point), point.hookload,
+            point.surface_torque, *(_values(point.profile, hole) if point.answered else _nothing()),
+        )
+        for point in points
+    )  # fmt: skip
+    return Strings(case, "bit depth", snapshots, drawn_hole(case, hole, case.string.top_md))
+
+
+def of_run(result: SimulationResult, most: int = MOST_RECORDS) -> Strings:
+    """The strings of a run in time, evenly chosen records where it keeps more than ``most``.
+
+    Raises InputError for a result without records, or of a version that kept no offsets of the string.
+    """
+    table, history = result.segments, result.history.set_index("time_s") if len(result.history) else None
+    if history is None or not len(table):
+        raise InputError("a result with records", key="result", value=result.case.name)
+    missing = sorted(set(NEEDED) - set(table.columns))
+    if missing:
+        expected = f"a run whose segments have {', '.join(missing)}: simulate the case again"
+        raise InputError(expected, key="result", value=result.case.name)
+    case, hole = result.case, build_wellbore(result.case)
+    times = table["time_s"].unique()
+    picked = times[np.unique(np.linspace(0, len(times) - 1, min(most, len(times))).round().astype(int))]
+    snapshots = []
+    for time, rows in table[table["time_s"].isin(picked)].groupby("time_s", sort=True):
+        record = history.loc[time]
+        snapshots.append(
+            Snapshot(
+                RUN, str(record["operation"]), float(str(time)), float(record["bit_depth_m"]), "", record["hookload_N"],
+                record["surface_torque_N_m"], *_values(rows, hole),
+            )
+        )  # fmt: skip
+    top = min(case.string.top_md, *(float(one.columns["md_m"].min()) for one in snapshots))
+    return Strings(case, "time", tuple(snapshots), drawn_hole(case, hole, max(top, 0.0)))
+
+
+def _values(table: pd.DataFrame, hole: Wellbore) -> tuple[dict[str, Array], Array]:
+    """Values and offset of a snapshot from a profile, or from the segments of a record."""
+    values = {name: table[name].to_numpy(float) for name in KEPT}
+    high, right = (table[f"offset_{name}_m"].to_numpy(float) for name in ("high", "right"))
+    up, aside = hole_frame(hole.at(values["md_m"])[1])
+    values["side_force"] = side_force(table, "length") if len(table) > 1 else np.zeros(len(table))
+    # In touch the wall's spring is pressed in by less than a picture can show.
+    values["gap_m"] = np.maximum(values["clearance_m"] - np.hypot(high, right), 0.0)
+    values["contact_angle_deg"] = np.degrees(np.arctan2(right, high)) % 360 % 360
+    values["buckling"] = np.array([MODES.index(mode) for mode in table["buckling"]], float)
+    return values, high[:, None] * up + right[:, None] * aside
+
+
+def _nothing() -> tuple[dict[str, Array], Array]:
+    names = (*KEPT, "side_force", "gap_m", "contact_angle_deg", "buckling")
+    return {name: np.empty(0) for name in names}, np.empty((0, 3))
+
+
+def _status(point: Equilibrium) -> str:
+    """What is to be said of a string that did not converge."""
+    if point.status == SteadyStatus.CONVERGED:
+        return ""
+    words = point.status.replace("_", " ")
+    return f"{words}: {point.message}" if point.message else words
+
+
+def label_of_group(group: str) -> str:
+    """A group in the driller's words."""
+    return KINDS[group].label if group in KINDS else group
