@@ -37,6 +37,7 @@ COMMANDS: dict[str, dict[str, str]] = {
     "calibrate": CALIBRATION,
     "predict": CALIBRATION,
     "monitor": {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"},
+    "sweep": {},
     "compile": {},
 }
 
