@@ -152,18 +152,30 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
     "open": 0.3} that of the intervals of these kinds.
     """
     path = Path(path)
-    raw: dict[str, Any] = {}
     try:
-        raw = _read(path)
+        raw = read_raw(path)
         for key, value in (overrides or {}).items():
             apply_override(raw, key, value)
-        case = Case.model_validate(raw, context={"folder": path.parent.absolute()})
-        case.check_depths(raw)
-    except ValidationError as failure:
-        raise explain(failure, raw, branches=KINDS).in_file(path) from None
+        case = make_case(raw, path.parent.absolute())
     except InputError as error:
         raise error.in_file(path) from error.__cause__
     return case.model_copy(update={"file": path})
+
+
+def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None) -> Case:
+    """The case of an unvalidated one; raises InputError, which names no file.
+
+    folder : that survey files are relative to, None where they are paths already.  like : a case whose survey has been
+    read; a case with the same keys of the survey shares its stations.
+    """
+    try:
+        case = Case.model_validate(raw, context=None if folder is None else {"folder": folder})
+    except ValidationError as failure:
+        raise explain(failure, raw, branches=KINDS) from None
+    if like is not None:
+        case.wellbore.share_trajectory(like.wellbore)
+    case.check_depths(raw)
+    return case
 
 
 def parse_override(text: str) -> tuple[str, Any]:
@@ -185,7 +197,8 @@ def parse_override(text: str) -> tuple[str, Any]:
     return key, table["value"] if table.keys() == {"value"} else written
 
 
-def _read(path: Path) -> dict[str, Any]:
+def read_raw(path: Path) -> dict[str, Any]:
+    """The tables of a case file, unvalidated; raises InputError, which names no file."""
     try:
         return tomllib.loads(read_text(path, LARGEST_FILE))
     except OSError as error:

@@ -175,6 +175,10 @@ class WellboreSpec(Table):
         """Probable mistakes in the stations of survey file or case; read and kept as `trajectory` is."""
         return self._read_trajectory().warnings
 
+    def share_trajectory(self, other: WellboreSpec) -> None:
+        """Take the stations that another hole has read, if it has; they count where the keys of both are the same."""
+        self._trajectory = other._trajectory
+
     def _read_trajectory(self) -> _Trajectory:
         source = (self.survey, self.columns, self.sheet, self.stations, self.survey_smoothing)
         if self._trajectory.source != source:

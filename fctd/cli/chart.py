@@ -80,7 +80,7 @@ from fctd.results.unit_systems import System
 from fctd.simulation.limits import LimitReached
 from fctd.steady.equilibrium import Solver
 from fctd.steady.kept_rows import KeptRows
-from fctd.steady.torque_drag import Row, chart_rows, with_friction
+from fctd.steady.torque_drag import Row, chart_rows, depths_between, with_friction
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -312,8 +312,7 @@ def read_depths(text: str, case: Case, units: System = "si") -> list[float]:
     steps = (last - first) / step
     if steps >= MOST_DEPTHS:
         raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)
-    # Rounding errors must neither double the last depth nor give 1750.3000000000002 in a table.
-    return [*(round(first + k * step, 6) for k in range(int(np.ceil(steps - 1e-6)))), round(last, 6)]
+    return depths_between(first, last, step)
 
 
 def _measured(path: Path, case: Case, plot: Path | None) -> "pd.DataFrame":

@@ -39,6 +39,7 @@ COMMANDS: dict[str, dict[str, str]] = {
     "monitor": {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"},
     "status": {},
     "view": {"bit_depth": "--depths", "exaggeration": "--sideways"},
+    "sweep": {},
     "compile": {},
 }
 

@@ -1,0 +1,155 @@
+"""Where a sweep runs: workers of this machine, or a cluster of Dask's that is there.
+
+The workers of this machine and their scheduler listen on 127.0.0.1 alone.
+"""
+
+from __future__ import annotations
+
+import logging
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from fctd.case.errors import InputError
+from fctd.steady.batch import cores
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+LOOPBACK: Final = "127.0.0.1"
+# Waiting for a scheduler, and for the first of its workers [s].
+CONNECT, WORKERS = 10.0, 60.0
+PACKAGES: Final = ("fctd", "numba", "numpy", "python")
+
+
+@dataclass(frozen=True)
+class Where:
+    """Local workers, by default one a core; or the address of a scheduler, or the file that it wrote.
+
+    tls : files of certificate authority, certificate and key, or None.
+    """
+
+    workers: int | None = None
+    scheduler: str | None = None
+    scheduler_file: Path | None = None
+    tls: tuple[Path, Path, Path] | None = None
+
+    @property
+    def local(self) -> bool:
+        """Whether the workers are this machine's own."""
+        return self.scheduler is None and self.scheduler_file is None
+
+
+@contextmanager
+def connected(where: Where) -> Iterator[Client]:
+    """A client with at least one worker; local ones end with it.
+
+    Raises InputError where Dask is missing, where no scheduler or worker answers, and where a worker has other versions
+    of Python, numpy, numba or this program.
+    """
+    try:
+        import distributed
+    except ModuleNotFoundError as error:
+        expected = f"the package {error.name} (pip install 'fctd[sweep]')"
+        raise InputError(expected, key="sweep", value="distributed") from None
+    with warnings.catch_warnings():
+        # We compare versions ourselves; the other says where the dashboard is when its usual port is taken.
+        warnings.simplefilter("ignore", distributed.versions.VersionMismatchWarning)
+        with _local(where) if where.local else _joined(where) as client:
+            check_workers(client)
+            yield client
+
+
+@contextmanager
+def _local(where: Where) -> Iterator[Client]:
+    import dask
+    from distributed import Client, LocalCluster
+
+    settings = {
+        "distributed.scheduler.allowed-failures": 0,  # a chunk whose worker dies comes back to us at once
+        "distributed.admin.log-format": "%(message)s",
+    }
+    with (
+        dask.config.set(settings),
+        LocalCluster(
+            n_workers=where.workers or cores(), threads_per_worker=1, processes=True, host=LOOPBACK,
+            dashboard_address=f"{LOOPBACK}:0", silence_logs=logging.CRITICAL,
+        ) as cluster,
+        Client(cluster) as client,
+    ):  # fmt: skip
+        yield client
+
+
+@contextmanager
+def _joined(where: Where) -> Iterator[Client]:
+    from distributed import Client
+
+    key = "--scheduler" if where.scheduler is not None else "--scheduler-file"
+    value: Any = where.scheduler or where.scheduler_file
+    given: dict[str, Any] = {"address": where.scheduler}
+    if where.scheduler_file is not None:
+        if not where.scheduler_file.is_file():
+            raise InputError("the file that a running scheduler has written", key=key, value=value)
+        given = {"scheduler_file": str(where.scheduler_file)}
+    try:
+        client = Client(**given, timeout=CONNECT, security=_security(where), set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:
+        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise InputError(f"a scheduler that answers within {CONNECT:g} s ({reason})", key=key, value=value) from None
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=WORKERS)
+        except TimeoutError:
+            expected = f"a scheduler with workers (none came within {WORKERS:g} s)"
+            raise InputError(expected, key=key, value=value) from None
+        yield client
+
+
+def _security(where: Where) -> Any:
+    if where.tls is None:
+        return None
+    from distributed.security import Security
+
+    authority, certificate, key = map(str, where.tls)
+    return Security(tls_ca_file=authority, tls_client_cert=certificate, tls_client_key=key, require_encryption=True)
+
+
+def check_workers(client: Client) -> None:
+    """Raise InputError where a worker has other versions than the client, or more threads than one."""
+    found = client.get_versions(packages=list(PACKAGES))
+    own = found["client"]["packages"]
+    for address, worker in found["workers"].items():
+        has = worker["packages"] if worker else {}
+        for name in PACKAGES:
+            if has.get(name) != own[name]:
+                raise InputError(
+                    f"workers with {name} {shown(own[name])}, as here",
+                    key=f"worker {address}",
+                    value=shown(has.get(name)),
+                )
+    threads = client.nthreads()
+    for address, count in threads.items():
+        if count != 1:
+            raise InputError("workers with one thread each (--nthreads 1)", key=f"worker {address}", value=count)
+
+
+def shown(version: Any) -> str:
+    """A version as it is written."""
+    return "none" if version is None else str(version)
+
+
+def encrypted(client: Client) -> bool:
+    """Whether the connection to the scheduler is encrypted, or does not leave this machine."""
+    address = str(client.scheduler.address) if client.scheduler is not None else ""
+    protocol, _, rest = address.partition("://")
+    return protocol in ("tls", "inproc") or rest.startswith((f"{LOOPBACK}:", "localhost:", "[::1]:"))
+
+
+def worker_count(client: Client) -> int:
+    """Number of workers now; 0 where the scheduler does not answer."""
+    with suppress(OSError, TimeoutError):
+        return len(client.nthreads())
+    return 0

@@ -1,0 +1,209 @@
+"""The folder of a sweep: its samples, and the rows of their results in parts that are written whole or not at all.
+
+``sweep.json`` says what was swept, ``samples.parquet`` has a row for each sample, ``rows/part-NNNNN.parquet`` the rows
+of the samples that its metadata names.  A part is written beside and renamed, so that what a killed sweep leaves is
+complete as far as it goes; only one sweep at a time works on a folder.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from fctd.case.errors import InputError
+from fctd.results.tables import versions
+from fctd.results.whole_file import left_by_dead, whole_file
+from fctd.sweep.template import Template
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import pyarrow as pa
+
+ABOUT, SAMPLES, ROWS, LOCK = "sweep.json", "samples.parquet", "rows", ".lock"
+# Packages whose versions all rows of a dataset share.
+SAME: Final = ("fctd", "python", "numpy", "numba")
+_PART = "part-{:05d}.parquet"
+
+
+class Dataset:
+    """The dataset of a sweep in a folder; ``done`` has the numbers of its samples that have rows."""
+
+    def __init__(self, folder: Path, about: dict[str, Any], samples: pd.DataFrame) -> None:
+        self.folder, self.about, self.samples = folder, about, samples
+        self.done: set[int] = set()
+        self._parts = 0
+        for path in self.parts:
+            self.done.update(_samples_in(path))
+            self._parts = max(self._parts, int(path.stem.partition("-")[2]) + 1)
+
+    @property
+    def parts(self) -> list[Path]:
+        """The files of rows."""
+        return sorted((self.folder / ROWS).glob("part-*.parquet"))
+
+    @property
+    def missing(self) -> list[int]:
+        """Numbers of the samples that have no rows yet, in their order."""
+        return [k for k in range(len(self.samples)) if k not in self.done]
+
+    def write(self, tables: Sequence[pa.Table]) -> Path:
+        """Add rows as a part, with the values of their samples beside them; raises InputError where it cannot."""
+        import numpy as np
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        table = pa.concat_tables(tables, promote_options="permissive")
+        numbers = table["sample"].to_numpy()
+        table = table.take(pa.array(np.argsort(numbers, kind="stable")))
+        numbers = table["sample"].to_numpy()
+        values = self.samples.drop(columns="sample").iloc[numbers]
+        has = sorted(set(numbers.tolist()))
+        # The column of a key goes before one of that name in the results: "friction" has the same values in both.
+        columns = {"sample": table["sample"]} | {str(name): pa.array(values[name]) for name in values.columns}
+        columns |= {name: table[name] for name in table.column_names if name not in columns}
+        whole = pa.table(columns).replace_schema_metadata({"samples": json.dumps(ranges(has))})
+        path = self.folder / ROWS / _PART.format(self._parts)
+        with whole_file(path) as scratch, scratch.open("wb") as sink:
+            pq.write_table(whole, sink, compression="zstd")
+            sink.flush()
+            os.fsync(sink.fileno())
+        self._parts += 1
+        self.done.update(has)
+        return path
+
+    def rows(self) -> pd.DataFrame:
+        """All rows, in the order of the samples; raises InputError for a part that cannot be read."""
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        tables = []
+        for path in self.parts:
+            try:
+                with path.open("rb") as source:
+                    tables.append(pq.read_table(source).replace_schema_metadata(None))
+            except (OSError, ValueError) as error:
+                raise InputError(f"a part that fctd sweep wrote ({error})", value=path) from error
+        if not tables:
+            raise InputError("the rows of at least one sample: fctd sweep makes them", value=self.folder / ROWS)
+        table: pd.DataFrame = pa.concat_tables(tables, promote_options="permissive").to_pandas()
+        return table.sort_values("sample", kind="stable", ignore_index=True)
+
+    def keep_run(self, run: dict[str, Any]) -> None:
+        """Add what is known of a run of the sweep to ``sweep.json``."""
+        self.about["runs"] = [*self.about.get("runs", []), run]
+        _write_about(self.folder, self.about)
+
+
+def identity_of(template: Template) -> str:
+    """A hash of all that the rows of a sweep depend on: its file without [uncertainty], case and survey."""
+    spec = template.spec.model_dump(mode="json", exclude={"uncertainty", "case"})
+    raw = json.dumps([spec, template.raw], sort_keys=True, default=str)
+    return hashlib.sha256(raw.encode() + template.base.wellbore.trajectory.tobytes()).hexdigest()
+
+
+def open_dataset(folder: Path) -> Dataset:
+    """The dataset of a folder; raises InputError where there is none."""
+    import pandas as pd
+
+    try:
+        about = json.loads((folder / ABOUT).read_text(encoding="utf-8"))
+        with (folder / SAMPLES).open("rb") as source:
+            samples = pd.read_parquet(source)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"a folder that fctd sweep has written ({reason})", value=folder) from error
+    return Dataset(folder, about, samples)
+
+
+def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Dataset:
+    """The dataset of a sweep: what is there of it, or a new one.
+
+    Raises InputError where the folder has other files, another sweep, or one of another version of the program.
+    """
+    identity = identity_of(template)
+    if (folder / ABOUT).exists():
+        found = open_dataset(folder)
+        if found.about.get("identity") != identity:
+            expected = "another folder, or that of the same sweep (this one has another sweep file, case or survey)"
+            raise InputError(expected, key="--out", value=folder)
+        now = versions()
+        other = [
+            f"{name} {found.about['versions'].get(name)}"
+            for name in SAME
+            if found.about["versions"].get(name) != now[name]
+        ]
+        if other:
+            raise InputError(
+                f"another folder: its rows were computed with {', '.join(other)}", key="--out", value=folder
+            )
+        for left, _ in left_by_dead(folder / ROWS, r"\.part-\d+-PID\.parquet"):
+            left.unlink(missing_ok=True)
+        return found
+    if folder.exists() and any(name != LOCK for name in os.listdir(folder)):
+        raise InputError("a folder for this sweep alone (this one has other files)", key="--out", value=folder)
+    about = {
+        "name": template.spec.name,
+        "identity": identity,
+        "samples": len(samples),
+        "units": template.units,
+        "sweep": template.spec.model_dump(mode="json"),
+        "case": template.base.model_dump(mode="json"),
+        "versions": versions(),
+    }
+    (folder / ROWS).mkdir(parents=True, exist_ok=True)
+    with whole_file(folder / SAMPLES) as scratch, scratch.open("wb") as sink:
+        samples.to_parquet(sink, index=False)
+    _write_about(folder, about)  # last: it says that the folder is a dataset
+    return Dataset(folder, about, samples)
+
+
+@contextmanager
+def alone(folder: Path) -> Iterator[None]:
+    """Inside, no other sweep works on the folder; raises InputError where one does, or where it cannot be made."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = (folder / LOCK).open("a")
+    except OSError as error:
+        raise InputError(f"a folder that can be written ({error.strerror})", key="--out", value=folder) from error
+    with lock:
+        with suppress(ImportError):  # where the system has no such locks
+            import fcntl
+
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                raise InputError("a folder that no other sweep works on", key="--out", value=folder) from None
+        yield
+
+
+def ranges(numbers: Sequence[int]) -> list[list[int]]:
+    """Rising numbers as first and last of each run of successive ones."""
+    found: list[list[int]] = []
+    for number in numbers:
+        if found and number == found[-1][1] + 1:
+            found[-1][1] = number
+        else:
+            found.append([number, number])
+    return found
+
+
+def _samples_in(path: Path) -> Iterator[int]:
+    import pyarrow.parquet as pq
+
+    try:
+        with path.open("rb") as source:
+            metadata = pq.read_schema(source).metadata or {}
+        for first, last in json.loads(metadata[b"samples"]):
+            yield from range(first, last + 1)
+    except (OSError, ValueError, KeyError) as error:
+        raise InputError(f"a part that fctd sweep wrote ({error})", value=path) from error
+
+
+def _write_about(folder: Path, about: dict[str, Any]) -> None:
+    with whole_file(folder / ABOUT) as scratch:
+        scratch.write_text(json.dumps(about, indent=1), encoding="utf-8")

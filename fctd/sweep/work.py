@@ -1,0 +1,164 @@
+"""The work of one sample: a chart, an equilibrium, a search for segments, or a run in time, as rows of the results.
+
+Every kind of work calls ``tick`` between its iterations or records, which raises ``TooLongError`` when the sample has
+used its time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.units import LENGTH, Quantity
+from fctd.model.operations import rates_of_all
+from fctd.results.columns import LOADS
+from fctd.results.notes import codes_of
+from fctd.simulation.simulate import Simulation
+from fctd.steady.refine import refine
+from fctd.steady.torque_drag import chart_rows, depths_between
+from fctd.sweep.spec import WorkSpec
+
+Row = dict[str, Any]
+Tick = Callable[[], None]
+MOST_DEPTHS: Final = 10_000
+
+
+class TooLongError(RuntimeError):
+    """A sample has used its time."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """The work with its depths [m], which are those of the sweep's case."""
+
+    spec: WorkSpec
+    depths: tuple[float, ...]
+
+
+def task_of(spec: WorkSpec, case: Case) -> Task:
+    """The work of a sweep; raises InputError for depths or rates that the case cannot have."""
+    depths = read_depths(spec.depths, case) if spec.depths is not None else ()
+    if spec.bit_depth is not None:
+        depths = (spec.bit_depth,)
+    if spec.kind != "simulate":
+        rates_of_all(case, spec.operations, spec.speed, spec.rpm)
+    elif not case.operations:
+        raise InputError('operations of the case, which kind = "simulate" runs', key="work.kind", value="simulate")
+    return Task(spec, depths)
+
+
+def read_depths(written: str | Sequence[float], case: Case) -> tuple[float, ...]:
+    """Bit depths [m] of "FROM:TO:STEP", of which TO may be td, or of a list."""
+    if not isinstance(written, str):
+        return tuple(written)
+    parts = [part.strip() for part in written.split(":")]
+    key = "work.depths"
+    if len(parts) != 3:
+        raise InputError("FROM:TO:STEP, such as '1750:2450:10' or '5000 ft:td:30 ft'", key=key, value=written)
+    length = Quantity(dimension=LENGTH, above=0.0)
+    try:
+        first, last, step = (case.depths[1] if part.lower() == "td" else length.parse(_number(part)) for part in parts)
+    except InputError as error:
+        raise InputError(error.expected, key=key, value=written) from None
+    if not (first <= last and (last - first) / step < MOST_DEPTHS):
+        raise InputError(f"depths that rise, at most {MOST_DEPTHS}", key=key, value=written)
+    return tuple(depths_between(first, last, step))
+
+
+def _number(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def chart(case: Case, task: Task, tick: Tick) -> list[Row]:
+    """A row for every operation and depth, as of ``fctd chart``."""
+    spec = task.spec
+    return chart_rows(
+        case, spec.operations, task.depths, None, spec.speed, spec.rpm, progress=lambda done, total: tick(), threads=1
+    )
+
+
+def equilibrium(case: Case, task: Task, tick: Tick) -> list[Row]:
+    """A row for every operation: its loads, and the extremes of its profile."""
+    from fctd.steady.equilibrium import Solver
+
+    rates = rates_of_all(case, task.spec.operations, task.spec.speed, task.spec.rpm)
+    solver, rows = Solver(case), list[Row]()
+    laid = solver.lay_out(task.depths[0])
+    for kind in task.spec.operations:
+        point = solver.solve_string(kind, rates[kind], laid)
+        tick()
+        none = float("nan")
+        row = {"operation": kind, "bit_depth_m": task.depths[0]}
+        row |= {load.name: load.value(point) if point.answered else none for load in LOADS}
+        extremes = {"min_effective_tension_N": none, "max_contact_force_N": none, "max_von_mises_Pa": none}
+        if point.answered:
+            profile = point.profile
+            extremes["min_effective_tension_N"] = float(profile["effective_tension_N"].min())
+            extremes["max_contact_force_N"] = float(profile["contact_force_N"].max())
+            extremes["max_von_mises_Pa"] = float(profile["von_mises_Pa"].max())
+        row |= extremes | point.buckling.columns()
+        row |= {"status": str(point.status), "iterations": point.iterations}
+        rows.append(row | {"notes": codes_of(point.notes), "reason": point.message or "none"})
+    return rows
+
+
+def refined(case: Case, task: Task, tick: Tick) -> list[Row]:
+    """One row: the number of segments that the tolerance needs, and the estimated error."""
+    spec = task.spec
+    found = refine(
+        case, spec.tolerance, spec.operations, task.depths[0], speed=spec.speed, rpm=spec.rpm,
+        progress=lambda level: tick(),
+    )  # fmt: skip
+    return [
+        {
+            "operation": ", ".join(spec.operations),
+            "bit_depth_m": task.depths[0],
+            "segments": found.segments,
+            "shortest_m": found.shortest,
+            "error": found.error,
+            "status": str(found.status),
+            "reason": found.message or "none",
+        }
+    ]
+
+
+def simulated(case: Case, task: Task, tick: Tick) -> list[Row]:
+    """A row for every operation of a run: means and swings of its loads, and the severity of stick-slip.
+
+    ``stick_slip_severity`` is half the difference between the fastest and the slowest rotation of the bit over the mean
+    rotation of the top, in the last half of an operation: 0 without a swing, 1 where the bit comes to rest.
+    """
+    simulation = Simulation(case, settling=lambda *_: tick())
+    for _ in simulation:
+        tick()
+    result = simulation.result()
+    history, rows = result.history, list[Row]()
+    for operation in result.operations.to_dict("records"):
+        middle = 0.5 * (operation["start_s"] + operation["end_s"])
+        late = history[(history["time_s"] > middle + 1e-6) & (history["time_s"] <= operation["end_s"] + 1e-6)]
+        top = float(late["top_rpm"].mean()) if len(late) else 0.0
+        swing = 0.5 * float(late["bit_rpm"].max() - late["bit_rpm"].min()) if len(late) else 0.0
+        row: Row = {str(name): value for name, value in operation.items()}
+        row["stick_slip_severity"] = swing / top if top > 0 else float("nan")
+        row["energy_error"] = float(result.run["energy_error"])
+        row |= {"status": str(result.status), "reason": result.message or "none"}
+        rows.append(row)
+    if not rows:
+        raise InputError(f"a run that begins ({result.status}: {result.message})")
+    return rows
+
+
+WORK: Final[Mapping[str, Callable[[Case, Task, Tick], list[Row]]]] = {
+    "chart": chart,
+    "equilibrium": equilibrium,
+    "refine": refined,
+    "simulate": simulated,
+}
+# Kinds whose samples take milliseconds: a worker that starts computes one of them twice, to know how long they take.
+SHORT: Final = ("chart", "equilibrium")

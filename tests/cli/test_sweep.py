@@ -1,0 +1,62 @@
+"""``fctd sweep``: its dataset, its messages, and options that exclude each other."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from fctd.case.errors import InputError
+from fctd.cli.main import app
+from fctd.cli.sweep import where_of
+from fctd.sweep.dataset import open_dataset
+from tests.sweep.made import sweep_file
+
+NOTHING = (None, None, None)
+
+
+def test_a_sweep_is_written_and_resumed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("distributed")
+    monkeypatch.chdir(tmp_path)
+    command = ["sweep", str(sweep_file(tmp_path)), "--workers", "1"]
+    done = CliRunner().invoke(app, command)
+    assert done.exit_code == 0, done.output
+    assert "dashboard: http://127.0.0.1:" in done.stderr
+    assert "12 samples; 48 rows in" in done.stdout
+    assert "Written: swept-sweep" in done.stdout
+    assert len(open_dataset(tmp_path / "swept-sweep").rows()) == 48
+    part = tmp_path / "swept-sweep" / "rows" / "part-00000.parquet"
+    part.unlink()
+    again = CliRunner().invoke(app, [*command, "--quiet"])
+    assert again.exit_code == 0
+    assert len(open_dataset(tmp_path / "swept-sweep").rows()) == 48
+    last = CliRunner().invoke(app, command)
+    assert "All 12 samples are there" in last.stdout
+
+
+def test_samples_without_an_answer_are_exit_code_1(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    path = sweep_file(tmp_path, 'method = "random"\nsamples = 2\ntime_limit = "1 us"')
+    done = CliRunner().invoke(app, ["sweep", str(path), "--out", str(tmp_path / "out"), "--workers", "1"])
+    assert done.exit_code == 1
+    assert "2 samples timed_out" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ((None, "tcp://a:1", Path("b"), NOTHING), "not both"),
+        ((2, "tcp://a:1", None, NOTHING), "no number of workers"),
+        ((None, None, None, (Path("ca"), None, None)), "the scheduler of another machine"),
+        ((None, "tls://a:1", None, (Path(__file__), None, None)), "--tls-cert is missing"),
+        ((None, "tls://a:1", None, (Path("none.pem"), Path("b"), Path("c"))), "a file that is there"),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused(given: tuple[object, ...], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        where_of(*given)  # type: ignore[arg-type]
+
+
+def test_options_say_where_a_sweep_runs() -> None:
+    here = Path(__file__)
+    assert where_of(3, None, None, NOTHING).local
+    assert where_of(None, "tls://a:1", None, (here, here, here)).tls == (here, here, here)

@@ -1,0 +1,103 @@
+"""Chunks: rows of samples, rows in place of failures, and the end of a process whose sample does not come back."""
+
+import multiprocessing
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from fctd.case.load import Case
+from fctd.sweep import work
+from fctd.sweep.chunk import FAILED, TIMED_OUT, Bench, Sample, Watch, from_stream
+from fctd.sweep.run import prepare, sample_of
+from fctd.sweep.spec import read_sweep
+from fctd.sweep.work import Row, Task, Tick
+from tests.sweep.made import sweep_file
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 4\ntime_limit = 30\n')))[0]
+
+
+def samples(count: int) -> list[Sample]:
+    return [Sample(k, (0.2 + 0.01 * k, 1.1)) for k in range(count)]
+
+
+def test_a_chunk_has_the_rows_of_its_samples(bench: Bench) -> None:
+    done = bench.run(samples(2), lambda number: None)
+    table = from_stream(done.rows).to_pandas()
+    assert done.samples == (0, 1)
+    assert table["sample"].tolist() == [0] * 4 + [1] * 4
+    assert table["bit_depth_m"].tolist() == [600, 700, 800, 900] * 2
+    assert 0 < done.solving <= done.elapsed
+    (first,) = [row for row in bench.rows_of(samples(1)[0]) if row["bit_depth_m"] == 600]
+    assert table["hookload_N"].iloc[0] == first["hookload_N"]
+
+
+def test_a_sample_that_no_case_can_have_is_a_row_with_its_reason(bench: Bench) -> None:
+    table = from_stream(
+        bench.run([Sample(3, (-1.0, 1.1)), Sample(4, (0.2, 1.1))], lambda number: None).rows
+    ).to_pandas()
+    assert table["status"].tolist() == [FAILED] + 4 * ["converged"]
+    assert "a friction factor at least 0" in table["reason"].iloc[0]
+
+
+@pytest.mark.parametrize(("raised", "status"), [("time", TIMED_OUT), ("defect", FAILED)])
+def test_a_sample_without_an_answer_is_a_row(raised: str, status: str, bench: Bench, monkeypatch: Any) -> None:
+    def fail(case: Case, task: Task, tick: Tick) -> list[Row]:
+        if raised == "defect":
+            raise ZeroDivisionError("by nothing")
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            tick()
+        return []
+
+    monkeypatch.setitem(work.WORK, "chart", fail)  # type: ignore[arg-type]
+    quick = Bench(bench.template, bench.task, bench.keys, 0.05)
+    (row,) = quick.rows_of(samples(1)[0])
+    assert row["status"] == status
+    assert ("0.05 s" if status == TIMED_OUT else "ZeroDivisionError: by nothing") in row["reason"]
+
+
+def hang(sender: Any, holding: bool) -> None:
+    """A sample that does not come back; holding : with Python's lock, as a defect of compiled code may."""
+    import ctypes
+
+    def too_long(sample: int) -> None:
+        sender.send(sample)
+
+    with Watch(0.3, 1.0, too_long).watching() as watch:
+        watch.begin(7)
+        # A sleep of the C library, with or without the lock.
+        (ctypes.PyDLL if holding else ctypes.CDLL)(None).sleep(20)
+
+
+@pytest.mark.parametrize("holding", [False, True])
+def test_a_process_ends_over_a_sample_that_does_not_come_back(holding: bool) -> None:
+    context = multiprocessing.get_context("spawn")
+    receiver, sender = context.Pipe(duplex=False)
+    process = context.Process(target=hang, args=(sender, holding))
+    process.start()
+    process.join(timeout=15)
+    assert process.exitcode == 1
+    assert receiver.poll() is not holding
+    if not holding:
+        assert receiver.recv() == 7
+
+
+def test_a_watch_leaves_samples_alone_that_end_in_time() -> None:
+    told: list[int] = []
+    with Watch(0.4, 5.0, told.append).watching() as watch:
+        for number in range(8):
+            watch.begin(number)
+            time.sleep(0.1)
+    assert told == []
+
+
+def test_a_sample_is_a_row_of_the_table(tmp_path: Path) -> None:
+    found, table = prepare(read_sweep(sweep_file(tmp_path)))
+    sample = sample_of(table, found.keys, 3)
+    assert sample == (3, (table["friction.open"].iloc[3], table["mud.density"].iloc[3]))
+    assert {type(value) for value in sample.values} == {float}

@@ -1,0 +1,119 @@
+"""The folder of a sweep: parts with the values of their samples, what is missing, and folders that are refused."""
+
+import json
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.sweep.chunk import as_table
+from fctd.sweep.dataset import Dataset, alone, begin_dataset, open_dataset, ranges
+from fctd.sweep.design import samples_of
+from fctd.sweep.spec import read_sweep
+from fctd.sweep.template import template_of
+from tests.sweep.made import PARAMETERS, WORK, sweep_file
+
+
+def dataset(folder: Path, **given: str) -> Dataset:
+    template = template_of(read_sweep(sweep_file(folder, **given)))
+    return begin_dataset(folder / "out", template, samples_of(template.spec))
+
+
+def rows(*samples: int) -> list[dict[str, object]]:
+    return [{"sample": k, "hookload_N": 10.0 * k, "status": "converged"} for k in samples]
+
+
+def test_parts_hold_their_samples_with_the_values_beside_them(tmp_path: Path) -> None:
+    found = dataset(tmp_path)
+    found.write([as_table(rows(5, 4)), as_table([{"sample": 1, "status": "failed", "reason": "why"}])])
+    found.write([as_table(rows(0))])
+    again = open_dataset(tmp_path / "out")
+    assert again.done == {0, 1, 4, 5}
+    assert again.missing == [2, 3, 6, 7, 8, 9, 10, 11]
+    table = again.rows()
+    assert table["sample"].tolist() == [0, 1, 4, 5]
+    assert table["mud.density"].tolist() == found.samples["mud.density"].iloc[[0, 1, 4, 5]].tolist()
+    assert table["hookload_N"].isna().tolist() == [False, True, False, False]
+    assert table["reason"].iloc[1] == "why"
+
+
+def test_a_part_of_a_later_run_takes_a_new_name(tmp_path: Path) -> None:
+    dataset(tmp_path).write([as_table(rows(0))])
+    later = dataset(tmp_path)
+    later.write([as_table(rows(1))])
+    assert [path.name for path in later.parts] == ["part-00000.parquet", "part-00001.parquet"]
+
+
+def test_what_a_killed_sweep_left_beside_a_part_is_removed(tmp_path: Path) -> None:
+    found = dataset(tmp_path)
+    left = found.folder / "rows" / ".part-00000-4194304.parquet"  # above the largest id of a process
+    left.write_bytes(b"half")
+    dataset(tmp_path)
+    assert not left.exists()
+
+
+@pytest.mark.parametrize(
+    "other", [{"body": PARAMETERS.replace("0.3\n", "0.31\n") + WORK}, {"case": "[bit]\nweight_on_bit = 1000\n"}]
+)
+def test_a_folder_of_another_sweep_is_refused(other: dict[str, str], tmp_path: Path) -> None:
+    dataset(tmp_path)
+    with pytest.raises(InputError, match="another sweep file, case or survey"):
+        dataset(tmp_path, **other)
+
+
+def test_what_uncertainty_asks_for_does_not_change_a_sweep(tmp_path: Path) -> None:
+    dataset(tmp_path)
+    dataset(tmp_path, body=PARAMETERS + WORK + "[uncertainty]\npercentiles = [10, 90]\n")
+
+
+def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "notes.txt").write_text("mine", encoding="utf-8")
+    with pytest.raises(InputError, match="a folder for this sweep alone"):
+        dataset(tmp_path)
+
+
+def test_rows_of_another_version_are_not_mixed(tmp_path: Path) -> None:
+    found = dataset(tmp_path)
+    about = json.loads((found.folder / "sweep.json").read_text(encoding="utf-8"))
+    about["versions"]["numba"] = "0.1"
+    (found.folder / "sweep.json").write_text(json.dumps(about), encoding="utf-8")
+    with pytest.raises(InputError, match=r"were computed with numba 0\.1"):
+        dataset(tmp_path)
+
+
+def test_only_one_sweep_works_on_a_folder(tmp_path: Path) -> None:
+    expected = pytest.raises(InputError, match="no other sweep works on")
+    with alone(tmp_path / "out"), expected, alone(tmp_path / "out"):
+        pass
+    with alone(tmp_path / "out"):
+        pass
+
+
+def test_a_folder_without_a_dataset_and_a_broken_part_are_answered(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="a folder that fctd sweep has written"):
+        open_dataset(tmp_path)
+    found = dataset(tmp_path)
+    with pytest.raises(InputError, match="at least one sample"):
+        found.rows()
+    (found.folder / "rows" / "part-00000.parquet").write_bytes(b"nonsense")
+    with pytest.raises(InputError, match="a part that fctd sweep wrote"):
+        open_dataset(found.folder)
+
+
+def test_a_key_of_the_name_of_a_result_is_one_column(tmp_path: Path) -> None:
+    body = '[[parameters]]\nkey = "friction"\ndistribution = "uniform"\nlow = 0.1\nhigh = 0.3\n' + WORK
+    found = dataset(tmp_path, body=body)
+    found.write([as_table([{"sample": 0, "friction": 0.5}])])
+    assert found.rows()["friction"].tolist() == [found.samples["friction"].iloc[0]]
+
+
+def test_ranges_name_runs_of_numbers() -> None:
+    assert ranges([1, 2, 3, 7, 9, 10]) == [[1, 3], [7, 7], [9, 10]]
+    assert ranges([]) == []
+
+
+def test_samples_are_kept_as_they_were_drawn(tmp_path: Path) -> None:
+    found = dataset(tmp_path)
+    pd.testing.assert_frame_equal(open_dataset(found.folder).samples, found.samples)

@@ -1,0 +1,99 @@
+"""Whole sweeps on local workers: rows, resumption, failures, and sweeps that are refused before any work."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.sweep import run
+from fctd.sweep.cluster import Where
+from fctd.sweep.dataset import open_dataset
+from fctd.sweep.run import prepare, sweep
+from fctd.sweep.spec import read_sweep
+from tests.sweep.clusters import faults
+from tests.sweep.made import PARAMETERS, WORK, about, sweep_file
+
+pytest.importorskip("distributed")
+ONE = Where(workers=1)
+
+
+def test_a_sweep_has_the_rows_of_its_samples_and_a_second_call_computes_nothing(tmp_path: Path) -> None:
+    spec = read_sweep(sweep_file(tmp_path))
+    out, seen = tmp_path / "out", list[int]()
+    found = sweep(spec, out, ONE, progress=lambda done, total, lacking: seen.append(done))
+    table = open_dataset(out).rows()
+    bench, samples = prepare(spec)
+    wanted = pd.DataFrame([row for k in range(12) for row in bench.rows_of(run.sample_of(samples, bench.keys, k))])
+    pd.testing.assert_frame_equal(table[wanted.columns], wanted, check_exact=True, check_dtype=False)
+    assert table["mud.density"].tolist() == samples["mud.density"].repeat(4).tolist()
+    assert (found.samples, found.rows, found.without_answer) == (12, 48, {})
+    assert sorted(seen) == seen
+    assert seen[-1] == 12
+    assert about(out)["runs"][0]["rows"] == 48
+    again = sweep(spec, out, ONE)
+    assert (again.done_before, again.rows) == (12, 0)
+
+
+def test_hanging_and_crashing_samples_are_rows_and_the_others_have_answers(tmp_path: Path) -> None:
+    dask = pytest.importorskip("dask")
+    spec = read_sweep(sweep_file(tmp_path, 'method = "sobol"\nsamples = 12\ntime_limit = "1 s"\n'))
+    with dask.config.set({"distributed.worker.preload": [str(faults(tmp_path, hang=(3,), crash=(8,)))]}):
+        found = sweep(spec, tmp_path / "out", ONE)
+    table = open_dataset(tmp_path / "out").rows().set_index("sample")
+    assert found.without_answer == {"timed_out": 1, "crashed": 1}
+    assert table.loc[3, "status"] == "timed_out"
+    assert table.loc[8, "status"] == "crashed"
+    assert table.loc[3, "mud.density"] == prepare(spec)[1]["mud.density"].iloc[3]
+    assert (table.drop([3, 8])["status"] == "converged").all()
+    assert len(table) == 42
+
+
+def test_samples_that_no_case_can_have_are_refused_or_rows(tmp_path: Path) -> None:
+    bad = PARAMETERS.replace("low = 0.1\n", "low = -0.1\n").replace("sd = 0.05", "sd = 0.3")
+    spec = read_sweep(sweep_file(tmp_path, body=bad + WORK))
+    with pytest.raises(
+        InputError, match=r"values that a case can have.*sample \d+ has none.*a friction factor at least 0"
+    ):
+        sweep(spec, tmp_path / "out", ONE)
+    assert not (tmp_path / "out").exists()
+    rows = read_sweep(
+        sweep_file(tmp_path, head='method = "random"\nsamples = 12\nbad_samples = "rows"', body=bad + WORK)
+    )
+    found = sweep(rows, tmp_path / "out", ONE)
+    table = open_dataset(tmp_path / "out").rows()
+    below = table[table["friction.open"] < 0]
+    assert len(below) == found.without_answer["failed"] > 0
+    assert below["reason"].str.contains("at least 0").all()
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        (PARAMETERS.replace("mud.density", "mud.densty") + WORK, ["mud.densty", "density"]),
+        (PARAMETERS.replace("1.3 sg", "1.3 kN").replace("1.0 sg", "1 kN") + WORK, ["mud.density", "a density"]),
+        (PARAMETERS + WORK.replace("600:900:100", "600:900"), ["work.depths"]),
+    ],
+)
+def test_a_bad_sweep_is_answered_before_any_work(body: str, words: list[str], tmp_path: Path) -> None:
+    with pytest.raises(InputError) as caught:
+        sweep(read_sweep(sweep_file(tmp_path, body=body)), tmp_path / "out", ONE)
+    for word in words:
+        assert word in str(caught.value)
+    assert not (tmp_path / "out").exists()
+
+
+def test_chunks_are_larger_for_more_workers_and_smaller_at_the_end(tmp_path: Path) -> None:
+    """A chunk takes at least LEAST; one of the many of a long sweep takes USUAL."""
+    bench, samples = prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 5000')))
+    dataset = run.begin_dataset(tmp_path / "out", bench.template, samples)
+    running = run._Running(None, bench, dataset, None)  # type: ignore[arg-type]
+    running.workers, running.each = 2, 0.01
+    assert running._size() == round(run.USUAL / 0.01)
+    running.workers = 200
+    assert running._size() == round(200 * run.PER_WORKER / 0.01) // 8  # an even share of 5000 for 400 chunks
+    running.workers = 2
+    for left, size in ((100, 25), (21, 6), (2, 5)):
+        while len(running.waiting) > left:
+            running.waiting.pop()
+        assert running._size() == size

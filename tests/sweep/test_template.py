@@ -1,0 +1,90 @@
+"""Cases of samples: keys with their units, friction by kind, erred surveys, and seeds of tortuosity."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.case.load import load_case
+from fctd.sweep.spec import read_sweep
+from fctd.sweep.template import Template, template_of
+from tests.sweep.made import PARAMETERS, WORK, sweep_file
+
+HEAD = 'method = "random"\nsamples = 5\n'
+
+
+def template(folder: Path, head: str = HEAD, body: str = PARAMETERS + WORK, case: str = "") -> Template:
+    return template_of(read_sweep(sweep_file(folder, head, body, case)))
+
+
+def test_a_sample_is_the_case_with_its_values(tmp_path: Path) -> None:
+    case = template(tmp_path).case(0, {"friction.open": 0.41, "mud.density": 1.25})
+    wanted = load_case(tmp_path / "well.toml", {"friction": {"open": 0.41}, "mud.density": "1.25 sg"})
+    assert case.model_dump(exclude={"file"}) == wanted.model_dump(exclude={"file"})
+
+
+def test_fixed_keys_are_those_of_all_samples(tmp_path: Path) -> None:
+    made = template(tmp_path, HEAD + 'set = {"bit.weight_on_bit" = "50 kN", "friction.cased" = 0.11}\n')
+    case = made.case(3, {"friction.open": 0.41, "mud.density": 1.25})
+    assert case.bit.weight_on_bit == 50e3
+    assert [interval.friction for interval in case.wellbore.intervals] == [0.11, 0.41]
+    assert made.base.bit.weight_on_bit == 50e3
+
+
+def test_a_survey_file_is_read_once_and_found_from_anywhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "project"
+    folder.mkdir()
+    path = sweep_file(folder, HEAD)
+    (folder / "survey.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n200,0,0\n500,45,30\n900,45,30\n", encoding="utf-8")
+    text = (folder / "well.toml").read_text(encoding="utf-8")
+    stations = "stations = [[0, 0, 0], [200, 0, 0], [500, 45, 30], [900, 45, 30]]"
+    assert stations in text
+    (folder / "well.toml").write_text(text.replace(stations, 'survey = "survey.csv"'), encoding="utf-8")
+    made = template_of(read_sweep(path))
+    (folder / "survey.csv").unlink()
+    monkeypatch.chdir(tmp_path)
+    case = made.case(0, {"friction.open": 0.4})
+    assert case.wellbore.trajectory is made.base.wellbore.trajectory
+
+
+def test_erred_surveys_depend_on_seed_and_sample_alone(tmp_path: Path) -> None:
+    body = '[survey]\ntool = "mwd"\n' + WORK
+    made = template(tmp_path, HEAD, body)
+    one, again, other = (made.case(k, {}).wellbore.trajectory for k in (4, 4, 5))
+    assert (one == again).all()
+    assert (one != other).any()
+    assert one[:, 0].tolist() == made.base.wellbore.trajectory[:, 0].tolist()
+    assert np.degrees(np.abs(one - made.base.wellbore.trajectory)[:, 1]).max() < 5 * 0.3
+
+
+def test_each_sample_has_its_own_waves(tmp_path: Path) -> None:
+    waves = 'set = {"wellbore.tortuosity.amplitude" = "5 mm", "wellbore.tortuosity.wavelength" = "40 m"}\n'
+    made = template(tmp_path, HEAD + "tortuosity_seeds = true\n" + waves, WORK)
+    seeds = [made.case(k, {}).wellbore.tortuosity for k in (0, 0, 1)]
+    assert seeds[0] == seeds[1]
+    assert seeds[0] != seeds[2]
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("mud.densty", 1.2, ["mud.densty", "density"]),
+        ("mud.density", 9.0, ["mud.density", "below the string's"]),
+        ("friction.closed", 0.2, ["friction", "the kind cased"]),
+        ("string.components[7].length", 2, ["a key that exists"]),
+    ],
+)
+def test_values_that_no_case_can_have_name_the_key(key: str, value: float, words: list[str], tmp_path: Path) -> None:
+    made = template(tmp_path)
+    with pytest.raises(InputError) as caught:
+        made.case(0, {key: value})
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_a_case_file_that_is_not_there_is_named(tmp_path: Path) -> None:
+    path = sweep_file(tmp_path)
+    (tmp_path / "well.toml").unlink()
+    with pytest.raises(InputError, match=r"well\.toml: expected a case file that can be read"):
+        template_of(read_sweep(path))

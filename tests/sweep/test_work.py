@@ -1,0 +1,105 @@
+"""The work of a sample: rows of charts, equilibria, refinements and runs, and their depths."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from fctd import torque_drag
+from fctd.case.errors import InputError
+from fctd.case.load import Case, load_case
+from fctd.steady.equilibrium import equilibrium
+from fctd.sweep.spec import WorkSpec
+from fctd.sweep.work import WORK, Row, Task, TooLongError, read_depths, task_of
+from tests.sweep.made import case_file
+
+RUN = """
+[record]
+interval = "0.5 s"
+[[operations]]
+kind = "rotate_off_bottom"
+at_md = "600 m"
+rpm = 60
+duration = "4 s"
+ramp_time = "1 s"
+"""
+
+
+def task(case: Case, **spec: object) -> Task:
+    return task_of(WorkSpec.model_validate(spec), case)
+
+
+def rows(case: Case, tick: object = None, **spec: object) -> list[Row]:
+    of = task(case, **spec)
+    return WORK[of.spec.kind](case, of, (lambda: None) if tick is None else tick)  # type: ignore[arg-type]
+
+
+def test_a_chart_has_the_rows_of_the_command(tmp_path: Path) -> None:
+    case = load_case(case_file(tmp_path))
+    found = rows(case, operations=["trip_in", "trip_out"], depths="600:900:150")
+    wanted = torque_drag(case, ["trip_in", "trip_out"], [600, 750, 900])
+    pd.testing.assert_frame_equal(pd.DataFrame(found), wanted, check_exact=True)
+
+
+def test_an_equilibrium_has_the_loads_and_extremes_of_its_profile(tmp_path: Path) -> None:
+    case = load_case(case_file(tmp_path))
+    (row,) = rows(case, kind="equilibrium", operations=["trip_out"], bit_depth="850 m")
+    point = equilibrium(case, "trip_out", 850.0)
+    assert row["hookload_N"] == point.hookload
+    assert row["max_von_mises_Pa"] == point.profile["von_mises_Pa"].max()
+    assert row["status"] == "converged"
+
+
+def test_a_refinement_is_one_row(tmp_path: Path) -> None:
+    case = load_case(case_file(tmp_path))
+    (row,) = rows(case, kind="refine", operations=["trip_out"], bit_depth="600 m", tolerance=0.05)
+    assert row["status"] == "within_tolerance"
+    assert 0 < row["error"] < 0.05
+
+
+def test_a_run_has_a_row_for_each_operation_with_the_severity_of_its_stick_slip(tmp_path: Path) -> None:
+    case = load_case(case_file(tmp_path, RUN))
+    (row,) = rows(case, kind="simulate")
+    assert row["operation"] == "rotate_off_bottom"
+    assert row["status"] == "completed"
+    assert 0 <= row["stick_slip_severity"] < 2
+
+
+def test_a_run_needs_operations(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="operations of the case"):
+        task(load_case(case_file(tmp_path)), kind="simulate")
+
+
+@pytest.mark.parametrize(
+    "spec",
+    [
+        {"operations": ["trip_in"], "depths": "600:900:50"},
+        {"kind": "equilibrium", "operations": ["trip_in"], "bit_depth": 800},
+        {"kind": "refine", "operations": ["trip_in"], "bit_depth": 600},
+        {"kind": "simulate"},
+    ],
+)
+def test_every_work_asks_the_clock(spec: dict[str, object], tmp_path: Path) -> None:
+    def too_late() -> None:
+        raise TooLongError
+
+    with pytest.raises(TooLongError):
+        rows(load_case(case_file(tmp_path, RUN)), too_late, **spec)
+
+
+def test_depths_are_those_of_the_chart_command(tmp_path: Path) -> None:
+    case = load_case(case_file(tmp_path))
+    assert read_depths("600: td :120", case) == (600, 720, 840, 900)
+    assert read_depths("2000 ft:2050 ft:50 ft", case) == (609.6, 624.84)
+    assert read_depths([700.0], case) == (700.0,)
+
+
+@pytest.mark.parametrize("text", ["600", "600:900", "900:600:10", "600:900:0", "600:900:ten", "600:900:1e-4"])
+def test_wrong_depths_name_the_key(text: str, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"work\.depths"):
+        read_depths(text, load_case(case_file(tmp_path)))
+
+
+def test_rates_that_no_operation_takes_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError):
+        task(load_case(case_file(tmp_path)), operations=["rotate_off_bottom"], depths=[600], speed=0.3)
