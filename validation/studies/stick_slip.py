@@ -134,6 +134,14 @@ def threshold(rate: Callable[[float], float], guess: float) -> float:
     return float(low + (high - low) * grows / (grows - decays))
 
 
+def cycle_of(time: Array, spin: Array) -> float:
+    """Period [s] of stick-slip: mean time between two break-aways, where the spin rises through half of its peak."""
+    half = 0.5 * spin.max()
+    k = np.flatnonzero((spin[:-1] < half) & (spin[1:] >= half))
+    at = time[k] + (half - spin[k]) / (spin[k + 1] - spin[k]) * np.diff(time)[k]
+    return float((at[-1] - at[0]) / (len(at) - 1))
+
+
 def predicted(weight: float, drive: str) -> float:
     """Threshold [rev/min] of the continuous string: above it, |r_top r_bit| exp(−2αL) < 1 at every mode.
 
@@ -221,6 +229,9 @@ def run(context: Context) -> Outcome:
                   1.0, "at_most", "", "soft torque removes stick-slip"),
             Check("largest spin of the bit in stick-slip, engine against ODE", 100 * abs(peak / peak_ode - 1), 3.0,
                   "at_most", "%", "scipy's LSODA, rest as creep at 0.01 rad/s; target of this project"),
+            Check("period of stick-slip, engine against ODE",
+                  100 * abs(cycle_of(time, spin) / cycle_of(time_ode, spin_ode) - 1), 3.0, "at_most", "%",
+                  "the same"),
             Check("share of the time at which the bit sticks", float((np.abs(spin[late]) < 1e-6).mean()), 0.05,
                   "at_least", "", "stick-slip at half of the threshold"),
         ],
