@@ -12,12 +12,19 @@ from fctd.results.columns import COLUMNS
 UNITS = {
     "N_m_per_rad": "N·m/rad",
     "kg_per_m3": "kg/m³",
+    "rad_per_s": "rad/s",
+    "m_per_s": "m/s",
     "N_per_m": "N/m",
+    "m_per_h": "m/h",
     "percent": "%",
+    "per_s": "1/s",
     "kN_m": "kN·m",
     "N_m": "N·m",
     "m_s": "m/s",
+    "MPa": "MPa",
     "deg": "°",
+    "rpm": "rev/min",
+    "Hz": "Hz",
     "kN": "kN",
     "mm": "mm",
     "ms": "ms",
@@ -36,6 +43,8 @@ SYMBOLS = {
 SYMBOLS |= {
     "soft_hookload": "soft hook load",
     "hookload_difference": "hook load difference",
+    "off_percent_of_weight": "off, % of the weight",
+    "largest_off_percent_of_weight": "largest off, % of the weight",
 }
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

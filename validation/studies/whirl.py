@@ -21,7 +21,9 @@ COLLAR = {"name": "collar", "outer_diameter": 0.165, "inner_diameter": 0.0714}
 HOLE, BIT = 0.2159, 0.2157  # [m]: of the hole, and of the bit that centres the collar's lower end
 MUD = 1200.0  # [kg/m³]
 TOP = 100.0  # [m], in vertical hole
-LENGTH, BIT_LENGTH, SEGMENT, ECCENTRICITY = 24.0, 0.3, 1.0, 1e-3  # [m] of the stabilised collar
+LENGTH, BIT_LENGTH, ECCENTRICITY = 24.0, 0.3, 1e-3  # [m] of the stabilised collar
+# Length of its segments [m] and of its runs [s].
+FINE, QUICK = (1.0, 150.0), (1.5, 60.0)
 DAMPING = 20.0  # [N s/m²], under which its transient dies in a minute and a half
 # Of the critical speed: nearer to it the first mode alone counts.
 SHARES, QUICK_SHARES = (0.85, 0.9, 0.95), (0.9, 0.95)
@@ -44,10 +46,10 @@ def collar_case(operations: list[dict[str, Any]], **more: Any) -> Case:
     )  # fmt: skip
 
 
-def stabilised(rpm: float, seconds: float) -> float:
+def stabilised(rpm: float, segment: float, seconds: float) -> float:
     """Radius [m] of the whirl of an unbalanced collar at its middle, which is centred at its lower end by a bit."""
     bit = COLLAR | {"name": "bit", "length": BIT_LENGTH, "segments": 1, "contact_diameter": BIT}
-    part = COLLAR | {"length": LENGTH, "segment_length": SEGMENT, "eccentricity": ECCENTRICITY}
+    part = COLLAR | {"length": LENGTH, "segment_length": segment, "eccentricity": ECCENTRICITY}
     case = collar_case(
         rotation(TOP + LENGTH + BIT_LENGTH, seconds, ramp=5.0, rpm=rpm), components=[bit, part],
         mud={"density": MUD, "lateral_damping": DAMPING}, record={"interval": 0.5},
@@ -91,7 +93,7 @@ def critical_speed(quick: bool) -> pd.DataFrame:
     rows = []
     for share in QUICK_SHARES if quick else SHARES:
         speed = share * expected
-        radius = stabilised(speed * 30 / np.pi, 90.0 if quick else 150.0)
+        radius = stabilised(speed * 30 / np.pi, *(QUICK if quick else FINE))
         rows.append({"rad_per_s": speed, "radius_mm": 1e3 * radius})
     table = pd.DataFrame(rows)
     slope, offset = np.polyfit(table["rad_per_s"] ** 2, table["rad_per_s"] ** 2 / table["radius_mm"], 1)
