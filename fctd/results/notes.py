@@ -31,6 +31,9 @@ DOUBTFUL, INACCURATE = 0.01, 0.10
 # The torque of a turning string differs from its mean over a torsional period, and this from the mean over the period
 # before, by at most this share; settled means differ by 1 %.  Below this lever [m] times the hook load, it is noise.
 UNSTEADY, LEVER = 0.05, 1e-3
+# The same share for the hook load, which may not swing by more either; swings below this share of the string's weight
+# are small, however small the hook load is.
+SMALL_SWING = 0.01
 # The chord of a segment that bends by θ is shorter than its pipe by θ²/24, 1 % at the first angle.  Beyond half a turn
 # of twist a joint springs back to the other side: the second angle is half of that [rad].
 MOST_BEND, MOST_TWIST = float(np.radians(30.0)), float(np.radians(90.0))
@@ -75,6 +78,11 @@ MEANINGS: Final = {
     "torque": Meaning(
         "the surface torque at the end of the run is not steady",
         "read the mean of its operation, or rotate longer, with a record.interval of the torsional period",
+    ),
+    "hookload": Meaning(
+        "the hook load at the end of the run is not steady",
+        "read the mean of its operation, let the operation last longer or ramp more slowly (ramp_time), or let the mud "
+        "damp the string (mud.viscosity, mud.axial_damping)",
     ),
     "whirl": Meaning(
         "the string whirls: it rolls around its hole in place of sliding",
@@ -289,6 +297,23 @@ def torque_swings(last: float, mean: float, before: float, period: float, hooklo
         f"{period:.3g} s {mean / 1e3:.3g} kN·m, and over the one before {before / 1e3:.3g} kN·m"
     )
     return _note("torque", text, off / bound)
+
+
+def hookload_swings(swing: float, mean: float, before: float, period: float, weight: float) -> Note | None:
+    """A note where the hook load is not steady at the end of a run.
+
+    swing : half of its range over the last two axial periods; mean, before : over the last of them and over the first;
+    weight : of the string [N]; period [s].
+    """
+    bound = max(UNSTEADY * max(abs(mean), abs(before)), SMALL_SWING * weight)
+    off = max(swing, abs(mean - before))
+    if not off > bound:
+        return None
+    text = (
+        f"the hook load still swings by ±{swing / 1e3:.3g} kN at the end of the run; its mean over the last axial "
+        f"period of {period:.3g} s is {mean / 1e3:.4g} kN, and over the one before {before / 1e3:.4g} kN"
+    )
+    return _note("hookload", text, off / bound)
 
 
 def whirls(sideways: float, surface: float, friction_torque: float, of_sliding: float) -> Note | None:

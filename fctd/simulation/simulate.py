@@ -19,7 +19,7 @@ from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.tortuosity import resolving, shortfall
 from fctd.results import notes
 from fctd.results.status import RunStatus
-from fctd.results.swings import Span, operations_table
+from fctd.results.swings import Span, operations_table, swing_of
 from fctd.results.tables import SimulationResult
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.intervals import Window, whole_schedule, within
@@ -241,8 +241,9 @@ class Simulation(Iterator[Record]):
         swing, frequency, depth = expected_ringing(self.run, self.phases).largest()
         bound = RINGING * float(result.history["hookload_N"].abs().mean())
         ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
-        swings, whirl = self._swings(result.history), self._whirls(result.history)
-        found = tuple(note for note in (ledger, ringing, swings, whirl, *self._limits(), *result.notes) if note)
+        swings = self._swings(result.history), self._pull_swings(result.history)
+        whirl = self._whirls(result.history)
+        found = tuple(note for note in (ledger, ringing, *swings, whirl, *self._limits(), *result.notes) if note)
         if ledger is not None and not error <= notes.INACCURATE:
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
@@ -284,6 +285,25 @@ class Simulation(Iterator[Record]):
         before, middle, end = np.interp(time_s[-1] - period * np.array([2.0, 1.0, 0.0]), time_s, impulse)
         means = (end - middle) / period, (middle - before) / period
         return notes.torque_swings(float(torque[-1]), *means, period, float(history["hookload_N"].iloc[-1]))
+
+    def _pull_swings(self, history: "pd.DataFrame") -> notes.Note | None:
+        """The note on the hook load at the end of a run that is recorded there for two axial periods or more."""
+        span = self._spans()[-1]
+        time_s, period = (
+            np.append(self._recorder.start_time if self._recorder else 0.0, history["time_s"]),
+            span.axial_period,
+        )
+        end = float(time_s[-1])
+        if end - 2 * period < max(span.start, time_s[0]):
+            return None
+        last = swing_of(
+            time_s, history, "hookload", "N", span._replace(steady_from=end - period, steady_to=end), period
+        )
+        first = span._replace(steady_from=end - 2 * period, steady_to=end - period)
+        before = swing_of(time_s, history, "hookload", "N", first, period)
+        string = self.run.laid_out
+        weight = float((string.of("weight") * string.length).sum())
+        return notes.hookload_swings(max(last.swing, before.swing), last.mean, before.mean, period, weight)
 
     def _whirls(self, history: "pd.DataFrame") -> notes.Note | None:
         """The note on a string that whirls: the operation in which it moved sideways most, by its last records."""

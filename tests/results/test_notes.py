@@ -380,6 +380,28 @@ def test_a_torque_that_is_not_steady(last: float, mean: float, before: float, ex
     assert "mean of its operation" in note.remedy
 
 
+@pytest.mark.parametrize(
+    ("swing", "mean", "before", "excess"),
+    [
+        (24e3, 500e3, 498e3, None),  # within 5 %
+        (50e3, 500e3, 500e3, 2.0),  # swings on
+        (5e3, 500e3, 400e3, 4.0),  # still rising
+        (4e3, 20e3, 20e3, None),  # a fifth of the hook load, but nothing beside the weight of 800 kN
+        (16e3, 20e3, 20e3, 2.0),
+    ],
+)
+def test_a_hook_load_that_is_not_steady(swing: float, mean: float, before: float, excess: float | None) -> None:
+    note = notes.hookload_swings(swing, mean, before, 1.56, 800e3)
+    if excess is None:
+        assert note is None
+        return
+    assert note is not None
+    assert (note.code, note.excess) == ("hookload", pytest.approx(excess))
+    assert f"swings by ±{swing / 1e3:.3g} kN" in note.text
+    assert "axial period of 1.56 s" in note.text
+    assert "mean of its operation" in note.remedy
+
+
 def test_a_string_whirls_where_it_moves_sideways_and_hardly_slides() -> None:
     """At half the speed of its surface, with a tenth of the torque of sliding."""
     note = notes.whirls(1.0, 2.0, 500.0, 5000.0)

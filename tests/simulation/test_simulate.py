@@ -313,6 +313,17 @@ def test_the_torque_at_the_end_is_judged_by_means_over_torsional_periods() -> No
     assert f"torsional period of {period:.3g} s 12 kN·m, and over the one before 12 kN·m" in found.text
 
 
+@pytest.mark.parametrize(("ramp", "swings"), [(0.2, True), (10.0, False)])
+def test_a_run_says_that_the_wave_of_its_start_has_not_died(ramp: float, swings: bool) -> None:
+    """A vertical string that is picked up at 1 m/s at once: the wave is ρcAv = 0.4 MN·s/m times 1 m/s, and the string
+    weighs 0.7 MN.  Slowly started, it hardly swings."""
+    moves = [trip(980, 960, speed=1.0, ramp=ramp)]
+    case = make_case(components=[pipe(100, 10), pipe(None, 1)], operations=moves, record={"interval": 0.05})
+    result = simulate(case)
+    codes = [note.code for note in result.notes]
+    assert ("hookload" in codes) == swings
+
+
 def test_a_whirling_string_says_so_and_the_mud_s_damping_holds_it() -> None:
     """13⅜ in casing in 17½ in hole, friction factor 0.5, 120 rev/min, in segments so long that it rolls up the wall.
 
