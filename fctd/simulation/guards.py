@@ -8,6 +8,7 @@
 - The energy ledger so far, by which a run that ends early is judged.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from time import perf_counter
@@ -16,11 +17,28 @@ from typing import ParamSpec, TypeVar
 import numpy as np
 
 from fctd.mechanics import state
+from fctd.mechanics.jit import entry
 from fctd.mechanics.query import Walls
 from fctd.results.buckling import Buckling
-from fctd.results.notes import Note, beyond_joints, ledger_off, string_notes, under_resolved
+from fctd.results.notes import Note, beyond_joints, could_have_notes, ledger_off, string_notes, under_resolved
 from fctd.results.profile import Loads
 from fctd.simulation.run import Run
+
+
+@entry
+def may_have_notes(offset, hole, radius, tension, torque, bending, bit_tension, bit_torque, sections, top, hookload):
+    """Whether ``string_notes`` may find something: most records have no notes, and this takes two microseconds.
+
+    offset (n, 3), hole (n,) : of the walls; radius (n,) : of the contact points [m]; loads (n,) as in ``Loads``;
+    sections : a row for each component, the uppermost in row ``top``.
+    """
+    deepest, pull, twist, bend = -math.inf, 0.0, 0.0, 0.0
+    for j in range(len(hole)):
+        distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
+        deepest = max(deepest, distance - hole[j] + radius[j])
+        pull, twist, bend = max(pull, abs(tension[j])), max(twist, abs(torque[j])), max(bend, bending[j])
+    return could_have_notes(deepest, pull, bit_tension, twist, bit_torque, bend, sections, top, hookload)
+
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -36,6 +54,9 @@ class Guards:
         self.run = run
         self.notes: dict[str, Note] = {}
         self.seconds = self.residual = self.work = 0.0
+        # Reading the compiled code from disk, or compiling it, is no part of the checks' time.
+        none, table = np.zeros(0), run.string.table
+        may_have_notes(np.zeros((0, 3)), none, none, none, none, none, 0.0, 0.0, table, 0, 0.0)
 
     def timed(self, check: Callable[P, R], *given: P.args, **more: P.kwargs) -> R:
         """Call one of the checks below, and add its time."""
@@ -52,18 +73,22 @@ class Guards:
 
     def check_record(
         self, bit_depth: float, hookload: float, loads: Loads, walls: Walls, buckling: Buckling,
-        entry: Mapping[str, float],
+        row: Mapping[str, float],
     ) -> None:  # fmt: skip
-        """Keep the notes of a record; loads are means over its interval, entry is its row of the ledger."""
+        """Keep the notes of a record; loads are means over its interval, row is its row of the ledger."""
         run = self.run
-        radius, in_hole = state.row(run.S, state.RADIUS, run.segments), run.case.contact.enabled
-        for note in string_notes(run.string, loads, hookload, walls, radius, in_hole=in_hole):
-            self._keep(note, bit_depth)
+        radius, in_hole, string = state.row(run.S, state.RADIUS, run.segments), run.case.contact.enabled, run.string
+        if not in_hole or may_have_notes(
+            walls.offset, walls.radius, radius, loads.tension, loads.torque, loads.bending, float(loads.bit_tension),
+            float(loads.bit_torque), string.table, int(string.component[0]), hookload,
+        ):  # fmt: skip
+            for note in string_notes(string, loads, hookload, walls, radius, in_hole=in_hole):
+                self._keep(note, bit_depth)
         self._keep(under_resolved(buckling), bit_depth)
-        lost = abs(sum(value for name, value in entry.items() if name.startswith("lost_")))
-        beyond = abs(entry["top_drive_work_J"] - entry["gravity_J"])
+        lost = abs(sum(value for name, value in row.items() if name.startswith("lost_")))
+        beyond = abs(row["top_drive_work_J"] - row["gravity_J"])
         self.work = float(np.fmax(self.work, max(lost, beyond)))
-        self.residual = float(np.fmax(self.residual, abs(entry["residual_J"])))
+        self.residual = float(np.fmax(self.residual, abs(row["residual_J"])))
 
     def of_the_ledger(self) -> Note | None:
         """The note on a ledger that is off so far, as far as the run has turned over energy."""

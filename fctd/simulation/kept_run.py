@@ -4,6 +4,7 @@ import io
 import json
 import time
 from collections.abc import Callable
+from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
@@ -85,7 +86,8 @@ class KeptRun:
             "cursor": [self._cursor.records, self._cursor.profiles, self._cursor.seen],
         }  # fmt: skip
         sink = io.BytesIO()
-        np.savez(sink, facts=np.frombuffer(json.dumps(facts).encode(), np.uint8), **checkpoint.arrays)
+        kept: dict[str, Any] = {"facts": np.frombuffer(json.dumps(facts).encode(), np.uint8), **checkpoint.arrays}
+        np.savez(sink, **kept)
         self.folder.write(f"{number}-{CHECKPOINT}", sink.getvalue())
         self.folder.remove({f"{number - KEPT_CHECKPOINTS}-{CHECKPOINT}"})
         self._number, self.kept = number, checkpoint.time

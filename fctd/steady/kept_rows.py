@@ -53,10 +53,10 @@ class KeptRows:
         """Write the rows since the last chunk, if any; InputError where they cannot be written."""
         if not self._new:
             return
-        began = time.monotonic()
         try:
             if self._describe is not None and not self._number:
                 self.folder.describe(*self._describe())
+            began = time.monotonic()
             self.folder.write(f"{self._number + 1}-{ROWS}", json.dumps(self._new).encode())
         except OSError as error:
             raise cannot_keep(error, self.folder, self.key, f"{self.kept} rows" if self.kept else "") from error
