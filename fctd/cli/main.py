@@ -38,6 +38,7 @@ COMMANDS: dict[str, dict[str, str]] = {
     "predict": CALIBRATION,
     "monitor": {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"},
     "sweep": {},
+    "uncertainty": {"bit_depth": "--bit-depth"},
     "compile": {},
 }
 
