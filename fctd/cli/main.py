@@ -40,6 +40,7 @@ COMMANDS: dict[str, dict[str, str]] = {
     "status": {},
     "view": {"bit_depth": "--depths", "exaggeration": "--sideways"},
     "sweep": {},
+    "uncertainty": {"bit_depth": "--bit-depth"},
     "compile": {},
 }
 

@@ -16,13 +16,16 @@ if TYPE_CHECKING:
     from fctd.plots.profile import profile_figure
     from fctd.plots.run import run_figure
     from fctd.plots.style import RC, save
+    from fctd.plots.sweep import bands_figure, map_figure, tornado_figure
 
 __all__ = [
     "RC",
     "ChartLook",
+    "bands_figure",
     "calibration_figure",
     "chart_figure",
     "chart_page",
+    "map_figure",
     "monitor_figure",
     "prediction_figure",
     "profile_figure",
@@ -30,14 +33,17 @@ __all__ = [
     "run_figure",
     "save",
     "save_page",
+    "tornado_figure",
 ]
 
 _HOMES = {
     "RC": "style",
     "ChartLook": "loads",
+    "bands_figure": "sweep",
     "calibration_figure": "calibration",
     "chart_figure": "chart",
     "chart_page": "page",
+    "map_figure": "sweep",
     "monitor_figure": "monitor",
     "prediction_figure": "calibration",
     "profile_figure": "profile",
@@ -45,6 +51,7 @@ _HOMES = {
     "run_figure": "run",
     "save": "style",
     "save_page": "page",
+    "tornado_figure": "sweep",
 }
 
 

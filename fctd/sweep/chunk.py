@@ -8,13 +8,13 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fctd.case.errors import InputError
 from fctd.sweep.design import Value
 from fctd.sweep.template import Template
-from fctd.sweep.work import SHORT, WORK, Row, Task, TooLongError
+from fctd.sweep.work import WORK, Row, Task, TooLongError, begin_run
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -73,12 +73,25 @@ class Bench:
             rows = [without_answer(FAILED, f"{type(error).__name__}: {error}")]
         return [{"sample": sample.number, **row} for row in rows]
 
-    def seconds_per_sample(self, sample: Sample) -> float:
-        """How long a sample takes once all is compiled and imported [s]; NaN for work that is too long to try."""
-        if self.task.spec.kind not in SHORT:
+    def warm_up(self) -> float:
+        """Compile and import what samples need; returns how long one takes [s], NaN for work that is too long to try.
+
+        It works on the sweep's case itself, as no sample's clock may count it, and no sample may end the process.
+        """
+        case, spec = self.template.base, self.task.spec
+        try:
+            if spec.kind == "simulate":
+                begin_run(case)
+                return float("nan")
+            if spec.kind == "refine":
+                replace(self, task=replace(self.task, spec=spec.model_copy(update={"kind": "equilibrium"}))).warm_up()
+                return float("nan")
+            WORK[spec.kind](case, self.task, lambda: None)
+            began = time.perf_counter()
+            as_stream(WORK[spec.kind](case, self.task, lambda: None))
+            return time.perf_counter() - began
+        except InputError:  # as of a case that only its samples complete
             return float("nan")
-        self.run([sample], lambda number: None)
-        return self.run([sample], lambda number: None).solving
 
     def run(self, samples: Sequence[Sample], too_long: Callable[[int], None]) -> Done:
         """The rows of samples; too_long : called with a sample's number before this process ends over it."""

@@ -70,7 +70,9 @@ def _local(where: Where) -> Iterator[Client]:
 
     settings = {
         "distributed.scheduler.allowed-failures": 0,  # a chunk whose worker dies comes back to us at once
-        "distributed.admin.log-format": "%(message)s",
+        # A worker that dies is started again.  After this time the cluster would take it away for good, if another one
+        # were starting just then.
+        "distributed.deploy.lost-worker-timeout": "1 week",
     }
     with (
         dask.config.set(settings),

@@ -12,26 +12,34 @@ from fctd.sweep.chunk import Bench, Done, Sample
 
 
 class Carrier(WorkerPlugin):
-    """Brings a sweep to every worker, also to one that comes later."""
+    """Brings a sweep to every worker, also to one that comes later; each compiles before its first chunk."""
 
     def __init__(self, bench: Bench) -> None:
         self.bench = bench
+        self.seconds: float | None = None
 
     def setup(self, worker: Any) -> None:
         """Nothing: the plugin itself is what a worker needs."""
+
+    def warm(self) -> float:
+        """How long a sample takes [s], NaN where that is not known, after all is compiled."""
+        if self.seconds is None:
+            self.seconds = self.bench.warm_up()
+        return self.seconds
 
 
 def run_chunk(name: str, samples: Sequence[Sample]) -> Done:
     """The rows of samples of the sweep that a worker was brought under a name."""
     worker = get_worker()
-    return _bench(name).run(samples, lambda sample: worker.log_event(name, sample))
+    carrier: Carrier = worker.plugins[name]
+    carrier.warm()
+    try:
+        return carrier.bench.run(samples, lambda sample: worker.log_event(name, sample))
+    except Exception as error:  # its frames need not be on their way to the client, which may not be able to read them
+        raise RuntimeError(f"{type(error).__name__}: {error}") from None
 
 
-def try_one(name: str, sample: Sample) -> float:
-    """How long a sample takes on a worker, once all is compiled [s]; NaN for work that is too long to try."""
-    return _bench(name).seconds_per_sample(sample)
-
-
-def _bench(name: str) -> Bench:
+def warm_up(name: str) -> float:
+    """How long a sample takes on a worker, once all is compiled [s]; NaN where that is not known."""
     carrier: Carrier = get_worker().plugins[name]
-    return carrier.bench
+    return carrier.warm()

@@ -38,7 +38,7 @@ AHEAD: Final = 1
 # Between two parts of rows [s].
 PART = 2.0
 # Deaths of workers after which a sample that was alone counts as the reason.
-DEATHS: Final = 2
+DEATHS: Final = 3
 # Samples whose cases are made before the work begins.
 TRIED: Final = 64
 # Without an answer from anyone, the connection is looked at after this time [s].
@@ -162,6 +162,7 @@ class _Running:
         self.again: deque[tuple[int, ...]] = deque()  # halves of chunks whose worker died
         self.flying: dict[Future[Done], tuple[int, ...]] = {}
         self.ended: SimpleQueue[Any] = SimpleQueue()
+        self.suspects: set[int] = set()  # samples of these
         self.deaths: dict[int, int] = {}
         self.tables: list[pa.Table] = []
         self.taken = set(dataset.done)
@@ -173,33 +174,25 @@ class _Running:
 
     def warm_up(self) -> None:
         """Bring the sweep to all workers, let them compile, and learn how long a sample takes."""
-        from fctd.sweep.plugin import Carrier, try_one
+        from fctd.sweep.plugin import Carrier, warm_up
 
         self.client.register_plugin(Carrier(self.bench), name=self.name)
-        self.client.subscribe_topic(self.name, lambda event: self.ended.put(event))
-        first = sample_of(self.dataset.samples, self.bench.keys, self.waiting[0])
+        self.client.subscribe_topic(self.name, self.ended.put)
         addresses = list(self.client.nthreads())
         trials = [
-            self.client.submit(try_one, self.name, first, key=f"{self.name}-try-{k}", workers=[address], pure=False,
-                               allow_other_workers=True)
+            self.client.submit(warm_up, self.name, key=f"{self.name}-warm-{k}", workers=[address], pure=False)
             for k, address in enumerate(addresses)
-        ]  # fmt: skip
-        times: list[float] = []
-        for trial in trials:
-            try:
-                times.append(trial.result())
-            except Exception as error:  # the first sample kills its worker: its chunk will show it
-                if not _died(error):
-                    raise
+        ]
+        times = self.client.gather(trials, errors="skip")
         self.workers = self.summary.workers = len(addresses)
-        self.each = max(times, default=float("nan"))
+        self.each = max((seconds for seconds in times if seconds > 0), default=float("nan"))
 
     def run(self) -> None:
         """Send chunks and take their rows until all samples have them."""
         self.began = self.written = time.perf_counter()
         looked = self.began
         while self.waiting or self.again or self.flying:
-            while (self.waiting or self.again) and len(self.flying) < self.workers * (1 + AHEAD):
+            while (self.waiting or self.again) and len(self.flying) < self._room:
                 self._send(self._next_chunk())
             try:
                 event = self.ended.get(timeout=PATIENCE)
@@ -228,6 +221,12 @@ class _Running:
             self.summary.wall = time.perf_counter() - self.began
         kept = asdict(self.summary) | {"share": self.summary.share}
         self.dataset.keep_run({key: None if value in (math.inf,) else value for key, value in kept.items()})
+
+    @property
+    def _room(self) -> int:
+        """Most chunks at a time: one a worker while one of them may kill its worker, and those that wait there."""
+        suspected = self.again or any(number in self.suspects for of in self.flying.values() for number in of)
+        return self.workers * (1 if suspected else 1 + AHEAD)
 
     def _next_chunk(self) -> tuple[int, ...]:
         if self.again:
@@ -282,6 +281,7 @@ class _Running:
     def _keep(self, table: pa.Table, numbers: Sequence[int]) -> None:
         assert self.taken.isdisjoint(numbers)
         self.taken.update(numbers)
+        self.suspects.difference_update(numbers)
         self.tables.append(table)
         for status in table["status"].to_pylist():
             if status in (FAILED, CRASHED, TIMED_OUT):
@@ -304,6 +304,7 @@ class _Running:
 
     def _halve(self, numbers: tuple[int, ...]) -> None:
         """A chunk's worker has died: by one of its samples, or by another chunk's, or for a reason of its own."""
+        self.suspects.update(numbers)
         if len(numbers) > 1:
             middle = len(numbers) // 2
             self.again += [numbers[:middle], numbers[middle:]]

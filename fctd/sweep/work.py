@@ -154,11 +154,16 @@ def simulated(case: Case, task: Task, tick: Tick) -> list[Row]:
     return rows
 
 
+def begin_run(case: Case) -> None:
+    """Settle the string of a run and take a step of it, which compiles what runs need."""
+    simulation = Simulation(case)
+    simulation.start()
+    simulation.run.advance(simulation.intervals[0].motion, simulation.run.step)
+
+
 WORK: Final[Mapping[str, Callable[[Case, Task, Tick], list[Row]]]] = {
     "chart": chart,
     "equilibrium": equilibrium,
     "refine": refined,
     "simulate": simulated,
 }
-# Kinds whose samples take milliseconds: a worker that starts computes one of them twice, to know how long they take.
-SHORT: Final = ("chart", "equilibrium")

@@ -8,19 +8,20 @@ pytest.importorskip("distributed")
 
 from fctd.sweep.chunk import Sample
 from fctd.sweep.cluster import Where, connected
-from fctd.sweep.plugin import Carrier, run_chunk, try_one
+from fctd.sweep.plugin import Carrier, run_chunk, warm_up
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from tests.sweep.made import sweep_file
 
 
+@pytest.mark.slow
 def test_a_chunk_runs_on_a_worker_as_it_runs_here(tmp_path: Path) -> None:
     bench, _ = prepare(read_sweep(sweep_file(tmp_path)))
     samples = [Sample(2, (0.3, 1.2)), Sample(5, (0.2, 1.0))]
     with connected(Where(workers=1)) as client:
         client.register_plugin(Carrier(bench), name="here")
         done = client.submit(run_chunk, "here", samples).result()
-        seconds = client.submit(try_one, "here", samples[0]).result()
+        seconds = client.submit(warm_up, "here").result()
     assert done.samples == (2, 5)
     assert done.rows == bench.run(samples, lambda number: None).rows
     assert 0 < seconds < 10

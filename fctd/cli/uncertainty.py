@@ -1,0 +1,164 @@
+"""``fctd uncertainty SWEEP.toml``: percentiles, probabilities and influences from the samples of a sweep."""
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from fctd.case.errors import InputError
+from fctd.case.operations import KINDS
+from fctd.case.text import file_name, printable
+from fctd.case.units import LENGTH
+from fctd.cli.options import Quiet, check_target, messages, print_written, read_quantity, screen
+from fctd.cli.pictures import DRAWN, check_pictures
+from fctd.cli.steady import Units, file_option
+from fctd.cli.sweep import SweepFile
+from fctd.results.tables import versions, write_table
+from fctd.results.unit_systems import System, shown
+from fctd.sweep.dataset import identity_of, open_dataset
+from fctd.sweep.spec import read_sweep
+from fctd.sweep.template import template_of
+from fctd.sweep.uncertainty import Uncertainty, assess
+
+TABLES = ("percentiles", "probabilities", "indices", "convergence")
+
+
+def uncertainty_command(
+    sweep_file: SweepFile,
+    folder: Annotated[
+        Path | None,
+        typer.Option("--from", metavar="FOLDER", help="Folder of fctd sweep; default: NAME-sweep.", show_default=False),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="FOLDER", help=f"Folder for {', '.join(TABLES)} as CSV.", show_default=False),
+    ] = None,
+    bit_depth: Annotated[
+        str | None,
+        typer.Option(
+            "--bit-depth", metavar="D", help="Depth of indices and map; default: the last.", show_default=False
+        ),
+    ] = None,
+    operation: Annotated[
+        str | None,
+        typer.Option("--operation", metavar="KIND", help="Of tornado and map; default: the first.", show_default=False),
+    ] = None,
+    plot_bands: Annotated[
+        Path | None, file_option("--plot-bands", "Bands of loads over depth, .png, .svg, .pdf.")
+    ] = None,
+    plot_tornado: Annotated[Path | None, file_option("--plot-tornado", "Influence of the parameters.")] = None,
+    plot_map: Annotated[Path | None, file_option("--plot-map", "A result over two parameters, those of --map.")] = None,
+    map_keys: Annotated[
+        str | None,
+        typer.Option("--map", metavar="X,Y[,COLUMN]", help="Keys of the map, and its result.", show_default=False),
+    ] = None,
+    units: Units = "si",
+    quiet: Quiet = False,
+) -> None:
+    """Tell what the samples of a sweep say: bands of the loads, probabilities, and which parameter matters."""
+    if (plot_map is None) != (map_keys is None):
+        raise InputError("--plot-map and --map, both or none", key="--map", value=map_keys or "none")
+    check_pictures({"--plot-bands": plot_bands, "--plot-tornado": plot_tornado, "--plot-map": plot_map}, DRAWN)
+    files = {} if out is None else {name: out / f"{name}.csv" for name in TABLES}
+    for path in files.values():
+        check_target(path, "--out", (".csv",))
+    spec = read_sweep(sweep_file)
+    dataset = open_dataset(folder if folder is not None else Path(file_name(spec.name, "-sweep")))
+    if dataset.about.get("identity") != identity_of(template_of(spec)):
+        raise InputError(
+            "the folder of this sweep (its file, case or survey is another)", key="--from", value=dataset.folder
+        )
+    if operation is not None and operation not in KINDS:
+        raise InputError(f"one of the kinds {', '.join(KINDS)}", key="--operation", value=operation)
+    depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth", units)
+    found = assess(dataset, spec, depth)
+    keys = [] if map_keys is None else [part.strip() for part in map_keys.split(",")]
+    if map_keys is not None and len(keys) not in (2, 3):
+        raise InputError("two keys of parameters, and a column", key="--map", value=map_keys)
+    written: list[Path] = []
+    try:  # written before anything is printed, as the terminal may be closed
+        metadata = {"sweep": spec.model_dump(mode="json"), "versions": versions()}
+        for name, path in files.items():
+            written += write_table(getattr(found, name), path, metadata)
+        written += _draw(found, plot_bands, plot_tornado, plot_map, keys, operation, units)
+    finally:
+        if not quiet:
+            _print(found, units)
+    print_written(written)
+
+
+def _draw(
+    found: Uncertainty, bands: Path | None, tornado: Path | None, of_map: Path | None, keys: list[str],
+    operation: str | None, units: System,
+) -> list[Path]:  # fmt: skip
+    if bands is None and tornado is None and of_map is None:
+        return []
+    from fctd import plots
+
+    written: list[Path] = []
+    if bands is not None:
+        written += plots.save(plots.bands_figure(found, units), bands)
+    if tornado is not None:
+        written += plots.save(plots.tornado_figure(found, operation), tornado)
+    if of_map is not None:
+        column = keys[2] if len(keys) == 3 else found.columns[0]
+        if column not in found.rows or found.rows[column].dtype.kind not in "if":
+            raise InputError("a column of the results with numbers", key="--map", value=column)
+        written += plots.save(plots.map_figure(found, keys[:2], column, operation, units), of_map)
+    return written
+
+
+def _print(found: Uncertainty, units: System) -> None:
+    """Print percentiles at the last depth, the probabilities of events anywhere, and the influences."""
+    screen.print(f"{printable(found.spec.name)}: {found.rows['sample'].nunique()} samples", style="bold")
+    _print_percentiles(found, units)
+    table = Table(box=SIMPLE_HEAD, title="Probability at any depth", title_justify="left")
+    for heading in ("operation", "event", "probability", "95 %"):
+        table.add_column(heading, justify="left" if heading in ("operation", "event") else "right")
+    anywhere = found.probabilities[found.probabilities["bit_depth_m"].isna()]
+    for row in anywhere[anywhere["count"] > 0].to_dict("records"):
+        table.add_row(
+            row["operation"], row["event"], f"{row['probability']:.3g}", f"{row['low']:.3g} to {row['high']:.3g}"
+        )
+    if table.row_count:
+        screen.print(table)
+    if found.trouble:
+        messages.print(f"no indices: {printable(found.trouble)}", soft_wrap=True)
+    if found.indices.empty:
+        return
+    at = "" if np.isnan(found.bit_depth) else f" at {found.bit_depth:g} m"
+    table = Table(box=SIMPLE_HEAD, title=f"Influence{at}", title_justify="left")
+    for heading in ("operation", "column", "measure", "parameter"):
+        table.add_column(heading, overflow="fold")
+    for heading in ("value", "±"):
+        table.add_column(heading, justify="right")
+    for row in found.indices.to_dict("records"):
+        error = "" if np.isnan(row["error"]) else f"{row['error']:.2g}"
+        names = (row["operation"], row["column"], row["measure"], row["parameter"])
+        table.add_row(*names, f"{row['value']:.3g}", error)
+    screen.print(table)
+
+
+def _print_percentiles(found: Uncertainty, units: System) -> None:
+    table = Table(box=SIMPLE_HEAD, title="Percentiles at the last depth", title_justify="left")
+    for heading in ("operation", "column"):
+        table.add_column(heading, overflow="fold")
+    for heading in ("%", "value", "95 %", "samples"):
+        table.add_column(heading, justify="right")
+    rows = found.percentiles
+    if "bit_depth_m" in rows:
+        rows = rows[rows["bit_depth_m"] == rows["bit_depth_m"].max()]
+    for row in rows.to_dict("records"):
+        try:
+            factor, unit = shown(row["column"], units)
+        except ValueError:
+            factor, unit = 1.0, ""
+        low, high = ("–" if np.isnan(row[end]) else f"{row[end] * factor:z.4g}" for end in ("low", "high"))
+        value = "–" if np.isnan(row["value"]) else f"{row['value'] * factor:z.4g} {unit}"
+        table.add_row(
+            row["operation"], row["column"], f"{row['percentile']:g}", value, f"{low} to {high}", str(row["samples"])
+        )
+    screen.print(table)

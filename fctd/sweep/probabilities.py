@@ -1,0 +1,82 @@
+"""Probabilities over the samples: of lock-up, of buckling, of no answer, and of exceeding limits.
+
+Intervals of 95 % are Wilson's (1927), which are sound for no and for few events, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from scipy import stats
+
+from fctd.sweep.percentiles import columns_of, places_of
+from fctd.sweep.spec import LimitSpec
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+LOCKED_UP, BUCKLED, HELICAL, NO_ANSWER = "locked up", "buckled", "buckled helically", "no answer"
+# Statuses of rows with an answer: of steady strings, of runs, of refinements.
+ANSWERED: Final = (
+    "converged", "locked_up", "under_resolved", "unstable", "completed", "inaccurate", "within_tolerance",
+    "not_reached",
+)  # fmt: skip
+
+
+def probability_table(rows: pd.DataFrame, limits: Sequence[LimitSpec], samples: int) -> pd.DataFrame:
+    """A row for every event and place, and one for every event anywhere in an operation, whose bit_depth_m is NaN.
+
+    samples : their number; a sample without any row of an operation counts as no answer there, and otherwise as none of
+    the events.  Columns: operation, bit_depth_m, event, probability, low and high (95 %), count, samples.
+    """
+    import pandas as pd
+
+    events = _events(rows, limits)
+    places = places_of(rows)
+    found = []
+    answered = rows[rows["operation"].notna()] if "operation" in rows else rows
+    for operation, of in answered.groupby("operation", sort=True):
+        lacking = samples - of["sample"].nunique()
+        for name, happened in events.items():
+            here = happened.loc[of.index]
+            extra = lacking if name == NO_ANSWER else 0
+            anywhere = int(here.groupby(of["sample"]).any().sum()) + extra
+            found.append(_row(operation, float("nan"), name, anywhere, samples))
+            if "bit_depth_m" in places:
+                for depth, count in here.groupby(of["bit_depth_m"]).sum().items():
+                    found.append(_row(operation, float(str(depth)), name, int(count) + extra, samples))
+    return pd.DataFrame(found)
+
+
+def _events(rows: pd.DataFrame, limits: Sequence[LimitSpec]) -> Mapping[str, pd.Series[bool]]:
+    status = rows["status"]
+    events = {NO_ANSWER: ~status.isin(ANSWERED)}
+    if "buckling" in rows:
+        events |= {
+            LOCKED_UP: status == "locked_up",
+            BUCKLED: rows["buckling"].isin(["sinusoidal", "helical"]),
+            HELICAL: rows["buckling"] == "helical",
+        }
+    for limit in limits:
+        columns_of(rows, [limit.column])
+        above = limit.above is not None
+        bound = limit.above if above else limit.below
+        name = f"{limit.column} {'above' if above else 'below'} {bound:g}"
+        events[name] = rows[limit.column] > bound if above else rows[limit.column] < bound
+    return events
+
+
+def _row(operation: Any, depth: float, event: str, count: int, samples: int) -> dict[str, Any]:
+    low, high = interval(count, samples)
+    return {
+        "operation": operation, "bit_depth_m": depth, "event": event, "probability": count / samples, "low": low,
+        "high": high, "count": count, "samples": samples,
+    }  # fmt: skip
+
+
+def interval(count: int, samples: int) -> tuple[float, float]:
+    """Wilson's interval of 95 % of a probability, of which ``count`` of ``samples`` events were seen."""
+    found = stats.binomtest(count, samples).proportion_ci(0.95, method="wilson")
+    return float(np.clip(found.low, 0, 1)), float(np.clip(found.high, 0, 1))

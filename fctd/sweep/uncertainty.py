@@ -1,0 +1,94 @@
+"""What a sweep's samples say: percentiles and their convergence, probabilities, and the influence of each parameter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from fctd.case.errors import InputError
+from fctd.sweep.dataset import Dataset
+from fctd.sweep.indices import indices_of
+from fctd.sweep.percentiles import columns_of, convergence_table, percentile_table
+from fctd.sweep.probabilities import probability_table
+from fctd.sweep.spec import SweepSpec
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+# Least standard deviation of a result with indices, over its mean or one SI unit: below is rounding.
+SPREAD: Final = 1e-9
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Tables of ``assess``.
+
+    columns : that they tell of; percentiles, convergence : see percentiles.py; probabilities : see probabilities.py;
+    indices : a row for every operation, column, parameter and measure at the depth of the indices, with value and
+    error; bit_depth [m] : of the indices, NaN where rows have none; trouble : why there are no indices, or "".
+    """
+
+    spec: SweepSpec
+    rows: pd.DataFrame
+    columns: list[str]
+    percentiles: pd.DataFrame
+    probabilities: pd.DataFrame
+    indices: pd.DataFrame
+    convergence: pd.DataFrame
+    bit_depth: float
+    trouble: str
+
+
+def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) -> Uncertainty:
+    """What the samples of a dataset say; bit_depth [m] : of the indices, by default the last.
+
+    Raises InputError for an incomplete dataset, for columns that it does not have, and for another depth.
+    """
+    import pandas as pd
+
+    if dataset.missing:
+        expected = "a sweep whose samples all have rows: run fctd sweep again, which goes on with it"
+        raise InputError(expected, value=f"{len(dataset.missing)} of {len(dataset.samples)} are missing")
+    rows = dataset.rows()
+    if spec.work.kind == "simulate":
+        rows = rows.drop(columns=["bit_depth_m"], errors="ignore")
+    if "operation" not in rows:
+        raise InputError("a sweep of which a sample has an answer", value=dataset.folder)
+    columns = columns_of(rows, spec.uncertainty.columns)
+    depth, at = _at(rows, bit_depth)
+    found, trouble = [], ""
+    for operation, group in at.groupby("operation", sort=True):
+        for name in columns:
+            values = group.set_index("sample")[name]
+            if not values.std() > SPREAD * max(abs(values.mean()), 1.0):  # as the torque of a string that only slides
+                continue
+            try:
+                indices = indices_of(spec, dataset.samples, values)
+            except InputError as error:
+                trouble = str(error)
+                continue
+            found += [{"operation": operation, "column": name, **index._asdict()} for index in indices]
+    return Uncertainty(
+        spec,
+        rows,
+        columns,
+        percentile_table(rows, columns, spec.uncertainty.percentiles),
+        probability_table(rows, spec.uncertainty.limits, len(dataset.samples)),
+        pd.DataFrame(found, columns=["operation", "column", "parameter", "measure", "value", "error"]),
+        convergence_table(rows, columns, spec.uncertainty.percentiles),
+        depth,
+        trouble,
+    )
+
+
+def _at(rows: pd.DataFrame, bit_depth: float | None) -> tuple[float, pd.DataFrame]:
+    """The depth of the indices, and its rows."""
+    if "bit_depth_m" not in rows:
+        return float("nan"), rows
+    depths = rows["bit_depth_m"].dropna().unique()
+    depth = float(max(depths)) if bit_depth is None else bit_depth
+    if depth not in depths:
+        nearest = min(depths, key=lambda other: abs(other - depth))
+        raise InputError(f"a depth of the sweep, such as {nearest:g} m", key="--bit-depth", value=f"{depth:g} m")
+    return depth, rows[rows["bit_depth_m"] == depth]
