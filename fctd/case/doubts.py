@@ -59,6 +59,7 @@ YIELD: Final = Range("Pa", 50e6, 3e9, "50 to 3000 MPa", (Slip(50, 3000, " MPa"),
 # large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.
 BIT_LOAD: Final = Range("N", 1e3, 2e6, "1 kN to 2 MN", (Slip(1, 999, " kN"),))
 BIT_TORQUE: Final = Range("N*m", 20, 200e3, "20 N*m to 200 kN*m", (Slip(0.5, 19.99, " kN*m"),))
+WEAR: Final = Range("m", 1e-4, 0.05, "0.1 to 50 mm", (Slip(0.1, 50, " mm"),))
 BLOCK: Final = Range("N", 1e3, 5e6, "1 kN to 5 MN", (Slip(10, 999, " kN"),))
 GUIDES: Final = Range("N", 100, 200e3, "0.1 to 200 kN", (Slip(0.1, 99, " kN"),))
 OFFSET: Final = Range("N*m", 5, 50e3, "5 N*m to 50 kN*m", (Slip(0.1, 4.99, " kN*m"),))
@@ -225,10 +226,12 @@ def bit_load(case: Well, kinds: set[str]) -> Doubts:
         )  # fmt: skip
     yield from _outside("bit_load", "bit.weight_on_bit", case.bit.weight_on_bit, "a weight on bit", BIT_LOAD)
     yield from _outside("bit_load", "bit.torque", case.bit.torque, "a bit torque", BIT_TORQUE)
+    if case.bit.rock is not None:
+        yield from _outside("wear_flat", "bit.rock.wear_flat", case.bit.rock.wear_flat, "wear flats", WEAR)
 
 
 def rig_loads(rig: RigSpec) -> Doubts:
-    """Block weight, friction and torque offset in a wrong unit, and sheaves that lose too much."""
+    """Block weight, friction and torque offset in a wrong unit, sheaves that lose too much, a drive without a motor."""
     yield from _outside("rig_load", "rig.block_weight", rig.block_weight, "a block weight", BLOCK)
     yield from _outside("rig_load", "rig.guide_friction", rig.guide_friction, "friction of the guides", GUIDES)
     yield from _outside("rig_load", "rig.torque_offset", abs(rig.torque_offset), "a torque offset", OFFSET)
@@ -236,6 +239,11 @@ def rig_loads(rig: RigSpec) -> Doubts:
         yield InputWarning(
             "sheave_efficiency", "rig.sheave_efficiency", f"an efficiency of {rig.sheave_efficiency:g}",
             "give that of all sheaves together, which is 0.8 to 1",
+        )  # fmt: skip
+    if rig.drive == "stiff" and "control" in rig.model_fields_set:
+        yield InputWarning(
+            "unused_control", "rig.control", "the settings of a motor, beside a stiff drive, which has none",
+            'give rig.drive = "speed_control" or "impedance"',
         )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from fctd.mechanics.contact import OVERBALANCE
 from fctd.mechanics.friction import along_wall, wall_normal
 from fctd.mechanics.jit import inlined, kernel
 from fctd.mechanics.joints import cross
+from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.state import (
     ARM_BOTTOM,
     ARM_CONTACT,
@@ -18,6 +19,7 @@ from fctd.mechanics.state import (
     FRICTION,
     HOLE,
     INVERSE_JT,
+    INVERSE_MASS,
     K_WALL,
     MARGIN_END,
     RADIUS,
@@ -31,6 +33,7 @@ from fctd.mechanics.state import (
     axis,
     global_spin,
     lateral_inverse_mass,
+    quaternion,
     radial,
     velocity,
 )
@@ -79,13 +82,19 @@ def slide_past(S, j, nx, ny, nz):
 
 
 @inlined
-def suck(S, j, force, nx, ny, nz, dt):
-    """Push body j to the wall with a force [N] at its contact point; nx, ny, nz : the wall's normal, global."""
-    k = dt * force * lateral_inverse_mass(S, j)
-    S[VX + j], S[VY + j], S[VZ + j] = S[VX + j] + k * nx, S[VY + j] + k * ny, S[VZ + j] + k * nz
-    _, u, v, _ = wall_normal(S, j)
+def suck(S, j, force, dt):
+    """Push body j to the wall with a force [N] at its contact point.
+
+    Resolved along the body as the wall's own force is: mud moves along with the body sideways and not along it.
+    """
+    _, nx, ny, nz = wall_normal(S, j)
+    h, k = dt * force * lateral_inverse_mass(S, j), dt * force * S[INVERSE_MASS + j]
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(*quaternion(S, j))
+    S[VX + j] += h * (xx * nx + yx * ny) + k * zx * nz
+    S[VY + j] += h * (xy * nx + yy * ny) + k * zy * nz
+    S[VZ + j] += h * (xz * nx + yz * ny) + k * zz * nz
     q = dt * force * S[ARM_CONTACT + j] * S[INVERSE_JT + j]
-    S[WX + j], S[WY + j] = S[WX + j] - q * v, S[WY + j] + q * u
+    S[WX + j], S[WY + j] = S[WX + j] - q * ny, S[WY + j] + q * nx
 
 
 @kernel
@@ -116,7 +125,7 @@ def press_into_cake(S, owner, n, C, laws, dt):
         if depth * S[K_WALL + j] + force <= 0:
             S[CAKE_AGE + j] = 0.0  # torn off
             continue
-        suck(S, j, force, nx, ny, nz, dt)
+        suck(S, j, force, dt)
         S[HOLE + j] -= force / S[K_WALL + j]
         # The moved wall is valid for this step only; an empty interval makes the next step look it up again.
         S[MARGIN_END + j] = -math.inf

@@ -254,10 +254,13 @@ class Simulation(Iterator[Record]):
         for k, operation in enumerate(self.case.operations):
             motions = [motion for motion, index in self.phases if index == k]
             start, end = motions[0].start, motions[-1].start + motions[-1].duration
+            # Of the strokes of a trip the last that is no short one: what is left at its end has few periods.
+            steady = [m for m in motions if m.feed_from == m.feed_to and m.spin_from == m.spin_to]
+            moving = [m for m in steady if m.feed_to or m.spin_to] or steady
+            whole = [m for m in moving if m.duration >= 0.5 * max(n.duration for n in moving)]
             steady_from, steady_to = start, end
-            for motion in motions:
-                if motion.feed_from == motion.feed_to and motion.spin_from == motion.spin_to:
-                    steady_from, steady_to = motion.start, motion.start + motion.duration
+            if whole:
+                steady_from, steady_to = whole[-1].start, whole[-1].start + whole[-1].duration
             string = self.run.string
             if string.long_segment:
                 string = string.lengthened(operation.end_md - string.bit_depth)

@@ -67,6 +67,12 @@ def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = N
         ("rig_load", {"rig": {"block_weight": 1e3}}, {"rig": {"block_weight": 999.0}}),
         ("rig_load", {"rig": {"guide_friction": 100.0}}, {"rig": {"guide_friction": 99.0}}),
         ("rig_load", {"rig": {"torque_offset": -5.0}}, {"rig": {"torque_offset": -4.0}}),
+        ("wear_flat", {"bit": {"rock": {"wear_flat": 0.05}}}, {"bit": {"rock": {"wear_flat": 5}}}),
+        (
+            "unused_control",
+            {"rig": {"drive": "impedance", "control": {"inertia": 1e3}}},
+            {"rig": {"control": {"inertia": 1e3}}},
+        ),
         ("sheave_efficiency", {"rig": {"sheave_efficiency": 0.7}}, {"rig": {"sheave_efficiency": 0.69}}),
         (
             "youngs_modulus",

@@ -106,3 +106,16 @@ def test_it_holds_a_string_that_is_pulled_off_with_less_than_its_force() -> None
     press(S, OWNER, 1, table(), LAWS, DT)
     assert S[state.CAKE_AGE + 1] > 0
     assert S[state.HOLE + 1] < HOLE
+
+
+def test_it_pushes_a_tilted_body_as_the_wall_pushes_back() -> None:
+    """Mud moves along sideways of the body and not along it, or it would push it along the hole."""
+    S, tilt = body(age=1e3), 0.03
+    S[state.HELD_BACK + 1] = 0.25 / MASS
+    S[state.QW + 1], S[state.QY + 1] = np.cos(0.5 * tilt), np.sin(0.5 * tilt)
+    press(S, OWNER, 1, table(), LAWS, DT)
+    force = PRESSURE * LENGTH * sealed_width(HOLE, RADIUS, 2e-3)
+    across, along = 0.75 * np.cos(tilt), np.sin(tilt)  # of the body, over force and mass; the wall is on the x side
+    c, s = np.cos(tilt), np.sin(tilt)
+    expected = DT * force / MASS * np.array([across * c + along * s, 0, along * c - across * s])
+    np.testing.assert_allclose(at(S, 1, VELOCITY), expected, atol=1e-12)

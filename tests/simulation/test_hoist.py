@@ -225,3 +225,10 @@ def test_a_sticking_string_stays_where_it_hangs_in_the_slips() -> None:
     assert np.ptp(loads[5:]) < 2e3
     # In an hour, from a minute.
     assert 60 * way.max() < 1e-6
+
+
+def test_the_mean_of_a_trip_is_that_of_a_whole_stroke() -> None:
+    """Six stands hang; two more and 3 m of a third are run, so that the last stroke lasts 2 s at full speed."""
+    case = make_case(BUILD, STRING, [trip(171.0, 231.0, speed=0.5, ramp=4.0)], mud=MUD, rig=RIG)
+    (row,) = simulate(case).operations.to_dict("records")
+    assert 50 < row["hookload_periods"] * row["hookload_period_s"] <= 53
