@@ -25,5 +25,5 @@ def test_runs_of_rows_have_a_line_each(capsys: pytest.CaptureFixture[str]) -> No
 
 def test_notes_come_with_their_remedy(capsys: pytest.CaptureFixture[str]) -> None:
     print_chart(rows(notes="yield"), "well", "field")
-    line = next(line for line in capsys.readouterr().err.splitlines() if "note yield at 2297" in line)
+    line = next(line for line in capsys.readouterr().err.splitlines() if "note yield at 2296.59 to" in line)
     assert "beyond its yield strength: check friction factor" in line

@@ -29,7 +29,7 @@ def test_of_a_run_that_has_ended_and_of_one_that_has_not(
     assert lines[0].startswith("out: 3 of 4 s (75 %) in ")
     assert lines[0].endswith("kept up to 3 s")
     assert lines[1] == "out: stopped; `fctd simulate --resume out` goes on"
-    assert lines[2] == "out: a result: completed, 5 records, rotate_off_bottom at 800.0 m"
+    assert lines[2] == "out: a result: completed, 4 records, rotate_off_bottom at 800.0 m"
     assert run(monkeypatch, "status", "out", "-q") == 0
     assert capsys.readouterr().out == ""
 
@@ -48,9 +48,9 @@ def test_while_it_lasts(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureF
     monkeypatch.setattr(simulate, "simulate", watched)
     monkeypatch.setattr("sys.argv", ["fctd", *RUN])
     assert run(monkeypatch, *RUN) == 0
-    assert len(seen) == 5
+    assert len(seen) == 4
     assert "out: running since 20" in seen[2]
-    assert "of 4 s (75 %) in" in seen[3]
+    assert "of 4 s (75 %) in" in seen[2]
 
 
 def test_before_anything_is_computed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
