@@ -196,7 +196,7 @@ def _compute(
             # The files are written before anything is printed: the terminal may have been closed.
             with deferred():
                 # A part of a run does not take the place of another run's result.
-                if ended or identity_of(folder) in ("", identity):
+                if ended or (len(result.history) and identity_of(folder) in ("", identity)):
                     whole = replace(result, identity=identity)
                     written = whole.save(folder, csv=shown.csv, units=shown.units)
                     if shown.plot is not None and len(result.history):
@@ -209,7 +209,7 @@ def _compute(
         if result is not None:
             _summarise(result, shown.units)
             print_written(written)
-            if not ended and not written:
+            if not ended and not written and identity_of(folder):
                 _tell(f"the earlier result in {printable(str(folder))} stays as it was")
         if not ended:
             say_how_to_go_on(folder)

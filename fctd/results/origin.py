@@ -12,7 +12,7 @@ from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.results.tables import versions
 
 Origin = dict[str, str]
-GONE = "gone"
+GONE, SOURCES = "gone", "sources of fctd"
 
 
 def files_of(case: Case) -> dict[str, Path]:
@@ -28,7 +28,7 @@ def origin_of(files: Mapping[str, Path]) -> Origin:
     """
     found = {f"{name} {path}": _hash(path) for name, path in files.items()}
     found |= {name: version for name, version in versions().items() if name != "commit"}
-    found["sources of fctd"] = hash_of_sources()
+    found[SOURCES] = hash_of_sources()
     features = hashlib.sha256(llvm.get_host_cpu_features().flatten().encode()).hexdigest()[:8]
     found["processor"] = f"{platform.machine()} {llvm.get_host_cpu_name()} (features {features})"
     return found
@@ -40,7 +40,9 @@ def changes(before: Mapping[str, str], now: Mapping[str, str]) -> Iterator[str]:
         value = now.get(name, GONE)
         if value == was:
             continue
-        if name.startswith(("case file ", "survey ", "sources ")):
+        if name == SOURCES:
+            yield f"the {name} have changed"
+        elif name.startswith(("case file ", "survey ")):
             yield f"the {name} is gone" if value == GONE else f"the {name} has changed"
         else:
             yield f"{name} was {was} and is {value}"

@@ -52,7 +52,7 @@ class KeptRun:
                 break
         self._remove_after(self._number)
         if checkpoints:
-            self.tell(f"the run goes on from {self.kept:.4g} s")
+            self.tell(f"the run goes on from {self.kept:.4g} s" if self._number else "the run begins anew")
         else:
             needed = bytes_needed(simulation.run, len(simulation.intervals), self.csv)
             check_disk(self.folder.path, needed, self.key)
@@ -94,7 +94,8 @@ class KeptRun:
 
     def _go_on(self, simulation: Simulation, number: int) -> None:
         path = self.folder.path
-        with np.load(path / f"{number}-{CHECKPOINT}", allow_pickle=False) as read:
+        content = (path / f"{number}-{CHECKPOINT}").read_bytes()  # numpy leaves a file open that is damaged
+        with np.load(io.BytesIO(content), allow_pickle=False) as read:
             arrays = {name: read[name] for name in read.files}
         facts = json.loads(arrays.pop("facts").tobytes())
         chunks = []

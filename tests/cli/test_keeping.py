@@ -1,0 +1,262 @@
+"""``--resume``, ``--restart`` and limits of ``fctd simulate`` and ``fctd chart``: refusals, and what goes on."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from fctd import open_result
+from fctd.cli import chart, main, simulate
+from fctd.cli.keeping import read_bytes
+from fctd.results import run_folder
+from fctd.results.run_folder import RunFolder, run_path
+from fctd.simulation import kept_run, limits
+from fctd.steady import kept_rows
+from tests.cli.test_main import CASE, run
+from tests.simulation.kept import same
+
+RUN = ("simulate", "small.toml", "--out", "out", "--quiet", "--csv", "--checkpoint-every", "0 s")
+CHART = ("chart", "small.toml", "--operation", "trip_in,trip_out", "--depths", "700:800:10", "--out", "chart.csv")
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder with a case and its survey; every record is kept, whatever that costs."""
+    monkeypatch.chdir(tmp_path)
+    Path("survey.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n300,0,0\n750,90,0\n900,90,0\n")
+    stations = "stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]"
+    Path("small.toml").write_text(CASE.replace(stations, 'survey = "survey.csv"'))
+    monkeypatch.setattr(kept_run, "SHARE", 1e9)
+    monkeypatch.setattr(kept_rows, "SHARE", 1e9)
+
+
+class Killed(BaseException):
+    """The process is gone, and nothing after it is run."""
+
+
+def killed(
+    monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], after: int = 3, module: object = simulate
+) -> None:
+    """A command whose process is killed at its third record or row."""
+    name = "simulate" if module is simulate else "chart_rows"
+    real: Callable[..., object] = getattr(module, name)
+    calls: list[object] = []
+
+    def dying(*given: object, progress: Callable[..., object], **more: object) -> object:
+        def report(*values: object) -> None:
+            progress(*values)
+            calls.append(values)
+            if len(calls) == after:
+                raise Killed
+
+        return real(*given, progress=report, **more)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(module, name, dying)
+        patched.setattr(RunFolder, "leave", lambda self, remove: self._lock.release())
+        patched.setattr("sys.argv", ["fctd", *arguments])
+        with pytest.raises(Killed):
+            main.main()
+
+
+def test_a_killed_run_is_refused_with_both_ways_out_and_goes_on(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What goes on has the options with which the run began, from another folder too."""
+    assert run(monkeypatch, *RUN[:2], "--out", "whole", "--quiet") == 0
+    killed(monkeypatch, RUN)
+    assert not Path("out").exists()
+    assert run(monkeypatch, *RUN) == 2
+    message = capsys.readouterr().err
+    assert "3 of 4 s are kept" in message
+    assert "`fctd simulate --resume out` goes on with it, --restart drops it and begins anew" in message
+    Path("elsewhere").mkdir()
+    monkeypatch.chdir("elsewhere")
+    assert run(monkeypatch, "simulate", "--resume", "../out", "--quiet") == 0
+    assert "the run goes on from 3 s" in capsys.readouterr().err
+    same(open_result("../out"), open_result("../whole"))
+    assert Path("../out/history.csv").exists()
+    assert not run_path(Path("../out")).exists()
+    assert run(monkeypatch, "simulate", "--resume", "../out") == 2
+    assert "a result whose run has not ended" in capsys.readouterr().err
+
+
+def test_restart_drops_what_is_kept(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    killed(monkeypatch, RUN)
+    capsys.readouterr()
+    assert run(monkeypatch, *RUN, "--restart", "--friction", "0.3") == 0
+    assert open_result("out").case.wellbore.intervals[0].friction == 0.3
+    assert "goes on" not in capsys.readouterr().err
+    assert not run_path(Path("out")).exists()
+
+
+def test_a_run_that_has_kept_nothing_is_in_nobodys_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    killed(monkeypatch, (*RUN[:-1], "1 h"))
+    assert run_path(Path("out")).exists()
+    assert run(monkeypatch, *RUN) == 0
+
+
+def test_the_earlier_result_stays_until_the_run_has_ended(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, *RUN) == 0
+    first = open_result("out").identity
+    killed(monkeypatch, (*RUN, "--friction", "0.3"))
+    assert open_result("out").identity == first
+    capsys.readouterr()
+    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet", "--time-limit", "1e-9 s") == 1
+    told = capsys.readouterr()
+    assert "stopped: at 4 s: the time limit of 1e-09 s is reached" in told.err
+    assert "the earlier result in out stays as it was" in told.err
+    assert "kept: 4 of 4 s are kept; `fctd simulate --resume out` goes on" in told.err
+    assert open_result("out").identity == first
+    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet") == 0
+    assert open_result("out").case.wellbore.intervals[0].friction == 0.3
+
+
+def test_a_limit_keeps_the_result_and_the_run(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, *RUN[:4], "--quiet", "--memory-limit", "1 MB") == 1
+    assert "memory are in use, the limit is 1 MB" in capsys.readouterr().err
+    assert not run_path(Path("out")).exists()  # it was still settling
+    assert not Path("out").exists()
+    # Once the first record has been kept, the memory is beyond any limit.
+    monkeypatch.setattr(
+        limits, "largest_memory", lambda: 1e9 if (run_path(Path("out")) / "progress.json").exists() else 0
+    )
+    assert run(monkeypatch, *RUN, "--memory-limit", "1 MB") == 1
+    result = open_result("out")
+    assert result.status == "stopped"
+    assert 0 < len(result.history) < 5
+    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet") == 0
+    assert open_result("out").status == "completed"
+
+
+@pytest.mark.parametrize("changed", ["small.toml", "survey.csv"])
+def test_changed_files_are_named_and_refused(
+    changed: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Accepted, the run goes on with the files as they were; put back, it goes on too."""
+    assert run(monkeypatch, *RUN[:2], "--out", "whole", "--quiet") == 0
+    killed(monkeypatch, RUN)
+    with Path(changed).open("a") as file:
+        file.write("# a word\n" if changed == "small.toml" else "950,90,0\n")
+    capsys.readouterr()
+    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet") == 2
+    message = capsys.readouterr().err
+    assert re.search(rf"the (case file|survey) \S*{changed} has changed", message)
+    assert "--accept-changes" in message
+    assert "--restart" in message
+    if changed == "survey.csv":
+        Path(changed).unlink()
+    assert run(monkeypatch, "simulate", "--resume", "out", "--accept-changes", "--quiet") == 0
+    same(open_result("out"), open_result("whole"))
+
+
+def test_another_version_or_processor_is_named(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    killed(monkeypatch, RUN)
+    path = run_path(Path("out")) / "run.json"
+    about = json.loads(path.read_text())
+    about["origin"] |= {"numba": "0.1", "processor": "abacus"}
+    path.write_text(json.dumps(about))
+    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet") == 2
+    message = capsys.readouterr().err
+    assert "numba was 0.1 and is" in message
+    assert "processor was abacus and is" in message
+    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet", "--accept-changes") == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (("simulate", "small.toml", "--resume", "out"), "CASE = "),
+        (("simulate", "--resume", "out", "--out", "other"), "--out = "),
+        (("simulate", "--resume", "out", "--friction", "0.2"), "--friction = "),
+        (("simulate", "--resume", "out", "--restart"), "--restart = "),
+        (("simulate", "small.toml", "--accept-changes"), "--accept-changes = true: expected --resume beside it"),
+        (("simulate",), "CASE is missing: expected a case file, or --resume"),
+        (("simulate", "--resume", "nowhere"), "a result whose run has not ended"),
+        (("simulate", "small.toml", "--checkpoint-every", "often"), "--checkpoint-every"),
+        (("simulate", "small.toml", "--time-limit", "1 kg"), "--time-limit"),
+        (("simulate", "small.toml", "--memory-limit", "4"), "--memory-limit"),
+        (("chart", "--resume", "chart.csv", "--depths", "1:2:1"), "--depths = "),
+        (("chart", "--operation", "trip_in", "--depths", "700:800:10"), "CASE is missing"),
+    ],
+)
+def test_options_that_do_not_go_together(
+    arguments: tuple[str, ...], expected: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, *arguments, "--quiet") == 2
+    assert expected in capsys.readouterr().err
+    assert [path.name for path in Path().iterdir() if path.name.startswith(".")] == []
+
+
+def test_sizes_of_memory() -> None:
+    assert read_bytes("4 GB", "") == 4e9
+    assert read_bytes("512MiB", "") == 512 * 2**20
+
+
+def test_a_run_belongs_to_the_program_that_began_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    killed(monkeypatch, RUN)
+    assert run(monkeypatch, "chart", "--resume", "out") == 2
+    assert "a run of this program: `fctd simulate --resume out`" in capsys.readouterr().err
+
+
+def test_a_killed_chart_goes_on_with_the_same_rows(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, *CHART[:-1], "whole.csv", "--quiet") == 0
+    printed = capsys.readouterr().out
+    asked = (*CHART, "--checkpoint-every", "0 s", "--quiet")
+    killed(monkeypatch, asked, after=9, module=chart)
+    assert run(monkeypatch, *asked) == 2
+    assert "8 of 22 rows are kept" in (message := capsys.readouterr().err)
+    assert "`fctd chart --resume chart.csv` goes on with it" in message
+    assert run(monkeypatch, "chart", "--resume", "chart.csv", "--quiet") == 0
+    assert Path("chart.csv").read_bytes() == Path("whole.csv").read_bytes()
+    assert json.loads(Path("chart.csv.json").read_text()) == json.loads(Path("whole.csv.json").read_text())
+    assert capsys.readouterr().out.partition("Written")[0] == printed.partition("Written")[0]
+    assert not run_path(Path("chart.csv")).exists()
+
+
+def test_a_chart_that_reaches_its_limit(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, *CHART, "--quiet", "--time-limit", "1e-9 s") == 1
+    message = capsys.readouterr().err
+    assert "stopped: the time limit of 1e-09 s is reached" in message
+    assert "fctd chart --resume chart.csv" not in message  # no depth was complete
+    assert not run_path(Path("chart.csv")).exists()
+
+
+def test_a_full_disk_ends_a_chart_with_what_it_has(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    real, writes = run_folder.open_file, []
+
+    def full(path: Path) -> object:
+        writes.append(path)
+        if path.name == ".3-rows.json":
+            raise OSError(28, "No space left on device")
+        return real(path)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(run_folder, "open_file", full)
+        assert run(monkeypatch, *CHART, "--quiet", "--checkpoint-every", "0 s") == 2
+    assert "No space left on device): make room there, and go on with --resume from 4 rows" in capsys.readouterr().err
+    assert run(monkeypatch, "chart", "--resume", "chart.csv", "--quiet") == 0
+
+
+def test_an_estimate_beyond_the_disk_is_refused_before(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("shutil.disk_usage", lambda _: SimpleNamespace(free=1e3))
+    assert run(monkeypatch, *RUN) == 2
+    assert re.search(r"--out = .*a disk with \d+ MB free \(this one has 0 MB\)", capsys.readouterr().err)
+    assert not run_path(Path("out")).exists()

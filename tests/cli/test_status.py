@@ -1,0 +1,73 @@
+"""``fctd status``: how far a run is, also while it lasts."""
+
+from pathlib import Path
+
+import pytest
+
+from fctd.cli import simulate
+from fctd.results.run_folder import RunFolder
+from fctd.simulation import kept_run
+from tests.cli.test_keeping import CHART, RUN, killed
+from tests.cli.test_main import CASE, run
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(kept_run, "SHARE", 1e9)
+    Path("small.toml").write_text(CASE)
+
+
+def test_of_a_run_that_has_ended_and_of_one_that_has_not(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, *RUN) == 0
+    killed(monkeypatch, RUN)
+    capsys.readouterr()
+    assert run(monkeypatch, "status", "out") == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith("out: 3 of 4 s (75 %) in ")
+    assert lines[0].endswith("kept up to 3 s")
+    assert lines[1] == "out: stopped; `fctd simulate --resume out` goes on"
+    assert lines[2] == "out: a result: completed, 4 records, rotate_off_bottom at 800.0 m"
+    assert run(monkeypatch, "status", "out", "-q") == 0
+    assert capsys.readouterr().out == ""
+
+
+def test_while_it_lasts(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    real, seen = simulate.simulate, []
+
+    def watched(*given: object, progress: object, **more: object) -> object:
+        def report(*values: float) -> None:
+            with monkeypatch.context() as patched:
+                assert run(patched, "status", "out") == 0
+            seen.append(capsys.readouterr().out)
+
+        return real(*given, progress=report, **more)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(simulate, "simulate", watched)
+    monkeypatch.setattr("sys.argv", ["fctd", *RUN])
+    assert run(monkeypatch, *RUN) == 0
+    assert len(seen) == 4
+    assert "out: running since 20" in seen[2]
+    assert "of 4 s (75 %) in" in seen[2]
+
+
+def test_before_anything_is_computed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = RunFolder.take(Path("out"))
+    assert run(monkeypatch, "status", "out") == 0
+    assert "begun by process" in capsys.readouterr().out
+    folder.leave(remove=True)
+
+
+def test_of_a_chart(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, *CHART, "--quiet") == 0
+    capsys.readouterr()
+    assert run(monkeypatch, "status", "chart.csv") == 0
+    assert "chart.csv: a chart, written at 20" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["nothing", "small.toml/out", "."])
+def test_of_nothing(name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, "status", name) == 2
+    assert "expected the result of fctd simulate or fctd chart" in capsys.readouterr().err

@@ -1,0 +1,99 @@
+"""The folder of an unfinished run: who may write there, what is in it, what is left of it."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.results.run_folder import (
+    KEYS,
+    Progress,
+    RunFolder,
+    about_of,
+    numbered,
+    progress_of,
+    run_path,
+    writer_of,
+)
+
+ABOUT = dict.fromkeys(KEYS, "") | {"program": "fctd simulate"}
+
+
+def test_a_second_run_is_refused_with_the_number_of_the_first(tmp_path: Path) -> None:
+    target = tmp_path / "new" / "out"
+    folder = RunFolder.take(target)
+    assert folder.path == tmp_path / "new" / ".out-run"
+    with pytest.raises(InputError, match=f"no other run writes to \\(process {os.getpid()} does, since 20") as refused:
+        RunFolder.take(target, "--out")
+    assert (refused.value.key, refused.value.value) == ("--out", target)
+    writer = writer_of(target)
+    assert writer is not None
+    assert writer.process == os.getpid()
+    folder.leave(remove=True)
+    assert list((tmp_path / "new").iterdir()) == []
+    assert writer_of(target) is None
+
+
+def test_what_is_described_is_there_until_it_is_cleared(tmp_path: Path) -> None:
+    target = tmp_path / "out"
+    assert about_of(target) is None
+    folder = RunFolder.take(target)
+    folder.write("3-rows.json", b"[]")
+    folder.describe(ABOUT, {"survey.csv": b"0,0,0"})
+    assert about_of(target) == ABOUT
+    assert (folder.path / "survey.csv").read_bytes() == b"0,0,0"
+    assert numbered(folder.path, "rows.json") == {}  # of an earlier run
+    folder.leave(remove=False)
+    assert about_of(target) == ABOUT
+    folder = RunFolder.take(target)
+    folder.clear()
+    assert about_of(target) is None
+    assert os.listdir(folder.path) == ["lock"]
+    folder.leave(remove=True)
+
+
+def test_a_description_that_another_program_wrote(tmp_path: Path) -> None:
+    (tmp_path / ".out-run").mkdir()
+    (tmp_path / ".out-run" / "run.json").write_text("{}")
+    with pytest.raises(InputError, match="the description of a run"):
+        about_of(tmp_path / "out")
+
+
+def test_files_are_numbered_in_order(tmp_path: Path) -> None:
+    folder = RunFolder.take(tmp_path / "out")
+    for name in ("10-rows.json", "9-rows.json", "x-rows.json", "9-rows.json.bak", ".11-rows.json"):
+        folder.write(name, b"")
+    assert numbered(folder.path, "rows.json") == {9: "9-rows.json", 10: "10-rows.json"}
+    assert list(numbered(folder.path, "rows.json")) == [9, 10]
+    folder.leave(remove=True)
+
+
+def test_the_progress_is_read_back_or_none(tmp_path: Path) -> None:
+    folder = RunFolder.take(tmp_path / "out")
+    assert progress_of(tmp_path / "out") is None
+    progress = Progress(1.5, 3.0, "s", 1.0, 60.0, 1e9)
+    folder.report(progress)
+    assert progress_of(tmp_path / "out") == progress
+    (folder.path / "progress.json").write_text("[1")
+    assert progress_of(tmp_path / "out") is None
+    folder.leave(remove=True)
+
+
+def test_a_link_leads_to_the_folder_of_what_it_names(tmp_path: Path) -> None:
+    (tmp_path / "far").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "far" / "out")
+    assert run_path(tmp_path / "link") == tmp_path / "far" / ".out-run"
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="the superuser may write everywhere")
+def test_a_folder_that_may_only_be_read(tmp_path: Path) -> None:
+    tmp_path.chmod(0o555)
+    with pytest.raises(InputError, match="Permission denied"):
+        RunFolder.take(tmp_path / "out", "--out")
+
+
+def test_a_file_in_the_way(tmp_path: Path) -> None:
+    (tmp_path / ".out-run").write_text("")
+    with pytest.raises(InputError, match="a place beside which the run can be kept"):
+        RunFolder.take(tmp_path / "out", "--out")

@@ -1,0 +1,65 @@
+"""One process at a time holds the lock of a folder; one that is killed releases it."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from fctd.results.run_lock import HeldError, RunLock, holder_of
+
+pytest.importorskip("fcntl")
+HOLD = (
+    "import sys, time; from pathlib import Path; from fctd.results.run_lock import RunLock\n"
+    "lock = RunLock.take(Path(sys.argv[1])); print('held', flush=True); time.sleep(60)\n"
+)
+
+
+def test_a_second_holder_is_refused_with_the_number_of_the_first(tmp_path: Path) -> None:
+    lock = RunLock.take(tmp_path)
+    with pytest.raises(HeldError) as held:
+        RunLock.take(tmp_path)
+    assert held.value.holder.process == os.getpid()
+    assert holder_of(tmp_path) == held.value.holder
+    lock.release()
+    lock.release()
+    assert holder_of(tmp_path) is None
+    RunLock.take(tmp_path).release()
+
+
+def test_the_lock_of_a_killed_process_is_free(tmp_path: Path) -> None:
+    """Also where a process with its number runs again: the file says so, the system knows better."""
+    other = subprocess.Popen([sys.executable, "-c", HOLD, str(tmp_path)], stdout=subprocess.PIPE, cwd=Path.cwd())
+    assert other.stdout is not None
+    assert other.stdout.readline() == b"held\n"
+    holder = holder_of(tmp_path)
+    assert holder is not None
+    assert holder.process == other.pid
+    other.send_signal(signal.SIGKILL)
+    other.wait()
+    other.stdout.close()
+    (tmp_path / "lock").write_text(json.dumps([os.getpid(), time.time()]))
+    assert holder_of(tmp_path) is None
+    lock = RunLock.take(tmp_path)
+    assert json.loads((tmp_path / "lock").read_text())[0] == os.getpid()
+    lock.release()
+
+
+def test_a_lock_that_its_holder_removed_does_not_count(tmp_path: Path) -> None:
+    first = RunLock.take(tmp_path)
+    (tmp_path / "lock").unlink()
+    second = RunLock.take(tmp_path)
+    first.release()
+    with pytest.raises(HeldError):
+        RunLock.take(tmp_path)
+    second.release()
+
+
+def test_no_folder_has_no_holder(tmp_path: Path) -> None:
+    assert holder_of(tmp_path / "none") is None
+    with pytest.raises(OSError, match="No such file"):
+        RunLock.take(tmp_path / "none")

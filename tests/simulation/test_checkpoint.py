@@ -1,0 +1,101 @@
+"""A run that is put back into a checkpoint goes on bitwise the same, whatever moves, with every wall."""
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import pytest
+
+from fctd.case.load import Case
+from fctd.mechanics import state
+from fctd.results.tables import SimulationResult
+from fctd.simulation.checkpoint import capture, put_back
+from fctd.simulation.simulate import Simulation
+from tests.cases import make_case, pipe, rotation
+from tests.simulation.kept import BUILD, drilling, gone_on, same, stopped, tripping
+
+CASES = {"trip": tripping, "drill": drilling}
+
+
+@cache
+def undisturbed(name: str, geometry: str) -> SimulationResult:
+    simulation = Simulation(CASES[name](geometry))
+    for _ in simulation:
+        pass
+    return simulation.result()
+
+
+@pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("share", [0.0, 0.4, 0.75, 1.0])
+def test_a_run_goes_on_bitwise_the_same(name: str, geometry: str, share: float) -> None:
+    """Stopped after the first record, among connections, on bottom, and after the last record."""
+    whole = undisturbed(name, geometry)
+    case = CASES[name](geometry)
+    checkpoint, chunks = stopped(Simulation(case), max(round(share * len(whole.history)), 1))
+    again = gone_on(case, checkpoint, chunks)
+    for _ in again:
+        pass
+    same(again.result(), whole)
+
+
+def test_a_run_that_is_stopped_twice() -> None:
+    case = tripping()
+    checkpoint, chunks = stopped(Simulation(case), 20)
+    middle = gone_on(case, checkpoint, chunks)
+    more, rest = stopped_again(middle, 30)
+    again = gone_on(case, more, [*chunks, rest])
+    for _ in again:
+        pass
+    same(again.result(), undisturbed("trip", "arcs"))
+
+
+def stopped_again(simulation: Simulation, after: int) -> tuple[object, dict[str, bytes]]:
+    from fctd.simulation.chunks import Cursor, chunk_since
+
+    recorder = simulation.recorder
+    cursor = Cursor(len(recorder.history), len(recorder.profiles), recorder.series.seen)
+    for _ in range(after):
+        next(simulation)
+    return capture(simulation), chunk_since(recorder, cursor)
+
+
+def short() -> Case:
+    return make_case(BUILD, [pipe(None, 12)], [rotation(500, 3, ramp=1)], record={"interval": 0.25})
+
+
+@pytest.mark.parametrize("method", ["fcl", "arcs"])
+def test_with_the_contact_of_others(method: str) -> None:
+    """FCL's triangle mesh, and the paper's search through its own interface."""
+    pytest.importorskip("fcl" if method == "fcl" else "trimesh")
+    from references.contact import build
+
+    case = short()
+
+    def run(start: Callable[[], Simulation]) -> SimulationResult:
+        simulation = start()
+        for _ in simulation:
+            pass
+        return simulation.result()
+
+    whole = run(lambda: Simulation(case, build(method, case)))
+    checkpoint, chunks = stopped(Simulation(case, build(method, case)), 5, chunk=2)
+    same(run(lambda: gone_on(case, checkpoint, chunks, build(method, case))), whole)
+
+
+def test_capturing_changes_nothing_and_keeps_the_columns_that_are_used() -> None:
+    simulation = Simulation(short())
+    next(simulation)
+    before = simulation.run.S.copy()
+    checkpoint = capture(simulation)
+    np.testing.assert_array_equal(simulation.run.S, before)
+    assert 12 < checkpoint.arrays["S"].shape[1] <= 12 + 2 * state.LANES
+    assert checkpoint.time == pytest.approx(0.25)
+
+
+def test_a_checkpoint_of_another_string_is_refused() -> None:
+    simulation = Simulation(short())
+    next(simulation)
+    other = Simulation(make_case(BUILD, [pipe(None, 13)], [rotation(500, 3, ramp=1)]))
+    with pytest.raises(ValueError, match="another string"):
+        put_back(other, capture(simulation))

@@ -1,0 +1,62 @@
+"""Rows of a chart in its folder: when they are written, and what is read back."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fctd.results.run_folder import RunFolder, numbered, progress_of
+from fctd.steady import kept_rows
+from fctd.steady.kept_rows import ROWS, KeptRows
+
+EVERY = {"operation": "trip_in", "hookload_N": np.float64(0.1) + np.float64(0.2), "torque": float("nan"), "n": 3}
+
+
+def depth(k: int) -> list[dict[str, object]]:
+    return [EVERY | {"bit_depth_m": k / 3}]
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    now = [0.0]
+    monkeypatch.setattr(kept_rows, "time", SimpleNamespace(monotonic=lambda: now[0], time=lambda: 1e9))
+    return now
+
+
+def test_rows_are_read_back_as_they_were(tmp_path: Path, clock: list[float]) -> None:
+    described: list[int] = []
+    folder = RunFolder.take(tmp_path / "chart.csv")
+    kept = KeptRows(folder, 2.0, lambda: (described.append(1), ({}, {}))[1])
+    for k in range(10):
+        clock[0] += 0.5
+        kept.keep(depth(k), 10)
+    assert described == [1]
+    assert list(numbered(folder.path, ROWS)) == [1, 2]
+    again = KeptRows(folder, 2.0)
+    plain = {"hookload_N": 0.1 + 0.2}
+    assert repr(again.known) == repr([[row | plain for row in depth(k)] for k in range(8)])
+    assert again.kept == 8
+    progress = progress_of(tmp_path / "chart.csv")
+    assert progress is not None
+    assert (progress.done, progress.total, progress.kept) == (10, 10, 8)
+    again.keep(depth(8), 10)
+    again.write(10)
+    again.write(10)  # nothing is new
+    assert list(numbered(folder.path, ROWS)) == [1, 2, 3]
+    folder.leave(remove=True)
+
+
+@pytest.mark.parametrize("damage", ["cut", "gone"])
+def test_a_damaged_chunk_ends_what_is_known(tmp_path: Path, clock: list[float], damage: str) -> None:
+    folder = RunFolder.take(tmp_path / "chart.csv")
+    kept = KeptRows(folder, 0.0)
+    for k in range(4):
+        kept.keep(depth(k), 10)
+    path = folder.path / f"3-{ROWS}"
+    path.unlink() if damage == "gone" else path.write_bytes(path.read_bytes()[:20])
+    again = KeptRows(folder, 0.0)
+    assert len(again.known) == 2
+    again.keep(depth(2), 10)  # in the place of the damaged one
+    assert len(KeptRows(folder, 0.0).known) == 4
+    folder.leave(remove=True)

@@ -1,0 +1,261 @@
+"""Commands in processes of their own that are killed at random moments, and gone on with until they end.
+
+The processes are forked from this one, which has imported and compiled everything: they begin to compute at once.
+"""
+
+import os
+import shutil
+import signal
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fctd.cli.keeping import has_kept
+from fctd.cli.main import app, run
+from fctd.results.run_folder import numbered, run_path
+from fctd.results.tables import TABLES, open_result
+from references.__main__ import app as references
+
+WELL = """
+name = "killed"
+[wellbore]
+stations = [[0, 0, 0], [150, 0, 0], [450, 60, 0], [2000, 60, 0]]
+geometry = "{geometry}"
+[[wellbore.intervals]]
+to_md = "2000 m"
+diameter = "8.5 in"
+friction = 0.25
+[string]
+[[string.components]]
+name = "collar"
+length = "60 m"
+outer_diameter = "160 mm"
+inner_diameter = "70 mm"
+segment_length = "20 m"
+[[string.components]]
+name = "pipe"
+outer_diameter = "127 mm"
+inner_diameter = "108.6 mm"
+segment_length = "28.5 m"
+[mud]
+density = "1200 kg/m^3"
+{more}
+"""
+TRIP = """
+[rig]
+feed = "stands"
+connection_time = "20 s"
+[[operations]]
+kind = "trip_in"
+from_md = "600 m"
+to_md = "{to_md} m"
+speed = "0.5 m/s"
+"""
+# Stick and slip: torque on the rock falls with the rotation, and the drive is stiff.
+DRILL = """
+[bit]
+weight_on_bit = "60 kN"
+[bit.rock]
+weakening = 0.5
+[rig]
+feed = "stands"
+[[operations]]
+kind = "drill_rotating"
+from_md = "1500 m"
+to_md = "{to_md} m"
+speed = "18 m/h"
+rpm = 40
+ramp_time = "5 s"
+"""
+ROTATE = """
+[[operations]]
+kind = "rotate_off_bottom"
+at_md = "1000 m"
+duration = "{to_md} s"
+rpm = 60
+ramp_time = "2 s"
+"""
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command that is killed: its arguments without ``--out``, and the result's name.
+
+    every : between two checkpoints; program : whose command line it is.
+    """
+
+    name: str
+    case: str
+    arguments: tuple[str, ...]
+    result: str
+    every: str = "0.2 s"
+    program: Any = app
+    more: tuple[str, ...] = ()
+
+    def begin(self, folder: Path, result: Path) -> list[str]:
+        """Arguments of the process that begins."""
+        head, *rest = self.arguments
+        case = str(folder / "case.toml")
+        return [head, case, *rest, "--out", str(result), "--checkpoint-every", self.every, *self.more, "--quiet"]
+
+    def resume(self, result: Path) -> list[str]:
+        """Arguments of one that goes on."""
+        return [self.arguments[0], "--resume", str(result), "--checkpoint-every", self.every, "--quiet"]
+
+
+def trip(geometry: str, to_md: float) -> Command:
+    """A trip with connections."""
+    case = WELL.format(geometry=geometry, more=TRIP.format(to_md=to_md))
+    return Command(f"trip, {geometry}", case, ("simulate",), "out")
+
+
+def drill(geometry: str, to_md: float) -> Command:
+    """Drilling with stick and slip."""
+    case = WELL.format(geometry=geometry, more=DRILL.format(to_md=to_md))
+    return Command(f"stick and slip, {geometry}", case, ("simulate",), "out")
+
+
+def chart(step: float) -> Command:
+    """A chart of all operations; step of its depths [m]."""
+    asked = ("chart", "--operation", "all", "--depths", f"300:1800:{step:g}", "--friction", "0.1,0.2,0.3")
+    return Command("chart", WELL.format(geometry="arcs", more=TRIP.format(to_md=900)), asked, "chart.parquet")
+
+
+def meshed(duration: float) -> Command:
+    """A rotation against FCL's triangle mesh [s]."""
+    case = WELL.format(geometry="arcs", more=ROTATE.format(to_md=duration))
+    return Command("rotation, FCL", case, ("simulate",), "out", program=references, more=("--contact", "fcl"))
+
+
+@dataclass
+class Killed:
+    """What became of a command: exit codes of its processes, and what was found wrong after any of them.
+
+    kept : chunks after each process; took : of the undisturbed process [s].
+    """
+
+    command: str
+    took: float = 0.0
+    kills: int = 0
+    processes: int = 0
+    wrong: list[str] = field(default_factory=list)
+    kept: list[int] = field(default_factory=list)
+
+
+def forked(program: Any, arguments: Sequence[str], *, kill_after: float | None = None, log: Path) -> int:
+    """Run a command in a fork; its exit code, or −9 where it was killed after so many seconds."""
+    sys.stdout.flush()
+    child = os.fork()
+    if child == 0:
+        code = 70
+        try:
+            out = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
+            os.dup2(out, 1)
+            os.dup2(out, 2)
+            sys.argv = ["fctd", *arguments]
+            run(program)
+            code = 0
+        except SystemExit as ended:
+            code = ended.code if isinstance(ended.code, int) else int(bool(ended.code))
+        finally:
+            os._exit(code)
+    ends = None if kill_after is None else time.monotonic() + kill_after
+    while True:
+        pid, status = os.waitpid(child, os.WNOHANG)
+        if pid:
+            return os.waitstatus_to_exitcode(status)
+        if ends is not None and time.monotonic() >= ends:
+            os.kill(child, signal.SIGKILL)
+            return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        time.sleep(0.005)
+
+
+def kill_again_and_again(
+    command: Command, kills: int, rng: np.random.Generator, folder: Path, longest: float = 0.4
+) -> Killed:
+    """Run a command undisturbed; then run it, and kill and resume it until it was killed so often.
+
+    A kill comes after a time that is uniform up to ``longest`` of the undisturbed one.  Where the command ends before,
+    its result is compared and it begins anew.  An earlier result stands there meanwhile.
+    """
+    folder.mkdir(parents=True)
+    (folder / "case.toml").write_text(command.case)
+    whole, result, log = (folder / name for name in (f"whole-{command.result}", command.result, "log"))
+    found = Killed(command.name)
+    forked(command.program, command.begin(folder, whole), log=log)  # compiles what is not compiled yet
+    shutil.rmtree(whole) if whole.is_dir() else whole.unlink()
+    began = time.monotonic()
+    if code := forked(command.program, command.begin(folder, whole), log=log):
+        found.wrong.append(f"the undisturbed command ended with {code}")
+        return found
+    found.took = time.monotonic() - began
+    wanted = _tables(whole)
+    while found.kills < kills:
+        _earlier(whole, result)
+        before = _identity(result)
+        kept = 0
+        while True:
+            kill_after = float(rng.uniform(0, longest * found.took)) if found.kills < kills else None
+            arguments = command.resume(result) if has_kept(result) else command.begin(folder, result)
+            code = forked(command.program, arguments, kill_after=kill_after, log=log)
+            found.processes += 1
+            if code != -signal.SIGKILL:
+                break
+            found.kills += 1
+            now = _chunks(result)
+            found.kept.append(now)
+            if now < kept:
+                found.wrong.append(f"{kept} chunks were kept, and {now} after a kill")
+            kept = now
+            if _identity(result) not in (before, ""):
+                before = _identity(result)  # killed after its result had been put into place
+            if forked(app, ["status", str(result)], log=log):
+                found.wrong.append("fctd status failed after a kill")
+        if code:
+            found.wrong.append(f"a process ended with {code}")
+            break
+        found.wrong += [f"{name} differs" for name, bits in _tables(result).items() if bits != wanted[name]]
+        if run_path(result).exists():
+            found.wrong.append("the folder of the run is still there")
+    if "Traceback" in log.read_text(errors="replace"):
+        found.wrong.append("a traceback was printed")
+    return found
+
+
+def _earlier(whole: Path, result: Path) -> None:
+    """Put an earlier result into the place of the one that is computed."""
+    shutil.rmtree(result, ignore_errors=True)
+    if whole.is_dir():
+        shutil.copytree(whole, result)
+
+
+def _identity(result: Path) -> str:
+    """Identity of a run's result; opening it fails where the folder is not whole."""
+    return open_result(result).identity if result.is_dir() else ""
+
+
+def _chunks(result: Path) -> int:
+    return max((len(numbered(run_path(result), kind)) for kind in ("history.parquet", "rows.json")), default=0)
+
+
+def _tables(result: Path) -> dict[str, bytes]:
+    """Every column of a result, bit by bit."""
+    if not result.is_dir():
+        return _bits("chart", pd.read_parquet(result))
+    found = open_result(result)
+    return {key: bits for name in TABLES for key, bits in _bits(name, getattr(found, name)).items()}
+
+
+def _bits(name: str, table: pd.DataFrame) -> dict[str, bytes]:
+    return {
+        f"{name}.{column}": repr(list(values)).encode()
+        if values.dtype.kind not in "fiub"
+        else values.to_numpy().tobytes()
+        for column, values in table.items()
+    }
