@@ -3,12 +3,20 @@
 In numba a function that does not set ``fastmath``, ``error_model`` or ``forceinline`` takes it from the caller that
 compiles it first.  The same source would then give different machine code, with different rounding, depending on
 the command that ran before.
+
+A library of machine code holds copies of all functions that its entry calls, each optimised beside that entry.  numba
+gives the copies of one function one name, and whichever library is loaded first lends its copy to all others: numbers
+would depend on what a process ran before, and on whether it compiled its code or read it.  A library of an entry
+therefore keeps its copies to itself.
 """
 
 from collections.abc import Callable
 from typing import Any
 
+from llvmlite import binding
 from numba import njit
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
 
 from fctd.mechanics.compile_cache import STORE, KeptCode, Store
 
@@ -18,6 +26,33 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}, "fo
 INLINED: Any = OPTIONS | {"forceinline": True}
 # Every product and sum is rounded, as numpy does.
 ROUNDED: Any = OPTIONS | {"fastmath": False}
+
+
+class OwnCopies(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
+    """The library of an entry, whose copies of other functions no other library sees."""
+
+    def _finalize_final_module(self) -> None:
+        # An entry that calls this one links the shared names, or it would hold the same function many times.
+        self._shared_module = self._final_module.clone()
+        relink(self._shared_module, binding.Linkage.external, binding.Linkage.linkonce_odr)
+        relink(self._final_module, binding.Linkage.linkonce_odr, binding.Linkage.internal)
+        super()._finalize_final_module()
+
+
+def relink(module: binding.ModuleRef, old: binding.Linkage, new: binding.Linkage) -> None:
+    """Give the functions that a module defines with an old linkage a new one."""
+    for function in module.functions:
+        if not function.is_declaration and function.linkage == old:
+            function.linkage = new
+
+
+class EntryCompiler(Compiler):  # type: ignore[misc]
+    """numba's compiler of one function, into a library with copies of its own."""
+
+    def _compile_bytecode(self) -> Any:
+        self.state.library = OwnCopies(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
+        self.state.library.enable_object_caching()
+        return super()._compile_bytecode()
 
 
 def kernel(function: Callable[..., Any]) -> Any:
@@ -40,7 +75,7 @@ def entry(function: Callable[..., Any], store: Store = STORE) -> Any:
 
     Other threads run while it does: what it writes to belongs to one thread.
     """
-    compiled: Any = njit(**OPTIONS, nogil=True)(function)
+    compiled: Any = njit(**OPTIONS, nogil=True, pipeline_class=EntryCompiler)(function)
     if hasattr(compiled, "_cache"):  # a plain function has none (NUMBA_DISABLE_JIT)
         compiled._cache = KeptCode(function, store)
     return compiled
