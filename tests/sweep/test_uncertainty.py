@@ -84,11 +84,16 @@ def test_the_hook_load_of_a_straight_inclined_string_is_normal_with_its_friction
         true = stats.norm.ppf(share, mean, sd)
         error = np.sqrt(share * (1 - share) / count) / stats.norm.pdf(true, mean, sd)
         assert table.loc[percentile, "value"] == pytest.approx(true, abs=3 * error)
-        assert table.loc[percentile, "high"] - table.loc[percentile, "low"] < 6 * error
+    assert table.loc[50, "high"] - table.loc[50, "low"] == pytest.approx(4 * error_of_median(count, sd), rel=0.3)
     friction, load = (found.rows[name].to_numpy() for name in ("friction", "hookload_N"))
     fitted = np.polyfit(friction, load, 1)
     assert fitted == pytest.approx([slope, base], rel=0.012)
     assert np.polyval(fitted, friction) == pytest.approx(load, rel=1e-5)
+
+
+def error_of_median(count: int, sd: float) -> float:
+    """Standard error of the median of normal samples."""
+    return sd * np.sqrt(np.pi / (2 * count))
 
 
 @pytest.mark.slow
