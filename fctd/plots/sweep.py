@@ -21,6 +21,8 @@ from fctd.sweep.uncertainty import Uncertainty
 
 WIDTH, PANEL = 9.0, 5.0  # of the sheet, and height of a panel of bands [in]
 BAR, NAMES, LEFT, APART = 0.26, 2.4, 0.9, 0.8  # height of a bar, width of parameters' names, margins [in]
+# Loads below this are rounding [N] or [N m].
+ROUNDING = 1e-3
 # The measure that a tornado shows, the first that there is.
 MEASURES = {
     "ST": "total Sobol index", "mu_star": "mean absolute effect (Morris)", "SRC": "standardised coefficient (SRC)",
@@ -80,6 +82,8 @@ def _bands(axes: Axes, table: pd.DataFrame, column: str, units: System, of: tupl
             axes.plot(by[p][end] * unit.factor, depth, ":", color=colour, linewidth=0.8)
         every = max(len(depth) // 8, 1)
         axes.plot(by[of[1]]["value"] * unit.factor, depth, color=colour, marker=marker, markevery=every, markersize=4)
+    if table["value"].abs().max() < ROUNDING:  # as the torque of strings that only slide
+        axes.set_xlim(-1, 1)
     axes.invert_yaxis()
     axes.xaxis.set_label_position("top")
     axes.xaxis.tick_top()
@@ -137,13 +141,14 @@ def map_figure(
     x, y = (rows[key].to_numpy(float) for key in keys)
     values = rows[column].to_numpy(float) * unit.factor
     with mpl.rc_context(RC):
-        line = f"{KINDS[kind].label if kind in KINDS else kind}{at}; grey: no answer"
+        grid = pd.DataFrame({"x": x, "y": y, "v": values}).pivot_table(index="y", columns="x", values="v", dropna=False)
+        whole = grid.size == len(values)
+        line = f"{KINDS[kind].label if kind in KINDS else kind}{at}{'; grey: no answer' if whole else ''}"
         sheet = Sheet(7.0, 4.6, found.spec.name, [line], [])
         axes = sheet.axes(LEFT, 0.1, 4.6, 3.9)
         axes.grid(visible=False)
-        axes.set_facecolor("#d8d8d8")
-        grid = pd.DataFrame({"x": x, "y": y, "v": values}).pivot_table(index="y", columns="x", values="v", dropna=False)
-        if grid.size == len(values):
+        if whole:
+            axes.set_facecolor(QUIET)
             drawn: Any = axes.pcolormesh(grid.columns, grid.index, grid.to_numpy(), shading="nearest", cmap="viridis")
         else:
             drawn = axes.scatter(x, y, c=values, cmap="viridis", s=14, linewidths=0)

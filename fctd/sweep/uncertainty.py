@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 # Least standard deviation of a result with indices, over its mean or one SI unit: below is rounding.
-SPREAD: Final = 1e-9
+SPREAD: Final = 1e-5
 
 
 @dataclass(frozen=True)

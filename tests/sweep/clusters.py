@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
+# Scheduler and nannies of every cluster, by its file.
+PROCESSES: dict[Path, list["subprocess.Popen[bytes]"]] = {}
 # A worker that preloads this hangs or dies in samples of given numbers.
 FAULTS = """
 import os, time, ctypes
@@ -38,7 +40,9 @@ def faults(folder: Path, hang: tuple[int, ...] = (), crash: tuple[int, ...] = ()
 def cluster(folder: Path, workers: int = 1, preload: Path | None = None, threads: int = 1) -> Iterator[Path]:
     """The file of a scheduler with workers, all of them on the loopback."""
     file = folder / "scheduler.json"
-    processes = [dask("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", file)]
+    PROCESSES[file] = processes = [
+        dask("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", file)
+    ]
     options = ["--nthreads", threads, "--host", "127.0.0.1", "--no-dashboard", "--scheduler-file", file]
     if preload is not None:
         options += ["--preload", preload]
@@ -53,6 +57,18 @@ def cluster(folder: Path, workers: int = 1, preload: Path | None = None, threads
             process.terminate()
         for process in processes:
             process.wait(timeout=30)
+
+
+def kill(file: Path, role: str) -> None:
+    """Kill the scheduler of a cluster, or one of its worker processes, which its nanny starts again."""
+    import psutil
+
+    scheduler, *nannies = PROCESSES[file]
+    if role == "scheduler":
+        scheduler.kill()
+        return
+    below = psutil.Process(nannies[0].pid).children(recursive=True)
+    next(child for child in below if "spawn_main" in " ".join(child.cmdline())).kill()
 
 
 def dask(role: str, *options: object) -> "subprocess.Popen[bytes]":

@@ -1,0 +1,75 @@
+"""``fctd uncertainty``: tables and pictures of a sweep, and what is refused."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from typer.testing import CliRunner
+
+from fctd.cli.main import app, run
+from fctd.sweep.chunk import as_table
+from fctd.sweep.dataset import begin_dataset
+from fctd.sweep.run import prepare
+from fctd.sweep.spec import read_sweep
+from tests.sweep.made import sweep_file
+
+
+@pytest.fixture
+def swept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A sweep file whose dataset lies in its default folder."""
+    path = sweep_file(tmp_path, 'method = "random"\nsamples = 30\n')
+    bench, samples = prepare(read_sweep(path))
+    rows = [
+        {"sample": k, "operation": "trip_out", "bit_depth_m": depth, "hookload_N": 1e5 + 1e3 * k, "buckling": "none",
+         "status": "converged"}
+        for k in range(30) for depth in (600.0, 900.0)
+    ]  # fmt: skip
+    begin_dataset(tmp_path / "swept-sweep", bench.template, samples).write([as_table(rows)])
+    monkeypatch.chdir(tmp_path)
+    return path
+
+
+def test_tables_and_pictures_are_written(swept: Path) -> None:
+    pytest.importorskip("matplotlib")
+    pictures = ["--plot-bands", "bands.png", "--plot-tornado", "tornado.svg", "--plot-map", "map.png"]
+    command = ["uncertainty", str(swept), "--out", "told", *pictures, "--map", "friction.open,mud.density"]
+    done = CliRunner().invoke(app, command)
+    assert done.exit_code == 0, done.output
+    for name in ("bands.png", "tornado.svg", "map.png", "told/indices.csv", "told/convergence.csv.json"):
+        assert (swept.parent / name).stat().st_size > 0
+    table = pd.read_csv("told/percentiles.csv")
+    assert table["value"].iloc[1] == 1e5 + 14.5e3
+    assert "114.5 kN" in done.stdout
+    assert "Influence at 900 m" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--from", "none"], "a folder that fctd sweep has written"),
+        (["--map", "friction.open,mud.density"], "--plot-map and --map"),
+        (["--bit-depth", "700"], "a depth of the sweep, such as 600 m"),
+        (["--operation", "push"], "one of the kinds"),
+        (["--plot-map", "a.png", "--map", "friction.open"], "two keys of parameters"),
+        (["--plot-map", "a.png", "--map", "friction.open,mud.density,status"], "a column of the results"),
+    ],
+)
+def test_what_cannot_be_told_is_refused(
+    options: list[str], words: str, swept: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    monkeypatch.setattr("sys.argv", ["fctd", "uncertainty", str(swept), *options])
+    with pytest.raises(SystemExit) as stopped:
+        run(app)
+    assert stopped.value.code == 2
+    assert words in " ".join(capsys.readouterr().err.split())
+
+
+def test_the_folder_of_another_sweep_is_refused(
+    swept: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    swept.write_text(swept.read_text(encoding="utf-8").replace("seed = 7", "seed = 8"), encoding="utf-8")
+    monkeypatch.setattr("sys.argv", ["fctd", "uncertainty", str(swept)])
+    with pytest.raises(SystemExit):
+        run(app)
+    assert "the folder of this sweep" in " ".join(capsys.readouterr().err.split())

@@ -1,0 +1,93 @@
+"""Pictures of sweeps: bands, tornado and map show the numbers of their tables."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+from fctd import plots
+from fctd.case.errors import InputError
+from fctd.sweep.chunk import as_table
+from fctd.sweep.dataset import begin_dataset
+from fctd.sweep.run import prepare
+from fctd.sweep.spec import read_sweep
+from fctd.sweep.uncertainty import Uncertainty, assess
+from tests.plots.made import texts_that_overlap
+from tests.sweep.made import PARAMETERS, WORK, sweep_file
+
+GRID = """
+[[parameters]]
+key = "friction"
+low = 0.1
+high = 0.4
+count = 4
+[[parameters]]
+key = "bit.weight_on_bit"
+low = "10 kN"
+high = "30 kN"
+count = 3
+"""
+
+
+def made(folder: Path, head: str = 'method = "random"\nsamples = 40\n', body: str = PARAMETERS) -> Uncertainty:
+    """A sweep with made-up loads, linear in the first parameter."""
+    spec = read_sweep(sweep_file(folder, head, body + WORK))
+    bench, samples = prepare(spec)
+    dataset = begin_dataset(folder / "out", bench.template, samples)
+    first = samples[bench.keys[0]]
+    rows = [
+        {"sample": k, "operation": "trip_out", "bit_depth_m": depth, "hookload_N": 1e3 * depth * (1 + first.iloc[k]),
+         "surface_torque_N_m": 1e-12, "buckling": "none", "status": "converged"}
+        for k in range(len(samples)) for depth in (600.0, 900.0)
+    ]  # fmt: skip
+    dataset.write([as_table(rows)])
+    return assess(dataset, spec)
+
+
+def test_bands_are_those_of_the_percentiles(tmp_path: Path) -> None:
+    found = made(tmp_path)
+    figure = plots.bands_figure(found)
+    hookload, torque = figure.axes
+    assert (hookload.get_xlabel(), torque.get_xlabel()) == ("hook load, kN", "surface torque, kN·m")
+    table = found.percentiles
+    middle = table[(table["column"] == "hookload_N") & (table["percentile"] == 50)]["value"].to_numpy() / 1e3
+    assert any(np.allclose(line.get_xdata(), middle) for line in hookload.lines)
+    assert torque.get_xlim() == (-1, 1)  # rounding is no torque
+    assert texts_that_overlap(figure) == []
+    assert plots.bands_figure(found, "field").axes[0].get_xlabel() == "hook load, klbf"
+
+
+def test_a_tornado_has_its_bars_in_order(tmp_path: Path) -> None:
+    figure = plots.tornado_figure(made(tmp_path))
+    (axes,) = figure.axes
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["mud.density", "friction.open"]
+    widths = [bar.get_width() for bar in axes.patches]
+    assert abs(widths[0]) < 0.1 < 0.99 < widths[1]
+    assert texts_that_overlap(figure) == []
+
+
+def test_a_map_has_a_cell_for_every_sample_of_a_grid_and_points_for_others(tmp_path: Path) -> None:
+    found = made(tmp_path, 'method = "grid"\n', GRID)
+    figure = plots.map_figure(found, ["friction", "bit.weight_on_bit"], "hookload_N")
+    axes, bar = figure.axes
+    (mesh,) = axes.collections
+    values = np.asarray(mesh.get_array()).reshape(3, 4)
+    assert values[0] == pytest.approx([900 * (1 + friction) for friction in (0.1, 0.2, 0.3, 0.4)])
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("friction", "bit.weight_on_bit, kN")
+    assert bar.get_ylabel() == "hook load, kN"
+    (tmp_path / "drawn").mkdir()
+    points = plots.map_figure(made(tmp_path / "drawn"), ["friction.open", "mud.density"], "hookload_N")
+    assert len(points.axes[0].collections[0].get_offsets()) == 40
+
+
+def test_pictures_that_samples_do_not_allow_are_refused(tmp_path: Path) -> None:
+    found = made(tmp_path, 'method = "random"\nsamples = 4\n')
+    with pytest.raises(InputError, match="at least 12 samples"):
+        plots.tornado_figure(found)
+    with pytest.raises(InputError, match="two parameters with numbers"):
+        plots.map_figure(found, ["friction.open", "rig.block_weight"], "hookload_N")
+    one = found.percentiles[found.percentiles["bit_depth_m"] == 900]
+    with pytest.raises(InputError, match="several depths"):
+        plots.bands_figure(Uncertainty(**{**vars(found), "percentiles": one}))

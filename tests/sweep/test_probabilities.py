@@ -1,0 +1,54 @@
+"""Probabilities: what counts as an event, where, and intervals."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from fctd.case.errors import InputError
+from fctd.sweep.probabilities import interval, probability_table
+from fctd.sweep.spec import LimitSpec
+
+ROWS = pd.DataFrame(
+    {
+        "sample": [0, 0, 1, 1, 2, 2, 3],
+        "operation": ["trip_in"] * 6 + [None],
+        "bit_depth_m": [100.0, 200.0] * 3 + [np.nan],
+        "hookload_N": [5.0, 6.0, 5.0, np.nan, 5.0, 9.0, np.nan],
+        "buckling": ["none", "sinusoidal", "none", "unknown", "none", "helical", None],
+        "status": ["converged", "converged", "converged", "locked_up", "converged", "converged", "failed"],
+    }
+)
+
+
+def probability(event: str, depth: float | None) -> tuple[float, int]:
+    table = probability_table(ROWS, [LimitSpec(column="hookload_N", above=5.5)], 4)
+    here = table["bit_depth_m"].isna() if depth is None else table["bit_depth_m"] == depth
+    (row,) = table[here & (table["event"] == event)].to_dict("records")
+    assert row["low"] <= row["probability"] <= row["high"]
+    return row["probability"], row["count"]
+
+
+def test_events_are_counted_at_a_depth_and_anywhere() -> None:
+    assert probability("buckled", 200.0) == (0.5, 2)
+    assert probability("buckled", 100.0) == (0, 0)
+    assert probability("buckled", None) == (0.5, 2)
+    assert probability("buckled helically", None) == (0.25, 1)
+    assert probability("locked up", 200.0) == (0.25, 1)
+    assert probability("hookload_N above 5.5", None) == (0.5, 2)
+
+
+def test_a_sample_without_rows_is_one_without_an_answer() -> None:
+    assert probability("no answer", None) == (0.25, 1)
+    assert probability("no answer", 100.0) == (0.25, 1)
+
+
+def test_a_limit_of_a_column_that_is_not_there_is_refused() -> None:
+    with pytest.raises(InputError, match="the column hookload_N"):
+        probability_table(ROWS, [LimitSpec(column="hookloads_N", below=1)], 4)
+
+
+def test_intervals_are_those_of_wilson() -> None:
+    """Published example: 10 of 100 is 5.52 to 17.44 % (Newcombe 1998)."""
+    assert interval(10, 100) == pytest.approx((0.0552, 0.1744), abs=1e-4)
+    assert interval(0, 50)[0] == 0
+    assert 0.05 < interval(0, 50)[1] < 0.08
