@@ -7,6 +7,7 @@ is not downloaded.
 import os
 import shutil
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -62,17 +63,24 @@ def save_still(page_file: Path, picture: Path, size: tuple[int, int] = SIZE) -> 
 
     Raises InputError where there is no browser, where it cannot draw, and where the file cannot be written.
     """
-    from playwright.sync_api import Error
+    # A thread of its own: in a notebook an event loop runs already, which playwright does not share.
+    with ThreadPoolExecutor(1) as thread:
+        drawn = thread.submit(_photograph, page_file, size).result()
+    with whole_file(picture) as scratch:
+        scratch.write_bytes(drawn)
+    return [picture]
 
+
+def _photograph(page_file: Path, size: tuple[int, int]) -> bytes:
+    """A page as PNG."""
     with open_browser(key="--png") as browser:
+        from playwright.sync_api import Error
+
         page = browser.new_page(viewport={"width": size[0], "height": size[1]})
         try:
             page.goto(page_file.resolve().as_uri())
             page.wait_for_function("document.documentElement.dataset.ready === 'yes'", timeout=1e3 * LONGEST)
-            drawn = page.screenshot()
+            return page.screenshot()
         except Error as error:
             expected = f"a browser that draws the page ({error.message.splitlines()[0]})"
             raise InputError(expected, key="--png", value=str(browser_path())) from None
-    with whole_file(picture) as scratch:
-        scratch.write_bytes(drawn)
-    return [picture]

@@ -6,6 +6,8 @@ import sys
 from dataclasses import replace
 from html.parser import HTMLParser
 
+import numpy as np
+import pandas as pd
 import pytest
 
 pytest.importorskip("jinja2")
@@ -14,7 +16,7 @@ pytest.importorskip("matplotlib")
 from typer.testing import CliRunner
 
 from reports import __main__ as command_line
-from reports import page
+from reports import page, results, sections
 from validation.claims.ledger import CLAIMS
 from validation.harness import registry, store, study
 from validation.harness.store import Judged, Provenance, Record
@@ -48,6 +50,15 @@ def finished(name, **changes):
     return replace(BLANK, study=name, tables=tuple(tables), **changes), tables
 
 
+def pages_of(out):
+    """The first page, the claims, and the pages of the studies."""
+    return [out / "index.html", out / "claims.html", *sorted((out / "studies").glob("*.html"))]
+
+
+def study_page(tmp_path, name="overlap"):
+    return tmp_path / "out" / "studies" / f"{name}.html"
+
+
 @pytest.fixture
 def render(tmp_path):
     (tmp_path / "claims.toml").write_text("claim = []")
@@ -56,7 +67,7 @@ def render(tmp_path):
         for run, tables in runs:
             store.write(run, tables, tmp_path / "results")
         problems = page.render(tmp_path / "results", studies, tmp_path / "out", changes, ledger)
-        return (tmp_path / "out" / "index.html").read_text(encoding="utf-8"), problems
+        return "".join(path.read_text(encoding="utf-8") for path in pages_of(tmp_path / "out")), problems
 
     return call
 
@@ -71,7 +82,10 @@ def test_finished_study_has_question_checks_figure_notes_and_origin(render, tmp_
     html, problems = render((run, tables), studies=["overlap"])
     text = words_of(html)
     assert problems == []
-    assert html.count("Does the overlap close the gap?") == 2
+    question = "Does the overlap close the gap?"
+    first, page_of_it = (page.read_text() for page in (tmp_path / "out" / "index.html", study_page(tmp_path)))
+    assert f'<a href="studies/overlap.html">{question}</a>' in first
+    assert f"<h1>{question}</h1>" in page_of_it
     assert "largest jump 5 × 10⁻⁷ kN·m at most 1 × 10⁻⁶ kN·m ✓ met" in text
     assert "continuity &lt;C⁰&gt;" in html
     assert "Mind the gap." in text
@@ -117,7 +131,15 @@ def test_table_for_display_has_units_in_its_head(render):
 def test_skipped_failed_and_missing_studies_are_visible(render):
     skipped = replace(BLANK, study="volve", status="skipped", message="the public data folder is missing")
     failed = replace(BLANK, study="broken", status="failed", message="ArithmeticError: lost", question="")
-    text = words_of(render((skipped, {}), (failed, {}), studies=["volve", "broken", "absent"])[0])
+    html, _ = render((skipped, {}), (failed, {}), studies=["volve", "broken", "absent"])
+    text = words_of(html)
+    # Those without a result stand together at the end of the first page, with how to run them.
+    (index, *_) = html.split("</html>")
+    end = words_of(index[index.index('<section id="absent"') :])
+    assert "Q? ○ skipped" not in end
+    assert "python -m validation volve" in end
+    assert "python -m validation absent" in end
+    assert "broken" not in end
     assert "○ skipped" in text
     assert "Skipped: the public data folder is missing" in text
     assert "✗ failed" in text
@@ -128,8 +150,9 @@ def test_skipped_failed_and_missing_studies_are_visible(render):
 
 def test_registry_order_then_what_else_was_found(render):
     runs = [(replace(BLANK, study=study, question=f"Q-{study}?"), {}) for study in ("a", "b", "c")]
-    html, _ = render(*runs, studies=["c", "b"])
-    assert re.findall(r'<section id="(\w+)">', html) == ["c", "b", "a"]
+    (index, *_) = render(*runs, studies=["c", "b"])[0].split("</html>")
+    # No chapter names them: they stand in the last.
+    assert re.findall(r'<li><a href="studies/(\w+).html">Q-', index) == ["c", "b", "a"]
 
 
 def test_result_that_cannot_be_read_leaves_the_page(render, claims, tmp_path):
@@ -143,7 +166,7 @@ def test_result_that_cannot_be_read_leaves_the_page(render, claims, tmp_path):
         "overlap: the result", "jumps: the result",
     ]  # fmt: skip
     assert "largest jump" in html  # its verdict is there
-    assert words_of(html).count("cannot be read") == 2 + 5  # sections, claims that rest on jumps
+    assert words_of(html).count("cannot be read") == 2 + 5  # pages, claims that rest on jumps
 
 
 @pytest.mark.parametrize(
@@ -164,7 +187,7 @@ def test_a_study_without_tables_has_no_figures(render):
     html, problems = render((replace(BLANK, notes=("Not installed, and so not run: a package.",)), {}))
     assert problems == []
     assert "Not installed, and so not run" in html
-    assert "<figure" not in html
+    assert "<img" not in html
 
 
 def test_figure_that_cannot_be_drawn_leaves_the_page(render, capsys):
@@ -284,12 +307,12 @@ def claims(tmp_path, monkeypatch):
         monkeypatch.setitem(registry.STUDIES, name, "no.module")
 
 
-def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, claims):
+def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, claims, tmp_path):
     html, problems = render(studies=["jumps"])
     text = words_of(html)
     assert problems == []
-    assert text.index("The paper's claims") < text.index("Contents")
-    assert "✓ holds: 1 ◐ holds with limits: 2 ✗ does not hold: 2 – cannot be tested: 1 ○ not yet run: 1" in text
+    counts = "✓ holds: 1 ◐ holds with limits: 2 ✗ does not hold: 2 – cannot be tested: 1 ○ not yet run: 1"
+    assert f"The paper's claims: {counts}" in text
     holds = "5.2 No &lt;gap&gt; is left. ✓ holds 0.5 kN·m (at most 1 kN·m) largest jump: jumps Bound: target."
     assert f"{holds} python -m validation jumps" in text
     assert "never told" not in text
@@ -306,7 +329,11 @@ def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, claims)
     assert "– cannot be tested The points are not public" in text
     assert "Eq. 4 r̃ω −r̃ω It turns the other way. tests/test_joints.py a hinge moves along" in text
     assert html.count('id="claims"') == 1
-    assert 'href="#jumps"' in html
+    assert 'href="studies/jumps.html#check-largest-jump"' in html
+    assert 'id="check-largest-jump"' in study_page(tmp_path, "jumps").read_text()
+    assert 'href="claims.html#claim-good"' in html
+    assert 'id="claim-good"' in html
+    assert "1 of 7 hold; 2 of 7 hold within limits; 2 of 7 do not hold;" in text
 
 
 def test_claims_that_were_not_judged(render, tmp_path):
@@ -338,16 +365,18 @@ def test_tags_are_balanced(render, claims):
             self.open = []
 
         def handle_starttag(self, tag, attributes):
-            if tag not in {"meta", "img"}:
+            if tag not in {"meta", "img", "link"}:
                 self.open.append(tag)
 
         def handle_endtag(self, tag):
             assert self.open.pop() == tag
 
     run, tables = finished("ownership", display={"owners": "Wrong owners"}, checks=(judged(1.0, "why"),))
-    parser = Balance()
-    parser.feed(render((run, tables), studies=["ownership", "absent"])[0])
-    assert parser.open == []
+    html, _ = render((run, tables), studies=["ownership", "absent"])
+    for text in html.split("</html>")[:-1]:
+        parser = Balance()
+        parser.feed(re.sub(r"<script>.*?</script>", "", text, flags=re.DOTALL) + "</html>")
+        assert parser.open == []
 
 
 def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
@@ -381,3 +410,39 @@ def test_command_names_a_folder_that_cannot_be_written(tmp_path, monkeypatch):
     answer = CliRunner().invoke(command_line.app)
     assert answer.exit_code == 2
     assert "expected a folder that can be written" in answer.output
+
+
+def test_two_runs_of_the_pages_are_the_same(render, tmp_path, claims):
+    run, tables = finished("ownership", display={"owners": "Wrong owners"}, checks=(judged(1.0, "why"),))
+    out, kept = tmp_path / "out", []
+    for _ in range(2):
+        render((run, tables), studies=["ownership", "absent"])
+        kept.append({path.relative_to(out): path.read_bytes() for path in out.rglob("*") if path.is_file()})
+    assert kept[0] == kept[1]
+    assert len(kept[0]) > 5
+
+
+def test_results_for_programs_fit_their_schema(render, tmp_path, claims):
+    checks = (judged(5e-7), judged(float("nan"), name="lost"))
+    run, tables = finished("overlap", checks=checks)
+    render((run, tables), studies=["overlap", "absent"])
+    found = json.loads((tmp_path / "out" / "results.json").read_text())
+    kept = results.Results.model_validate(found)
+    (overlap, absent, *_) = kept.studies
+    assert [check.value for check in overlap.checks] == [5e-7, None]
+    assert overlap.checks[0].page == "studies/overlap.html#check-largest-jump"
+    assert absent.status == "not run"
+    assert {claim.verdict for claim in kept.claims} >= {"holds", "does not hold", "cannot be tested"}
+    schema = json.loads((tmp_path / "out" / "results.schema.json").read_text())
+    assert schema == results.Results.model_json_schema()
+    assert set(schema["properties"]) == set(found)
+
+
+def test_a_long_table_is_folded_and_a_short_one_open(render, tmp_path):
+    run, _ = finished("ownership", display={"owners": "Few", "many": "Many"})
+    few = pd.DataFrame({"wrong_owner_percent": [1.0, 2.0]})
+    many = pd.DataFrame({"wrong_owner_percent": np.arange(sections.LONG + 1.0)})
+    tables = {"owners": few, "many": many}
+    render((replace(run, tables=tuple(tables)), tables))
+    text = study_page(tmp_path, "ownership").read_text()
+    assert re.findall(r'<details class="table"( open)?>\s*<summary>(\w+)', text) == [(" open", "Few"), ("", "Many")]

@@ -19,7 +19,7 @@ HISTORY = [
 ]  # fmt: skip
 PROFILE = [
     "operation", "bit_depth_m", "md_m", "inclination_deg", "effective_tension_N",
-    "contact_force_N", "contact_angle_deg",
+    "contact_force_N", "contact_angle_deg", "offset_high_m", "clearance_m",
 ]  # fmt: skip
 
 

@@ -42,6 +42,8 @@ def paper_well() -> dict[str, pd.DataFrame]:
                     "md_m": md,
                     "contact_force_N": force,
                     "contact_angle_deg": np.where(md < 2150, 2.0, 172.0),
+                    "offset_high_m": np.where(md < 2150, 0.057, -0.057) * (force > 0),
+                    "clearance_m": np.full_like(md, 0.057),
                     "effective_tension_N": 100 * (bit - md),
                     "inclination_deg": bent,
                 }

@@ -1,0 +1,121 @@
+"""The three pictures at the top of the page, small enough to stand side by side."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+
+from reports.figures import Figure, Tables, style
+
+SIZE_IN = (4.3, 3.3)
+# Zero has no place on a logarithmic axis.
+FLOOR = 0.3
+WELL = "paper-well"
+KINDS = {"trip_out": "picking up", "rotate_off_bottom": "rotating", "trip_in": "slacking off"}
+
+
+@dataclass(frozen=True)
+class Leading:
+    """A picture of the first screen: the study whose tables it draws, and the study's own figure that tells more."""
+
+    study: str
+    figure: Figure
+    more: str
+
+
+def _canvas() -> Canvas:
+    return Canvas(figsize=SIZE_IN, layout="constrained")
+
+
+def cost_and_error(tables: Tables) -> Canvas:
+    """Error of penetration against cost, a line for each contact method."""
+    cost = tables["cost"]
+    canvas = _canvas()
+    ax = canvas.subplots()
+    column = "max_penetration_error_mm"
+    floor = FLOOR * cost.loc[cost[column] > 1e-5, column].min()
+    for index, method in enumerate(cost["method"].unique()):
+        chosen = cost[cost["method"] == method]
+        look = style.dots(index, filled=index < 6) | {"linestyle": "-", "linewidth": 0.8}
+        ax.plot(chosen["ns_per_point"], chosen[column].clip(lower=floor), **look, label=method)
+    ax.axhline(floor, color=style.QUIET, linewidth=1, linestyle=(0, (1, 2)))
+    ax.set(xscale="log", yscale="log", xlabel="cost per point, ns", ylabel="largest error of penetration, mm")
+    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=3, fontsize=7, columnspacing=0.8)
+    return canvas
+
+
+def where_it_touches(tables: Tables) -> Canvas:
+    """The paper's well from the side, as wide as its clearance drawn hundreds of times, with the string's contacts."""
+    profiles = tables["profiles"]
+    rows = profiles[(profiles["variant"] == WELL) & (profiles["operation"] == "trip_in")]
+    rows = rows[rows["bit_depth_m"] == rows["bit_depth_m"].max()].sort_values("md_m")
+    md, inclination = (rows[name].to_numpy(float) for name in ("md_m", "inclination_deg"))
+    angle = np.radians(inclination)
+    sine, cosine = np.sin(angle), np.cos(angle)
+    step = np.diff(md)
+    out = np.append(0.0, np.cumsum(0.5 * (sine[1:] + sine[:-1]) * step))
+    down = md[0] + np.append(0.0, np.cumsum(0.5 * (cosine[1:] + cosine[:-1]) * step))
+    clearance = rows["clearance_m"].to_numpy(float)
+    times = 0.02 * (down[-1] - down[0]) / np.median(clearance)
+
+    def beside(offset: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> tuple[object, object]:
+        """Places off the axis, positive to the high side."""
+        return out + times * offset * cosine, down - times * offset * sine
+
+    canvas = _canvas()
+    ax = canvas.subplots()
+    for side in (-1.0, 1.0):
+        ax.plot(*beside(side * clearance), color=style.QUIET, linewidth=0.8)
+    high = rows["offset_high_m"].to_numpy(float)
+    x, y = beside(high)
+    ax.plot(x, y, color=style.COLOURS[0], linewidth=1.1, label="string")
+    at = rows["contact_force_N"].to_numpy(float) > 0
+    dots = ax.scatter(
+        np.asarray(x)[at], np.asarray(y)[at], c=rows["contact_force_N"].to_numpy(float)[at] / 1e3, cmap="YlOrRd",
+        edgecolors="black", linewidths=0.5, s=16, zorder=3, label="touches",
+    )  # fmt: skip
+    canvas.colorbar(dots, ax=ax, label="contact force, kN", shrink=0.8)
+    first = down[at].min() if at.any() else down[0]
+    ax.set(xlabel="departure, m", ylabel="true vertical depth, m", ylim=(down[-1] + 60, first - 120))
+    ax.legend(loc="lower left")
+    return canvas
+
+
+def stiff_and_measured(tables: Tables) -> Canvas:
+    """Weight indicator over bit depth: the stiff string's curves, and measured points with their ranges."""
+    points = tables["points"]
+    points = points[points["load"] == "hookload"]
+    canvas = _canvas()
+    ax = canvas.subplots()
+    for index, (kind, name) in enumerate(KINDS.items()):
+        for k, (_, curve) in enumerate(tables["curves"].groupby("string", sort=False)):
+            rows = curve[curve["operation"] == kind]
+            label = name if k == 0 else None
+            ax.plot(rows["weight_indicator_N"] / 1e3, rows["bit_depth_m"], **style.line(index), label=label)
+        rows = points[points["operation"] == kind]
+        middle, half = 0.5 * (rows["low"] + rows["high"]), 0.5 * (rows["high"] - rows["low"])
+        look = style.dots(index, filled=False) | {"markersize": 3.5}
+        ax.errorbar(middle, rows["bit_depth_m"], xerr=half, linewidth=0.8, **look)
+    ax.set_xlabel("weight indicator, kN (marks: measured)")
+    style.depth_downwards(ax, "bit depth, m")
+    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=3, fontsize=7.5)
+    return canvas
+
+
+LEADING = [
+    Leading(
+        "contact_accuracy",
+        Figure("cost", "Cost against error of the contact methods", cost_and_error),
+        "error_and_cost",
+    ),
+    Leading(
+        "paper_well",
+        Figure("touches", "The paper's well and where the string that goes in touches", where_it_touches),
+        "contact",
+    ),
+    Leading(
+        "volve_f4",
+        Figure("measured", "The stiff string against a public well's readings", stiff_and_measured),
+        "chart",
+    ),
+]

@@ -1,0 +1,137 @@
+"""One study as the pages show it: its stored result, its figures drawn, its tables printed."""
+
+import base64
+import io
+import re
+import sys
+import traceback
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import matplotlib as mpl
+import pandas as pd
+from matplotlib.figure import Figure as Canvas
+
+from fctd.case.text import printable_lines
+from reports import figures, words
+from reports.chapters import contents
+from reports.figures import style
+from validation.harness import store
+from validation.harness.store import Record
+
+LONG = 14  # rows of a table that is folded
+THUMBNAIL = 46  # dots per inch of a small copy
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A drawn figure: embedded in a page (``source``), a small copy where the first page has one, and files beside the page for download."""
+
+    name: str
+    caption: str
+    source: str
+    small: str
+    svg: str
+    png: str
+
+
+@dataclass(frozen=True)
+class Printed:
+    """A table as text; a column has a label, a unit, and is set to the right where it holds numbers."""
+
+    caption: str
+    columns: list[tuple[str, str, bool]]
+    rows: list[tuple[str, ...]]
+
+    @property
+    def long(self) -> bool:
+        """Whether the page folds it."""
+        return len(self.rows) > LONG
+
+
+@dataclass
+class Section:
+    """What the pages say of one study; without a record, the study has not been run.
+
+    changed : the input that has changed since the result was stored; empty where it is up to date.
+    """
+
+    study: str
+    record: Record | None = None
+    pictures: list[Picture] = field(default_factory=list)
+    tables: list[Printed] = field(default_factory=list)
+    problems: list[str] = field(default_factory=list)
+    changed: str = ""
+
+    @property
+    def question(self) -> str:
+        """The study's question; its name where the question is not known."""
+        return self.record.question or self.study if self.record else self.study
+
+    @property
+    def summary(self) -> str:
+        """The outcome, in a few words."""
+        return self.record.summary if self.record else "not run"
+
+    @property
+    def absent(self) -> bool:
+        """Whether there is nothing to show but how to run it."""
+        return not self.problems and (self.record is None or self.record.status == "skipped")
+
+
+def anchor(name: str) -> str:
+    """The address of a check within the page of its study."""
+    return "check-" + re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")
+
+
+def section_of(folder: Path, out: Path) -> tuple[Section, figures.Tables]:
+    """Read one study's result and draw its figures; the tables are those of the result."""
+    section = Section(folder.name)
+    if not (folder / "verdict.json").exists():
+        return section, {}
+    try:
+        section.record = found = store.read(folder)
+        tables = store.read_tables(folder, found)
+    except (OSError, ValueError, TypeError, LookupError) as error:
+        section.problems.append(f"the result cannot be read: {type(error).__name__}: {error}")
+        return section, {}
+    if found.status != "finished":
+        return section, {}
+    section.tables = [_print(tables[name], caption) for name, caption in found.display.items()]
+    # A study whose package is missing finishes with a note only.
+    for figure in figures.of_study(section.study) if tables or found.checks else []:
+        try:
+            section.pictures.append(draw(section.study, figure, tables, out))
+        except Exception as error:
+            # A figure that cannot be drawn must not prevent the rest of the page.
+            print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
+            section.problems.append(f"figure {figure.name!r} could not be drawn: {type(error).__name__}: {error}")
+    return section, tables
+
+
+def draw(study: str, figure: figures.Figure, tables: figures.Tables, out: Path) -> Picture:
+    """Draw a figure into ``out/figures`` as SVG and PNG."""
+    svg, png = (f"figures/{study}-{figure.name}.{kind}" for kind in ("svg", "png"))
+    with mpl.rc_context(style.RC):
+        canvas = figure.draw(tables)
+        canvas.savefig(out / svg, metadata={"Date": None})
+        canvas.set_layout_engine("none")  # keeps the layout for the other files; the layout takes half of the time
+        canvas.savefig(out / png)
+        small = _small(canvas) if study in {each.ours.partition("/")[0] for each in contents().paper} else ""
+    # As a data address, the identifiers of a drawing stay separate and the page is one file.
+    source = "data:image/svg+xml;base64," + base64.b64encode((out / svg).read_bytes()).decode()
+    return Picture(figure.name, figure.caption, source, small, svg, png)
+
+
+def _small(canvas: Canvas) -> str:
+    """A small copy as a data address."""
+    drawn = io.BytesIO()
+    canvas.savefig(drawn, format="png", dpi=THUMBNAIL)
+    return "data:image/png;base64," + base64.b64encode(drawn.getvalue()).decode()
+
+
+def _print(table: pd.DataFrame, caption: str) -> Printed:
+    """A table's columns as text."""
+    columns = [(*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in map(str, table.columns)]
+    cells = [words.column(table[name]) for name in table.columns]
+    return Printed(caption, columns, list(zip(*cells, strict=True)))

@@ -1,0 +1,92 @@
+"""Pages in a real browser: Chromium draws them, and what it complains of or asks for from elsewhere is kept.
+
+Tests that need one are marked ``browser`` and skip by name where there is none.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from fctd.view.still import browser_path, open_browser
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+# Plotly's scene reads its canvas back; Chromium advises another setting of it.
+KNOWN = "willReadFrequently"
+HERE = ("file:", "data:", "blob:")
+LONGEST = 60_000  # [ms], on a busy machine
+
+
+def missing() -> str:
+    """Why there is no browser, or nothing."""
+    try:
+        import playwright  # noqa: F401
+    except ModuleNotFoundError:
+        return "no playwright: pip install -e '.[browser]'"
+    return "" if browser_path() else "no Chromium: apt-get install chromium"
+
+
+needs_browser = [pytest.mark.browser, pytest.mark.skipif(bool(missing()), reason=missing())]
+
+
+@dataclass
+class Seen:
+    """What a page has said and asked for."""
+
+    said: list[str] = field(default_factory=list)
+    asked: list[str] = field(default_factory=list)
+
+    def check(self) -> None:
+        """No error or unknown warning, and no request to another address."""
+        assert self.said == []
+        assert self.asked == []
+
+
+@contextmanager
+def browser(*flags: str) -> Iterator[Browser]:
+    """A browser of this machine."""
+    with open_browser(*flags) as found:
+        yield found
+
+
+@contextmanager
+def opened(where: Browser, path: Path, width: int = 1280, height: int = 800) -> Iterator[tuple[Page, Seen]]:
+    """A page in a window of a size [px]; what it says and asks for is empty in the end."""
+    page, seen = where.new_page(viewport={"width": width, "height": height}), Seen()
+    page.set_default_timeout(LONGEST)
+
+    def said(message: Any) -> None:
+        if message.type in ("error", "warning") and KNOWN not in message.text:
+            seen.said.append(f"{message.type}: {message.text}")
+
+    page.on("console", said)
+    page.on("pageerror", lambda error: seen.said.append(f"exception: {error}"))
+    page.on("request", lambda request: None if request.url.startswith(HERE) else seen.asked.append(request.url))
+    try:
+        page.goto(path.resolve().as_uri())
+        yield page, seen
+        seen.check()
+    finally:
+        page.close()
+
+
+def pixels(page: Page) -> NDArray[np.int16]:
+    """The window as it is painted, (height, width, 3)."""
+    from PIL import Image
+
+    return np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"), np.int16)
+
+
+def overflow(page: Page) -> int:
+    """By how much the page is wider than its window [px]."""
+    return int(page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth"))

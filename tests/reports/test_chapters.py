@@ -1,0 +1,57 @@
+"""Chapters and the paper's figures: what they name is there, answers are filled with stored numbers."""
+
+from collections import Counter
+from dataclasses import replace
+
+import pytest
+
+pytest.importorskip("jinja2")
+pytest.importorskip("matplotlib")
+
+from reports import chapters, figures
+from reports.chapters import Sentence
+from reports.figures.leading import LEADING
+from tests.reports.test_page import BLANK, judged
+from validation.harness.registry import STUDIES
+
+from . import synthetic
+
+
+def test_chapters_name_studies_once_and_pictures_that_there_are():
+    found = chapters.contents()
+    named = Counter(study for chapter in found.chapter for study in chapter.studies)
+    assert set(named.values()) == {1}
+    assert set(named) <= set(STUDIES)
+    addresses = [chapter.picture for chapter in found.chapter] + [each.ours for each in found.paper]
+    for address in addresses:
+        study, _, name = address.partition("/")
+        assert study in STUDIES
+        assert not name or name in {figure.name for figure in figures.of_study(study)}
+    assert [each.figure for each in found.paper] == list(range(1, 14))
+    assert all(len(chapter.sentence) == 2 for chapter in found.chapter)
+    assert {study for chapter in found.chapter for each in chapter.sentence for study, _ in each.numbers} <= set(
+        STUDIES
+    )
+
+
+def test_a_study_that_no_chapter_names_stands_in_the_last():
+    found = chapters.by_chapter(["overlap", "new_one"])
+    assert found["contact"] == ["overlap"]
+    assert found["wells"] == ["new_one"]
+
+
+def test_an_answer_has_its_numbers_or_says_what_to_run():
+    sentence = Sentence(says="It is {0}, not {1}.", numbers=(("overlap", "a"), ("jumps", "b")))
+    records = {"overlap": replace(BLANK, checks=(judged(0.25, name="a"),))}
+    assert sentence.filled(records) == "Not answered yet: python -m validation jumps."
+    records["jumps"] = replace(BLANK, study="jumps", checks=(judged(2.0, name="b"),))
+    assert sentence.filled(records) == "It is 0.25\u00a0kN·m, not 2\u00a0kN·m."
+
+
+@pytest.mark.parametrize("each", LEADING, ids=[each.study for each in LEADING])
+def test_pictures_of_the_first_screen_draw(each):
+    canvas = each.figure.draw(synthetic.STUDIES[each.study]())
+    ax = canvas.axes[0]
+    assert ax.get_lines()
+    assert all(", " in label for label in (ax.get_xlabel(), ax.get_ylabel()))
+    assert each.more in {figure.name for figure in figures.of_study(each.study)}
