@@ -11,10 +11,11 @@ from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 
+from fctd.case.drilling import BitSpec
 from fctd.case.friction import FrictionSet
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
-from fctd.case.specs import BitSpec, ComponentSpec, MudSpec, RigSpec, StringSpec, WellboreSpec
+from fctd.case.specs import ComponentSpec, MudSpec, RigSpec, StringSpec, WellboreSpec
 from fctd.case.units import FASTEST, MOST_RPM, Slip, looks_like
 
 Doubts = Iterator[InputWarning]

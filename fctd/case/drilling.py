@@ -1,6 +1,8 @@
-"""The tables of drilling: the controller of the rig's drive, the rock under the bit, and the motor above it."""
+"""The tables of drilling: the controller of the rig's drive, the bit, the rock under it, and the motor above it."""
 
 from typing import Literal
+
+from pydantic import Field
 
 from fctd.case import units
 from fctd.case.errors import Table
@@ -52,3 +54,14 @@ class MotorSpec(Table):
 
     flow: units.PositiveFlow
     revolutions_per_liter: units.PositiveRatio
+
+
+class BitSpec(Table):
+    """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]. A run in time that drills needs `rock`,
+    and one that slides also a `motor`.
+    """
+
+    weight_on_bit: units.Force = 0.0
+    torque: units.PositiveOrZeroTorque = 0.0
+    rock: RockSpec | None = Field(default=None, description="a table [bit.rock]")
+    motor: MotorSpec | None = Field(default=None, description="a table [bit.motor]")

@@ -13,13 +13,13 @@ from typing import Annotated, Any, Final, Self
 from pydantic import Field, ValidationError, field_validator, model_validator
 
 from fctd.case.doubts import warnings_of
+from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
 from fctd.case.friction import pick, scaled_static
 from fctd.case.input_file import read_text
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
 from fctd.case.specs import (
-    BitSpec,
     FileName,
     MudSpec,
     RecordSpec,

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, PrivateAttr, StrictBool, ValidationInfo, field_validator, model_validator
 
 from fctd.case import units
-from fctd.case.drilling import DriveSpec, MotorSpec, RockSpec
+from fctd.case.drilling import DriveSpec
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys import doubts
@@ -353,17 +353,6 @@ class RigSpec(Table):
     def push(self) -> float:
         """The largest push on the string [N]: the block's weight without what its guides hold back."""
         return self.block_weight - self.guide_friction
-
-
-class BitSpec(Table):
-    """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]. A run in time that drills needs `rock`,
-    and one that slides also a `motor`.
-    """
-
-    weight_on_bit: units.Force = 0.0
-    torque: units.PositiveOrZeroTorque = 0.0
-    rock: RockSpec | None = Field(default=None, description="a table [bit.rock]")
-    motor: MotorSpec | None = Field(default=None, description="a table [bit.motor]")
 
 
 class SolverSpec(Table):
