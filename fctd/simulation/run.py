@@ -17,7 +17,7 @@ from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode, stiffes
 from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.mechanics.wall_law import tangent_over_linear
 from fctd.model.derrick import with_derrick
-from fctd.model.drilling import check_weight, driller_of, drive_of, rock_of
+from fctd.model.drilling import check_weight, driller_of, drive_of, pace_of, rock_of
 from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
@@ -99,10 +99,6 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
         run, phases = _prepare(case)
         run.take_mud_along(case.operations[0])
         phases = [_driven(run, phase) for phase in phases]
-        if case.rig.autodriller and run.hoist is not None and any(stroke.in_slips for stroke in run.hoist.strokes):
-            raise InputError(
-                "false, or operations without a connection between two stands", key="rig.autodriller", value=True
-            )
         if contact is not None:
             if run.hoist is not None:
                 raise InputError(
@@ -121,8 +117,9 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
 def _driven(run: Run, phase: Phase) -> Phase:
     """A phase with the drive and the driller of a run."""
     motion = phase.motion._replace(drive=run.drive)
-    if run.case.operations[phase.operation].on_bottom:
-        motion = motion._replace(driller=driller_of(run.case, run.string, run.laws.rock))
+    if run.case.operations[phase.operation].on_bottom and motion.bit_from + motion.bit_to > 0:
+        string = run.string if run.hoist is None else run.hoist.tally.whole  # the longest has the slowest waves
+        motion = motion._replace(driller=driller_of(run.case, string, run.laws.rock))
     return Phase(motion, phase.operation)
 
 
@@ -174,8 +171,8 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     tally = lay_out_stands(case, shallowest, deepest)
     hole = with_derrick(hole, case.rig.derrick_height)
     check_stands(case, tally, hole, shallowest)
-    phases, strokes = stand_schedule(case.operations, tally, case.rig)
     whole = tally.whole
+    phases, strokes = stand_schedule(case.operations, tally, case.rig, pace_of(case, whole))
     buffer, S, top = state.new_state(whole.segments), state.new_state(whole.segments), np.zeros(topdrive.TOP_SIZE)
     pipe = fill(buffer, whole, case)
     hang(buffer, whole.segments)
