@@ -27,7 +27,9 @@ Array = NDArray[np.float64]
 
 PLACE, AXIS = [state.X, state.Y, state.Z], [state.AX, state.AY, state.AZ]
 QUATERNION = [state.QW, state.QX, state.QY, state.QZ]
+KINK = [state.KINK_X, state.KINK_Y]
 STIFFNESS = [state.K_AXIAL, state.K_SHEAR, state.K_BEND, state.K_TWIST]
+OF_JOINT = [*STIFFNESS, *KINK]
 
 
 @dataclass(kw_only=True)
@@ -133,7 +135,7 @@ class Hoist:
         run.owner[m + 1 : m + n + 1] = run.owner[1 : n + 1].copy()
         rows[:, 1 : m + 1] = all_rows[:, whole - n - m + 1 : whole - n + 1]
         run.owner[1 : m + 1] = 0
-        S[[k + m + 1 for k in STIFFNESS]] = self.buffer[[k + whole - n + 1 for k in STIFFNESS]]
+        S[[k + m + 1 for k in OF_JOINT]] = self.buffer[[k + whole - n + 1 for k in OF_JOINT]]
         S[state.TURNS + m + 1] = 0.0
         clamp(S, self.tally.whole, whole - n - m)
         run.segments = n + m
@@ -186,7 +188,11 @@ class Hoist:
 
 
 def clamp(S: Array, whole: String, k: int) -> None:
-    """Clamp segment k of the whole string, which is body 1 of a buffer, to column 0: a spring of half its length."""
+    """Clamp segment k of the whole string, which is body 1 of a buffer, to column 0: a spring of half its length.
+
+    Clamped, it has no bend.
+    """
+    S[[row + 1 for row in KINK]] = 0.0
     for row, name in zip(STIFFNESS, ("EA", "shear", "EI", "GJ"), strict=True):
         section = whole.sections[int(whole.component[k])]
         S[row + 1] = getattr(section, name) / (0.5 * whole.length[k])

@@ -24,6 +24,7 @@ from fctd.model.stands import check_stands, hang, lay_out_stands
 from fctd.model.strokes import stand_schedule
 from fctd.model.torsion import period_of
 from fctd.model.wellbore import Wellbore, build_wellbore
+from fctd.simulation.bent_housings import put_bends
 from fctd.simulation.carried_mud import take_along
 from fctd.simulation.external_contact import QueriedWall, WallQuery
 from fctd.simulation.hoist import Hoist
@@ -159,6 +160,7 @@ def _fed(case: Case, hole: Wellbore, string: String, longer: float) -> tuple[Run
     _unbalance(S, string)
     top[topdrive.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
     lie_on_axis(S, string, hole)
+    put_bends(S, case, string, hole)
     probe = S.copy()
     if string.long_segment:  # the top segment is stiffest where it is shortest
         topdrive.put_long_segment(probe, string.length[0] - longer, pipe)
@@ -177,10 +179,12 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     pipe = fill(buffer, whole, case)
     hang(buffer, whole.segments)
     _unbalance(buffer, whole)
+    put_bends(buffer, case, whole)
     stands = tally.stands_for(first)
     hoist = Hoist(tally=tally, buffer=buffer, strokes=strokes, table=hole.at(np.zeros(1))[0][0], stands=stands)
     string = hoist.start(S, top, first, hole)
     lie_on_axis(S, string, hole)
+    put_bends(S, case, string, hole)
     run = _run(
         case, hole, string, S, top, pipe, [(buffer, whole.segments), *((probe, 1) for probe in hoist.clamped())], phases
     )
@@ -209,6 +213,7 @@ def _run(
         rock=rock_of(case),
         torsion_damping=_torsion_damping(case, string),
         unbalanced=any(component.eccentricity for component in case.string.components),
+        bent=any(component.bend for component in case.string.components),
     )
     limit = min(_step_limit(probe, count, case, hole, laws) for probe, count in probes)
     wanted = case.solver.step
@@ -277,17 +282,13 @@ def _check_cost(case: Case, segments: int, step: float, duration: float) -> None
 
 
 def _check_dynamic(case: Case) -> None:
-    """Raise InputError for what only the steady solver supports: a bent housing, a helix's force."""
-    steady = "(fctd equilibrium and fctd chart support it)"
+    """Raise InputError for what only the steady solver supports: the force of a helix."""
     if case.contact.helical_force != "none":
         raise InputError(
-            f'"none" in a simulation {steady}', key="contact.helical_force", value=case.contact.helical_force
+            '"none" in a simulation (fctd equilibrium and fctd chart support it)',
+            key="contact.helical_force",
+            value=case.contact.helical_force,
         )
-    for i, component in enumerate(case.string.components):
-        if component.bend:
-            raise InputError(
-                f"no bend in a simulation {steady}", key=f"string.components[{i}].bend", value=f"{component.bend:g} rad"
-            )
 
 
 def _step_limit(S: Array, n: int, case: Case, hole: Wellbore, laws: state.Laws) -> float:
