@@ -39,16 +39,19 @@ class Driller(NamedTuple):
     """Who feeds the string while it drills.
 
     by_weight : an autodriller, else the block moves as planned.  weight : wanted on the bit [N]; gain : block speed for
-    a missing weight [m/s/N]; integral : the same for its sum over time [m/s^2/N].
+    a missing weight [m/s/N]; integral : the same for its sum over time [m/s^2/N].  taring : whether the mean hook load
+    of this part of a run becomes the tare.
     """
 
     by_weight: bool
     weight: float
     gain: float
     integral: float
+    taring: bool = False
 
 
 BY_SPEED = Driller(False, 0.0, 0.0, 0.0)
+TARING = BY_SPEED._replace(taring=True)
 
 
 def least_inertia(spring: float, integral: float, step: float) -> float:

@@ -15,7 +15,7 @@ from fctd.mechanics.contact import update_walls
 from fctd.mechanics.derrick import immerse
 from fctd.mechanics.friction import approach, normal_impulse, wall_normal
 from fctd.mechanics.jit import entry, inlined
-from fctd.mechanics.joints import update_joint_loads
+from fctd.mechanics.joints import bend_housings, update_joint_loads
 from fctd.mechanics.laws import LAWS, chain
 from fctd.mechanics.readings import read_step
 from fctd.mechanics.rock import NO_ROCK
@@ -311,6 +311,8 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     packed = padded_columns(n)
     # 1: loads of the joints and of the top drive at the present positions.
     update_joint_loads(S, packed, laws.joint_damping, dt, laws.torsion_damping)
+    if laws.bent:
+        bend_housings(S, n, dt)
     hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
     feed, rate = drive_top(S, top, motion, pipe, dt)
     read_step(S, top, n, hookload, torque, rate, laws.rock.motor, dt)

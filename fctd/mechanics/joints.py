@@ -15,8 +15,8 @@ for any bend.
 import math
 
 from fctd.mechanics.dual import reciprocal, root
-from fctd.mechanics.jit import inlined
-from fctd.mechanics.rotations import angle_over_sine, twist_angle
+from fctd.mechanics.jit import entry, inlined
+from fctd.mechanics.rotations import angle_over_sine, rotation_columns, twist_angle
 from fctd.mechanics.state import (
     ARM_BOTTOM,
     ARM_TOP,
@@ -27,6 +27,8 @@ from fctd.mechanics.state import (
     K_BEND,
     K_SHEAR,
     K_TWIST,
+    KINK_X,
+    KINK_Y,
     LOST_JOINT,
     LX,
     LY,
@@ -202,16 +204,71 @@ def update_joint_loads(S, n, damping_time, dt, torsion_time=0.0):
 
 
 @inlined
+def tilted_end(S, j):
+    """Axis of the end of body j - 1 at joint j, which a bent housing tilts, and the twist of body j against it [rad].
+
+    The tilt is fixed to body j - 1 and turns with it.
+    """
+    w, x, y, z = quaternion(S, j - 1)
+    kx, ky = S[KINK_X + j], S[KINK_Y + j]
+    kw = math.sqrt(1 - kx * kx - ky * ky)
+    w, x, y, z = w * kw - x * kx - y * ky, w * kx + x * kw - z * ky, w * ky + y * kw + z * kx, z * kw + x * ky - y * kx
+    _, _, _, _, _, _, ax, ay, az = rotation_columns(w, x, y, z)
+    return ax, ay, az, twist_angle(w, x, y, z, *quaternion(S, j)) + S[TURNS + j]
+
+
+@inlined
+def bend_housings(S, n, dt):
+    """Update loads and sums of the joints with a bent housing, given those of straight ones.
+
+    The potential is that of a straight joint between the tilted end of the upper body and the lower body.
+    """
+    for j in range(2, n + 1):
+        if S[KINK_X + j] == 0 and S[KINK_Y + j] == 0:
+            continue
+        ax, ay, az = axis(S, j - 1)
+        bx, by, bz = axis(S, j)
+        dx, dy, dz = hinge_gap(S, j)
+        twist = joint_twist(S, j)
+        vx, vy, vz, turned = tilted_end(S, j)
+        ka, ks, kb, kt = S[K_AXIAL + j], S[K_SHEAR + j], S[K_BEND + j], S[K_TWIST + j]
+        straight = joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt)
+        bent = joint_loads(vx, vy, vz, bx, by, bz, dx, dy, dz, turned, ka, ks, kb, kt)
+        fx, fy, fz = bent[0] - straight[0], bent[1] - straight[1], bent[2] - straight[2]
+        cx, cy, cz = bent[3] - straight[3], bent[4] - straight[4], bent[5] - straight[5]
+        px, py, pz, qx, qy, qz = arms_to_gap(ax, ay, az, bx, by, bz, dx, dy, dz, S[ARM_BOTTOM + j - 1], S[ARM_TOP + j])
+        ux, uy, uz = cross(fx, fy, fz, px, py, pz)
+        lx, ly, lz = cross(qx, qy, qz, fx, fy, fz)
+        S[FX + j], S[FY + j], S[FZ + j] = S[FX + j] + fx, S[FY + j] + fy, S[FZ + j] + fz
+        S[UX + j], S[UY + j], S[UZ + j] = S[UX + j] + ux - cx, S[UY + j] + uy - cy, S[UZ + j] + uz - cz
+        S[LX + j], S[LY + j], S[LZ + j] = S[LX + j] + lx + cx, S[LY + j] + ly + cy, S[LZ + j] + lz + cz
+        S[SUM_TENSION + j] += dt * (bent[6] - straight[6])
+        S[SUM_TORQUE + j] -= dt * kt * (turned - twist)
+
+
+@entry
+def find_bends(S, n, bends):
+    """Fill the angles (n,) [rad] by which the joints are bent out of their unloaded shape; axes must be up to date."""
+    for j in range(1, n + 1):
+        ax, ay, az, _ = tilted_end(S, j)
+        bx, by, bz = axis(S, j)
+        sx, sy, sz = cross(ax, ay, az, bx, by, bz)
+        bends[j - 1] = math.atan2(math.sqrt(sx * sx + sy * sy + sz * sz), ax * bx + ay * by + az * bz)
+
+
+@inlined
 def strain_energy(S, j):
     """Strain energy of joint j [J]: the potential that ``joint_loads`` differentiates."""
     ax, ay, az = axis(S, j - 1)
+    twist = joint_twist(S, j)
+    if S[KINK_X + j] != 0 or S[KINK_Y + j] != 0:
+        ax, ay, az, twist = tilted_end(S, j)
     bx, by, bz = axis(S, j)
     dx, dy, dz = hinge_gap(S, j)
     tx, ty, tz = ax + bx, ay + by, az + bz
     stretch = (tx * dx + ty * dy + tz * dz) / math.sqrt(tx * tx + ty * ty + tz * tz)
     sx, sy, sz = cross(ax, ay, az, bx, by, bz)
     bend = math.atan2(math.sqrt(sx * sx + sy * sy + sz * sz), ax * bx + ay * by + az * bz)
-    twist = joint_twist(S, j)
     shear = dx * dx + dy * dy + dz * dz - stretch * stretch
     stiff = S[K_AXIAL + j] * stretch * stretch + S[K_SHEAR + j] * shear
     return 0.5 * (stiff + S[K_BEND + j] * bend * bend + S[K_TWIST + j] * twist * twist)

@@ -94,8 +94,11 @@ CAKE_AGE, CAKE_IMPULSE = 85 * STRIDE, 86 * STRIDE
 # [N], the share of the body that is below the rotary table, and the mud damping of the whole body in mud.
 BUOYANCY, IMMERSED = 87 * STRIDE, 88 * STRIDE
 IN_MUD_AXIAL, IN_MUD_LATERAL, IN_MUD_SPIN = 89 * STRIDE, 90 * STRIDE, 91 * STRIDE
+# Bent housing above joint j (joints.py): x and y of the quaternion by which the end of body j - 1 is tilted, in its
+# frame.
+KINK_X, KINK_Y = 92 * STRIDE, 93 * STRIDE
 
-ROWS = 92
+ROWS = 94
 
 
 class Laws(NamedTuple):
@@ -109,7 +112,7 @@ class Laws(NamedTuple):
     cake_thickness [m], cake_time [s] : final thickness of mud cake and the time in which it grows so thick;
     cake_friction : its factor.  0 thickness: no cake.  rock : under the bit.
     torsion_damping : damping time of torsion in addition to that of the joints [s].
-    unbalanced : whether any body has an unbalance.
+    unbalanced : whether any body has an unbalance; bent : whether any joint has a bent housing.
     """
 
     geometry: int
@@ -126,6 +129,7 @@ class Laws(NamedTuple):
     rock: Rock = NOTHING
     torsion_damping: float = 0.0
     unbalanced: bool = False
+    bent: bool = False
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

@@ -221,6 +221,14 @@ def feed_by_weight(S, top, motion, pipe, dt):
 
 
 @inlined
+def take_tare(S, top, motion, pipe, dt):
+    """Update the tare of the autodriller: the mean hook load since the start of this part of the run."""
+    elapsed = top[TOP_TIME] + dt - motion.start
+    top[TARE] += (hanging_load(S, top, pipe) - top[TARE]) * min(dt / elapsed, 1.0)
+    top[FED] = 0.0
+
+
+@inlined
 def turn_top(S, top, pipe, drive, planned, dt):
     """Rotation of the top after this step [rad/s] by a drive that is not stiff; adds the work of its inertia."""
     load, drag = top_torque(S), 0.5 * pipe.mud_spin * top[TOP_LENGTH]
@@ -281,6 +289,8 @@ def drive_top(S, top, motion, pipe, dt):
     feed, rate = planned_speeds(top, motion, dt)
     if motion.driller.by_weight:
         feed = feed_by_weight(S, top, motion, pipe, dt)
+    elif motion.driller.taring:
+        take_tare(S, top, motion, pipe, dt)
     top[FED] += dt * feed
     if not motion.drive.held:
         rate = turn_top(S, top, pipe, motion.drive, rate, dt)

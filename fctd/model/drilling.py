@@ -8,9 +8,12 @@ from fctd.mechanics.drive import BY_SPEED, STIFF, Driller, Drive, least_inertia
 from fctd.mechanics.rock import DRAG_BIT, GIVEN_LOADS, NO_ROCK, NOTHING, Rock
 from fctd.model.drillstring import Section, String
 from fctd.model.operations import rad_per_s
+from fctd.model.strokes import Pace
+from fctd.model.torsion import axial_period_of
 
 # Of a drive by default: P over the impedance of the pipe, I over P [1/s], share of the inertia that is hidden.
 SPEED_CONTROL, IMPEDANCE = (100.0, 5.0, 0.0), (1.0, 1 / 3, 1.0)
+TARE_PERIODS = 4  # axial periods over which the autodriller averages its tare
 SLOWER = 2.0  # the autodriller's time over that of an axial wave, 4L/c
 
 
@@ -50,6 +53,25 @@ def driller_of(case: Case, string: String, rock: Rock) -> Driller:
     softness = float((1 / string.joints("EA")).sum()) + 1 / rock.stiffness
     time = SLOWER * 4 * float(string.length.sum()) / float(np.sqrt(top.EA / top.mass))
     return Driller(True, case.bit.weight_on_bit, 2 * softness / time, softness / time**2)
+
+
+def pace_of(case: Case, string: String) -> Pace | None:
+    """What the autodriller of a case is expected to do with its longest string; None without one.
+
+    Raises InputError where the law of the bit says that it does not drill.
+    """
+    rock = rock_of(case)
+    if not case.rig.autodriller or rock.law != DRAG_BIT:
+        return None
+    cut = rock.advance * (case.bit.weight_on_bit - rock.worn) / (2 * np.pi)
+    if cut <= 0:
+        raise InputError(
+            f"above what the wear flats of the bit carry, {rock.worn:.4g} N, so that it drills",
+            key="bit.weight_on_bit",
+            value=f"{case.bit.weight_on_bit:g} N",
+        )
+    rates = [cut * (rad_per_s(operation.rpm) + rock.motor) for operation in case.operations]
+    return Pace(rates, TARE_PERIODS * axial_period_of(string))
 
 
 def rock_of(case: Case) -> Rock:

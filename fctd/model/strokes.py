@@ -1,29 +1,34 @@
 """The schedule of a rig that moves stands: strokes of the block, and connections between them."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from fctd.case.operations import Operation, RotateOffBottom
 from fctd.case.specs import RigSpec
+from fctd.mechanics.drive import BY_SPEED, TARING, Driller
 from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import Part, Phase, check_duration, rad_per_s, rotating, travelling
 from fctd.model.stands import Tally
 
 # Depths and heights of a schedule agree within this [m].
-SAME: float = 1e-9
+SAME: Final = 1e-9
+# An autodriller lifts the bit so far off bottom before a connection [m], and moves it so fast there [m/s].
+PICK_UP, GENTLY = 0.5, 0.1
 
 
 class Stroke(NamedTuple):
     """A stroke of the block, or a connection, during which the string hangs in the slips.
 
     start [s]; change : stands that are added (1) or racked back (-1) at the start; travel : downwards, without the
-    stretch of the pipe [m], 0 in a connection; target : height of the block at the end, without that stretch [m].
+    stretch of the pipe [m], 0 in a connection; target : height of the block at the end, without that stretch [m];
+    by_weight : an autodriller drills it down, which may take longer or shorter than planned.
     """
 
     start: float
     change: int
     travel: float
     target: float
+    by_weight: bool = False
 
     @property
     def in_slips(self) -> bool:
@@ -31,23 +36,36 @@ class Stroke(NamedTuple):
         return self.travel == 0
 
 
+class Pace(NamedTuple):
+    """What an autodriller is expected to do.
+
+    rates : speed of the bit in each operation [m/s]; taring : for how long the hook load is averaged off bottom [s].
+    """
+
+    rates: Sequence[float]
+    taring: float
+
+
 class _Plan:
     """A schedule that grows by one part after the other; the rig stands still at its start."""
 
-    def __init__(self, tally: Tally, rig: RigSpec, depth: float) -> None:
-        self.tally, self.rig, self.depth = tally, rig, depth
+    def __init__(self, tally: Tally, rig: RigSpec, depth: float, pace: Pace | None) -> None:
+        self.tally, self.rig, self.depth, self.pace = tally, rig, depth, pace
+        self.lifted = False
         self.stands = tally.stands_for(depth)
         self.clock, self.turning, self.loaded = 0.0, 0.0, 0.0
         self.phases: list[Phase] = []
         self.strokes: list[Stroke] = []
         self.change = 0
 
-    def add(self, k: int, parts: list[Part], spins: list[float], loads: list[float]) -> None:
+    def add(
+        self, k: int, parts: list[Part], spins: list[float], loads: list[float], driller: Driller = BY_SPEED
+    ) -> None:
         """Phases of operation k: duration [s] and feed at both ends [m/s] of each; rotation [rad/s] and share of the
         loads on the bit at its end."""
         for (duration, feed_from, feed_to), spin, load in zip(parts, spins, loads, strict=True):
             motion = Motion(self.clock, duration, feed_from, feed_to, self.turning, spin)
-            self.phases.append(Phase(motion._replace(bit_from=self.loaded, bit_to=load), k))
+            self.phases.append(Phase(motion._replace(bit_from=self.loaded, bit_to=load, driller=driller), k))
             self.clock += duration
             self.turning, self.loaded = spin, load
 
@@ -67,6 +85,7 @@ class _Plan:
         """
         end, down = operation.end_md, operation.end_md > operation.start_md
         rate = rad_per_s(operation.rpm)
+        connects = down and self.tally.reach[self.stands] + SAME < end
         while abs(end - self.depth) > SAME:
             low, high = self.tally.reach[self.stands - 1 : self.stands + 1].tolist()
             if down and high - self.depth <= SAME:
@@ -77,6 +96,9 @@ class _Plan:
                 low = float(self.tally.reach[self.stands - 1])
             goal = min(end, high) if down else max(end, low)
             ends_here = abs(end - goal) <= SAME
+            if operation.on_bottom and connects and self.pace is not None:
+                self.drill(k, operation, goal, self.pace, unloads=unloads or not ends_here, lifts=not ends_here)
+                continue
             parts = travelling(goal - self.depth, operation.speed, operation.ramp_time, stops=not (ends_here and last))
             target = float(self.tally.reach[self.stands]) - goal
             self.strokes.append(Stroke(self.clock, self.change, goal - self.depth, target))
@@ -89,14 +111,44 @@ class _Plan:
             self.add(k, parts, spins, loads)
             self.depth = goal
 
+    def drill(self, k: int, operation: Operation, goal: float, pace: Pace, *, unloads: bool, lifts: bool) -> None:
+        """A stroke of the autodriller down to the bit depth ``goal`` [m].
 
-def stand_schedule(operations: Sequence[Operation], tally: Tally, rig: RigSpec) -> tuple[list[Phase], list[Stroke]]:
-    """Phases and strokes of the operations in order, starting from rest.
+        Off bottom, where the last connection has left the bit, it takes the tare, and it lowers the bit.  unloads,
+        lifts : whether it takes the weight off the bit and then lifts it, at the end of the stroke.
+        """
+        rate, ramp, way = rad_per_s(operation.rpm), operation.ramp_time, goal - self.depth
+        lifted = PICK_UP if self.lifted else 0.0
+        target = float(self.tally.reach[self.stands]) - goal
+        self.strokes.append(Stroke(self.clock, self.change, way + lifted, target, by_weight=True))
+        self.change = 0
+        if self.lifted:
+            self.add(k, [(ramp, 0.0, 0.0)], [rate], [0.0])
+            self.add(k, [(pace.taring, 0.0, 0.0)], [rate], [0.0], TARING)
+            self.lift(k, PICK_UP, rate)
+        self.add(k, [(ramp, 0.0, 0.0), (way / pace.rates[k], 0.0, 0.0)], [rate] * 2, [1.0] * 2)
+        if unloads:
+            self.add(k, [(ramp, 0.0, 0.0)], [rate], [0.0])
+        if lifts:
+            self.lift(k, -PICK_UP, rate)
+        self.lifted = lifts
+        self.depth = goal
+
+    def lift(self, k: int, way: float, rate: float) -> None:
+        """Move the turning string off bottom, downwards above 0 [m]."""
+        parts = travelling(way, GENTLY, 1.0, stops=True)
+        self.add(k, parts, [rate] * len(parts), [0.0] * len(parts))
+
+
+def stand_schedule(
+    operations: Sequence[Operation], tally: Tally, rig: RigSpec, pace: Pace | None = None
+) -> tuple[list[Phase], list[Stroke]]:
+    """Phases and strokes of the operations in order, starting from rest; pace : of an autodriller.
 
     Every stroke ramps speed and rotation within the ramp time of its operation, and comes to rest before a connection.
     Raises InputError for an operation shorter than ``operations.SHORTEST``.
     """
-    plan = _Plan(tally, rig, operations[0].start_md)
+    plan = _Plan(tally, rig, operations[0].start_md, pace)
     for k, operation in enumerate(operations):
         began = plan.clock
         if isinstance(operation, RotateOffBottom):

@@ -27,7 +27,9 @@ Array = NDArray[np.float64]
 
 PLACE, AXIS = [state.X, state.Y, state.Z], [state.AX, state.AY, state.AZ]
 QUATERNION = [state.QW, state.QX, state.QY, state.QZ]
+KINK = [state.KINK_X, state.KINK_Y]
 STIFFNESS = [state.K_AXIAL, state.K_SHEAR, state.K_BEND, state.K_TWIST]
+OF_JOINT = [*STIFFNESS, *KINK]
 
 
 @dataclass(kw_only=True)
@@ -37,7 +39,7 @@ class Hoist:
     tally : all segments; buffer : a state buffer with all of them, not in motion; strokes : still to come; table (3,) :
     where the axis of the hole crosses the rotary table [m]; stands : in the string; strain : stretch of the top stand
     over its length; direction : of the block's last motion, 1 down, -1 up; in_slips : whether the string hangs in them;
-    pace : by how much a stroke is faster than planned, since pipe stretches.
+    pace : by how much a stroke is faster than planned, since pipe stretches; stroke : the present one.
     """
 
     tally: Tally
@@ -49,6 +51,7 @@ class Hoist:
     direction: int = 0
     in_slips: bool = False
     pace: float = 1.0
+    stroke: Stroke | None = None
 
     def start(self, S: Array, top: Array, bit_depth: float, hole: Wellbore) -> String:
         """Write the string with its bit at a depth [m] into fresh buffers; returns it unstretched, as it is laid."""
@@ -94,8 +97,15 @@ class Hoist:
             motion = motion._replace(drive=STIFF)  # the slips hold the string, not the drive
         return motion._replace(feed_from=self.pace * motion.feed_from, feed_to=self.pace * motion.feed_to)
 
+    def drills_on(self, run: MovingString, motion: Motion) -> bool | None:
+        """Whether an autodriller that moves the block has some way left to the end of its stroke; None for others."""
+        if self.stroke is None or not self.stroke.by_weight or not motion.bit_from == motion.bit_to == 1:
+            return None
+        return bool(run.top[topdrive.BLOCK_HEIGHT] > self.stroke.target * (1 + self.strain))
+
     def _begin(self, run: MovingString, stroke: Stroke) -> None:
-        connected = self.in_slips
+        connected, self.stroke = self.in_slips, stroke
+        run.top[topdrive.TOP_FEED] = 0.0
         if stroke.change:
             run.refresh()
             before = sum(run.energy())
@@ -125,7 +135,7 @@ class Hoist:
         run.owner[m + 1 : m + n + 1] = run.owner[1 : n + 1].copy()
         rows[:, 1 : m + 1] = all_rows[:, whole - n - m + 1 : whole - n + 1]
         run.owner[1 : m + 1] = 0
-        S[[k + m + 1 for k in STIFFNESS]] = self.buffer[[k + whole - n + 1 for k in STIFFNESS]]
+        S[[k + m + 1 for k in OF_JOINT]] = self.buffer[[k + whole - n + 1 for k in OF_JOINT]]
         S[state.TURNS + m + 1] = 0.0
         clamp(S, self.tally.whole, whole - n - m)
         run.segments = n + m
@@ -178,7 +188,11 @@ class Hoist:
 
 
 def clamp(S: Array, whole: String, k: int) -> None:
-    """Clamp segment k of the whole string, which is body 1 of a buffer, to column 0: a spring of half its length."""
+    """Clamp segment k of the whole string, which is body 1 of a buffer, to column 0: a spring of half its length.
+
+    Clamped, it has no bend.
+    """
+    S[[row + 1 for row in KINK]] = 0.0
     for row, name in zip(STIFFNESS, ("EA", "shear", "EI", "GJ"), strict=True):
         section = whole.sections[int(whole.component[k])]
         S[row + 1] = getattr(section, name) / (0.5 * whole.length[k])

@@ -55,3 +55,22 @@ def within(phases: list[Phase], window: Window, longest: float) -> list[Interval
     if now < end - 1e-9:
         raise InputError(f"a window within the schedule, which ends after {now:g} s", key="window", value=f"{end:g} s")
     return parts
+
+
+def prolonged(
+    intervals: list[Interval], phases: list[Phase], motion: Motion, by: float
+) -> tuple[list[Interval], list[Phase]]:
+    """The schedule in which one motion lasts longer by so much [s], and what comes after it starts later."""
+
+    def moved(other: Motion) -> Motion:
+        if other == motion:
+            return other._replace(duration=other.duration + by)
+        return other._replace(start=other.start + by) if other.start > motion.start else other
+
+    return (
+        [
+            Interval(moved(part.motion), part.operation, part.end + by * (part.motion.start > motion.start))
+            for part in intervals
+        ],
+        [Phase(moved(phase.motion), phase.operation) for phase in phases],
+    )

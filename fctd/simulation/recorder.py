@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fctd.case.operations import KINDS
 from fctd.mechanics import readings, state, topdrive
 from fctd.mechanics.energy import Energy, penetration
+from fctd.mechanics.joints import find_bends
 from fctd.mechanics.moving_string import Sums
 from fctd.mechanics.query import Walls
 from fctd.mechanics.readings import Readings
@@ -216,8 +217,8 @@ class Recorder:
     def _loads(self) -> Loads:
         """Loads of the string: means over the last interval, but bending at its end."""
         run = self.run
-        axes = np.stack([run.S[a : a + run.segments + 1] for a in (state.AX, state.AY, state.AZ)], axis=1)
-        turn = np.linalg.norm(np.diff(axes, axis=0), axis=1)
+        bends = np.empty(run.segments)
+        find_bends(run.S, run.segments, bends)
         tension, torque = self.mean.tension.copy(), self.mean.torque.copy()
         if run.string.long_segment:
             # Half of a long segment's weight and mud load is lumped at the top.
@@ -225,7 +226,7 @@ class Recorder:
         return Loads(
             tension=tension,
             torque=torque,
-            bending=self.rows(state.K_BEND) * 2 * np.arcsin(np.minimum(0.5 * turn, 1.0)),
+            bending=self.rows(state.K_BEND) * bends,
             normal=self.mean.normal,
         )
 

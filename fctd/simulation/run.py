@@ -17,13 +17,14 @@ from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode, stiffes
 from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.mechanics.wall_law import tangent_over_linear
 from fctd.model.derrick import with_derrick
-from fctd.model.drilling import check_weight, driller_of, drive_of, rock_of
+from fctd.model.drilling import check_weight, driller_of, drive_of, pace_of, rock_of
 from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
 from fctd.model.strokes import stand_schedule
 from fctd.model.torsion import period_of
 from fctd.model.wellbore import Wellbore, build_wellbore
+from fctd.simulation.bent_housings import put_bends
 from fctd.simulation.carried_mud import take_along
 from fctd.simulation.external_contact import QueriedWall, WallQuery
 from fctd.simulation.hoist import Hoist
@@ -99,10 +100,6 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
         run, phases = _prepare(case)
         run.take_mud_along(case.operations[0])
         phases = [_driven(run, phase) for phase in phases]
-        if case.rig.autodriller and run.hoist is not None and any(stroke.in_slips for stroke in run.hoist.strokes):
-            raise InputError(
-                "false, or operations without a connection between two stands", key="rig.autodriller", value=True
-            )
         if contact is not None:
             if run.hoist is not None:
                 raise InputError(
@@ -121,8 +118,9 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
 def _driven(run: Run, phase: Phase) -> Phase:
     """A phase with the drive and the driller of a run."""
     motion = phase.motion._replace(drive=run.drive)
-    if run.case.operations[phase.operation].on_bottom:
-        motion = motion._replace(driller=driller_of(run.case, run.string, run.laws.rock))
+    if run.case.operations[phase.operation].on_bottom and motion.bit_from + motion.bit_to > 0:
+        string = run.string if run.hoist is None else run.hoist.tally.whole  # the longest has the slowest waves
+        motion = motion._replace(driller=driller_of(run.case, string, run.laws.rock))
     return Phase(motion, phase.operation)
 
 
@@ -162,6 +160,7 @@ def _fed(case: Case, hole: Wellbore, string: String, longer: float) -> tuple[Run
     _unbalance(S, string)
     top[topdrive.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
     lie_on_axis(S, string, hole)
+    put_bends(S, case, string, hole)
     probe = S.copy()
     if string.long_segment:  # the top segment is stiffest where it is shortest
         topdrive.put_long_segment(probe, string.length[0] - longer, pipe)
@@ -174,16 +173,18 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     tally = lay_out_stands(case, shallowest, deepest)
     hole = with_derrick(hole, case.rig.derrick_height)
     check_stands(case, tally, hole, shallowest)
-    phases, strokes = stand_schedule(case.operations, tally, case.rig)
     whole = tally.whole
+    phases, strokes = stand_schedule(case.operations, tally, case.rig, pace_of(case, whole))
     buffer, S, top = state.new_state(whole.segments), state.new_state(whole.segments), np.zeros(topdrive.TOP_SIZE)
     pipe = fill(buffer, whole, case)
     hang(buffer, whole.segments)
     _unbalance(buffer, whole)
+    put_bends(buffer, case, whole)
     stands = tally.stands_for(first)
     hoist = Hoist(tally=tally, buffer=buffer, strokes=strokes, table=hole.at(np.zeros(1))[0][0], stands=stands)
     string = hoist.start(S, top, first, hole)
     lie_on_axis(S, string, hole)
+    put_bends(S, case, string, hole)
     run = _run(
         case, hole, string, S, top, pipe, [(buffer, whole.segments), *((probe, 1) for probe in hoist.clamped())], phases
     )
@@ -212,6 +213,7 @@ def _run(
         rock=rock_of(case),
         torsion_damping=_torsion_damping(case, string),
         unbalanced=any(component.eccentricity for component in case.string.components),
+        bent=any(component.bend for component in case.string.components),
     )
     limit = min(_step_limit(probe, count, case, hole, laws) for probe, count in probes)
     wanted = case.solver.step
@@ -280,17 +282,13 @@ def _check_cost(case: Case, segments: int, step: float, duration: float) -> None
 
 
 def _check_dynamic(case: Case) -> None:
-    """Raise InputError for what only the steady solver supports: a bent housing, a helix's force."""
-    steady = "(fctd equilibrium and fctd chart support it)"
+    """Raise InputError for what only the steady solver supports: the force of a helix."""
     if case.contact.helical_force != "none":
         raise InputError(
-            f'"none" in a simulation {steady}', key="contact.helical_force", value=case.contact.helical_force
+            '"none" in a simulation (fctd equilibrium and fctd chart support it)',
+            key="contact.helical_force",
+            value=case.contact.helical_force,
         )
-    for i, component in enumerate(case.string.components):
-        if component.bend:
-            raise InputError(
-                f"no bend in a simulation {steady}", key=f"string.components[{i}].bend", value=f"{component.bend:g} rad"
-            )
 
 
 def _step_limit(S: Array, n: int, case: Case, hole: Wellbore, laws: state.Laws) -> float:

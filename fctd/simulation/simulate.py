@@ -22,7 +22,7 @@ from fctd.results.status import RunStatus
 from fctd.results.swings import Span, operations_table, swing_of
 from fctd.results.tables import SimulationResult
 from fctd.simulation.external_contact import WallQuery
-from fctd.simulation.intervals import Window, whole_schedule, within
+from fctd.simulation.intervals import Interval, Window, prolonged, whole_schedule, within
 from fctd.simulation.limits import LimitReached
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.ringing import expected_ringing
@@ -38,6 +38,8 @@ Progress = Callable[[float, float, float], None]
 Record = dict[str, Any]
 # Ringing at the seams between cylinders above this share of the hook load gets a note.
 RINGING = 0.005
+# A stroke of an autodriller takes at most so many times as long as planned.
+SLOWEST = 10
 
 
 class Stepper(Protocol):
@@ -101,6 +103,7 @@ class Simulation(Iterator[Record]):
             )
         self.done = 0  # number of completed intervals
         self.status, self.message = RunStatus.INTERRUPTED, "before the start"  # until the run ends in another way
+        self._late = 0.0  # by which a stroke of an autodriller is longer than planned [s]
         self.wall_s = 0.0  # wall-clock time since the start
         self.kept_s = 0.0  # of which a keeper has spent so much beside it
         self.settling_residual = float("nan")
@@ -177,6 +180,7 @@ class Simulation(Iterator[Record]):
             self.stepper.refresh()
             self.recorder.guards.timed(self.recorder.guards.check_state, self.run.bit_depth)
             record = self._record()
+            self._follow_driller()
         finally:
             self.wall_s += time.perf_counter() - began
         self.done += 1
@@ -185,6 +189,29 @@ class Simulation(Iterator[Record]):
     def _record(self) -> Record:
         self.recorder.record(self.intervals[self.done].operation, self.run.drain())
         return self.recorder.history[-1]
+
+    def _follow_driller(self) -> None:
+        """End the stroke of an autodriller where the block is down, or go on, and move the rest of the schedule.
+
+        Raises UnstableError where it takes ``SLOWEST`` times as long as the law of the bit says.
+        """
+        hoist, now = self.run.hoist, self.intervals[self.done]
+        drills_on = None if hoist is None or self.window is not None else hoist.drills_on(self.run, now.motion)
+        planned = [later for later in self.intervals[self.done + 1 :] if later.motion == now.motion]
+        if hoist is None or drills_on is None or drills_on == bool(planned):
+            return
+        longer = self.case.record.interval if drills_on else now.end - planned[-1].end
+        self._late = self._late + longer if drills_on else 0.0
+        if self._late > (SLOWEST - 1) * (now.motion.duration - self._late):
+            raise UnstableError(
+                f"the bit drills {SLOWEST} times more slowly than its law says: raise bit.weight_on_bit or the rotation"
+            )
+        del self.intervals[self.done + 1 : self.done + 1 + len(planned)]
+        self.intervals, self.phases = prolonged(self.intervals, self.phases, now.motion, longer)
+        hoist.strokes = [stroke._replace(start=stroke.start + longer) for stroke in hoist.strokes]
+        if drills_on:
+            motion = self.intervals[self.done].motion
+            self.intervals.insert(self.done + 1, Interval(motion, now.operation, now.end + longer))
 
     def record_part(self) -> None:
         """Record the elapsed part of an interval that was interrupted before its end, if there is any.

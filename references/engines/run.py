@@ -59,12 +59,14 @@ def check_supported(case: Case) -> None:
     """Raise InputError for what FCTD's stepper alone computes: another engine would leave it out without a word."""
     contact, drills = case.contact, any(operation.on_bottom for operation in case.operations)
     uneven = next((k for k, part in enumerate(case.string.components) if part.eccentricity), None)
+    bent = next((k for k, part in enumerate(case.string.components) if part.bend), None)
     found = [
         (contact.law != "linear", "contact.law", '"linear"', contact.law),
         (contact.friction_law not in ("coulomb", "paper"), "contact.friction_law", '"coulomb"', contact.friction_law),
         (case.rig.drive != "stiff", "rig.drive", '"stiff"', case.rig.drive),
         (drills and case.bit.rock is not None, "bit.rock", "no rock", "a table"),
         (case.mud.sideways > 0, "mud.viscosity", "0", case.mud.viscosity),
+        (bent is not None, f"string.components[{bent}].bend", "0", "above 0"),
         (uneven is not None, f"string.components[{uneven}].eccentricity", "0", "above 0"),
     ]
     with naming_file(case):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from fctd import InputError
 from fctd.model.operations import Phase
 from fctd.model.stands import lay_out_stands
-from fctd.model.strokes import Stroke, stand_schedule
+from fctd.model.strokes import GENTLY, PICK_UP, Pace, Stroke, stand_schedule
 from tests.cases import make_case, pipe, rotation, trip
 
 STRING = [pipe(100, None, outer=0.16, segment_length=9.0), pipe(None, None, segment_length=9.5)]
@@ -90,3 +90,29 @@ def test_a_schedule_leads_to_its_depths_and_balances_its_stands(depths: list[flo
 def test_an_operation_that_ends_before_its_first_step_is_refused() -> None:
     with pytest.raises(InputError, match=r"operations\[0\].*at least 1 ms"):
         planned([rotation(40.0, 1e-4)])
+
+
+def test_an_autodriller_lifts_the_bit_before_a_connection_and_tares_after_it() -> None:
+    """40 to 70 m over the connection at 57 m, at 0.02 m/s; then a trip out, for which the weight comes off the bit."""
+    moves = [
+        {"kind": "drill_rotating", "from_md": 40.0, "to_md": 70.0, "speed": 0.01, "rpm": 60.0, "ramp_time": 5.0},
+        trip(70.0, 60.0, speed=0.5),
+    ]
+    case = make_case(components=STRING, operations=moves, rig={"stand_length": 28.5, "connection_time": 40.0})
+    tally = lay_out_stands(case, 40.0, 70.0)
+    phases, strokes = stand_schedule(case.operations, tally, case.rig, Pace([0.02, 0.0], 12.0))
+    drilled = [motion for motion, k in phases if k == 0]
+    assert [(s.change, s.by_weight) for s in strokes] == [
+        (0, True), (0, False), (1, True), (0, False),
+    ]  # fmt: skip
+    assert [s.travel for s in strokes] == pytest.approx([17.0, 0.0, 13.0 + PICK_UP, -10.0])
+    moved = PICK_UP / GENTLY - 1.0
+    assert [m.duration for m in drilled] == pytest.approx(
+        [5, 17 / 0.02, 5, 1, moved, 1, 5, 40, 5, 12, 1, moved, 1, 5, 13 / 0.02, 5]
+    )
+    assert [m.bit_to for m in drilled] == [1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0]
+    assert [m.driller.taring for m in drilled].index(True) == 9
+    assert sum(m.driller.taring for m in drilled) == 1
+    assert fed(phases[: len(drilled)]) == pytest.approx(0.0)  # up and down off bottom; the rest follows the weight
+    np.testing.assert_allclose([m.spin_to for m in drilled[:6]], 2 * np.pi)
+    assert drilled[7].spin_from == drilled[7].spin_to == 0.0

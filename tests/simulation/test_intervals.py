@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from fctd import InputError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import Phase
-from fctd.simulation.intervals import Window, whole_schedule, within
+from fctd.simulation.intervals import Window, prolonged, whole_schedule, within
 
 PHASES = [Phase(Motion(0.0, 2.5, 0.0, 1.0, 0.0, 0.0), 0), Phase(Motion(2.5, 3.5, 1.0, 1.0, 0.0, 0.0), 1)]
 
@@ -56,3 +56,14 @@ def test_the_parts_of_a_window_follow_each_other_to_its_end(start: float, durati
 def test_a_window_that_is_empty_or_outside_is_refused(window: Window) -> None:
     with pytest.raises(InputError, match="window"):
         within(PHASES, window, 1.0)
+
+
+def test_a_motion_that_lasts_longer_moves_the_rest() -> None:
+    intervals = whole_schedule(PHASES, 1.0)
+    first, second = (phase.motion for phase in PHASES)
+    moved, phases = prolonged(intervals, PHASES, first, 0.7)
+    assert [phase.motion for phase in phases] == [first._replace(duration=3.2), second._replace(start=3.2)]
+    for before, after in zip(intervals, moved, strict=True):
+        assert after.end == pytest.approx(before.end + (0.7 if before.motion is second else 0.0))
+        assert after.motion.duration == (3.2 if before.motion is first else 3.5)
+    assert prolonged(intervals, PHASES, second, -1.0)[1][0].motion is first

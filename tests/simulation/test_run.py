@@ -257,10 +257,6 @@ def test_a_string_settles_against_its_own_weight_and_length() -> None:
             r"bit\.rock is missing: expected a table \[bit\.rock\], since operations\[1\] drills",
         ),
         (
-            {"components": [pipe(100, 4), pipe(900, 9, bend=0.02)], "operations": [rotation(1000, 1)]},
-            r"string\.components\[1\]\.bend = \"0\.02 rad\": expected no bend",
-        ),
-        (
             {"contact": {"helical_force": "analytic"}, "operations": [rotation(1000, 1)]},
             r'contact\.helical_force = "analytic": expected "none" in a simulation \(fctd equilibrium',
         ),

@@ -85,7 +85,65 @@ def test_more_weight_than_the_string_has_is_refused() -> None:
         prepare(drilling(bit={"weight_on_bit": 6e5, "rock": {"law": "given"}}))
 
 
-def test_an_autodriller_makes_no_connection() -> None:
+def over_a_connection(**rig: Any) -> Case:
+    """Soft rock, drilled at 5 cm/s from 3 m above a connection to 2 m below it, at 45 deg."""
+    connection = 31 * 28.5
+    move = ROTATING | {"from_md": connection - 3.0, "to_md": connection + 2.0}
+    return make_case(
+        [[0, 0, 0], [300, 0, 0], [600, 45, 0], [1000, 45, 0]],
+        [pipe(100, None, 0.165, segment_length=25.0), pipe(None, None, segment_length=28.5)],
+        [move],
+        wellbore={"geometry": "arcs"},
+        mud={"density": 1200.0, "axial_damping": 2.0, "rotational_damping": 0.3},
+        bit={"weight_on_bit": 4e4, "rock": {"specific_energy": "25 MPa", "wear_flat": 0}},
+        rig={"autodriller": True, "feed": "stands", "connection_time": 5.0, **rig},
+    )
+
+
+def test_an_autodriller_drills_over_a_connection() -> None:
+    """It picks up, hangs the string in the slips, adds a stand, takes the tare and resumes; to the end of the hole,
+    however long that takes."""
+    simulation = Simulation(over_a_connection())
+    planned = simulation.end
+    records = list(simulation)
+    result = simulation.result()
+    assert result.status == "completed"
+    assert result.run["energy_error"] < 1e-3
+    last = records[-1]
+    assert abs(simulation.end - planned) > 0.5  # the block moves as the bit drills, not as planned
+    assert last["bit_depth_m"] == pytest.approx(31 * 28.5 + 2.0, abs=0.1)
+    (slips,) = [k for k in range(1, len(records)) if records[k]["in_slips"] > records[k - 1]["in_slips"]]
+    (resumed,) = [k for k in range(1, len(records)) if records[k]["in_slips"] < records[k - 1]["in_slips"]]
+    before = records[slips]
+    assert before["weight_on_bit_N"] == 0.0
+    assert before["block_position_m"] == pytest.approx(0.5, abs=0.2)
+    # What the driller sees at surface; drag along the string keeps some of it from the bit.
+    tare = simulation.run.top[topdrive.TARE]
+    assert tare - last["hookload_N"] == pytest.approx(4e4, rel=0.02)
+    drilled = records[slips - 20]["weight_on_bit_N"]
+    assert 0.88 * 4e4 < drilled < 4e4
+    assert last["weight_on_bit_N"] == pytest.approx(drilled, rel=0.03)
+    # The tare is the mean hook load while the string turned off bottom with the new stand.
+    taring = [motion for motion, _ in simulation.phases if motion.driller.taring]
+    assert len(taring) == 1
+    window = taring[0].start, taring[0].start + taring[0].duration
+    loads = [record["hookload_N"] for record in records[resumed:] if window[0] < record["time_s"] <= window[1]]
+    assert tare == pytest.approx(np.mean(loads), rel=2e-3)
+    assert last["hole_made_m"] > before["hole_made_m"]
+
+
+def test_a_bit_that_stands_still_ends_the_run_of_an_autodriller() -> None:
+    case = over_a_connection(drive="speed_control", control={"torque_limit": 10.0})
+    simulation = Simulation(case)
+    for _ in simulation:
+        pass
+    result = simulation.result()
+    assert result.status == "unstable"
+    assert "drills 10 times more slowly than its law says: raise bit.weight_on_bit" in result.message
+
+
+def test_an_autodriller_needs_more_weight_than_the_wear_flats_carry() -> None:
+    """σ a l = 100 MPa · 107.95 mm · 5 mm."""
     case = drilling(ROTATING | {"to_md": 940.0}, autodriller=True, feed="stands")
-    with pytest.raises(InputError, match=r"rig\.autodriller = true: expected false, or operations without"):
+    with pytest.raises(InputError, match=r'bit\.weight_on_bit = "40000 N": expected above what .* 5\.398e\+04 N'):
         prepare(case)
