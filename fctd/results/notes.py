@@ -64,6 +64,10 @@ MEANINGS: Final = {
         "the string was pressed deeper into the wall than the time step is stable for",
         "raise contact.largest_penetration",
     ),
+    "drilling": Meaning(
+        "the bit drilled nothing: its wear flats carry its weight",
+        "put more weight on it, or lower bit.rock.wear_flat or bit.rock.contact_strength",
+    ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "torque": Meaning(
         "the surface torque at the end of the run is not steady",
@@ -240,6 +244,20 @@ def too_deep(penetration: float, largest: float) -> Note | None:
         f"a contact point was {1e3 * penetration:.3g} mm deep in the wall, the step is stable to {1e3 * largest:.3g} mm"
     )
     return _note("wall", text, penetration / largest)
+
+
+def drilled_nothing(made: float, weight: float, worn: float) -> Note | None:
+    """A note where a run that drills has made no hole [m] with a bit of which the wear flats carry all its weight.
+
+    weight : the largest on the bit; worn : what its wear flats can carry [N].
+    """
+    if made > 0 or weight > worn:
+        return None
+    text = (
+        f"the bit drilled nothing: it carried at most {weight / 1e3:.3g} kN, and its wear flats rub without cutting up "
+        f"to {worn / 1e3:.3g} kN"
+    )
+    return _note("drilling", text, worn / max(weight, 1.0))
 
 
 def ledger_off(error: float) -> Note | None:

@@ -89,3 +89,13 @@ def test_an_autodriller_makes_no_connection() -> None:
     case = drilling(ROTATING | {"to_md": 940.0}, autodriller=True, feed="stands")
     with pytest.raises(InputError, match=r"rig\.autodriller = true: expected false, or operations without"):
         prepare(case)
+
+
+def test_a_run_whose_bit_cuts_nothing_says_so() -> None:
+    """Wear flats of 5 cm carry half a meganewton."""
+    _, result = run_of(drilling(bit={"rock": {"wear_flat": 0.05}}, autodriller=True))
+    assert result.history["hole_made_m"].iloc[-1] == 0
+    assert [note.code for note in result.notes if note.code == "drilling"] == ["drilling"]
+    _, drilled = run_of(drilling())
+    assert drilled.history["hole_made_m"].iloc[-1] > 0
+    assert "drilling" not in {note.code for note in drilled.notes}
