@@ -66,7 +66,7 @@ MEANINGS: Final = {
     ),
     "drilling": Meaning(
         "the bit drilled nothing: its wear flats carry its weight",
-        "put more weight on it, or lower bit.rock.wear_flat or bit.rock.contact_strength",
+        "drill for longer, put more weight on it, or lower bit.rock.wear_flat or bit.rock.contact_strength",
     ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "torque": Meaning(
