@@ -53,6 +53,15 @@ def monitor() -> Figure:
     return plots.monitor_figure(fctd.monitor(case, ROOT / "examples" / "my_readings.csv"), case)
 
 
+def run() -> Figure:
+    """The example well drilled in time by an autodriller, with a bit that sticks and slips."""
+    drilling = {"kind": "drill_rotating", "from_md": 2999.0, "to_md": 2999.6, "speed": 0.01, "rpm": 60}
+    case = fctd.load_case(
+        WELL, {"operations": [drilling], "bit.rock.weakening": 0.5, "rig.autodriller": True, "record.interval": 0.5}
+    )
+    return plots.run_figure(fctd.simulate(case))
+
+
 def public_well() -> Figure:
     """Well 15/9-F-4 over depth, from the tables of the study `volve_f4`."""
     return volve_f4.chart(_tables("curves", "points"))
@@ -68,7 +77,8 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
 
 
 PICTURES: dict[str, Callable[[], Figure]] = {
-    "overview": overview, "chart": chart, "monitor": monitor, "public_well": public_well, "judged_rows": judged_rows,
+    "overview": overview, "chart": chart, "monitor": monitor, "run": run, "public_well": public_well,
+    "judged_rows": judged_rows,
 }  # fmt: skip
 # Those drawn from the stored study of a public well, whose data are not part of the project.
 STUDY = ROOT / "validation" / "results" / "volve_f4"

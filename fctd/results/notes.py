@@ -74,6 +74,10 @@ MEANINGS: Final = {
         "a joint bends or twists beyond the range in which a straight segment stands for its pipe",
         "use shorter segments",
     ),
+    "drilling": Meaning(
+        "the bit drilled nothing: its wear flats carry its weight",
+        "drill for longer, put more weight on it, or lower bit.rock.wear_flat or bit.rock.contact_strength",
+    ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "torque": Meaning(
         "the surface torque at the end of the run is not steady",
@@ -273,6 +277,20 @@ def beyond_joints(bend: float, twist: float, joint: tuple[int, int]) -> Note | N
         "within the range of the joint"
     )
     return _note("joint", text, max(excess))
+
+
+def drilled_nothing(made: float, weight: float, worn: float) -> Note | None:
+    """A note where a run that drills has made no hole [m] with a bit of which the wear flats carry all its weight.
+
+    weight : the largest on the bit; worn : what its wear flats can carry [N].
+    """
+    if made > 0 or weight > worn:
+        return None
+    text = (
+        f"the bit drilled nothing: it carried at most {weight / 1e3:.3g} kN, and its wear flats rub without cutting up "
+        f"to {worn / 1e3:.3g} kN"
+    )
+    return _note("drilling", text, worn / max(weight, 1.0))
 
 
 def ledger_off(error: float) -> Note | None:

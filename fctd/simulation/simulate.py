@@ -12,6 +12,7 @@ from fctd.case.load import Case, naming_file
 from fctd.mechanics import topdrive
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
+from fctd.mechanics.rock import DRAG_BIT
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
 from fctd.model.operations import rad_per_s
@@ -269,8 +270,9 @@ class Simulation(Iterator[Record]):
         bound = RINGING * float(result.history["hookload_N"].abs().mean())
         ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
         swings = self._swings(result.history), self._pull_swings(result.history)
-        whirl = self._whirls(result.history)
-        found = tuple(note for note in (ledger, ringing, *swings, whirl, *self._limits(), *result.notes) if note)
+        drilled, whirl = self._drilled(result.history), self._whirls(result.history)
+        ended = (ledger, ringing, *swings, whirl, drilled, *self._limits())
+        found = tuple(note for note in (*ended, *result.notes) if note)
         if ledger is not None and not error <= notes.INACCURATE:
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
@@ -294,6 +296,15 @@ class Simulation(Iterator[Record]):
             periods = axial_period_of(string), period_of(string)
             spans.append(Span(operation.kind, start, steady_from, steady_to, end, *periods))
         return spans
+
+    def _drilled(self, history: "pd.DataFrame") -> notes.Note | None:
+        """The note on a bit that has made no hole."""
+        rock = self.run.laws.rock
+        if rock.law != DRAG_BIT or "hole_made_m" not in history:
+            return None
+        return notes.drilled_nothing(
+            float(history["hole_made_m"].iloc[-1]), float(history["weight_on_bit_N"].max()), rock.worn
+        )
 
     def _limits(self) -> tuple[notes.Note | None, ...]:
         """The notes on penetrations beyond that of the step, and on segments too long for a winding hole."""

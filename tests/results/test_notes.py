@@ -427,3 +427,12 @@ def test_segments_too_long_for_a_winding_hole_get_a_note() -> None:
     note = notes.winds_too_much("segments are too long", 2.5, 1.25)
     assert note is not None
     assert (note.code, note.excess) == ("tortuosity", 2.0)
+
+
+def test_a_bit_that_drills_nothing_is_told_what_its_wear_flats_carry() -> None:
+    note = notes.drilled_nothing(0.0, 40e3, 54e3)
+    assert note is not None
+    assert "at most 40 kN" in note.text
+    assert "up to 54 kN" in note.text
+    assert notes.drilled_nothing(1e-6, 40e3, 54e3) is None
+    assert notes.drilled_nothing(0.0, 60e3, 54e3) is None  # it had no time to

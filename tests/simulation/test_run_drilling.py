@@ -147,3 +147,13 @@ def test_an_autodriller_needs_more_weight_than_the_wear_flats_carry() -> None:
     case = drilling(ROTATING | {"to_md": 940.0}, autodriller=True, feed="stands")
     with pytest.raises(InputError, match=r'bit\.weight_on_bit = "40000 N": expected above what .* 5\.398e\+04 N'):
         prepare(case)
+
+
+def test_a_run_whose_bit_cuts_nothing_says_so() -> None:
+    """Wear flats of 5 cm carry half a meganewton."""
+    _, result = run_of(drilling(bit={"rock": {"wear_flat": 0.05}}, autodriller=True))
+    assert result.history["hole_made_m"].iloc[-1] == 0
+    assert [note.code for note in result.notes if note.code == "drilling"] == ["drilling"]
+    _, drilled = run_of(drilling())
+    assert drilled.history["hole_made_m"].iloc[-1] > 0
+    assert "drilling" not in {note.code for note in drilled.notes}
