@@ -18,9 +18,19 @@ import numpy as np
 
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry
-from fctd.mechanics.query import Walls
+from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.results.buckling import Buckling
-from fctd.results.notes import Note, beyond_joints, could_have_notes, ledger_off, string_notes, under_resolved
+from fctd.results.notes import (
+    LEAST_PENETRATION,
+    MOST_PENETRATION,
+    SHARE_OF_CLEARANCE,
+    Note,
+    beyond_joints,
+    could_have_notes,
+    ledger_off,
+    string_notes,
+    under_resolved,
+)
 from fctd.results.profile import Loads
 from fctd.simulation.run import Run
 
@@ -32,12 +42,14 @@ def may_have_notes(offset, hole, radius, tension, torque, bending, bit_tension, 
     offset (n, 3), hole (n,) : of the walls; radius (n,) : of the contact points [m]; loads (n,) as in ``Loads``;
     sections : a row for each component, the uppermost in row ``top``.
     """
-    deepest, pull, twist, bend = -math.inf, 0.0, 0.0, 0.0
+    pull, twist, bend = 0.0, 0.0, 0.0
     for j in range(len(hole)):
         distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
-        deepest = max(deepest, distance - hole[j] + radius[j])
+        most = min(max(SHARE_OF_CLEARANCE * (hole[j] - radius[j]), LEAST_PENETRATION), MOST_PENETRATION)
+        if distance - hole[j] + radius[j] > 0.999 * most:  # string_notes, which rounds otherwise, decides
+            return True
         pull, twist, bend = max(pull, abs(tension[j])), max(twist, abs(torque[j])), max(bend, bending[j])
-    return could_have_notes(deepest, pull, bit_tension, twist, bit_torque, bend, sections, top, hookload)
+    return could_have_notes(0.0, pull, bit_tension, twist, bit_torque, bend, sections, top, hookload)
 
 
 P = ParamSpec("P")
@@ -55,8 +67,8 @@ class Guards:
         self.notes: dict[str, Note] = {}
         self.seconds = self.residual = self.work = 0.0
         # Reading the compiled code from disk, or compiling it, is no part of the checks' time.
-        none, table = np.zeros(0), run.string.table
-        may_have_notes(np.zeros((0, 3)), none, none, none, none, none, 0.0, 0.0, table, 0, 0.0)
+        walls, none = walls_in(np.zeros((2, WALL_COLUMNS))), np.zeros(2)
+        may_have_notes(walls.offset, walls.radius, none, none, none, none, 0.0, 0.0, run.string.table, 0, 0.0)
 
     def timed(self, check: Callable[P, R], *given: P.args, **more: P.kwargs) -> R:
         """Call one of the checks below, and add its time."""

@@ -70,14 +70,14 @@ class Ground:
 
 
 def full_disk(ground: Ground) -> Tried:
-    """No file may be larger than 30 kB, which the second chunk or a checkpoint is."""
+    """No file may be larger than 30 kB, which a chunk, a checkpoint or a table of the result is."""
 
     def limited() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (30_000, 30_000))
 
     code = ground.begin(before=limited)
     kept = any(run_path(ground.out).glob("*-history.parquet"))
-    tried = ground.judge("full disk", code, 2, "File too large", "make room there", result=False)
+    tried = ground.judge("full disk", code, 2, "File too large", "--resume" if kept else "make room", result=False)
     if not kept:
         return tried
     again = ground.run("simulate", "--resume", ground.out)

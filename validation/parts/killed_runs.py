@@ -188,7 +188,7 @@ def forked(
 
 
 def kill_again_and_again(
-    command: Command, kills: int, rng: np.random.Generator, folder: Path, longest: float = 0.4
+    command: Command, kills: int, rng: np.random.Generator, folder: Path, longest: float = 0.7
 ) -> Killed:
     """Run a command undisturbed; then run it, and kill and resume it until it was killed so often.
 

@@ -1,4 +1,7 @@
-"""Is anything lost when a run is killed, or when disk, cache or environment fail?  What do guards and checkpoints cost?"""
+"""Is anything lost when a run is killed, or when disk, cache or environment fail?  What do guards and checkpoints cost?
+
+The processes that are killed begin with compiled code, so that most kills come while they compute.
+"""
 
 import tempfile
 from pathlib import Path
@@ -65,9 +68,9 @@ def run(context: Context) -> Outcome:
         notes=[
             *(f"{of.command}: {'; '.join(of.wrong)}" for of in killed if of.wrong),
             *(f"{of.fault}: {of.wrong}" for of in tried if of.wrong),
-            "A kill comes after a random share of the time of the undisturbed run, up to 40 % of it; the process that "
-            "goes on is killed again. Earlier results stand in the place of the new one meanwhile, and are opened after "
-            "each kill.",
+            "A kill comes after a random share of the time of the undisturbed run, up to 70 % of it; the process that "
+            "goes on is killed again. An earlier result stands in the place of the new one meanwhile, and is opened "
+            "after each kill.",
             "Shares are those of one process by its own clock, with a checkpoint as often as 1 % of the time allows.",
         ],
         display={"kills": "Kills of commands", "faults": "Other faults", "shares": "Shares of a run's time"},
