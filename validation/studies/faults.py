@@ -72,9 +72,9 @@ def run(context: Context) -> Outcome:
             "A kill comes after a random share of the time of the undisturbed run, up to 70 % of it; the process that "
             "goes on is killed again. An earlier result stands in the place of the new one meanwhile, and is opened "
             "after each kill.",
-            "Shares are those of one process: of the guards by its own clock, which stands while other processes run, of "
-            "the checkpoints, which wait for the disk, by the clock on the wall. A checkpoint comes as often as 1 % of "
-            "the time allows.",
+            "Shares are those of one process: of the guards by its own clock, which stands while other processes run, "
+            "of the checkpoints, which wait for the disk, by the clock on the wall. A checkpoint comes as often as 1 % "
+            "of the time allows.",
         ],
         display={"kills": "Kills of commands", "faults": "Other faults", "shares": "Shares of a run's time"},
     )  # fmt: skip
