@@ -11,7 +11,7 @@ from fctd.case.text import printable
 from fctd.cli.keeping import has_kept, way_on
 from fctd.cli.manners import Silent
 from fctd.cli.options import screen
-from fctd.results.run_folder import about_of, clock, progress_of, writer_of
+from fctd.results.run_folder import about_of, clock, progress_of, run_path, writer_of
 from fctd.results.tables import open_result
 
 
@@ -33,8 +33,10 @@ def status_command(
 def _of_the_run(target: Path) -> list[str]:
     """What there is to say of a run that has not ended."""
     about, writer, progress = about_of(target), writer_of(target), progress_of(target)
+    if about is None and writer is not None:
+        return [f"begun by process {writer.process} at {clock(writer.since)}"]
     if about is None:
-        return [] if writer is None else [f"begun by process {writer.process} at {clock(writer.since)}"]
+        return ["stopped before anything was kept"] if run_path(target).is_dir() else []
     lines = []
     if writer is not None:
         lines.append(f"running since {clock(writer.since)}, process {writer.process}")

@@ -91,6 +91,18 @@ def add_chunk(recorder: Recorder, chunk: Mapping[str, Any]) -> None:
             recorder.series.put_back(int(numbers[first]), part)
 
 
+def warm_up() -> None:
+    """Load what writes chunks.
+
+    The first one would otherwise look a hundred times as expensive as the next, which would be put off for minutes.
+    """
+    import pandas as pd
+    import pyarrow as pa
+
+    frame = pd.DataFrame({"text": ["x"], "number": [0.0]})
+    read_chunk({"table": _packed(pa.Table.from_pandas(frame, preserve_index=False))})
+
+
 def _packed(table: Any) -> bytes:
     import pyarrow.parquet as pq
 

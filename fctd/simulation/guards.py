@@ -11,16 +11,28 @@
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from time import perf_counter
+from time import process_time
 from typing import ParamSpec, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry
-from fctd.mechanics.query import Walls
+from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.results.buckling import Buckling
-from fctd.results.notes import Note, beyond_joints, could_have_notes, ledger_off, string_notes, under_resolved
+from fctd.results.ledger import LOSSES
+from fctd.results.notes import (
+    LEAST_PENETRATION,
+    MOST_PENETRATION,
+    SHARE_OF_CLEARANCE,
+    Note,
+    beyond_joints,
+    could_have_notes,
+    ledger_off,
+    string_notes,
+    under_resolved,
+)
 from fctd.results.profile import Loads
 from fctd.simulation.run import Run
 
@@ -32,14 +44,17 @@ def may_have_notes(offset, hole, radius, tension, torque, bending, bit_tension, 
     offset (n, 3), hole (n,) : of the walls; radius (n,) : of the contact points [m]; loads (n,) as in ``Loads``;
     sections : a row for each component, the uppermost in row ``top``.
     """
-    deepest, pull, twist, bend = -math.inf, 0.0, 0.0, 0.0
+    pull, twist, bend = 0.0, 0.0, 0.0
     for j in range(len(hole)):
         distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
-        deepest = max(deepest, distance - hole[j] + radius[j])
+        most = min(max(SHARE_OF_CLEARANCE * (hole[j] - radius[j]), LEAST_PENETRATION), MOST_PENETRATION)
+        if distance - hole[j] + radius[j] > 0.999 * most:  # string_notes, which rounds otherwise, decides
+            return True
         pull, twist, bend = max(pull, abs(tension[j])), max(twist, abs(torque[j])), max(bend, bending[j])
-    return could_have_notes(deepest, pull, bit_tension, twist, bit_torque, bend, sections, top, hookload)
+    return could_have_notes(0.0, pull, bit_tension, twist, bit_torque, bend, sections, top, hookload)
 
 
+LOST = (*LOSSES, "lost_bit_J")
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -54,17 +69,18 @@ class Guards:
         self.run = run
         self.notes: dict[str, Note] = {}
         self.seconds = self.residual = self.work = 0.0
+        self._sections, self._of_sections = run.string.sections, run.string.table
         # Reading the compiled code from disk, or compiling it, is no part of the checks' time.
-        none, table = np.zeros(0), run.string.table
-        may_have_notes(np.zeros((0, 3)), none, none, none, none, none, 0.0, 0.0, table, 0, 0.0)
+        walls, none = walls_in(np.zeros((2, WALL_COLUMNS))), np.zeros(2)
+        may_have_notes(walls.offset, walls.radius, none, none, none, none, 0.0, 0.0, self._table(), 0, 0.0)
 
     def timed(self, check: Callable[P, R], *given: P.args, **more: P.kwargs) -> R:
         """Call one of the checks below, and add its time."""
-        began = perf_counter()
+        began = process_time()
         try:
             return check(*given, **more)
         finally:
-            self.seconds += perf_counter() - began
+            self.seconds += process_time() - began
 
     def check_state(self, bit_depth: float) -> None:
         """Raise UnstableError where the model cannot describe the state; bit_depth [m]."""
@@ -80,15 +96,22 @@ class Guards:
         radius, in_hole, string = state.row(run.S, state.RADIUS, run.segments), run.case.contact.enabled, run.string
         if not in_hole or may_have_notes(
             walls.offset, walls.radius, radius, loads.tension, loads.torque, loads.bending, float(loads.bit_tension),
-            float(loads.bit_torque), string.table, int(string.component[0]), hookload,
+            float(loads.bit_torque), self._table(), int(string.component[0]), hookload,
         ):  # fmt: skip
             for note in string_notes(string, loads, hookload, walls, radius, in_hole=in_hole):
                 self._keep(note, bit_depth)
         self._keep(under_resolved(buckling), bit_depth)
-        lost = abs(sum(value for name, value in row.items() if name.startswith("lost_")))
+        lost = abs(sum([row[name] for name in LOST]))
         beyond = abs(row["top_drive_work_J"] - row["gravity_J"])
-        self.work = float(np.fmax(self.work, max(lost, beyond)))
-        self.residual = float(np.fmax(self.residual, abs(row["residual_J"])))
+        self.work = max(self.work, lost, beyond)
+        self.residual = max(self.residual, abs(row["residual_J"]))
+
+    def _table(self) -> NDArray[np.float64]:
+        """The table of the string's sections, which are the same ones at most depths."""
+        string = self.run.string
+        if string.sections is not self._sections:
+            self._sections, self._of_sections = string.sections, string.table
+        return self._of_sections
 
     def of_the_ledger(self) -> Note | None:
         """The note on a ledger that is off so far, as far as the run has turned over energy."""

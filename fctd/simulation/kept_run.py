@@ -11,7 +11,7 @@ import numpy as np
 
 from fctd.results.run_folder import REPORTED_EVERY, SHARE, Progress, RunFolder, cannot_keep, numbered
 from fctd.simulation.checkpoint import Checkpoint, capture, put_back
-from fctd.simulation.chunks import NAMES, Cursor, add_chunk, chunk_since, read_chunk, size_of
+from fctd.simulation.chunks import NAMES, Cursor, add_chunk, chunk_since, read_chunk, size_of, warm_up
 from fctd.simulation.disk import bytes_needed, check_disk
 from fctd.simulation.simulate import Simulation
 
@@ -39,9 +39,7 @@ class KeptRun:
 
     def begin(self, simulation: Simulation) -> None:
         """Put a run into the state of the last checkpoint; InputError where the disk is too small for a new one."""
-        import pandas as pd  # noqa: F401 (imported here, so that the first chunk does not have to)
-        import pyarrow.parquet as pq  # noqa: F401
-
+        warm_up()
         checkpoints = numbered(self.folder.path, CHECKPOINT)
         for number in reversed(checkpoints):
             try:

@@ -12,33 +12,27 @@ from fctd.case.load import Case, naming_file
 from fctd.mechanics import topdrive
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
-from fctd.mechanics.rock import DRAG_BIT
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
-from fctd.model.operations import rad_per_s
-from fctd.model.torsion import axial_period_of, period_of
-from fctd.model.tortuosity import resolving, shortfall
 from fctd.results import notes
 from fctd.results.status import RunStatus
-from fctd.results.swings import Span, operations_table, swing_of
+from fctd.results.swings import operations_table
 from fctd.results.tables import SimulationResult
+from fctd.simulation.ending import end_notes, spans_of
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.intervals import Interval, Window, prolonged, whole_schedule, within
 from fctd.simulation.limits import LimitReached
 from fctd.simulation.recorder import Recorder
-from fctd.simulation.ringing import expected_ringing
 from fctd.simulation.run import Run, prepare
 from fctd.simulation.settling import Settling, settle, start_from_rest
 
 if TYPE_CHECKING:
-    import pandas as pd
+    pass
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
 # A row of the history by its column names.
 Record = dict[str, Any]
-# Ringing at the seams between cylinders above this share of the hook load gets a note.
-RINGING = 0.005
 # A stroke of an autodriller takes at most so many times as long as planned.
 SLOWEST = 10
 
@@ -235,7 +229,9 @@ class Simulation(Iterator[Record]):
         message = f"at {self.run.time:.4g} s" if self.status == RunStatus.INTERRUPTED else self.message
         result = self._recorder.result(self.status, message, self.wall_s, self.settling_residual)
         result.run["checkpoints_s"] = self.kept_s
-        table = operations_table(result.history, self._recorder.start_time, self._recorder.start_depth, self._spans())
+        table = operations_table(
+            result.history, self._recorder.start_time, self._recorder.start_depth, spans_of(self.run, self.phases)
+        )
         result = replace(result, operations=table)
         if self.status == RunStatus.COMPLETED:
             return self._judged(result) if self.window is None else result
@@ -265,104 +261,11 @@ class Simulation(Iterator[Record]):
 
     def _judged(self, result: SimulationResult) -> SimulationResult:
         """The result of a completed run, with the notes of its end, and its final status."""
-        error = result.run["energy_error"]
-        swing, frequency, depth = expected_ringing(self.run, self.phases).largest()
-        bound = RINGING * float(result.history["hookload_N"].abs().mean())
-        ledger, ringing = notes.ledger_off(error), notes.rings(swing, frequency, depth, bound)
-        swings = self._swings(result.history), self._pull_swings(result.history)
-        drilled, whirl = self._drilled(result.history), self._whirls(result.history)
-        ended = (ledger, ringing, *swings, whirl, drilled, *self._limits())
-        found = tuple(note for note in (*ended, *result.notes) if note)
-        if ledger is not None and not error <= notes.INACCURATE:
+        ledger, ended = end_notes(self.run, self.phases, result, self.recorder.start_time)
+        found = (*ended, *result.notes)
+        if ledger is not None and not result.run["energy_error"] <= notes.INACCURATE:
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
-
-    def _spans(self) -> list[Span]:
-        """When the operations begin, are steady and end, with the periods of the string at their end."""
-        spans = []
-        for k, operation in enumerate(self.case.operations):
-            motions = [motion for motion, index in self.phases if index == k]
-            start, end = motions[0].start, motions[-1].start + motions[-1].duration
-            # Of the strokes of a trip the last that is no short one: what is left at its end has few periods.
-            steady = [m for m in motions if m.feed_from == m.feed_to and m.spin_from == m.spin_to]
-            moving = [m for m in steady if m.feed_to or m.spin_to] or steady
-            whole = [m for m in moving if m.duration >= 0.5 * max(n.duration for n in moving)]
-            steady_from, steady_to = start, end
-            if whole:
-                steady_from, steady_to = whole[-1].start, whole[-1].start + whole[-1].duration
-            string = self.run.string
-            if string.long_segment:
-                string = string.lengthened(operation.end_md - string.bit_depth)
-            periods = axial_period_of(string), period_of(string)
-            spans.append(Span(operation.kind, start, steady_from, steady_to, end, *periods))
-        return spans
-
-    def _drilled(self, history: "pd.DataFrame") -> notes.Note | None:
-        """The note on a bit that has made no hole."""
-        rock = self.run.laws.rock
-        if rock.law != DRAG_BIT or "hole_made_m" not in history:
-            return None
-        return notes.drilled_nothing(
-            float(history["hole_made_m"].iloc[-1]), float(history["weight_on_bit_N"].max()), rock.worn
-        )
-
-    def _limits(self) -> tuple[notes.Note | None, ...]:
-        """The notes on penetrations beyond that of the step, and on segments too long for a winding hole."""
-        case, longest = self.case, self.run.string.longest
-        wanted = case.wellbore.tortuosity
-        deepest = float(self.run.top[topdrive.TOP_PENETRATION])
-        return (
-            notes.too_deep(deepest, case.contact.largest_penetration),
-            notes.winds_too_much(shortfall(wanted, longest), longest, resolving(wanted)),
-        )
-
-    def _swings(self, history: "pd.DataFrame") -> notes.Note | None:
-        """The note on the surface torque at the end of a run whose string turns there."""
-        if not self.case.operations[-1].rpm:
-            return None
-        period, time_s = self._spans()[-1].torsional_period, np.append(0.0, history["time_s"])
-        torque = history["surface_torque_N_m"].to_numpy(float)
-        impulse = np.append(0.0, np.cumsum(torque * np.diff(time_s)))
-        before, middle, end = np.interp(time_s[-1] - period * np.array([2.0, 1.0, 0.0]), time_s, impulse)
-        means = (end - middle) / period, (middle - before) / period
-        return notes.torque_swings(float(torque[-1]), *means, period, float(history["hookload_N"].iloc[-1]))
-
-    def _pull_swings(self, history: "pd.DataFrame") -> notes.Note | None:
-        """The note on the hook load at the end of a run that is recorded there for two axial periods or more."""
-        span = self._spans()[-1]
-        time_s, period = (
-            np.append(self._recorder.start_time if self._recorder else 0.0, history["time_s"]),
-            span.axial_period,
-        )
-        end = float(time_s[-1])
-        if end - 2 * period < max(span.start, time_s[0]):
-            return None
-        last = swing_of(
-            time_s, history, "hookload", "N", span._replace(steady_from=end - period, steady_to=end), period
-        )
-        first = span._replace(steady_from=end - 2 * period, steady_to=end - period)
-        before = swing_of(time_s, history, "hookload", "N", first, period)
-        string = self.run.laid_out
-        weight = float((string.of("weight") * string.length).sum())
-        return notes.hookload_swings(max(last.swing, before.swing), last.mean, before.mean, period, weight)
-
-    def _whirls(self, history: "pd.DataFrame") -> notes.Note | None:
-        """The note on a string that whirls: the operation in which it moved sideways most, by its last records."""
-        found = []
-        radius = float(self.run.string.of("contact_radius").min())
-        for operation, span in zip(self.case.operations, self._spans(), strict=True):
-            if not operation.rpm:
-                continue
-            last = history[
-                (history["time_s"] <= span.end + 1e-6) & (history["time_s"] > span.end - span.torsional_period)
-            ]
-            surface = radius * rad_per_s(operation.rpm)
-            # A string that moves along the hole too spends part of its friction there.
-            share = surface / np.hypot(surface, operation.speed)
-            sideways = float(np.sqrt((last["lateral_speed_m_per_s"] ** 2).mean()))
-            torque, full = float(last["sum_r_ft_N_m"].mean()), float(last["sum_r_mu_fn_N_m"].mean())
-            found.append(notes.whirls(sideways, surface, torque, share * full))
-        return max((note for note in found if note), key=lambda note: note.excess, default=None)
 
 
 def simulate(

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fctd.mechanics import state
-from fctd.mechanics.query import Walls
+from fctd.mechanics.query import walls_in
 from fctd.results import ledger
 from fctd.results.notes import MOST_BEND, MOST_TWIST, beyond_joints, string_notes
 from fctd.results.profile import Loads
@@ -69,10 +69,8 @@ def test_the_look_misses_no_note(depth: float, pull: float, twist: float, bend: 
     simulation = Simulation(make_case(BUILD, [pipe(None, 3)], [rotation(100, 2, ramp=1)]))
     string = simulation.run.string
     radius = np.full(3, 0.0635)
-    walls = Walls(
-        np.array([[0.0, 0.108 - 0.0635 + depth, 0.0]] * 3), np.full(3, 0.108), np.full(3, 1e7), np.full(3, 0.2),
-        np.array([30.0, 60.0, 100.0]),
-    )  # fmt: skip
+    place = 0.108 - 0.0635 + depth
+    walls = walls_in(np.array([[0.0, place, 0.0, 0.108, 1e7, 0.2, md] for md in (30.0, 60.0, 100.0)]))
     loads = Loads(
         tension=np.array([pull, 0.0, 0.0]), torque=np.array([0.0, twist, 0.0]), bending=np.array([0.0, 0.0, bend]),
         normal=np.zeros(3),

@@ -12,9 +12,7 @@ from fctd.mechanics import state
 from fctd.model.operations import schedule
 from fctd.model.torsion import period_of
 from fctd.results.columns import BUCKLED
-from fctd.results.notes import Note
 from fctd.simulation.run import prepare
-from fctd.simulation.simulate import Simulation
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [400, 0, 0], [850, 90, 0], [1200, 90, 0]]
@@ -291,26 +289,6 @@ def test_a_string_is_laid_with_its_bodies_and_its_clamp_along_the_hole() -> None
     axes = np.stack([run.S[row:][rows] for row in (state.AX, state.AY, state.AZ)])
     np.testing.assert_allclose([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], axes, atol=1e-12)
     np.testing.assert_allclose(axes[:, 0], run.hole.at(np.array([300.0]))[1][0], atol=1e-12)
-
-
-def test_the_torque_at_the_end_is_judged_by_means_over_torsional_periods() -> None:
-    """A swing of 10 % about 12 kN·m: a note from short records, none from records of a whole period."""
-    stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [1500, 90, 0]]
-    turning = {"kind": "rotate_off_bottom", "at_md": 1500, "duration": 60, "rpm": 60}
-    simulation = Simulation(make_case(stations, [pipe(None, 60)], operations=[turning]))
-    period = period_of(simulation.run.string)
-
-    def note(interval: float) -> Note | None:
-        ends = interval * np.arange(1, int(5.25 * period / interval) + 1)
-        swings = np.diff(np.append(1.0, np.cos(2 * np.pi * ends / period))) * -period / (2 * np.pi * interval)
-        table = {"time_s": ends, "surface_torque_N_m": 12e3 * (1 + 0.1 * swings), "hookload_N": 5e5}
-        return simulation._swings(pd.DataFrame(table))
-
-    assert note(period) is None
-    found = note(period / 10)
-    assert found is not None
-    assert found.code == "torque"
-    assert f"torsional period of {period:.3g} s 12 kN·m, and over the one before 12 kN·m" in found.text
 
 
 @pytest.mark.parametrize(("ramp", "swings"), [(0.2, True), (10.0, False)])

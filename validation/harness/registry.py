@@ -29,6 +29,7 @@ STUDIES: dict[str, str] = {
     "whirl": "validation.studies.whirl",
     "drilling": "validation.studies.drilling",
     "spin_up": "validation.studies.spin_up",
+    "faults": "validation.studies.faults",
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
     "johancsik": "validation.studies.johancsik",

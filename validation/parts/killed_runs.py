@@ -20,6 +20,8 @@ from fctd.cli.keeping import has_kept
 from fctd.cli.main import app, run
 from fctd.results.run_folder import numbered, run_path
 from fctd.results.tables import TABLES, open_result
+from fctd.simulation import kept_run
+from fctd.steady import kept_rows
 from references.__main__ import app as references
 
 WELL = """
@@ -50,12 +52,12 @@ density = "1200 kg/m^3"
 TRIP = """
 [rig]
 feed = "stands"
-connection_time = "20 s"
+connection_time = "{connection}"
 [[operations]]
 kind = "trip_in"
 from_md = "600 m"
 to_md = "{to_md} m"
-speed = "0.5 m/s"
+speed = "{speed}"
 """
 # Stick and slip: torque on the rock falls with the rotation, and the drive is stiff.
 DRILL = """
@@ -109,10 +111,10 @@ class Command:
         return [self.arguments[0], "--resume", str(result), "--checkpoint-every", self.every, "--quiet"]
 
 
-def trip(geometry: str, to_md: float) -> Command:
+def trip(geometry: str, to_md: float, connection: str = "20 s", speed: str = "0.5 m/s") -> Command:
     """A trip with connections."""
-    case = WELL.format(geometry=geometry, more=TRIP.format(to_md=to_md))
-    return Command(f"trip, {geometry}", case, ("simulate",), "out")
+    more = TRIP.format(to_md=to_md, connection=connection, speed=speed)
+    return Command(f"trip, {geometry}", WELL.format(geometry=geometry, more=more), ("simulate",), "out")
 
 
 def drill(geometry: str, to_md: float) -> Command:
@@ -124,7 +126,7 @@ def drill(geometry: str, to_md: float) -> Command:
 def chart(step: float) -> Command:
     """A chart of all operations; step of its depths [m]."""
     asked = ("chart", "--operation", "all", "--depths", f"300:1800:{step:g}", "--friction", "0.1,0.2,0.3")
-    return Command("chart", WELL.format(geometry="arcs", more=TRIP.format(to_md=900)), asked, "chart.parquet")
+    return Command("chart", WELL.format(geometry="arcs", more=""), asked, "chart.parquet")
 
 
 def meshed(duration: float) -> Command:
@@ -148,17 +150,26 @@ class Killed:
     kept: list[int] = field(default_factory=list)
 
 
-def forked(program: Any, arguments: Sequence[str], *, kill_after: float | None = None, log: Path) -> int:
-    """Run a command in a fork; its exit code, or −9 where it was killed after so many seconds."""
+def forked(
+    program: Any, arguments: Sequence[str], *, kill_after: float | None = None, log: Path, before: Any = None
+) -> int:
+    """Run a command in a fork; its exit code, or −9 where it was killed after so many seconds.
+
+    log : gets what it prints; before : called in the fork first.
+    """
     sys.stdout.flush()
     child = os.fork()
     if child == 0:
         code = 70
+        # A checkpoint may take any share of the time, so that there are many.
+        kept_run.SHARE = kept_rows.SHARE = 1.0
         try:
             out = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
             os.dup2(out, 1)
             os.dup2(out, 2)
             sys.argv = ["fctd", *arguments]
+            if before is not None:
+                before()
             run(program)
             code = 0
         except SystemExit as ended:
@@ -177,7 +188,7 @@ def forked(program: Any, arguments: Sequence[str], *, kill_after: float | None =
 
 
 def kill_again_and_again(
-    command: Command, kills: int, rng: np.random.Generator, folder: Path, longest: float = 0.4
+    command: Command, kills: int, rng: np.random.Generator, folder: Path, longest: float = 0.7
 ) -> Killed:
     """Run a command undisturbed; then run it, and kill and resume it until it was killed so often.
 
@@ -195,7 +206,7 @@ def kill_again_and_again(
         found.wrong.append(f"the undisturbed command ended with {code}")
         return found
     found.took = time.monotonic() - began
-    wanted = _tables(whole)
+    wanted = tables_of(whole)
     while found.kills < kills:
         _earlier(whole, result)
         before = _identity(result)
@@ -220,7 +231,7 @@ def kill_again_and_again(
         if code:
             found.wrong.append(f"a process ended with {code}")
             break
-        found.wrong += [f"{name} differs" for name, bits in _tables(result).items() if bits != wanted[name]]
+        found.wrong += [f"{name} differs" for name, bits in tables_of(result).items() if bits != wanted[name]]
         if run_path(result).exists():
             found.wrong.append("the folder of the run is still there")
     if "Traceback" in log.read_text(errors="replace"):
@@ -244,7 +255,7 @@ def _chunks(result: Path) -> int:
     return max((len(numbered(run_path(result), kind)) for kind in ("history.parquet", "rows.json")), default=0)
 
 
-def _tables(result: Path) -> dict[str, bytes]:
+def tables_of(result: Path) -> dict[str, bytes]:
     """Every column of a result, bit by bit."""
     if not result.is_dir():
         return _bits("chart", pd.read_parquet(result))
@@ -254,8 +265,8 @@ def _tables(result: Path) -> dict[str, bytes]:
 
 def _bits(name: str, table: pd.DataFrame) -> dict[str, bytes]:
     return {
-        f"{name}.{column}": repr(list(values)).encode()
-        if values.dtype.kind not in "fiub"
-        else values.to_numpy().tobytes()
+        f"{name}.{column}": values.to_numpy().tobytes()
+        if values.dtype.kind in "fiub"
+        else repr(values.tolist()).encode()
         for column, values in table.items()
     }

@@ -1,0 +1,91 @@
+"""Every note of a run is raised once, and stands with its remedy on the screen, in the files and on the picture."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tomlkit
+
+from fctd import open_result
+from fctd.results.notes import MEANINGS
+from tests.cases import pipe, rotation, trip
+from tests.cli.test_main import run
+from validation.cases import load
+from validation.cases import trip as moved
+
+BUILD = [[0, 0, 0], [200, 0, 0], [260, 60, 0], [600, 60, 0]]
+SOFT = {"stiffness": 5e5}
+HARD = {"law": "power", "exponent": 1.5, "reference_penetration": 0.001, "largest_penetration": 0.0005}
+CASING = [pipe(None, None, outer=0.3397, inner=0.3153, segment_length=25.0)]
+
+
+def well(
+    stations: list[list[float]], components: list[dict[str, Any]], operation: dict[str, Any], friction: float = 0.2,
+    diameter: float = 0.2159, wellbore: dict[str, Any] | None = None, **sections: Any,
+) -> dict[str, Any]:  # fmt: skip
+    intervals = [{"to_md": stations[-1][0], "diameter": diameter, "friction": friction}]
+    return {
+        "name": "noted", "wellbore": {"stations": stations, "intervals": intervals, **(wellbore or {})},
+        "string": {"components": components}, "operations": [operation], **sections,
+    }  # fmt: skip
+
+
+WEAK = [pipe(None, None, segment_length=20.0, yield_strength=5e6)]
+RAISED: dict[str, tuple[set[str], dict[str, Any]]] = {
+    "a soft wall and weak steel": (
+        {"penetration", "yield", "tensile_capacity"}, well(BUILD, WEAK, trip(450, 452), wellbore=SOFT),
+    ),
+    "a sharp bend in long segments": (
+        {"joint"},
+        well([[0, 0, 0], [200, 0, 0], [240, 60, 0], [600, 60, 0]], [pipe(None, None, outer=0.06, inner=0.04,
+             segment_length=28.5)], rotation(450, 1, ramp=0.5), diameter=0.45),
+    ),
+    "a wall of another law": (
+        {"wall"}, well(BUILD, [pipe(None, None, segment_length=10.0)], rotation(450, 2, ramp=1), contact=HARD),
+    ),
+    "a winding hole": (
+        {"tortuosity"},
+        well(BUILD, [pipe(None, None, segment_length=28.5)], rotation(450, 2, ramp=1),
+             wellbore={"tortuosity": {"amplitude": 0.005, "wavelength": 30.0}}),
+    ),
+    "pushed along the level": (
+        {"buckling"},
+        well([[0, 0, 0], [100, 0, 0], [400, 85, 0], [1500, 85, 0]], [pipe(None, None, outer=0.06, inner=0.045,
+             segment_length=20.0)], trip(1300, 1301, speed=0.5, ramp=0.5), friction=0.6),
+    ),
+    "begun within three steps": ({"ledger"}, well([[0, 0, 0], [1000, 0, 0]], [pipe(1000, 20)], rotation(1000, 0.01))),
+    "wound up": ({"torque"}, well(BUILD, [pipe(None, None, segment_length=10.0)], rotation(450, 2, ramp=1))),
+    "big casing without damping": (
+        {"whirl"},
+        well([[0, 0, 0], [240, 0, 0], [684, 90, 0], [3000, 90, 0]], CASING, rotation(3000, 27, rpm=120, ramp=10),
+             friction=0.5, diameter=0.4445, wellbore={"geometry": "arcs"}, mud={"density": 1200.0, "viscosity": 0}),
+    ),
+    "over the seams": (
+        {"ringing"},
+        load("paper_well_b", operations=moved(2155.0, 2215.0, 0.5, 10.0)).model_dump(mode="json", exclude_none=True),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", RAISED)
+def test_a_note_is_shown_everywhere(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    codes, raw = RAISED[name]
+    monkeypatch.chdir(tmp_path)
+    Path("noted.toml").write_text(tomlkit.dumps({k: v for k, v in raw.items() if k != "file"}))
+    run(monkeypatch, "simulate", "noted.toml", "--out", "out", "--plot", "run.svg", "-q")
+    said, result = capsys.readouterr().err, open_result("out")
+    notes = {note.code: note for note in result.notes}
+    assert codes <= notes.keys()
+    picture = " ".join(Path("run.svg").read_text().split())
+    for code in codes:
+        note = notes[code]
+        assert note.remedy == MEANINGS[code].remedy
+        assert f"{note.text}: {note.remedy}" in said
+        assert note.text.replace("&", "&amp;") in picture
+
+
+def test_every_code_is_raised() -> None:
+    assert set().union(*(codes for codes, _ in RAISED.values())) == set(MEANINGS)

@@ -1,0 +1,41 @@
+"""What is said at the end of a run."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from fctd.model.torsion import period_of
+from fctd.results.notes import Note
+from fctd.simulation.ending import spans_of, torque_note
+from fctd.simulation.run import prepare
+from tests.cases import make_case, pipe
+
+
+def test_the_torque_at_the_end_is_judged_by_means_over_torsional_periods() -> None:
+    """A swing of 10 % about 12 kN·m: a note from short records, none from records of a whole period."""
+    stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [1500, 90, 0]]
+    turning = {"kind": "rotate_off_bottom", "at_md": 1500, "duration": 60, "rpm": 60}
+    run, phases = prepare(make_case(stations, [pipe(None, 60)], operations=[turning]))
+    period, span = period_of(run.string), spans_of(run, phases)[-1]
+
+    def note(interval: float) -> Note | None:
+        ends = interval * np.arange(1, int(5.25 * period / interval) + 1)
+        swings = np.diff(np.append(1.0, np.cos(2 * np.pi * ends / period))) * -period / (2 * np.pi * interval)
+        table = {"time_s": ends, "surface_torque_N_m": 12e3 * (1 + 0.1 * swings), "hookload_N": 5e5}
+        return torque_note(run, span, pd.DataFrame(table))
+
+    assert note(period) is None
+    found = note(period / 10)
+    assert found is not None
+    assert found.code == "torque"
+    assert f"torsional period of {period:.3g} s 12 kN·m, and over the one before 12 kN·m" in found.text
+
+
+def test_spans_are_those_of_the_schedule() -> None:
+    """A ramp of 1 s at either end of 60 s of rotation: steady in between."""
+    turning = {"kind": "rotate_off_bottom", "at_md": 500, "duration": 60, "rpm": 60, "ramp_time": 1}
+    run, phases = prepare(make_case([[0.0, 0, 0], [600, 0, 0]], [pipe(None, 10)], operations=[turning]))
+    (span,) = spans_of(run, phases)
+    assert (span.start, span.steady_from) == (0.0, 1.0)
+    assert span.steady_to <= span.end
+    assert span.end == pytest.approx(60.0, abs=2.0)
