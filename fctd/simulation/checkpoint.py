@@ -15,7 +15,7 @@ from fctd.mechanics.moving_string import Sums
 from fctd.results.notes import as_metadata, from_metadata
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.run import Run
-from fctd.simulation.simulate import Simulation
+from fctd.simulation.simulate import Shift, Simulation
 
 Array = NDArray[Any]
 
@@ -76,7 +76,9 @@ def _facts(simulation: Simulation, run: Run, recorder: Recorder) -> dict[str, An
             "direction": hoist.direction,
             "in_slips": bool(hoist.in_slips),
             "pace": float(hoist.pace),
+            "in_stroke": hoist.stroke is not None,
         },
+        "shifts": [list(shift) for shift in simulation.shifts],
         "start": [float(part) for part in recorder.start],
         "start_length": recorder.start_length,
         "start_depth": recorder.start_depth,
@@ -108,7 +110,11 @@ def put_back(simulation: Simulation, checkpoint: Checkpoint) -> Recorder:
         run.mud_at = depth, segments, rpm
     if run.hoist is not None:
         kept = facts["hoist"]
-        run.hoist.strokes = run.hoist.strokes[len(run.hoist.strokes) - kept["strokes"] :]
+        for shift in facts["shifts"]:
+            simulation.shift(Shift(*shift))
+        begun = len(run.hoist.strokes) - kept["strokes"]
+        run.hoist.stroke = run.hoist.strokes[begun - 1] if kept["in_stroke"] else None
+        run.hoist.strokes = run.hoist.strokes[begun:]
         run.hoist.stands, run.hoist.strain, run.hoist.direction = kept["stands"], kept["strain"], kept["direction"]
         run.hoist.in_slips, run.hoist.pace = kept["in_slips"], kept["pace"]
         run.string = run.hoist.string(run)

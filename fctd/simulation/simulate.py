@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -35,6 +35,17 @@ Progress = Callable[[float, float, float], None]
 Record = dict[str, Any]
 # A stroke of an autodriller takes at most so many times as long as planned.
 SLOWEST = 10
+
+
+class Shift(NamedTuple):
+    """A change of the schedule by an autodriller, after the interval of number ``done``.
+
+    longer : by which its stroke is longer than planned [s]; drills_on : for one more interval, or no further.
+    """
+
+    done: int
+    longer: float
+    drills_on: bool
 
 
 class Stepper(Protocol):
@@ -99,6 +110,7 @@ class Simulation(Iterator[Record]):
         self.done = 0  # number of completed intervals
         self.status, self.message = RunStatus.INTERRUPTED, "before the start"  # until the run ends in another way
         self._late = 0.0  # by which a stroke of an autodriller is longer than planned [s]
+        self.shifts: list[Shift] = []  # by an autodriller so far
         self.wall_s = 0.0  # wall-clock time since the start
         self.kept_s = 0.0  # of which a keeper has spent so much beside it
         self.settling_residual = float("nan")
@@ -196,17 +208,26 @@ class Simulation(Iterator[Record]):
         if hoist is None or drills_on is None or drills_on == bool(planned):
             return
         longer = self.case.record.interval if drills_on else now.end - planned[-1].end
-        self._late = self._late + longer if drills_on else 0.0
+        self.shift(Shift(self.done, longer, drills_on))
         if self._late > (SLOWEST - 1) * (now.motion.duration - self._late):
             raise UnstableError(
                 f"the bit drills {SLOWEST} times more slowly than its law says: raise bit.weight_on_bit or the rotation"
             )
-        del self.intervals[self.done + 1 : self.done + 1 + len(planned)]
+
+    def shift(self, shift: Shift) -> None:
+        """Move the rest of the schedule; another process does it again before it goes on (checkpoint.py)."""
+        done, longer, drills_on = shift
+        now, hoist = self.intervals[done], self.run.hoist
+        assert hoist is not None
+        self.shifts.append(shift)
+        self._late = self._late + longer if drills_on else 0.0
+        planned = [later for later in self.intervals[done + 1 :] if later.motion == now.motion]
+        del self.intervals[done + 1 : done + 1 + len(planned)]
         self.intervals, self.phases = prolonged(self.intervals, self.phases, now.motion, longer)
         hoist.strokes = [stroke._replace(start=stroke.start + longer) for stroke in hoist.strokes]
         if drills_on:
-            motion = self.intervals[self.done].motion
-            self.intervals.insert(self.done + 1, Interval(motion, now.operation, now.end + longer))
+            motion = self.intervals[done].motion
+            self.intervals.insert(done + 1, Interval(motion, now.operation, now.end + longer))
 
     def record_part(self) -> None:
         """Record the elapsed part of an interval that was interrupted before its end, if there is any.

@@ -217,7 +217,7 @@ class Solver:
         point = self.answer(problem, code, iterations, negative)
         if self.geometry == state.OPEN:
             return point
-        unsolved = code != CONVERGED or (negative > 0 and point.buckling.mode != NOT_BUCKLED.mode)
+        unsolved = code != CONVERGED or negative > 0
         if self.case.solver.buckling == "resolve" and (unsolved or point.buckling.mode != NOT_BUCKLED.mode):
             resolved = self.resolve(problem, iterations)
             if resolved.status != SteadyStatus.MAX_ITERATIONS:

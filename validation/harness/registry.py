@@ -43,6 +43,7 @@ STUDIES: dict[str, str] = {
     "real_survey": "validation.studies.real_survey",
     "real_chart": "validation.studies.real_chart",
     "buckled_wells": "validation.studies.buckled_wells",
+    "robust_rows": "validation.studies.robust_rows",
     "refine_real": "validation.studies.refine_real",
     "calibration": "validation.studies.calibration",
     "monitoring": "validation.studies.monitoring",
