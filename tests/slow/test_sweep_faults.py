@@ -34,7 +34,7 @@ LONGEST = 240.0  # of a sweep [s]
 
 @pytest.fixture(scope="module")
 def sweep(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The sweep file; what its workers preload lies beside it and makes them slow, so that a fault finds them at work."""
+    """The sweep file; what its workers preload lies beside it, and makes them slow, so that a fault finds them busy."""
     folder = tmp_path_factory.mktemp("sweep")
     clusters.faults(folder, pause=0.1)
     return sweep_file(folder, f'method = "sobol"\nsamples = {SAMPLES}\ntime_limit = "3 s"\n')
