@@ -70,8 +70,10 @@ def test_what_uncertainty_asks_for_does_not_change_a_sweep(tmp_path: Path) -> No
 def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "notes.txt").write_text("mine", encoding="utf-8")
-    with pytest.raises(InputError, match="a folder for this sweep alone"):
-        dataset(tmp_path)
+    expected = pytest.raises(InputError, match="a folder for a sweep alone")
+    with expected, alone(tmp_path / "out"):
+        pass
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["notes.txt"]
 
 
 def test_rows_of_another_version_are_not_mixed(tmp_path: Path) -> None:
