@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 ABOUT, SAMPLES, ROWS, LOCK = "sweep.json", "samples.parquet", "rows", ".lock"
-OURS: Final = (ABOUT, SAMPLES, ROWS, LOCK)
+OURS: Final = (ABOUT, SAMPLES, ROWS)
 # Packages whose versions all rows of a dataset share.
 SAME: Final = ("fctd", "python", "numpy", "numba")
 _PART = "part-{:05d}.parquet"
@@ -142,8 +142,9 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
             raise InputError(
                 f"another folder: its rows were computed with {', '.join(other)}", key="--out", value=folder
             )
-        for left, _ in left_by_dead(folder / ROWS, r"\.part-\d+-PID\.parquet"):
-            left.unlink(missing_ok=True)
+        for place in (folder, folder / ROWS):
+            for left, _ in left_by_dead(place, r"\.(?:part-\d+|samples|sweep)-PID\.(?:parquet|json)"):
+                left.unlink(missing_ok=True)
         return found
     about = {
         "name": template.spec.name,
@@ -168,7 +169,8 @@ def alone(folder: Path) -> Iterator[None]:
     Raises InputError where another one does, where the folder has other files, and where it cannot be made.
     """
     try:
-        if folder.exists() and any(name not in OURS for name in os.listdir(folder)):
+        # What begins with a dot may be a file that a killed sweep was writing.
+        if folder.exists() and any(name not in OURS and name[0] != "." for name in os.listdir(folder)):
             raise InputError("a folder for a sweep alone (this one has other files)", key="--out", value=folder)
         folder.mkdir(parents=True, exist_ok=True)
         lock = (folder / LOCK).open("a")

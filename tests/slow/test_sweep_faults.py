@@ -1,8 +1,8 @@
 """Seeded faults of a sweep: what resumes has the rows of a run that nothing disturbed.
 
 A fault is the death of a worker, of the client or of the scheduler (SIGKILL), a disk that is full, or a sample that
-hangs or crashes; and Ctrl-C.  Eight faults, one of each kind, take a minute or two; the environment variable FCTD_FAULTS sets
-another number.
+hangs or crashes; and Ctrl-C.  Eight faults, one of each kind, take a minute or two; the environment variable
+FCTD_FAULTS sets another number.
 """
 
 import os

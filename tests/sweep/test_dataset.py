@@ -49,8 +49,12 @@ def test_what_a_killed_sweep_left_beside_a_part_is_removed(tmp_path: Path) -> No
     found = dataset(tmp_path)
     left = found.folder / "rows" / ".part-00000-4194304.parquet"  # above the largest id of a process
     left.write_bytes(b"half")
-    dataset(tmp_path)
+    other = found.folder / ".sweep-4194304.json"
+    other.write_bytes(b"half")
+    with alone(found.folder):
+        dataset(tmp_path)
     assert not left.exists()
+    assert not other.exists()
 
 
 @pytest.mark.parametrize(
