@@ -54,6 +54,14 @@ def gate_command(folder: History = history.HISTORY) -> None:
         raise typer.Exit(FAILED)
 
 
+@app.command("scale")
+def scale_command() -> None:
+    """Measure how a sweep scales over workers, and what a scheduler can serve (docs/scale.md)."""
+    from benchmarks import scale  # Dask takes a while to import
+
+    scale.measure(report)
+
+
 @app.command("compare")
 def compare_command(folder: History = history.HISTORY) -> None:
     """Measure and print this run next to the last release."""

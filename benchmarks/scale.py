@@ -7,6 +7,7 @@ was not fitted to.  Workers whose tasks sleep stand for machines: they leave the
 import os
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -62,35 +63,40 @@ def served(workers: int, work: float) -> float:
         return count / (time.perf_counter() - began)
 
 
-def main() -> None:
-    """Print all tables."""
-    print(f"load before: {os.getloadavg()}")
-    rows = []
+def measure(tell: Callable[[str], None]) -> None:
+    """Tell the tables as they are measured, the model, and the load of the machine before and after."""
+    tell(f"load before: {os.getloadavg()}")
     for workers in (1, 2):
-        run = swept(workers)
-        rows.append(
-            {"workers": workers, "wall_s": run.wall, "start_s": run.start, "chunks": run.chunks,
-             "shortest_s": run.shortest,
-             "depths_per_s": run.rows / run.wall, "ms_per_depth": 1e3 * run.solving / run.rows,
-             "solving": run.solving / (run.wall * workers), "writing_s": run.writing,
-             "overhead_ms_per_chunk": 1e3 * (run.elapsed - run.solving) / run.chunks}
-        )  # fmt: skip
-    print(pd.DataFrame(rows).to_string(index=False))
-    found = pd.DataFrame(
-        [
-            {"workers": n, "work_s": work, "tasks_per_s": served(n, work)}
-            for work in (0.0, SHORT, CHUNK)
-            for n in WORKERS
-        ]
-    )
-    measured = found.set_index(["work_s", "workers"])["tasks_per_s"]
-    model = Model(1 / measured[SHORT, FITTED[0]] - SHORT, 1 / measured[0.0, FITTED[1]])
-    found["model"] = [model.rate(int(row.workers), row.work_s) for row in found.itertuples()]
-    found["off"] = found["model"] / found["tasks_per_s"] - 1
-    print(found.to_string(index=False))
-    print(model)
-    print(f"load after: {os.getloadavg()}")
+        tell(pd.DataFrame([costs(swept(workers))]).to_string(index=False))
+    rows = []
+    for work in (0.0, SHORT, CHUNK):
+        rows += [{"workers": n, "work_s": work, "tasks_per_s": served(n, work)} for n in WORKERS]
+    table = pd.DataFrame(rows)
+    model = fitted(table)
+    table["model"] = [model.rate(int(n), work) for n, work in zip(table["workers"], table["work_s"], strict=True)]
+    table["off"] = table["model"] / table["tasks_per_s"] - 1
+    tell(table.to_string(index=False))
+    tell(str(model))
+    tell(f"load after: {os.getloadavg()}")
 
 
-if __name__ == "__main__":
-    main()
+def costs(run: Summary) -> dict[str, float]:
+    """What a sweep cost, a row of a table."""
+    return {
+        "workers": run.workers,
+        "wall_s": run.wall,
+        "start_s": run.start,
+        "chunks": run.chunks,
+        "shortest_s": run.shortest,
+        "depths_per_s": run.rows / run.wall,
+        "ms_per_depth": 1e3 * run.solving / run.rows,
+        "solving_share": run.solving / (run.wall * run.workers),
+        "writing_s": run.writing,
+        "overhead_ms_per_chunk": 1e3 * (run.elapsed - run.solving) / run.chunks,
+    }
+
+
+def fitted(table: pd.DataFrame) -> Model:
+    """The model of two measurements: one worker with short tasks, and the most workers with empty ones."""
+    rate = table.set_index(["work_s", "workers"])["tasks_per_s"]
+    return Model(float(1 / rate[SHORT, FITTED[0]] - SHORT), float(1 / rate[0.0, FITTED[1]]))

@@ -1,5 +1,6 @@
 """The pictures of README and guides, drawn from the cases that the text names; they need matplotlib."""
 
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,6 +10,10 @@ from matplotlib.figure import Figure
 
 import fctd
 from fctd import plots
+from fctd.sweep.dataset import open_dataset
+from fctd.sweep.run import sweep
+from fctd.sweep.spec import read_sweep
+from fctd.sweep.uncertainty import Uncertainty, assess
 from reports.figures import volve_f4
 
 ROOT = Path(__file__).parents[1]
@@ -72,6 +77,25 @@ def judged_rows() -> Figure:
     return volve_f4.rows(_tables("rows"))
 
 
+def bands() -> Figure:
+    """The example sweep: loads over depth with their percentiles."""
+    return plots.bands_figure(_swept("uncertain_friction"))
+
+
+def stick_slip() -> Figure:
+    """The example map: severity of stick-slip over rotation and weight on bit."""
+    return plots.map_figure(_swept("stick_slip_map"), ["operations[0].rpm", "bit.weight_on_bit"], "stick_slip_severity")
+
+
+def _swept(name: str) -> Uncertainty:
+    """What an example sweep says."""
+    spec = read_sweep(ROOT / "examples" / f"{name}.toml")
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "out"
+        sweep(spec, out)
+        return assess(open_dataset(out), spec)
+
+
 def _tables(*names: str) -> dict[str, pd.DataFrame]:
     return {name: pd.read_parquet(STUDY / f"{name}.parquet") for name in names}
 
@@ -79,6 +103,7 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
 PICTURES: dict[str, Callable[[], Figure]] = {
     "overview": overview, "chart": chart, "monitor": monitor, "run": run, "public_well": public_well,
     "judged_rows": judged_rows,
+    "bands": bands, "stick_slip": stick_slip,
 }  # fmt: skip
 # Those drawn from the stored study of a public well, whose data are not part of the project.
 STUDY = ROOT / "validation" / "results" / "volve_f4"

@@ -23,6 +23,8 @@ from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import template_of
 from fctd.sweep.uncertainty import Uncertainty, assess
 
+# Measures that the screen leaves to the files.
+IN_FILES = ("SRRC", "R2_rank")
 TABLES = ("percentiles", "probabilities", "indices", "convergence")
 
 
@@ -135,7 +137,7 @@ def _print(found: Uncertainty, units: System) -> None:
         table.add_column(heading, overflow="fold")
     for heading in ("value", "±"):
         table.add_column(heading, justify="right")
-    for row in found.indices.to_dict("records"):
+    for row in found.indices[~found.indices["measure"].isin(IN_FILES)].to_dict("records"):
         error = "" if np.isnan(row["error"]) else f"{row['error']:.2g}"
         names = (row["operation"], row["column"], row["measure"], row["parameter"])
         table.add_row(*names, f"{row['value']:.3g}", error)

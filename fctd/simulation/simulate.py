@@ -26,9 +26,6 @@ from fctd.simulation.recorder import Recorder
 from fctd.simulation.run import Run, prepare
 from fctd.simulation.settling import Settling, settle, start_from_rest
 
-if TYPE_CHECKING:
-    pass
-
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
 # A row of the history by its column names.

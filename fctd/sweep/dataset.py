@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 ABOUT, SAMPLES, ROWS, LOCK = "sweep.json", "samples.parquet", "rows", ".lock"
+OURS: Final = (ABOUT, SAMPLES, ROWS)
 # Packages whose versions all rows of a dataset share.
 SAME: Final = ("fctd", "python", "numpy", "numba")
 _PART = "part-{:05d}.parquet"
@@ -141,11 +142,10 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
             raise InputError(
                 f"another folder: its rows were computed with {', '.join(other)}", key="--out", value=folder
             )
-        for left, _ in left_by_dead(folder / ROWS, r"\.part-\d+-PID\.parquet"):
-            left.unlink(missing_ok=True)
+        for place in (folder, folder / ROWS):
+            for left, _ in left_by_dead(place, r"\.(?:part-\d+|samples|sweep)-PID\.(?:parquet|json)"):
+                left.unlink(missing_ok=True)
         return found
-    if folder.exists() and any(name != LOCK for name in os.listdir(folder)):
-        raise InputError("a folder for this sweep alone (this one has other files)", key="--out", value=folder)
     about = {
         "name": template.spec.name,
         "identity": identity,
@@ -164,8 +164,14 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
 
 @contextmanager
 def alone(folder: Path) -> Iterator[None]:
-    """Inside, no other sweep works on the folder; raises InputError where one does, or where it cannot be made."""
+    """Inside, no other sweep works on the folder, which is made where it is missing.
+
+    Raises InputError where another one does, where the folder has other files, and where it cannot be made.
+    """
     try:
+        # What begins with a dot may be a file that a killed sweep was writing.
+        if folder.exists() and any(name not in OURS and name[0] != "." for name in os.listdir(folder)):
+            raise InputError("a folder for a sweep alone (this one has other files)", key="--out", value=folder)
         folder.mkdir(parents=True, exist_ok=True)
         lock = (folder / LOCK).open("a")
     except OSError as error:

@@ -11,6 +11,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import CancelledError
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from itertools import count
 from pathlib import Path
@@ -41,8 +42,9 @@ PART = 2.0
 DEATHS: Final = 3
 # Samples whose cases are made before the work begins.
 TRIED: Final = 64
-# Without an answer from anyone, the connection is looked at after this time [s].
-PATIENCE = 1.0
+# Without an answer from anyone, the connection is looked at after this time [s]; a chunk that is done and does not come
+# within the other one is not to be had.
+PATIENCE, LOST = 1.0, 300.0
 
 
 class SchedulerLostError(RuntimeError):
@@ -180,9 +182,10 @@ class _Running:
         self.client.subscribe_topic(self.name, self.ended.put)
         addresses = list(self.client.nthreads())
         trials = [
-            self.client.submit(warm_up, self.name, key=f"{self.name}-warm-{k}", workers=[address], pure=False)
+            self.client.submit(warm_up, self.name, key=f"{self.name}-warm-{k}", workers=[address], pure=False,
+                               allow_other_workers=True)
             for k, address in enumerate(addresses)
-        ]
+        ]  # fmt: skip
         times = self.client.gather(trials, errors="skip")
         self.workers = self.summary.workers = len(addresses)
         self.each = max((seconds for seconds in times if seconds > 0), default=float("nan"))
@@ -214,8 +217,9 @@ class _Running:
 
     def finish(self) -> None:
         """Keep the rows that have come, and take back what has not."""
-        for future in list(self.flying):
-            future.cancel()
+        if self.client.status == "running":
+            with suppress(OSError, TimeoutError, CancelledError):
+                self.client.cancel(list(self.flying))
         self._write()
         if not self.summary.wall:
             self.summary.wall = time.perf_counter() - self.began
@@ -261,9 +265,9 @@ class _Running:
         if numbers is None:  # taken back before
             return
         try:
-            done = event.result(timeout=PATIENCE * 30)
+            done = event.result(timeout=LOST)
         except (Exception, CancelledError) as error:
-            if self.client.status != "running":
+            if self.client.status != "running" or isinstance(error, TimeoutError):
                 raise SchedulerLostError from None
             if not _died(error):
                 raise

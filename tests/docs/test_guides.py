@@ -35,7 +35,7 @@ PROGRAMS = {"fctd": main.app, "python -m references": references.app}
 # A window in which an engine's string of the guide is settled already, as that of its Python block is.
 SHORT_WINDOW = "--start 5 --duration 1.5"
 # Guides whose engines and meshes run for seconds each.
-SLOW = {"references.md"}
+SLOW = {"references.md", "sweep.md"}
 # What a Python block prints.
 PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],
@@ -44,6 +44,7 @@ PRINTED = {
     "monitor.md": ["friction_low", "the apparent friction factor is"],
     "references.md": ["valid 42", "settled hook load"],
     "steady.md": ["converged", "trip_out"],
+    "sweep.md": ["trip_out", "mean"],
     "time.md": ["completed", "[0.04205]"],
 }
 
@@ -69,7 +70,7 @@ def slow(document: Path) -> Any:
 
 
 # Guides whose commands build on the ones before, and run one after the other in one folder.
-CHAINED = [ROOT / "docs" / "calibrate.md"]
+CHAINED = [ROOT / "docs" / "calibrate.md", ROOT / "docs" / "sweep.md"]
 RUN = [
     pytest.param(document, command, marks=slow(document))
     for document, command in COMMANDS
@@ -133,7 +134,7 @@ def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatc
     run_command(command, checkout, monkeypatch)
 
 
-@pytest.mark.parametrize("document", CHAINED, ids=name)
+@pytest.mark.parametrize("document", [pytest.param(d, marks=slow(d)) for d in CHAINED], ids=name)
 def test_commands_build_on_each_other(
     document: Path, checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

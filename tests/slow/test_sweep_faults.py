@@ -1,8 +1,8 @@
 """Seeded faults of a sweep: what resumes has the rows of a run that nothing disturbed.
 
 A fault is the death of a worker, of the client or of the scheduler (SIGKILL), a disk that is full, or a sample that
-hangs or crashes.  Seven faults, one of each kind, take a minute or two; the environment variable FCTD_FAULTS sets
-another number.
+hangs or crashes; and Ctrl-C.  Eight faults, one of each kind, take a minute or two; the environment variable
+FCTD_FAULTS sets another number.
 """
 
 import os
@@ -27,14 +27,14 @@ psutil = pytest.importorskip("psutil")
 pytestmark = pytest.mark.slow
 
 SAMPLES = 60
-KINDS = ("worker", "client", "scheduler", "disk", "worker of a scheduler", "hang", "crash")
+KINDS = ("worker", "client", "scheduler", "disk", "worker of a scheduler", "hang", "crash", "interrupt")
 SEEDS = range(int(os.environ.get("FCTD_FAULTS", len(KINDS))))
 LONGEST = 240.0  # of a sweep [s]
 
 
 @pytest.fixture(scope="module")
 def sweep(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The sweep file; what its workers preload lies beside it and slows them, so that a fault finds them at work."""
+    """The sweep file; what its workers preload lies beside it, and makes them slow, so that a fault finds them busy."""
     folder = tmp_path_factory.mktemp("sweep")
     clusters.faults(folder, pause=0.1)
     return sweep_file(folder, f'method = "sobol"\nsamples = {SAMPLES}\ntime_limit = "3 s"\n')
@@ -66,7 +66,7 @@ def start(
     command = [sys.executable, "-m", "fctd", "sweep", str(sweep), "--out", str(out), "--quiet"]
     return subprocess.Popen(
         [*command, *local, *map(str, options)], cwd=clusters.ROOT, env=environment, preexec_fn=before,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
 
 
@@ -136,6 +136,10 @@ def disturb(kind: str, wait: float, ill: int, sweep: Path, out: Path, folder: Pa
         return
     until(lambda: parts(out) > 0, process)
     time.sleep(wait)
+    if kind == "interrupt":
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does, which tells the workers, too
+        assert process.wait(timeout=LONGEST) == 130
+        return
     if kind == "client":
         below = workers_of(process)
         process.kill()

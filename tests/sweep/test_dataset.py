@@ -49,8 +49,12 @@ def test_what_a_killed_sweep_left_beside_a_part_is_removed(tmp_path: Path) -> No
     found = dataset(tmp_path)
     left = found.folder / "rows" / ".part-00000-4194304.parquet"  # above the largest id of a process
     left.write_bytes(b"half")
-    dataset(tmp_path)
+    other = found.folder / ".sweep-4194304.json"
+    other.write_bytes(b"half")
+    with alone(found.folder):
+        dataset(tmp_path)
     assert not left.exists()
+    assert not other.exists()
 
 
 @pytest.mark.parametrize(
@@ -70,8 +74,10 @@ def test_what_uncertainty_asks_for_does_not_change_a_sweep(tmp_path: Path) -> No
 def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "notes.txt").write_text("mine", encoding="utf-8")
-    with pytest.raises(InputError, match="a folder for this sweep alone"):
-        dataset(tmp_path)
+    expected = pytest.raises(InputError, match="a folder for a sweep alone")
+    with expected, alone(tmp_path / "out"):
+        pass
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["notes.txt"]
 
 
 def test_rows_of_another_version_are_not_mixed(tmp_path: Path) -> None:
