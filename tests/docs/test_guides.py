@@ -45,6 +45,7 @@ PRINTED = {
     "references.md": ["valid 42", "settled hook load"],
     "steady.md": ["converged", "trip_out"],
     "time.md": ["completed", "[0.04205]"],
+    "view.md": ["2 strings,", "contacts in the last"],
 }
 
 
