@@ -1,5 +1,6 @@
 # make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them
-# make test        the fast tests, in two processes
+# make test        the fast tests, in two processes, then those of pages in a browser, which skip without Chromium
+#                  (BROWSER=0 leaves them out)
 # make bench       time the benchmarks on this machine, keep the times in .benchmarks for --benchmark-compare, and compare
 #                  the kernels with the last release
 # make lint        check style, types and allowed imports
@@ -26,6 +27,9 @@ reproduce: $(STAMP)
 test: export PYTHONDONTWRITEBYTECODE :=
 test: $(STAMP)
 	$(BIN)/python -m pytest --numprocesses=2 --dist=worksteal
+ifneq ($(BROWSER),0)
+	$(BIN)/python -m pytest -m browser -q tests
+endif
 
 bench: $(STAMP)
 	$(BIN)/python -m pytest benchmarks --benchmark-enable --benchmark-autosave --benchmark-sort=name

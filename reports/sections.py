@@ -25,7 +25,10 @@ THUMBNAIL = 46  # dots per inch of a small copy
 
 @dataclass(frozen=True)
 class Picture:
-    """A drawn figure: embedded in a page (``source``), a small copy for the first page, and files for download."""
+    """A drawn figure: embedded in a page (``source``), and as files beside it for download.
+
+    small : a small copy, where the first page has one.
+    """
 
     name: str
     caption: str

@@ -24,6 +24,7 @@ FORBIDDEN = [
     ("rooms of the engine: each imports only what stands below it", "fctd/case/errors.py", "fctd.model.survey"),
     ("rooms of the engine: each imports only what stands below it", "fctd/mechanics/state.py", "fctd.case.errors"),
     ("rooms of the engine: each imports only what stands below it", "fctd/steady/tangent.py", "fctd.simulation.run"),
+    ("rooms of the engine: each imports only what stands below it", "fctd/plots/page.py", "fctd.view.page"),
     ("mechanics needs numba and numpy alone", "fctd/mechanics/joints.py", "pandas"),
     ("rooms of the references", "references/contact/own.py", "references.engines.run"),
     ("rooms of the references", "references/soft_string/torsion.py", "references.beams.case"),

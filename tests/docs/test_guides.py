@@ -46,6 +46,7 @@ PRINTED = {
     "steady.md": ["converged", "trip_out"],
     "sweep.md": ["trip_out", "mean"],
     "time.md": ["completed", "[0.04205]"],
+    "view.md": ["2 strings,", "contacts in the last"],
 }
 
 

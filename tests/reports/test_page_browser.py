@@ -1,0 +1,190 @@
+"""The report in a real browser: first screen, widths, sorting, and the way from a claim to its evidence."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("jinja2")
+pytest.importorskip("matplotlib")
+
+from reports import chapters, figures, page
+from reports.__main__ import OUT
+from tests.browsers import browser, needs_browser, opened, overflow
+from tests.reports.test_page import BLANK, judged
+from validation.claims.ledger import CLAIMS, read_ledger
+from validation.harness import store
+from validation.harness.registry import STUDIES
+
+from . import synthetic
+
+pytestmark = needs_browser
+
+DRAWN = ("contact_accuracy", "paper_well", "volve_f4", "overlap", "scaled_section", "contact_swap")
+TALLEST = 9_600  # of the first page at 1,280 px, twelve screens
+
+
+CLAIM = """
+[[claim]]
+id = "claim-{0}"
+section = "6.{1}"
+says = "A claim of the paper, number {0}, in a sentence as long as most of them are in the ledger."
+verdict = "holds"
+because = "target"
+[claim.number]
+study = "overlap"
+check = "{2}"
+at_most = {3}
+"""
+
+
+def made(folder: Path) -> tuple[Path, Path]:
+    """A report with made-up numbers for the checks that answers name, and its ledger of 35 claims."""
+    names: dict[str, dict[str, None]] = {study: {} for study in STUDIES}
+    for chapter in chapters.contents().chapter:
+        for sentence in chapter.sentence:
+            for study, name in sentence.numbers:
+                names[study][name] = None
+    ledger = folder / "claims.toml"
+    first = next(iter(names["overlap"]))
+    ledger.write_text("".join(CLAIM.format(k, k % 4, first, 0.1 if k % 3 else 1.0) for k in range(35)))
+    for study, checks in names.items():
+        if study in figures.MODULES and study not in DRAWN:
+            continue  # as if it had not been run
+        tables = synthetic.STUDIES[study]() if study in DRAWN else {}
+        record = replace(BLANK, study=study, question=f"Does {study} answer a question of this length, and how?")
+        found = tuple(judged(0.123, name=name) for name in checks)
+        display = {name: f"Table {name}" for name in list(tables)[:2]}
+        store.write(replace(record, tables=tuple(tables), checks=found, display=display), tables, folder / "results")
+    assert page.render(folder / "results", STUDIES, folder / "out", None, ledger) == []
+    return folder / "out", ledger
+
+
+@pytest.fixture(scope="module", params=["made", "real"])
+def report(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """A made-up report with its claims, and that of the stored results."""
+    if request.param == "made":
+        return made(tmp_path_factory.mktemp("report"))
+    if not (OUT / "results.json").exists():
+        pytest.skip("no report of stored results: make reproduce")
+    return OUT, CLAIMS
+
+
+@pytest.fixture(scope="module")
+def site(report: tuple[Path, Path]) -> Path:
+    """The folder of the report."""
+    return report[0]
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    with browser() as found:
+        yield found
+
+
+def test_verdict_and_pictures_lie_in_the_first_screen(chromium: Any, site: Path) -> None:
+    with opened(chromium, site / "index.html") as (shown, _):
+        for part in ("h1", "#verdict", ".leading figure:nth-child(1) img", ".leading figure:nth-child(2) img",
+                     ".leading figure:nth-child(3) img", ".machine"):  # fmt: skip
+            box = shown.locator(part).first.bounding_box()
+            assert box is not None, part
+            assert box["x"] >= 0, part
+            assert box["x"] + box["width"] <= 1280, part
+            assert box["y"] + box["height"] <= 800, part
+            assert min(box["width"], box["height"]) > 10, part
+        assert shown.evaluate("document.documentElement.scrollHeight") <= TALLEST
+        # The chapters stay in sight.
+        shown.evaluate("scrollTo(0, 3000)")
+        nav = shown.locator("nav.top").bounding_box()
+        assert nav is not None
+        assert nav["y"] == 0
+
+
+def test_no_page_is_wider_than_its_window(chromium: Any, site: Path) -> None:
+    pages = sorted(site.rglob("*.html"))
+    assert len(pages) > len(STUDIES)
+    wide = {}
+    with opened(chromium, pages[0]) as (shown, _):
+        for path in pages:
+            shown.goto(path.resolve().as_uri())
+            shown.evaluate("for (const fold of document.querySelectorAll('details')) fold.open = true")
+            for width in (400, 1280, 1920):
+                shown.set_viewport_size({"width": width, "height": 800})
+                wide[path.name, width] = overflow(shown)
+    assert {at: by for at, by in wide.items() if by > 0} == {}
+
+
+def test_the_evidence_of_every_claim_is_near(chromium: Any, report: tuple[Path, Path]) -> None:
+    """Over links alone: from the first page to a claim, and from there to the check that decides it."""
+    (site, source), checked = report, 0
+    links = "(within) => Array.from(document.querySelectorAll(`${within} a`), (link) => link.getAttribute('href'))"
+    with opened(chromium, site / "index.html") as (shown, _):
+        claims = read_ledger(source).claim
+        assert shown.evaluate(links, "#claims tbody") == [f"claims.html#claim-{claim.id}" for claim in claims]
+        shown.goto((site / "claims.html").resolve().as_uri())
+        evidence = {claim.id: shown.evaluate(links, f"#claim-{claim.id}") for claim in claims}
+    for claim in claims:
+        for link in evidence[claim.id]:
+            name, _, anchor = link.partition("#")
+            # A number of a table has the study's page alone.
+            text = (site / name).read_text(encoding="utf-8")
+            assert f'id="{anchor}"' in text or not anchor, link
+        waits = claim.number is None or f"{claim.number.study} has not been run" in words(site)
+        assert evidence[claim.id] or waits, claim.id
+        checked += bool(evidence[claim.id])
+    assert checked > len(claims) / 2
+
+
+def words(site: Path) -> str:
+    return (site / "claims.html").read_text(encoding="utf-8")
+
+
+def test_tables_sort_by_a_heading(chromium: Any, site: Path) -> None:
+    """Texts by letters, numbers as they are printed by size, and back again."""
+    with opened(chromium, site / "index.html") as (shown, _):
+        head = shown.locator("#claims th").nth(2)
+        column = "Array.from(document.querySelectorAll('#claims tbody tr'), (row) => row.cells[2].textContent.trim())"
+        head.click()
+        rising = shown.evaluate(column)
+        head.click()
+        falling = shown.evaluate(column)
+        assert rising == falling[::-1] or sorted(rising) == sorted(falling)
+        assert rising[0] == falling[-1] != rising[-1]
+        assert head.get_attribute("aria-sort") == "descending"
+        table = next(
+            path for path in sorted((site / "studies").glob("*.html"))
+            if len(re.findall(r'<th class="number">', path.read_text(encoding="utf-8"))) > 3
+        )  # fmt: skip
+        shown.goto(table.resolve().as_uri())
+        shown.evaluate("for (const fold of document.querySelectorAll('details')) fold.open = true")
+        number = shown.locator(".results th.number").first
+        number.click()
+        cells = shown.evaluate("""() => {
+          const head = document.querySelector(".results th.number"), column = head.cellIndex;
+          return Array.from(head.closest("table").tBodies[0].rows, (row) => row.cells[column].textContent);
+        }""")
+        values = [printed(cell) for cell in cells]
+        known = [value for value in values if value is not None]
+        assert known == sorted(known)
+        assert len(known) > 1
+
+
+def printed(text: str) -> float | None:
+    """A number as the page prints it."""
+    plain = text.strip().replace("\u202f", "").replace("\u2212", "-").replace("\u00a0", "")
+    raised = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+    plain = re.sub(r"×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda found: f"e{found[1].translate(raised)}", plain)
+    try:
+        return float(plain.replace("∞", "inf"))
+    except ValueError:
+        return None
+
+
+def test_a_link_into_a_folded_part_opens_it_and_paper_has_all(chromium: Any, site: Path) -> None:
+    with opened(chromium, site / "index.html") as (shown, _):
+        assert shown.locator("details[open]").count() == 0
+        shown.evaluate("dispatchEvent(new Event('beforeprint'))")
+        assert shown.locator("details:not([open])").count() == 0
