@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -176,11 +177,15 @@ class Simulation(Iterator[Record]):
         """
         hoist, now = self.run.hoist, self.intervals[self.done]
         drills_on = None if hoist is None or self.window is not None else hoist.drills_on(self.run, now.motion)
-        planned = [later for later in self.intervals[self.done + 1 :] if later.motion == now.motion]
-        if hoist is None or drills_on is None or drills_on == bool(planned):
+        if hoist is None or drills_on is None:
+            return
+        if not drills_on:
+            self._late = 0.0
+        planned = list(takewhile(lambda later: later.motion == now.motion, self.intervals[self.done + 1 :]))
+        if drills_on == bool(planned):
             return
         longer = self.case.record.interval if drills_on else now.end - planned[-1].end
-        self._late = self._late + longer if drills_on else 0.0
+        self._late += longer if drills_on else 0.0
         if self._late > (SLOWEST - 1) * (now.motion.duration - self._late):
             raise UnstableError(
                 f"the bit drills {SLOWEST} times more slowly than its law says: raise bit.weight_on_bit or the rotation"
@@ -286,10 +291,8 @@ class Simulation(Iterator[Record]):
     def _pull_swings(self, history: "pd.DataFrame") -> notes.Note | None:
         """The note on the hook load at the end of a run that is recorded there for two axial periods or more."""
         span = self._spans()[-1]
-        time_s, period = (
-            np.append(self._recorder.start_time if self._recorder else 0.0, history["time_s"]),
-            span.axial_period,
-        )
+        start = 0.0 if self._recorder is None else self._recorder.start_time
+        time_s, period = np.append(start, history["time_s"]), span.axial_period
         end = float(time_s[-1])
         if end - 2 * period < max(span.start, time_s[0]):
             return None
