@@ -68,7 +68,7 @@ def test_a_free_string_takes_the_shape_of_its_housing() -> None:
 
 
 def test_a_housing_turns_with_the_string_and_its_energy_is_in_the_ledger() -> None:
-    """In a slant hole the housing points up and down by turns; steady torque in the mean, twice a turn it peaks."""
+    """In a slant hole the housing points up and down by turns, and the torque swings."""
     result = simulate(bent(friction=0.2))
     assert result.status == "completed"
     assert result.run["energy_error"] < 1e-3

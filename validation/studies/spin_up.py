@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from fctd import Case, simulate
 from fctd.model.drillstring import section_of
@@ -31,6 +32,14 @@ def level(segment: float, duration: float) -> Case:
     )
 
 
+def period_in(time: NDArray[np.float64], torque: NDArray[np.float64]) -> float:
+    """The period [s] of the largest swing of a torque about its line of trend, in equal intervals of time."""
+    swing = torque - np.polyval(np.polyfit(time, torque, 1), time)
+    padded = 64 * len(swing)
+    spectrum = np.abs(np.fft.rfft(swing * np.hanning(len(swing)), padded))
+    return float(padded * (time[1] - time[0]) / int(spectrum.argmax()))
+
+
 def run(context: Context) -> Outcome:
     """The torque at the top over time, and √(2 m GJ Ω t) up to m L."""
     case = level(10.0, 20.0 if context.quick else 40.0)
@@ -45,6 +54,7 @@ def run(context: Context) -> Outcome:
     rising = (time > 0.2 * broken) & (time < 0.9 * broken)
     period = 4 * LENGTH * np.sqrt(pipe.axial_inertia / pipe.GJ)
     late = (time > broken) & (time <= broken + 4 * period)
+    swings = (time > broken) & (time <= broken + 8 * period)
     table = pd.DataFrame({"time_s": time, "torque_kN_m": torque / 1e3, "closed_form_kN_m": built / 1e3})
     found = np.interp(0.9 * per_metre * LENGTH, torque[: int(np.argmax(torque))], time[: int(np.argmax(torque))])
     return Outcome(
@@ -58,6 +68,9 @@ def run(context: Context) -> Outcome:
                   "closed form without inertia, after Aarsnes & Shor 2018; waves of ζΩ are 2 %"),
             Check("time to nine tenths of the break-off torque against m L²/(2 GJ Ω)",
                   100 * abs((found - 0.125) / (0.81 * broken) - 1), 5.0, "at_most", "%", "closed form without inertia"),
+            Check("period of the swing after break-off against 4 L √(ρ/G)",
+                  100 * abs(period_in(time[swings], torque[swings]) / period - 1), 0.5, "at_most", "%",
+                  "friction of a string that slides everywhere is constant; of eight periods"),
         ],
         notes=[
             "The clamp at the top bears half of the first segment, so that half a segment of friction is missing.",
