@@ -79,6 +79,7 @@ def _facts(simulation: Simulation, run: Run, recorder: Recorder) -> dict[str, An
             "in_stroke": hoist.stroke is not None,
         },
         "shifts": [list(shift) for shift in simulation.shifts],
+        "late": simulation.late,
         "start": [float(part) for part in recorder.start],
         "start_length": recorder.start_length,
         "start_depth": recorder.start_depth,
@@ -118,7 +119,7 @@ def put_back(simulation: Simulation, checkpoint: Checkpoint) -> Recorder:
         run.hoist.stands, run.hoist.strain, run.hoist.direction = kept["stands"], kept["strain"], kept["direction"]
         run.hoist.in_slips, run.hoist.pace = kept["in_slips"], kept["pace"]
         run.string = run.hoist.string(run)
-    simulation.done, simulation.wall_s = facts["done"], facts["wall_s"]
+    simulation.done, simulation.wall_s, simulation.late = facts["done"], facts["wall_s"], facts["late"]
     simulation.settling_residual = facts["settling_residual"]
     return _recorder(run, checkpoint)
 

@@ -3,12 +3,8 @@
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-<<<<<<< HEAD
-from typing import Any, NamedTuple, Protocol
-=======
 from itertools import takewhile
-from typing import TYPE_CHECKING, Any, Protocol
->>>>>>> t19
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -111,7 +107,7 @@ class Simulation(Iterator[Record]):
             )
         self.done = 0  # number of completed intervals
         self.status, self.message = RunStatus.INTERRUPTED, "before the start"  # until the run ends in another way
-        self._late = 0.0  # by which a stroke of an autodriller is longer than planned [s]
+        self.late = 0.0  # by which a stroke of an autodriller is longer than planned [s]
         self.shifts: list[Shift] = []  # by an autodriller so far
         self.wall_s = 0.0  # wall-clock time since the start
         self.kept_s = 0.0  # of which a keeper has spent so much beside it
@@ -206,20 +202,17 @@ class Simulation(Iterator[Record]):
         """
         hoist, now = self.run.hoist, self.intervals[self.done]
         drills_on = None if hoist is None or self.window is not None else hoist.drills_on(self.run, now.motion)
-        if hoist is None or drills_on is None:
+        if drills_on is None:
             return
+        planned = self._planned(self.done)
         if not drills_on:
-            self._late = 0.0
-        planned = list(takewhile(lambda later: later.motion == now.motion, self.intervals[self.done + 1 :]))
+            self.late = 0.0
         if drills_on == bool(planned):
             return
         longer = self.case.record.interval if drills_on else now.end - planned[-1].end
-<<<<<<< HEAD
+        self.late += longer if drills_on else 0.0
         self.shift(Shift(self.done, longer, drills_on))
-=======
-        self._late += longer if drills_on else 0.0
->>>>>>> t19
-        if self._late > (SLOWEST - 1) * (now.motion.duration - self._late):
+        if self.late > (SLOWEST - 1) * (now.motion.duration - self.late):
             raise UnstableError(
                 f"the bit drills {SLOWEST} times more slowly than its law says: raise bit.weight_on_bit or the rotation"
             )
@@ -230,14 +223,17 @@ class Simulation(Iterator[Record]):
         now, hoist = self.intervals[done], self.run.hoist
         assert hoist is not None
         self.shifts.append(shift)
-        self._late = self._late + longer if drills_on else 0.0
-        planned = [later for later in self.intervals[done + 1 :] if later.motion == now.motion]
-        del self.intervals[done + 1 : done + 1 + len(planned)]
+        del self.intervals[done + 1 : done + 1 + len(self._planned(done))]
         self.intervals, self.phases = prolonged(self.intervals, self.phases, now.motion, longer)
         hoist.strokes = [stroke._replace(start=stroke.start + longer) for stroke in hoist.strokes]
         if drills_on:
             motion = self.intervals[done].motion
             self.intervals.insert(done + 1, Interval(motion, now.operation, now.end + longer))
+
+    def _planned(self, done: int) -> list[Interval]:
+        """The intervals that follow one with its motion."""
+        now, later = self.intervals[done], self.intervals[done + 1 :]
+        return list(takewhile(lambda one: one.motion == now.motion, later))
 
     def record_part(self) -> None:
         """Record the elapsed part of an interval that was interrupted before its end, if there is any.
@@ -298,82 +294,6 @@ class Simulation(Iterator[Record]):
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
 
-<<<<<<< HEAD
-=======
-    def _spans(self) -> list[Span]:
-        """When the operations begin, are steady and end, with the periods of the string at their end."""
-        spans = []
-        for k, operation in enumerate(self.case.operations):
-            motions = [motion for motion, index in self.phases if index == k]
-            start, end = motions[0].start, motions[-1].start + motions[-1].duration
-            steady_from, steady_to = start, end
-            for motion in motions:
-                if motion.feed_from == motion.feed_to and motion.spin_from == motion.spin_to:
-                    steady_from, steady_to = motion.start, motion.start + motion.duration
-            string = self.run.string
-            if string.long_segment:
-                string = string.lengthened(operation.end_md - string.bit_depth)
-            periods = axial_period_of(string), period_of(string)
-            spans.append(Span(operation.kind, start, steady_from, steady_to, end, *periods))
-        return spans
-
-    def _limits(self) -> tuple[notes.Note | None, ...]:
-        """The notes on penetrations beyond that of the step, and on segments too long for a winding hole."""
-        case, longest = self.case, self.run.string.longest
-        wanted = case.wellbore.tortuosity
-        deepest = float(self.run.top[topdrive.TOP_PENETRATION])
-        return (
-            notes.too_deep(deepest, case.contact.largest_penetration),
-            notes.winds_too_much(shortfall(wanted, longest), longest, resolving(wanted)),
-        )
-
-    def _swings(self, history: "pd.DataFrame") -> notes.Note | None:
-        """The note on the surface torque at the end of a run whose string turns there."""
-        if not self.case.operations[-1].rpm:
-            return None
-        period, time_s = self._spans()[-1].torsional_period, np.append(0.0, history["time_s"])
-        torque = history["surface_torque_N_m"].to_numpy(float)
-        impulse = np.append(0.0, np.cumsum(torque * np.diff(time_s)))
-        before, middle, end = np.interp(time_s[-1] - period * np.array([2.0, 1.0, 0.0]), time_s, impulse)
-        means = (end - middle) / period, (middle - before) / period
-        return notes.torque_swings(float(torque[-1]), *means, period, float(history["hookload_N"].iloc[-1]))
-
-    def _pull_swings(self, history: "pd.DataFrame") -> notes.Note | None:
-        """The note on the hook load at the end of a run that is recorded there for two axial periods or more."""
-        span = self._spans()[-1]
-        start = 0.0 if self._recorder is None else self._recorder.start_time
-        time_s, period = np.append(start, history["time_s"]), span.axial_period
-        end = float(time_s[-1])
-        if end - 2 * period < max(span.start, time_s[0]):
-            return None
-        last = swing_of(
-            time_s, history, "hookload", "N", span._replace(steady_from=end - period, steady_to=end), period
-        )
-        first = span._replace(steady_from=end - 2 * period, steady_to=end - period)
-        before = swing_of(time_s, history, "hookload", "N", first, period)
-        string = self.run.laid_out
-        weight = float((string.of("weight") * string.length).sum())
-        return notes.hookload_swings(max(last.swing, before.swing), last.mean, before.mean, period, weight)
-
-    def _whirls(self, history: "pd.DataFrame") -> notes.Note | None:
-        """The note on a string that whirls: the operation in which it moved sideways most, by its last records."""
-        found = []
-        radius = float(self.run.string.of("contact_radius").min())
-        for operation, span in zip(self.case.operations, self._spans(), strict=True):
-            if not operation.rpm:
-                continue
-            last = history[
-                (history["time_s"] <= span.end + 1e-6) & (history["time_s"] > span.end - span.torsional_period)
-            ]
-            surface = radius * rad_per_s(operation.rpm)
-            # A string that moves along the hole too spends part of its friction there.
-            share = surface / np.hypot(surface, operation.speed)
-            sideways = float(np.sqrt((last["lateral_speed_m_per_s"] ** 2).mean()))
-            torque, full = float(last["sum_r_ft_N_m"].mean()), float(last["sum_r_mu_fn_N_m"].mean())
-            found.append(notes.whirls(sideways, surface, torque, share * full))
-        return max((note for note in found if note), key=lambda note: note.excess, default=None)
-
->>>>>>> t19
 
 def simulate(
     case: Case,
