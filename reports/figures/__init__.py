@@ -55,6 +55,7 @@ MODULES: dict[str, str] = {
     "mesh_torque": "reports.figures.mesh_torque",
     "engines_agree": "reports.figures.engines_agree",
     "speed": "reports.figures.speed",
+    "robust_rows": "reports.figures.robust_rows",
     "refine_real": "reports.figures.refine",
     "real_survey": "reports.figures.real_survey",
     "volve_f4": "reports.figures.volve_f4",

@@ -182,3 +182,9 @@ def volve_f4() -> dict[str, pd.DataFrame]:
         }
     )  # fmt: skip
     return {"curves": curves, "points": points, "rows": rows}
+
+
+def robust_rows() -> dict[str, pd.DataFrame]:
+    classes = ["2 in coiled tubing", "5 in drill pipe", "13 3/8 in casing"]
+    ends = ["converged", "converged", "unstable", "under_resolved", "locked_up"]
+    return {"rows": pd.DataFrame([{"class": name, "status": end} for name in classes for end in ends])}
