@@ -122,7 +122,7 @@ def _ours(address: str, sections: Mapping[str, Section]) -> tuple[str, Picture |
 def _machine(sections: Mapping[str, Section]) -> list[str]:
     """Machines, commits and days of the results, each once, the latest first."""
     records = [section.record for section in sections.values() if section.record is not None]
-    found = {}
+    found: dict[str, str] = {}
     for record in sorted(records, key=lambda record: record.date, reverse=True):
         origin = record.provenance
         kind = "quick" if record.quick else "full"

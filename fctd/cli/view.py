@@ -92,7 +92,13 @@ def view_command(
     check_target(out, "--out", (".html",))
     check_target(png, "--png", (".png",))
     check_package(Path("view.html"), "view")
-    given = {"--operation": operations, "--depths": depths, "--speed": speed, "--rpm": rpm, "--friction": friction}
+    given: dict[str, object] = {
+        "--operation": operations,
+        "--depths": depths,
+        "--speed": speed,
+        "--rpm": rpm,
+        "--friction": friction,
+    }
     given |= {"--set": overrides, "--resolve-buckling": resolve_buckling}
     if source.is_dir():
         strings, told = _of_result(source, given), []

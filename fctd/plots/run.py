@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 import matplotlib as mpl
 import numpy as np
@@ -35,7 +35,7 @@ LOADS: Final = (("hookload", "N", "hook load"), ("surface_torque", "N_m", "surfa
 # weight [N], torque [N m], rotation [rev/min] and depth [m].
 STEADY_SHARE, WEIGHT, TORQUE, SPIN, DEPTH = 0.02, 1e4, 1e3, 10.0, 1.0
 ON_BIT: Final = ("weight_on_bit", "N", "weight on bit")
-BLOCK: Final = {"color": QUIET, "linewidth": 1.0, "linestyle": (0, (4, 2))}
+BLOCK: Final[dict[str, Any]] = {"color": QUIET, "linewidth": 1.0, "linestyle": (0, (4, 2))}
 # A colour above which hardly a cell lies: a single peak would leave the rest of the map pale.
 BRIGHTEST: Final = 99.5  # percentile
 

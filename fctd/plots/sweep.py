@@ -76,8 +76,8 @@ def _bands(axes: Axes, table: pd.DataFrame, column: str, units: System, of: tupl
         colour, marker = LOOKS[str(kind)]
         by = {p: group[group["percentile"] == p].sort_values("bit_depth_m") for p in of}
         depth = by[of[0]]["bit_depth_m"].to_numpy(float) * metre.factor
-        ends = [by[p]["value"].to_numpy(float) * unit.factor for p in (of[0], of[2])]
-        axes.fill_betweenx(depth, *ends, color=colour, alpha=0.25, linewidth=0)
+        low, high = (by[p]["value"].to_numpy(float) * unit.factor for p in (of[0], of[2]))
+        axes.fill_betweenx(depth, low, high, color=colour, alpha=0.25, linewidth=0)
         for p, end in ((of[0], "low"), (of[2], "high")):
             axes.plot(by[p][end] * unit.factor, depth, ":", color=colour, linewidth=0.8)
         every = max(len(depth) // 8, 1)

@@ -7,8 +7,7 @@ import numpy as np
 
 from fctd.mechanics import topdrive
 from fctd.mechanics.rock import DRAG_BIT
-from fctd.mechanics.topdrive import Motion
-from fctd.model.operations import rad_per_s
+from fctd.model.operations import Phase, rad_per_s
 from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.tortuosity import resolving, shortfall
 from fctd.results import notes
@@ -23,17 +22,17 @@ if TYPE_CHECKING:
 
 # Ringing at the seams between cylinders above this share of the hook load gets a note.
 RINGING = 0.005
-# The motions of a run, each with the number of its operation.
-Phases = Sequence[tuple[Motion, int]]
 
 
-def end_notes(run: Run, phases: Phases, result: SimulationResult, start_time: float) -> tuple[Note | None, list[Note]]:
+def end_notes(
+    run: Run, phases: list[Phase], result: SimulationResult, start_time: float
+) -> tuple[Note | None, list[Note]]:
     """The note on the energy ledger of a completed run, if there is one, and all notes of its end.
 
     start_time : of the first record [s].
     """
     history, spans = result.history, spans_of(run, phases)
-    swing, frequency, depth = expected_ringing(run, list(phases)).largest()
+    swing, frequency, depth = expected_ringing(run, phases).largest()
     bound = RINGING * float(history["hookload_N"].abs().mean())
     ledger = notes.ledger_off(result.run["energy_error"])
     found = (
@@ -48,7 +47,7 @@ def end_notes(run: Run, phases: Phases, result: SimulationResult, start_time: fl
     return ledger, [note for note in found if note is not None]
 
 
-def spans_of(run: Run, phases: Phases) -> list[Span]:
+def spans_of(run: Run, phases: list[Phase]) -> list[Span]:
     """When the operations begin, are steady and end, with the periods of the string at their end."""
     spans = []
     for k, operation in enumerate(run.case.operations):

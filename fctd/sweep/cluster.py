@@ -121,7 +121,7 @@ def _security(where: Where) -> Any:
 
 def check_workers(client: Client) -> None:
     """Raise InputError where a worker has other versions than the client, or more threads than one."""
-    found = client.get_versions(packages=list(PACKAGES))
+    found: Any = client.get_versions(packages=list(PACKAGES))  # a dict, where the client is not asynchronous
     own = found["client"]["packages"]
     for address, worker in found["workers"].items():
         has = worker["packages"] if worker else {}

@@ -138,7 +138,7 @@ def _law(parameter: ParameterSpec) -> Any:
         case "normal":
             return stats.norm(of["mean"], of["sd"])
         case "lognormal":
-            return stats.lognorm(parameter.log_sd, scale=of["median"])
+            return stats.lognorm(parameter.log_sd or 0.0, scale=of["median"])
         case _:
             width = of["high"] - of["low"]
             return stats.triang((of["mode"] - of["low"]) / width, of["low"], width)

@@ -46,7 +46,7 @@ def indices_of(spec: SweepSpec, samples: pd.DataFrame, values: pd.Series[float])
     are independent and the result linear or monotonic, and R2 and R2_rank, the share that each regression explains.
     Raises InputError where there are too few answers.
     """
-    result = values.reindex(samples["sample"]).to_numpy(float)
+    result: Any = values.reindex(samples["sample"]).to_numpy(float)
     if spec.method == "saltelli":
         return _sobol(spec, result)
     if spec.method == "morris":

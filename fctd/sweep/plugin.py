@@ -31,15 +31,16 @@ class Carrier(WorkerPlugin):
 def run_chunk(name: str, samples: Sequence[Sample]) -> Done:
     """The rows of samples of the sweep that a worker was brought under a name."""
     worker = get_worker()
-    carrier: Carrier = worker.plugins[name]
+    carrier: Any = worker.plugins[name]
     carrier.warm()
     try:
-        return carrier.bench.run(samples, lambda sample: worker.log_event(name, sample))
+        done: Done = carrier.bench.run(samples, lambda sample: worker.log_event(name, sample))
+        return done
     except Exception as error:  # its frames need not be on their way to the client, which may not be able to read them
         raise RuntimeError(f"{type(error).__name__}: {error}") from None
 
 
 def warm_up(name: str) -> float:
     """How long a sample takes on a worker, once all is compiled [s]; NaN where that is not known."""
-    carrier: Carrier = get_worker().plugins[name]
-    return carrier.warm()
+    carrier: Any = get_worker().plugins[name]
+    return float(carrier.warm())

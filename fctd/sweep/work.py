@@ -94,7 +94,7 @@ def equilibrium(case: Case, task: Task, tick: Tick) -> list[Row]:
         point = solver.solve_string(kind, rates[kind], laid)
         tick()
         none = float("nan")
-        row = {"operation": kind, "bit_depth_m": task.depths[0]}
+        row: dict[str, Any] = {"operation": kind, "bit_depth_m": task.depths[0]}
         row |= {load.name: load.value(point) if point.answered else none for load in LOADS}
         extremes = {"min_effective_tension_N": none, "max_contact_force_N": none, "max_von_mises_Pa": none}
         if point.answered:

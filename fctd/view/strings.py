@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -150,7 +150,7 @@ def of_run(result: SimulationResult, most: int = MOST_RECORDS) -> Strings:
     picked = times[np.unique(np.linspace(0, len(times) - 1, min(most, len(times))).round().astype(int))]
     snapshots = []
     for time, rows in table[table["time_s"].isin(picked)].groupby("time_s", sort=True):
-        record = history.loc[time]
+        record: dict[str, Any] = dict(history.loc[time])
         snapshots.append(
             Snapshot(
                 RUN, str(record["operation"]), float(str(time)), float(record["bit_depth_m"]), "", record["hookload_N"],

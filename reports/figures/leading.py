@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.figure import Figure as Canvas
+from numpy.typing import NDArray
 
 from reports.figures import Figure, Tables, style
 
@@ -58,14 +59,15 @@ def where_it_touches(tables: Tables) -> Canvas:
     clearance = rows["clearance_m"].to_numpy(float)
     times = 0.02 * (down[-1] - down[0]) / np.median(clearance)
 
-    def beside(offset: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> tuple[object, object]:
+    def beside(offset: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Places off the axis, positive to the high side."""
         return out + times * offset * cosine, down - times * offset * sine
 
     canvas = _canvas()
     ax = canvas.subplots()
     for side in (-1.0, 1.0):
-        ax.plot(*beside(side * clearance), color=style.QUIET, linewidth=0.8)
+        left, down_side = beside(side * clearance)
+        ax.plot(left, down_side, color=style.QUIET, linewidth=0.8)
     high = rows["offset_high_m"].to_numpy(float)
     x, y = beside(high)
     ax.plot(x, y, color=style.COLOURS[0], linewidth=1.1, label="string")

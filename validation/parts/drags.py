@@ -186,7 +186,7 @@ def _outside(hole: Wellbore, owner: NDArray[np.int64], md: Array) -> Array:
     """How far depths are from the pieces that own them [m]."""
     start = hole.pieces[owner, contact.START_MD]
     end = start + hole.pieces[owner, contact.LENGTH]
-    return np.maximum(np.maximum(start - md, md - end), 0.0)
+    return np.asarray(np.maximum(np.maximum(start - md, md - end), 0.0))
 
 
 def campaign(count: int, seed: int = 14, batch: int = 1000) -> Iterator[dict[str, Any]]:

@@ -94,7 +94,7 @@ def stepped(context: Context, rows: pd.DataFrame) -> pd.DataFrame:
     sample = pd.concat([of.sample(min(count, len(of)), random_state=SEED) for of in kinds])
     found = []
     for row in context.progress(list(sample.itertuples()), "rows in time"):
-        string = drawn(SEED, row.string)
+        string = drawn(SEED, int(str(row.string)))
         kind = str(row.operation)
         end = step(Case.model_validate(string.case), kind, string.bit_depth, string.rates[kind])
         found.append(
