@@ -209,7 +209,7 @@ def test_a_sticking_string_stays_where_it_hangs_in_the_slips() -> None:
     moves = [trip(2952.5, 2997.5, speed=0.5)]
     simulation = Simulation(make_case(
         [[0, 0, 0], [200, 0, 0], *winding], string, moves, wellbore={"geometry": "arcs"}, mud=MUD,
-        contact={"friction_law": "karnopp"}, rig={"feed": "stands", "connection_time": 120.0},
+        contact={"friction_law": "karnopp"}, rig={"feed": "stands", "connection_time": 300.0},
     ))  # fmt: skip
     run = simulation.run
     places, loads = [], []
@@ -221,9 +221,9 @@ def test_a_sticking_string_stays_where_it_hangs_in_the_slips() -> None:
             break
     touching = penetration(run.S, len(places[0])) > 0
     way = np.linalg.norm(places[-2] - places[-62], axis=1)[touching]
-    assert len(loads) > 115
+    assert len(loads) > 295
     assert np.ptp(loads[5:]) < 2e3
-    # In an hour, from a minute.
+    # In an hour, from the last minute, when the swing of what hangs free has died.
     assert 60 * way.max() < 1e-6
 
 
