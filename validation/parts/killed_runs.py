@@ -50,6 +50,8 @@ density = "1200 kg/m^3"
 {more}
 """
 TRIP = """
+[record]
+interval = "{interval}"
 [rig]
 feed = "stands"
 connection_time = "{connection}"
@@ -111,9 +113,11 @@ class Command:
         return [self.arguments[0], "--resume", str(result), "--checkpoint-every", self.every, "--quiet"]
 
 
-def trip(geometry: str, to_md: float, connection: str = "20 s", speed: str = "0.5 m/s") -> Command:
-    """A trip with connections."""
-    more = TRIP.format(to_md=to_md, connection=connection, speed=speed)
+def trip(
+    geometry: str, to_md: float, connection: str = "20 s", speed: str = "0.5 m/s", interval: str = "1 s"
+) -> Command:
+    """A trip with connections; interval : between two records."""
+    more = TRIP.format(to_md=to_md, connection=connection, speed=speed, interval=interval)
     return Command(f"trip, {geometry}", WELL.format(geometry=geometry, more=more), ("simulate",), "out")
 
 
