@@ -166,7 +166,8 @@ def forked(
     if child == 0:
         code = 70
         # A checkpoint may take any share of the time, so that there are many.
-        kept_run.SHARE = kept_rows.SHARE = 1.0
+        for module in (kept_run, kept_rows):
+            vars(module)["SHARE"] = 1.0
         try:
             out = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
             os.dup2(out, 1)
