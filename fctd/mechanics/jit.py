@@ -28,7 +28,7 @@ INLINED: Any = OPTIONS | {"forceinline": True}
 ROUNDED: Any = OPTIONS | {"fastmath": False}
 
 
-class OwnCopies(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
+class OwnCopies(JITCodeLibrary):
     """The library of an entry, whose copies of other functions no other library sees."""
 
     def _finalize_final_module(self) -> None:
@@ -46,7 +46,7 @@ def relink(module: binding.ModuleRef, old: binding.Linkage, new: binding.Linkage
             function.linkage = new
 
 
-class EntryCompiler(Compiler):  # type: ignore[misc]
+class EntryCompiler(Compiler):
     """numba's compiler of one function, into a library with copies of its own."""
 
     def _compile_bytecode(self) -> Any:
