@@ -87,8 +87,8 @@ def add_chunk(recorder: Recorder, chunk: Mapping[str, Any]) -> None:
         numbers = read.column(NUMBER).to_numpy()
         values = np.stack([read.column(name).to_numpy() for name in KEPT], axis=1)
         edges = np.flatnonzero(np.diff(numbers)) + 1
-        for segments, first in zip(np.split(values, edges), [0, *edges], strict=True):
-            recorder.series.put_back(int(numbers[first]), segments)
+        for record, first in zip(np.split(values, edges), [0, *edges], strict=True):
+            recorder.series.put_back(int(numbers[first]), record)
 
 
 def warm_up() -> None:

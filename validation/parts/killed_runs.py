@@ -204,8 +204,10 @@ def kill_again_and_again(
     (folder / "case.toml").write_text(command.case)
     whole, result, log = (folder / name for name in (f"whole-{command.result}", command.result, "log"))
     found = Killed(command.name)
-    forked(command.program, command.begin(folder, whole), log=log)  # compiles what is not compiled yet
-    shutil.rmtree(whole) if whole.is_dir() else whole.unlink()
+    if command.program is app:  # compiles what is not compiled yet
+        forked(app, [*command.begin(folder, whole), "--time-limit", "0.1 s"], log=log)
+        for left in (whole, run_path(whole)):
+            shutil.rmtree(left, ignore_errors=True)
     began = time.monotonic()
     if code := forked(command.program, command.begin(folder, whole), log=log):
         found.wrong.append(f"the undisturbed command ended with {code}")
