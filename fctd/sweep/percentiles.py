@@ -51,11 +51,11 @@ def quantile(values: Array, share: float) -> tuple[float, float, float]:
     """A quantile of values (n,), and the ends of its error bar; an end that lies beyond the samples is NaN."""
     n, ordered = len(values), np.sort(values)
     if not n:
-        return (float("nan"),) * 3
+        return float("nan"), float("nan"), float("nan")
     low = int(stats.binom.ppf((1 - CONFIDENCE) / 2, n, share))
     high = int(stats.binom.ppf((1 + CONFIDENCE) / 2, n, share)) + 1
-    ends = (float(ordered[k - 1]) if 1 <= k <= n else float("nan") for k in (low, high))
-    return (float(np.quantile(ordered, share)), *ends)
+    first, last = (float(ordered[k - 1]) if 1 <= k <= n else float("nan") for k in (low, high))
+    return float(np.quantile(ordered, share)), first, last
 
 
 def percentile_table(rows: pd.DataFrame, columns: Sequence[str], percentiles: Sequence[float]) -> pd.DataFrame:
