@@ -155,8 +155,8 @@ def run(context: Context) -> Outcome:
             "Strings of 12 classes, from 2 in coiled tubing to 13⅜ in casing, with bit depths of 100 to 9,000 m, in "
             "random wells; every operation that the class can do, at the rates of a rig, and trips and rotation again "
             f"with {100 * LESS:g} % of the friction.",
-            "In the full run a sample is run in time. The string starts from rest with a push aside, and slides 20 m or "
-            "turns for 20 s or 20 turns, in mud that damps lateral motion. It moves if a segment's speed across its "
+            "In the full run a sample is run in time. The string starts from rest with a push aside, and slides 20 m "
+            "or turns for 20 s or 20 turns, in mud that damps lateral motion. It moves if a segment's speed across its "
             f"axis exceeds {100 * MOVING:g} % of the speed at which it slides along the wall.",
         ],
         display=display,
