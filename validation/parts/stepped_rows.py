@@ -19,8 +19,8 @@ PUSHED = 0.1  # lateral speed of the segments at the start [m/s]
 DAMPING = 20.0  # lateral [N s/m²], which lets the string come to rest
 LAST = 0.25  # of the records that are read
 # A string keeps moving if a segment moves sideways, on the mean of the last records, with more than this share of the
-# speed at which the string slides along the wall.  Strings that follow the bends of their hole reach 4 %, rolling ones
-# 12 % and more.
+# speed at which the string slides along the wall.  Strings that follow the bends of their hole reach 4 %, those that
+# roll 12 % and more.
 MOVING = 0.05
 
 
