@@ -1,5 +1,7 @@
 """Small cases that the engine's tests build on."""
 
+import tomllib
+from pathlib import Path
 from typing import Any
 
 from fctd.case.load import Case
@@ -71,3 +73,8 @@ def trip(start: float, end: float, speed: float = 0.2, ramp: float = 5.0) -> dic
     """An operation: trip in or out, whichever leads from start to end."""
     kind = "trip_in" if end > start else "trip_out"
     return {"kind": kind, "from_md": start, "to_md": end, "speed": speed, "ramp_time": ramp}
+
+
+def case_files(folder: Path) -> list[Path]:
+    """The case files of a folder, without its sweeps, which name a case."""
+    return [path for path in folder.glob("*.toml") if "case" not in tomllib.loads(path.read_text(encoding="utf-8"))]

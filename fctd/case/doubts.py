@@ -11,7 +11,7 @@ from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 
-from fctd.case.drilling import BitSpec
+from fctd.case.drilling import BitSpec, DriveSpec
 from fctd.case.friction import FrictionSet
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
@@ -241,7 +241,7 @@ def rig_loads(rig: RigSpec) -> Doubts:
             "sheave_efficiency", "rig.sheave_efficiency", f"an efficiency of {rig.sheave_efficiency:g}",
             "give that of all sheaves together, which is 0.8 to 1",
         )  # fmt: skip
-    if rig.drive == "stiff" and "control" in rig.model_fields_set:
+    if rig.drive == "stiff" and rig.control != DriveSpec():  # a stored case has all keys, with their defaults
         yield InputWarning(
             "unused_control", "rig.control", "the settings of a motor, beside a stiff drive, which has none",
             'give rig.drive = "speed_control" or "impedance"',

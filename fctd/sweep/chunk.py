@@ -25,6 +25,8 @@ FAILED, TIMED_OUT, CRASHED = "failed", "timed_out", "crashed"
 """Statuses of samples without an answer, each a row with its ``reason``."""
 # Times the limit of a sample after which its process is ended: by a thread of Python, and where that cannot run, too.
 OVERRUN, LAST = 2.0, 3.0
+# A limit below this [s] ends no process: a sample looks at the clock itself, and says that its time was up.
+BRIEF = 1.0
 # Pause between two looks at the clock of a sample [s], and before the end of a process, in which the news leaves it.
 LOOK, LEAVE = 0.05, 0.3
 
@@ -96,7 +98,8 @@ class Bench:
     def run(self, samples: Sequence[Sample], too_long: Callable[[int], None]) -> Done:
         """The rows of samples; too_long : called with a sample's number before this process ends over it."""
         began, rows, solving = time.perf_counter(), list[Row](), 0.0
-        with Watch(OVERRUN * self.time_limit, LAST * self.time_limit, too_long).watching() as watch:
+        limit = max(self.time_limit, BRIEF)
+        with Watch(OVERRUN * limit, LAST * limit, too_long).watching() as watch:
             for sample in samples:
                 watch.begin(sample.number)
                 start = time.perf_counter()

@@ -9,10 +9,10 @@ from fctd.case.doubts import warnings_of
 from fctd.case.friction import FrictionSet
 from fctd.case.load import Case, load_case
 from fctd.case.operations import KINDS
-from tests.cases import make_case, pipe
+from tests.cases import case_files, make_case, pipe
 
 ROOT = Path(__file__).parents[2]
-CASES = sorted((*(ROOT / "examples").glob("*.toml"), *(ROOT / "validation" / "cases").glob("*.toml")))
+CASES = sorted((*case_files(ROOT / "examples"), *(ROOT / "validation" / "cases").glob("*.toml")))
 
 
 def codes(case: Case, *kinds: str, **asked: Any) -> set[str]:

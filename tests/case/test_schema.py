@@ -11,9 +11,10 @@ import pytest
 from fctd.case.errors import InputError, set_key
 from fctd.case.load import Case
 from fctd.case.schema import case_schema
+from tests.cases import case_files
 
 ROOT = Path(__file__).parents[2]
-FILES = sorted([*(ROOT / "examples").glob("*.toml"), *(ROOT / "validation" / "cases").glob("*.toml")])
+FILES = sorted([*case_files(ROOT / "examples"), *(ROOT / "validation" / "cases").glob("*.toml")])
 SCHEMA = case_schema()
 TYPES: dict[str, type | tuple[type, ...]] = {
     "object": dict, "array": list, "string": str, "number": (int, float), "integer": int, "boolean": bool,

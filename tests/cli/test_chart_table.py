@@ -20,7 +20,10 @@ def test_runs_of_rows_have_a_line_each(capsys: pytest.CaptureFixture[str]) -> No
     seen = capsys.readouterr()
     assert "trip_in: max_iterations at 700 to 710 m (2 of 60): no steady shape" in seen.err
     assert "trip_in: max_iterations at 900 m (1 of 60)" in seen.err
-    assert f"60 rows: 57 converged, 3 max_iterations; {SCREEN_ROWS} of them above, all in the file of --out" in seen.out
+    assert (
+        f"60 rows: 57 converged, 3 max_iterations; {SCREEN_ROWS} of them above, all of them in a file by --out"
+        in seen.out
+    )
 
 
 def test_notes_come_with_their_remedy(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,11 +1,15 @@
 """The command line: files written, messages, exit codes."""
 
 import gc
+import io
 import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from fctd.cli import main, simulate
@@ -114,8 +118,12 @@ def test_an_unknown_option_is_exit_code_2(
 def test_with_a_full_disk_the_answer_is_still_printed(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
+    write_table = pq.write_table
+
+    def full(table: pa.Table, where: object, **options: Any) -> None:
+        if not isinstance(where, io.BytesIO):  # chunks of records are packed in memory before they are written
+            raise OSError(28, "No space left on device")
+        write_table(table, where, **options)
 
     monkeypatch.setattr("pyarrow.parquet.write_table", full)
     out = tmp_path / "out"

@@ -1,5 +1,6 @@
 """Every note of a run is raised once, and stands with its remedy on the screen, in the files and on the picture."""
 
+import re
 from html import unescape
 from pathlib import Path
 from typing import Any
@@ -57,7 +58,18 @@ RAISED: dict[str, tuple[set[str], dict[str, Any]]] = {
     "begun within three steps": ({"ledger"}, well([[0, 0, 0], [1000, 0, 0]], [pipe(1000, 20)], rotation(1000, 0.01))),
     "wound up": (
         {"torque"},
-        well([[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]], [pipe(800, 32)], rotation(800, 4, ramp=2)),
+        well([[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]], [pipe(800, 32)], rotation(800, 2, ramp=1.9)),
+    ),
+    "picked up at once": (
+        {"hookload"},
+        well([[0, 0, 0], [1000, 0, 0]], [pipe(100, 10), pipe(None, 1)], trip(980, 960, speed=1.0, ramp=0.2),
+             record={"interval": 0.05}),
+    ),
+    "a blunt bit": (
+        {"drilling"},
+        well([[0, 0, 0], [1000, 0, 0]], [pipe(None, None, segment_length=20.0)],
+             {"kind": "drill_rotating", "from_md": 900, "to_md": 900.05, "speed": 0.005, "rpm": 60, "ramp_time": 2},
+             bit={"weight_on_bit": 2e4, "torque": 500.0, "rock": {"wear_flat": 0.05}}),
     ),
     "big casing without damping": (
         {"whirl"},
@@ -83,7 +95,7 @@ def test_a_note_is_shown_everywhere(
     said, result = capsys.readouterr().err, open_result("out")
     notes = {note.code: note for note in result.notes}
     assert codes <= notes.keys()
-    picture = unescape(" ".join(Path("run.svg").read_text().split()))
+    picture = unescape(" ".join(" ".join(re.findall("<!--(.*?)-->", Path("run.svg").read_text(), re.DOTALL)).split()))
     for code in codes:
         note = notes[code]
         assert note.remedy == MEANINGS[code].remedy
