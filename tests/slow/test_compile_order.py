@@ -32,6 +32,8 @@ duration = "20 s"
 rpm = 120
 ramp_time = "2 s"
 """
+# The buckled row takes three more minutes: FCTD_LONG=1 asks for it.
+FILES = ("pulled.csv", "buckled.csv") if os.environ.get("FCTD_LONG") else ("pulled.csv",)
 TABLES = ("history", "profile", "energy", "operations", "segments")
 
 
@@ -46,6 +48,8 @@ def equilibrium(folder: Path) -> None:
     The buckled one is no row of a batch alone: several entries, each with copies of the same functions, work on it.
     """
     run(folder, "equilibrium", "--operation", "trip_out", "--bit-depth", "800 m", "--out", folder / "pulled.csv")
+    if "buckled.csv" not in FILES:
+        return
     buckled = ("--set", "bit.weight_on_bit=200 kN", "--set", "solver.buckling=resolve")
     run(
         folder, "equilibrium", "--operation", "drill_sliding", "--bit-depth", "800 m", *buckled,
@@ -101,5 +105,5 @@ def test_numbers_do_not_hang_on_what_was_compiled_before(tmp_path: Path) -> None
     for folder in (other, again, read):
         for name in TABLES:
             assert bits(folder / f"{name}.parquet") == bits(one / f"{name}.parquet"), (folder.name, name)
-        for name in ("pulled.csv", "buckled.csv"):
+        for name in FILES:
             assert (folder / name).read_text() == (one / name).read_text(), (folder.name, name)

@@ -28,7 +28,8 @@ pytestmark = pytest.mark.slow
 
 SAMPLES = 60
 KINDS = ("worker", "client", "scheduler", "disk", "worker of a scheduler", "hang", "crash", "interrupt")
-SEEDS = range(int(os.environ.get("FCTD_FAULTS", len(KINDS))))
+# Each takes half a minute: FCTD_FAULTS=20 tries all kinds, more than twice each.
+SEEDS = range(int(os.environ.get("FCTD_FAULTS", 1)))
 LONGEST = 240.0  # of a sweep [s]
 
 
@@ -113,7 +114,8 @@ def test_a_sweep_resumes_after_a_fault_with_the_rows_of_one_undisturbed(
         assert row["status"] == {"hang": "timed_out", "crash": "crashed"}[kind]
         found = found[found["sample"] != ill].reset_index(drop=True)
         undisturbed = undisturbed[undisturbed["sample"] != ill].reset_index(drop=True)
-    pd.testing.assert_frame_equal(found[undisturbed.columns], undisturbed, check_exact=True)
+    found = found[undisturbed.columns].astype(undisturbed.dtypes)  # numbers beside a row without them are floats
+    pd.testing.assert_frame_equal(found, undisturbed, check_exact=True)
 
 
 def disturb(kind: str, wait: float, ill: int, sweep: Path, out: Path, folder: Path) -> None:
