@@ -111,7 +111,7 @@ def put_back(simulation: Simulation, checkpoint: Checkpoint) -> Recorder:
         run.mud_at = depth, segments, rpm
     if run.hoist is not None:
         kept = facts["hoist"]
-        for shift in facts["shifts"]:
+        for shift in facts["shifts"][len(simulation.shifts) :]:
             simulation.shift(Shift(*shift))
         begun = len(run.hoist.strokes) - kept["strokes"]
         run.hoist.stroke = run.hoist.strokes[begun - 1] if kept["in_stroke"] else None

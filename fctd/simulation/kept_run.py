@@ -5,7 +5,6 @@ import json
 import time
 from collections.abc import Callable
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -18,7 +17,6 @@ from fctd.simulation.simulate import Simulation
 CHECKPOINT = "checkpoint.npz"
 # Checkpoints of a run, the last of which may be damaged.
 KEPT_CHECKPOINTS = 2
-UNREADABLE = (OSError, ValueError, KeyError, TypeError, BadZipFile)
 
 
 class KeptRun:
@@ -44,7 +42,7 @@ class KeptRun:
         for number in reversed(checkpoints):
             try:
                 self._go_on(simulation, number)
-            except UNREADABLE as error:
+            except Exception as error:  # a damaged archive raises nearly anything; the checkpoint before may do
                 self.tell(f"checkpoint {number} cannot be used ({getattr(error, 'strerror', None) or error})")
             else:
                 break
