@@ -72,5 +72,6 @@ def _on_event(event: str, arguments: tuple[Any, ...]) -> None:
             return
         path = Path(os.path.realpath(os.fspath(opened)))
         ours = path.suffix not in NO_INPUTS and not NO_FOLDERS & set(path.parts)
-        if ours and any(path.is_relative_to(folder) for folder in seen.folders):
+        # A name that is opened in an open folder, as by shutil.rmtree, says nothing of where it lies.
+        if ours and any(path.is_relative_to(folder) for folder in seen.folders) and path.is_file():
             seen.files.add(path)
