@@ -177,7 +177,7 @@ def _compute(
     key = "--out" if keeping.resume is None else "--resume"
     keeper = KeptRun(kept, keeping.interval(EVERY_RUN), csv=shown.csv, key=key, tell=_tell)
     limits = keeping.limits
-    result, written, ended = None, [], False
+    result, written, ended, unfinished = None, [], False, True
     try:
         with Progress(*columns, console=messages, disable=shown.quiet, transient=True) as bar:
             task = bar.add_task("compiling, settling", total=1.0, factor="–")
@@ -205,13 +205,14 @@ def _compute(
                         written += plots.save(plots.run_figure(result, shown.units), shown.plot)
                 if ended:
                     kept.clear()
+                    unfinished = False
     finally:  # printed also where a file cannot be written, or a signal came meanwhile
         if result is not None:
             _summarise(result, shown.units)
             print_written(written)
             if not ended and not written and identity_of(folder):
                 _tell(f"the earlier result in {printable(str(folder))} stays as it was")
-        if not ended:
+        if unfinished:
             say_how_to_go_on(folder)
     if result.status is RunStatus.INTERRUPTED:
         raise typer.Exit(INTERRUPTED)
