@@ -138,8 +138,8 @@ def of_run(result: SimulationResult, most: int = MOST_RECORDS) -> Strings:
 
     Raises InputError for a result without records, or of a version that kept no offsets of the string.
     """
-    table, history = result.segments, result.history.set_index("time_s") if len(result.history) else None
-    if history is None or not len(table):
+    table, history = result.segments, result.history
+    if not len(history) or not len(table):
         raise InputError("a result with records", key="result", value=result.case.name)
     missing = sorted(set(NEEDED) - set(table.columns))
     if missing:
@@ -148,9 +148,10 @@ def of_run(result: SimulationResult, most: int = MOST_RECORDS) -> Strings:
     case, hole = result.case, build_wellbore(result.case)
     times = table["time_s"].unique()
     picked = times[np.unique(np.linspace(0, len(times) - 1, min(most, len(times))).round().astype(int))]
+    records: dict[Any, dict[Any, Any]] = history.set_index("time_s").to_dict("index")
     snapshots = []
     for time, rows in table[table["time_s"].isin(picked)].groupby("time_s", sort=True):
-        record: dict[str, Any] = dict(history.loc[time])
+        record = records[time]
         snapshots.append(
             Snapshot(
                 RUN, str(record["operation"]), float(str(time)), float(record["bit_depth_m"]), "", record["hookload_N"],
