@@ -20,7 +20,7 @@ from fctd.simulation.limits import Limits
 
 # Longest time between two checkpoints of a run, and between two chunks of a chart [s].
 EVERY_RUN, EVERY_CHART = 60.0, 5.0
-KEPT_FILES = ("checkpoint.npz", "rows.json")
+KEPT_FILES = ("checkpoint.npz", "rows.jsonl")
 
 OptionalCase = Annotated[
     Path | None, typer.Argument(metavar="CASE", help="Case file (TOML); none with --resume.", show_default=False)

@@ -1,7 +1,7 @@
 """The string: components laid from the bit up become rigid segments with springs between them (§3.2, 5.1)."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -65,6 +65,7 @@ def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
     return top / rest
 
 
+@lru_cache(maxsize=256)  # a chart lays out the same components at every depth
 def section_of(component: ComponentSpec, mud_density: float) -> Section:
     """Properties of a component per metre; weight by the buoyancy factor (Eq. 25), inertia without it."""
     b, a = 0.5 * component.outer_diameter, 0.5 * component.inner_diameter
@@ -120,7 +121,7 @@ class String:
         # From the top down the components follow each other in reverse order of the list, without a gap.
         steps = self.component[:-1] - self.component[1:]
         ends = self.component[0] == len(self.sections) - 1 and self.component[-1] == 0
-        if len(self.component) != len(self.length) or not (ends and ((steps == 0) | (steps == 1)).all()):
+        if len(self.component) != len(self.length) or not (ends and set(steps.tolist()) <= {0, 1}):
             raise AssertionError("the segments do not follow the order of the components")
 
     @property
@@ -309,6 +310,8 @@ def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> Non
         check_clearance(string, hole, string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]]), bottom)
     if string.long_segment:
         length = float(string.length[0]) + fed
+        if hole.steepest_above(string.top_md + length) < LONG_SEGMENT_TILT:  # as of most wells: no need to look closer
+            return
         md = np.linspace(string.top_md, string.top_md + length, 200)
         tilt = hole.inclination(md).max()
         if tilt > LONG_SEGMENT_TILT:

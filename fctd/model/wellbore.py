@@ -152,6 +152,21 @@ class Wellbore:
         """Inclination of the axis [rad] at measured depths (n,) [m]."""
         return np.asarray(np.arccos(np.clip(self.at(md)[1][:, 2], -1.0, 1.0)))
 
+    def steepest_above(self, md: float) -> float:
+        """Bound of the hole's inclination between the surface and a measured depth [m], in rad.
+
+        It is the largest of all ends of pieces down to the first one at that depth or below: no point of an arc is more
+        inclined than both its ends where these are below 90°.  From 90° on the bound is infinite.
+        """
+        ends = self._steepest
+        return float(ends[min(int(np.searchsorted(self.md, md)), len(ends) - 1)])
+
+    @cached_property
+    def _steepest(self) -> Array:
+        """Largest inclination from the surface down to each end of a piece (k,) [rad]; infinite from 90° on."""
+        down = np.minimum.accumulate(self.directions[:, 2])
+        return np.where(down > 0, np.arccos(np.clip(down, -1.0, 1.0)), np.inf)
+
     def walls(self, points: Array, near: NDArray[np.int64] | None = None) -> Walls:
         """Walls beside points (n, 3) [m].
 

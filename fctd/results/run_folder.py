@@ -22,8 +22,8 @@ from fctd.case.errors import InputError
 from fctd.results.run_lock import HeldError, Holder, RunLock, holder_of
 
 ABOUT, PROGRESS = "run.json", "progress.json"
-# Of the time of a run, at most this share goes into keeping it; time between two reports of its progress [s].
-SHARE, REPORTED_EVERY = 0.01, 1.0
+# Time between two reports of the progress of a run [s].
+REPORTED_EVERY = 1.0
 KEYS = ("command", "program", "case", "options", "origin", "files", "copies", "identity")
 
 

@@ -47,7 +47,7 @@ def chunk_since(recorder: Recorder, cursor: Cursor) -> dict[str, bytes]:
         parts = [table.assign(**{RECORDED_AT: time}) for time, table in profiles]
         found["profile"] = pa.Table.from_pandas(pd.concat(parts, ignore_index=True), preserve_index=False)
     if series := recorder.series.since(cursor.seen):
-        numbers = np.concatenate([np.full(len(rows), number, np.int64) for number, rows in series])
+        numbers = np.repeat(np.array([number for number, _ in series], np.int64), [len(rows) for _, rows in series])
         values = np.concatenate([rows for _, rows in series])
         columns = {name: values[:, k] for k, name in enumerate(KEPT)}
         found["segments"] = pa.table({NUMBER: numbers, **columns})
@@ -107,5 +107,6 @@ def _packed(table: Any) -> bytes:
     import pyarrow.parquet as pq
 
     sink = io.BytesIO()
-    pq.write_table(table, sink, write_page_checksum=True)
+    # Numbers that hardly repeat: dictionaries of them take three quarters of the time, and make the file no smaller.
+    pq.write_table(table, sink, write_page_checksum=True, use_dictionary=False, write_statistics=False)
     return sink.getvalue()

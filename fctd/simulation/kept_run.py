@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from fctd.results.run_folder import REPORTED_EVERY, SHARE, Progress, RunFolder, cannot_keep, numbered
+from fctd.results.pacing import Clocks, Pace
+from fctd.results.run_folder import REPORTED_EVERY, Progress, RunFolder, cannot_keep, numbered
 from fctd.simulation.checkpoint import Checkpoint, capture, put_back
 from fctd.simulation.chunks import NAMES, Cursor, add_chunk, chunk_since, read_chunk, size_of, warm_up
 from fctd.simulation.disk import bytes_needed, check_disk
@@ -22,18 +23,28 @@ KEPT_CHECKPOINTS = 2
 class KeptRun:
     """Keeps a run in a folder; see ``Keeper``.
 
-    every : time between two checkpoints [s], longer where one takes long; csv : whether the result will have CSV files.
+    every : time between two checkpoints [s], longer where they take long; csv : whether the result will have CSV files.
     key : the option that names the place; tell : called with what the user should know.
-    seconds : that keeping took; kept : simulated time of the last checkpoint [s].
+    kept : simulated time of the last checkpoint [s].
     """
 
     def __init__(
         self, folder: RunFolder, every: float, *, csv: bool = False, key: str = "", tell: Callable[[str], None] = print
     ) -> None:
-        self.folder, self.every, self.csv, self.key, self.tell = folder, every, csv, key, tell
-        self.seconds = self.kept = 0.0
-        self._number, self._cursor, self._cost, self._before = 0, Cursor(), 0.0, 0.0
-        self._began = self._last = self._reported = time.monotonic()
+        self.folder, self.csv, self.key, self.tell = folder, csv, key, tell
+        self.kept, self._number, self._cursor = 0.0, 0, Cursor()
+        self._pace, self._reported = Pace(every), time.monotonic()
+        self._before, self._spent_before = 0.0, Clocks(0.0, 0.0)  # of the processes before
+
+    @property
+    def spent(self) -> Clocks:
+        """Time that keeping the run has taken so far."""
+        return self._spent_before.plus(self._pace.spent)
+
+    @property
+    def took(self) -> float:
+        """Time of the run so far on the wall [s]."""
+        return self._before + self._pace.took
 
     def begin(self, simulation: Simulation) -> None:
         """Put a run into the state of the last checkpoint; InputError where the disk is too small for a new one."""
@@ -55,22 +66,19 @@ class KeptRun:
 
     def keep(self, simulation: Simulation, *, now: bool = False) -> None:
         """Write a chunk and a checkpoint where they are due; InputError where they cannot be written."""
-        began = time.monotonic()
-        due = began - self._last >= max(self.every, self._cost / SHARE)
-        if due or now:
+        due = now or self._pace.due()
+        if due:
             try:
-                self._write(simulation)
+                with self._pace.keeping():
+                    self._write(simulation)
             except OSError as error:
                 raise cannot_keep(error, self.folder, self.key, f"{self.kept:.4g} s" if self.kept else "") from error
-        if due or now or began - self._reported >= REPORTED_EVERY:
-            self._reported = began
-            total, took = simulation.end, self._before + began - self._began
-            self.folder.report(Progress(simulation.run.time, total, "s", self.kept, took, time.time()))
-        ended = time.monotonic()
-        if due or now:
-            self._last, self._cost = ended, ended - began
-        self.seconds += ended - began
-        simulation.kept_s = self.seconds
+        if due or time.monotonic() - self._reported >= REPORTED_EVERY:
+            self._reported = time.monotonic()
+            with self._pace.reporting():
+                done, total = simulation.run.time, simulation.end
+                self.folder.report(Progress(done, total, "s", self.kept, self.took, time.time()))
+        simulation.keeping = self.spent
 
     def _write(self, simulation: Simulation) -> None:
         number = self._number + 1
@@ -78,7 +86,7 @@ class KeptRun:
             self.folder.write(f"{number}-{name}.parquet", content)
         checkpoint = capture(simulation)
         facts = checkpoint.facts | {
-            "took": self._before + time.monotonic() - self._began, "kept_s": self.seconds,
+            "took": self.took, "spent": self.spent,
             "cursor": [self._cursor.records, self._cursor.profiles, self._cursor.seen],
         }  # fmt: skip
         sink = io.BytesIO()
@@ -106,7 +114,8 @@ class KeptRun:
             add_chunk(recorder, chunk)
         simulation.go_on(recorder)
         self._number, self._cursor, self.kept = number, cursor, facts["last_time"]
-        self._before, self.seconds = facts["took"], facts["kept_s"]
+        self._before, self._spent_before = facts["took"], Clocks(*facts["spent"])
+        simulation.keeping = self.spent
 
     def _remove_after(self, number: int) -> None:
         """Remove chunks and checkpoints after one, which a process had begun to write or which cannot be read."""

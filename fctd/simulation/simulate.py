@@ -16,6 +16,7 @@ from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
 from fctd.results import notes
+from fctd.results.pacing import Clocks
 from fctd.results.status import RunStatus
 from fctd.results.swings import operations_table
 from fctd.results.tables import SimulationResult
@@ -110,7 +111,7 @@ class Simulation(Iterator[Record]):
         self.late = 0.0  # by which a stroke of an autodriller is longer than planned [s]
         self.shifts: list[Shift] = []  # by an autodriller so far
         self.wall_s = 0.0  # wall-clock time since the start
-        self.kept_s = 0.0  # of which a keeper has spent so much beside it
+        self.keeping = Clocks(0.0, 0.0)  # time that a keeper has spent beside it
         self.settling_residual = float("nan")
         self.stepper: Stepper = self.run
         self._begin, self._settling = stepper, settling
@@ -255,7 +256,7 @@ class Simulation(Iterator[Record]):
             return Recorder(self.run).result(self.status, self.message, 0.0, float("nan"))
         message = f"at {self.run.time:.4g} s" if self.status == RunStatus.INTERRUPTED else self.message
         result = self._recorder.result(self.status, message, self.wall_s, self.settling_residual)
-        result.run["checkpoints_s"] = self.kept_s
+        result.run["checkpoints_s"], result.run["checkpoints_wall_s"] = self.keeping.own, self.keeping.wall
         table = operations_table(
             result.history, self._recorder.start_time, self._recorder.start_depth, spans_of(self.run, self.phases)
         )

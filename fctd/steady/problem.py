@@ -52,7 +52,8 @@ class Workspace:
     def __init__(self, segments: int) -> None:
         rows = segments + 2
         self.segments = segments
-        self.S = state.new_state(segments)
+        # The engine's buffer is large: one of no segments only waits for ``for_segments``.
+        self.S = state.new_state(segments) if segments else np.zeros(0)
         self.P, self.G, self.R = np.zeros((rows, POSE)), np.zeros((rows, NODE)), np.zeros((rows, SIZE))
         self.D, self.A, self.U = (np.zeros((rows, SIZE, SIZE)) for _ in range(3))
         self.W = np.zeros((rows, SIZE, SIZE + 1))

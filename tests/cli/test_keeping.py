@@ -11,10 +11,9 @@ import pytest
 from fctd import open_result
 from fctd.cli import chart, main, simulate
 from fctd.cli.keeping import read_bytes
-from fctd.results import run_folder
+from fctd.results import pacing, run_folder
 from fctd.results.run_folder import RunFolder, run_path
-from fctd.simulation import kept_run, limits
-from fctd.steady import kept_rows
+from fctd.simulation import limits
 from tests.cli.test_main import CASE, run
 from tests.simulation.kept import same
 
@@ -29,8 +28,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     Path("survey.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n300,0,0\n750,90,0\n900,90,0\n")
     stations = "stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]"
     Path("small.toml").write_text(CASE.replace(stations, 'survey = "survey.csv"'))
-    monkeypatch.setattr(kept_run, "SHARE", 1e9)
-    monkeypatch.setattr(kept_rows, "SHARE", 1e9)
+    monkeypatch.setattr(pacing, "SHARE", 1e9)
 
 
 class Killed(BaseException):
@@ -242,7 +240,7 @@ def test_a_full_disk_ends_a_chart_with_what_it_has(
 
     def full(path: Path) -> object:
         writes.append(path)
-        if path.name == ".3-rows.json":
+        if path.name == ".3-rows.jsonl":
             raise OSError(28, "No space left on device")
         return real(path)
 

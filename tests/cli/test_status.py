@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from fctd.cli import simulate
+from fctd.results import pacing
 from fctd.results.run_folder import RunFolder
-from fctd.simulation import kept_run
 from tests.cli.test_keeping import CHART, RUN, killed
 from tests.cli.test_main import CASE, run
 
@@ -14,7 +14,7 @@ from tests.cli.test_main import CASE, run
 @pytest.fixture(autouse=True)
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(kept_run, "SHARE", 1e9)
+    monkeypatch.setattr(pacing, "SHARE", 1e9)
     Path("small.toml").write_text(CASE)
 
 

@@ -40,11 +40,11 @@ def test_what_is_described_is_there_until_it_is_cleared(tmp_path: Path) -> None:
     target = tmp_path / "out"
     assert about_of(target) is None
     folder = RunFolder.take(target)
-    folder.write("3-rows.json", b"[]")
+    folder.write("3-rows.jsonl", b"[]")
     folder.describe(ABOUT, {"survey.csv": b"0,0,0"})
     assert about_of(target) == ABOUT
     assert (folder.path / "survey.csv").read_bytes() == b"0,0,0"
-    assert numbered(folder.path, "rows.json") == {}  # of an earlier run
+    assert numbered(folder.path, "rows.jsonl") == {}  # of an earlier run
     folder.leave(remove=False)
     assert about_of(target) == ABOUT
     folder = RunFolder.take(target)
@@ -63,10 +63,10 @@ def test_a_description_that_another_program_wrote(tmp_path: Path) -> None:
 
 def test_files_are_numbered_in_order(tmp_path: Path) -> None:
     folder = RunFolder.take(tmp_path / "out")
-    for name in ("10-rows.json", "9-rows.json", "x-rows.json", "9-rows.json.bak", ".11-rows.json"):
+    for name in ("10-rows.jsonl", "9-rows.jsonl", "x-rows.jsonl", "9-rows.jsonl.bak", ".11-rows.jsonl"):
         folder.write(name, b"")
-    assert numbered(folder.path, "rows.json") == {9: "9-rows.json", 10: "10-rows.json"}
-    assert list(numbered(folder.path, "rows.json")) == [9, 10]
+    assert numbered(folder.path, "rows.jsonl") == {9: "9-rows.jsonl", 10: "10-rows.jsonl"}
+    assert list(numbered(folder.path, "rows.jsonl")) == [9, 10]
     folder.leave(remove=True)
 
 

@@ -64,7 +64,7 @@ def same(found: SimulationResult, wanted: SimulationResult) -> None:
         pd.testing.assert_frame_equal(getattr(found, name), getattr(wanted, name), check_exact=True)
     assert (found.status, found.message) == (wanted.status, wanted.message)
     assert found.notes == wanted.notes
-    times = {"wall_s", "real_time_factor", "guards_s", "checkpoints_s"}
+    times = {"wall_s", "real_time_factor", "guards_s", "checkpoints_s", "checkpoints_wall_s"}
     assert {k: v for k, v in found.run.items() if k not in times} == {
         k: v for k, v in wanted.run.items() if k not in times
     }

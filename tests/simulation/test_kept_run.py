@@ -4,15 +4,13 @@ import errno
 import io
 from collections.abc import Iterator
 from functools import cache
-from itertools import pairwise
 from pathlib import Path
-from types import SimpleNamespace
 from typing import BinaryIO
 
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.results import run_folder
+from fctd.results import pacing, run_folder
 from fctd.results.run_folder import RunFolder, numbered, progress_of
 from fctd.results.tables import SimulationResult
 from fctd.simulation import kept_run
@@ -50,7 +48,7 @@ def killed_after(folder: RunFolder, records: int, every: float = 0.0) -> KeptRun
 @pytest.fixture(autouse=True)
 def always_due(monkeypatch: pytest.MonkeyPatch) -> None:
     """A checkpoint at every record of a run with ``every`` 0, whatever it costs."""
-    monkeypatch.setattr(kept_run, "SHARE", 1e9)
+    monkeypatch.setattr(pacing, "SHARE", 1e9)
 
 
 @cache
@@ -74,12 +72,12 @@ def test_a_run_goes_on_in_another_process(folder: RunFolder) -> None:
 
 
 def test_it_is_written_when_it_is_time_to(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every two seconds; once writing takes long, a hundred times as long passes before the next."""
-    monkeypatch.setattr(kept_run, "SHARE", 0.01)
+    """Every two seconds; once writing takes long, less often: a hundredth of the time goes into it."""
+    monkeypatch.setattr(pacing, "SHARE", 0.01)
     now = [0.0]
-    monkeypatch.setattr(kept_run, "time", SimpleNamespace(monotonic=lambda: now[0], time=lambda: 1e9))
+    monkeypatch.setattr(pacing.Clocks, "now", lambda: pacing.Clocks(now[0], now[0]))
     keeper = KeptRun(folder, 2.0)
-    simulation, written, cost = Simulation(tripping()), [], 0.01
+    simulation, written, cost = Simulation(tripping()), [], 0.005
     real = keeper._write
 
     def slow(of: Simulation) -> None:
@@ -90,15 +88,14 @@ def test_it_is_written_when_it_is_time_to(folder: RunFolder, monkeypatch: pytest
     keeper._write = slow  # type: ignore[method-assign]
     keeper.begin(simulation)
     for k, _ in enumerate(simulation):
-        cost = 0.01 if k < 10 else 0.1
+        cost = 0.005 if k < 10 else 0.1
         now[0] += 0.5
         keeper.keep(simulation)
         if k == 50:
             break
-    assert written[:3] == pytest.approx([2.01, 4.02, 6.12])
-    assert all(later - earlier >= 10 for earlier, later in pairwise(written[2:]))
-    assert len(written) == 4
-    assert keeper.seconds == pytest.approx(0.01 * 2 + 0.1 * 2)
+    assert written == pytest.approx([2.0, 4.01, 6.11], abs=0.01)
+    assert keeper.spent == pytest.approx((0.11, 0.11))
+    assert simulation.keeping == keeper.spent
 
 
 def test_a_clock_that_jumps_changes_nothing(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fctd.results import pacing
 from fctd.results.run_folder import RunFolder, numbered, progress_of
 from fctd.steady import kept_rows
 from fctd.steady.kept_rows import ROWS, KeptRows
@@ -21,6 +22,8 @@ def depth(k: int) -> list[dict[str, object]]:
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     now = [0.0]
     monkeypatch.setattr(kept_rows, "time", SimpleNamespace(monotonic=lambda: now[0], time=lambda: 1e9))
+    monkeypatch.setattr(pacing.Clocks, "now", lambda: pacing.Clocks(now[0], now[0]))
+    monkeypatch.setattr(pacing, "SHARE", 1.0)
     return now
 
 
@@ -47,16 +50,21 @@ def test_rows_are_read_back_as_they_were(tmp_path: Path, clock: list[float]) -> 
     folder.leave(remove=True)
 
 
-@pytest.mark.parametrize("damage", ["cut", "gone"])
+@pytest.mark.parametrize("damage", ["cut", "flipped", "gone"])
 def test_a_damaged_chunk_ends_what_is_known(tmp_path: Path, clock: list[float], damage: str) -> None:
     folder = RunFolder.take(tmp_path / "chart.csv")
     kept = KeptRows(folder, 0.0)
     for k in range(4):
+        clock[0] += 1.0
         kept.keep(depth(k), 10)
     path = folder.path / f"3-{ROWS}"
-    path.unlink() if damage == "gone" else path.write_bytes(path.read_bytes()[:20])
+    content = path.read_bytes()
+    changes = {"cut": content[:20], "flipped": content.replace(b'"n": 3', b'"n": 7')}
+    path.unlink() if damage == "gone" else path.write_bytes(changes[damage])
     again = KeptRows(folder, 0.0)
     assert len(again.known) == 2
-    again.keep(depth(2), 10)  # in the place of the damaged one
-    assert len(KeptRows(folder, 0.0).known) == 4
+    clock[0] += 1.0
+    again.keep(depth(2) + depth(2), 10)  # in the place of the damaged one, and of those after it
+    found = KeptRows(folder, 0.0).known
+    assert [row["bit_depth_m"] for rows in found for row in rows] == [0.0, 1 / 3, 2 / 3, 2 / 3]
     folder.leave(remove=True)

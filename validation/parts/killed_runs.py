@@ -18,10 +18,9 @@ import pandas as pd
 
 from fctd.cli.keeping import has_kept
 from fctd.cli.main import app, run
+from fctd.results import pacing
 from fctd.results.run_folder import numbered, run_path
 from fctd.results.tables import TABLES, open_result
-from fctd.simulation import kept_run
-from fctd.steady import kept_rows
 from references.__main__ import app as references
 
 WELL = """
@@ -166,8 +165,7 @@ def forked(
     if child == 0:
         code = 70
         # A checkpoint may take any share of the time, so that there are many.
-        for module in (kept_run, kept_rows):
-            vars(module)["SHARE"] = 1.0
+        pacing.SHARE = 1.0
         try:
             out = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
             os.dup2(out, 1)
@@ -259,7 +257,7 @@ def _identity(result: Path) -> str:
 
 
 def _chunks(result: Path) -> int:
-    return max((len(numbered(run_path(result), kind)) for kind in ("history.parquet", "rows.json")), default=0)
+    return max((len(numbered(run_path(result), kind)) for kind in ("history.parquet", "rows.jsonl")), default=0)
 
 
 def tables_of(result: Path) -> dict[str, bytes]:

@@ -12,7 +12,7 @@ import pandas as pd
 
 from fctd.case.load import load_case
 from fctd.results import ledger
-from fctd.results.run_folder import RunFolder
+from fctd.results.run_folder import RunFolder, numbered
 from fctd.results.tables import open_result
 from fctd.simulation.kept_run import KeptRun
 from fctd.simulation.simulate import simulate
@@ -51,7 +51,7 @@ def run(context: Context) -> Outcome:
             cache = base / "one-cache"
             tried.append(at_once(base / "empty", "16 runs at once, empty cache", cache))
             tried.append(at_once(base / "warm", "16 runs at once, warm cache", cache))
-        shares = _shares(base / "shares", 700.0 if context.quick else 1500.0)
+        shares = _shares(base / "shares", 1100.0 if context.quick else 1500.0)
         long = [] if context.quick else _eight_hours(base / "long", rng)
     return Outcome(
         tables={"kills": _table(killed), "faults": pd.DataFrame(map(vars, tried)), "shares": pd.DataFrame([shares])},
@@ -64,6 +64,7 @@ def run(context: Context) -> Outcome:
                   sum(bool(of.wrong) for of in tried), 0, "at_most", "", "no traceback, a clear message"),
             Check("share of the guards in a run's time", shares["guards"], 0.02, "at_most", "", "target"),
             Check("share of the checkpoints in a run's time", shares["checkpoints"], 0.01, "at_most", "", "target"),
+            Check("checkpoints of that run", shares["chunks"], 1, "at_least", "", "there is a share to measure"),
             *long,
         ],
         notes=[
@@ -72,9 +73,9 @@ def run(context: Context) -> Outcome:
             "A kill comes after a random share of the time of the undisturbed run, up to 70 % of it; the process that "
             "goes on is killed again. An earlier result stands in the place of the new one meanwhile, and is opened "
             "after each kill.",
-            "Shares are those of one process: of the guards by its own clock, which stands while other processes run, "
-            "of the checkpoints, which wait for the disk, by the clock on the wall. A checkpoint comes as often as 1 % "
-            "of the time allows.",
+            "Shares are those of one process by its own clock, which stands while other processes run and while the "
+            "disk writes; the table has the checkpoints' share by the clock on the wall too. A checkpoint comes as "
+            "often as 1 % of the time allows by both.",
         ],
         display={"kills": "Kills of commands", "faults": "Other faults", "shares": "Shares of a run's time"},
     )  # fmt: skip
@@ -98,10 +99,12 @@ def _shares(folder: Path, to_md: float) -> dict[str, float]:
     wall, own = time.perf_counter(), time.process_time()
     result = simulate(load_case(folder / "case.toml"), keeper=KeptRun(kept, 0.0, tell=lambda _: None))
     wall, own = time.perf_counter() - wall, time.process_time() - own
+    chunks = len(numbered(kept.path, "history.parquet"))
     kept.leave(remove=True)
     return {
-        "records": len(result.history), "whole_s": wall, "of_the_process_s": own,
-        "guards": result.run["guards_s"] / own, "checkpoints": result.run["checkpoints_s"] / wall,
+        "records": len(result.history), "chunks": chunks, "whole_s": wall, "of_the_process_s": own,
+        "guards": result.run["guards_s"] / own, "checkpoints": result.run["checkpoints_s"] / own,
+        "checkpoints_on_the_wall": result.run["checkpoints_wall_s"] / wall,
     }  # fmt: skip
 
 

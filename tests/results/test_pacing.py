@@ -1,0 +1,72 @@
+"""When a computation is kept: as often as wanted, within a hundredth of its time by either clock."""
+
+import pytest
+
+from fctd.results import pacing
+from fctd.results.pacing import SHARE, Clocks, Pace
+
+
+class Machine:
+    """A machine whose clocks are moved by hand; a process gets the share ``idle`` of the time on the wall."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.wall = self.own = 0.0
+        monkeypatch.setattr(Clocks, "now", lambda: Clocks(self.wall, self.own))
+
+    def compute(self, pace: Pace, until: float, cost: tuple[float, float], busy: float = 1.0) -> list[float]:
+        """Compute in steps of 10 ms of the process's own time, and keep where it is due; the times of that."""
+        kept = []
+        while self.wall < until:
+            self.wall, self.own = self.wall + 0.01 * busy, self.own + 0.01
+            if pace.due():
+                kept.append(self.wall)
+                with pace.keeping():
+                    self.wall, self.own = self.wall + cost[0], self.own + cost[1]
+        return kept
+
+
+@pytest.fixture
+def machine(monkeypatch: pytest.MonkeyPatch) -> Machine:
+    return Machine(monkeypatch)
+
+
+def test_it_is_due_as_often_as_wanted(machine: Machine) -> None:
+    kept = machine.compute(Pace(10.0), 101.0, (0.02, 0.01))
+    assert kept == pytest.approx([10.0 + 10.02 * k for k in range(10)], abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("cost", "busy"),
+    [((0.05, 0.05), 1.0), ((0.5, 0.01), 1.0), ((0.03, 0.03), 5.0), ((0.019, 0.019), 1.0)],
+    ids=["at leisure", "slow disk", "busy machine", "first ones"],
+)
+def test_it_takes_a_hundredth_of_either_clock_at_most(machine: Machine, cost: tuple[float, float], busy: float) -> None:
+    """Kept as often as allowed.  On a busy machine a write is not interrupted, and the steps between two are."""
+    pace = Pace(0.0)
+    kept = machine.compute(pace, 1000.0, cost, busy)
+    assert len(kept) > 5
+    assert pace.spent.wall <= SHARE * machine.wall
+    assert pace.spent.own <= SHARE * machine.own
+    assert max(pace.spent.wall / machine.wall, pace.spent.own / machine.own) > 0.8 * SHARE
+    assert pace.took == machine.wall
+
+
+def test_a_slow_disk_is_made_up_for(machine: Machine) -> None:
+    """One time that takes twenty times as long is followed by none until the share is as before."""
+    pace = Pace(1.0)
+    machine.compute(pace, 10.0, (0.01, 0.001))
+    machine.compute(pace, 12.0, (1.0, 0.001))
+    before = machine.wall
+    later = machine.compute(pace, 400.0, (0.01, 0.001))
+    assert later[0] - before > 80
+    assert pace.spent.wall <= SHARE * machine.wall
+
+
+def test_reports_count_and_put_nothing_off(machine: Machine) -> None:
+    pace = Pace(1.0)
+    machine.compute(pace, 3.5, (0.01, 0.01))
+    expected = pace.spent.wall
+    with pace.reporting():
+        machine.wall += 0.002
+    assert pace.spent.wall == pytest.approx(expected + 0.002)
+    assert pacing.FIRST > 0
