@@ -14,11 +14,14 @@ from fctd.sweep.run import prepare, sample_of
 from fctd.sweep.spec import SweepSpec, read_sweep
 from fctd.sweep.uncertainty import assess
 
+# The hole hardly leaves room beside the pipe: the string hangs on the axis of the hole and lies on its low side, and
+# with a clearance c the tension T of the first segments takes some T c / 8 m off the wall.  With 8.5 in of hole that
+# is 0.5 % of its load, and as T grows with friction the hook load is not linear in it (by 1.6e-4; as c goes, with it).
 INCLINED = """
 name = "inclined"
 [wellbore]
 stations = [[0, 60, 0], [1000, 60, 0]]
-intervals = [{to_md = "1000 m", diameter = "8.5 in", friction = 0.2}]
+intervals = [{to_md = "1000 m", diameter = "5.02 in", friction = 0.2}]
 [string]
 components = [{name = "pipe", outer_diameter = "5 in", inner_diameter = "4.276 in", segment_length = "10 m"}]
 [mud]
@@ -62,12 +65,11 @@ def swept(folder: Path, head: str) -> tuple[SweepSpec, Dataset]:
 def of_friction(spec: SweepSpec, dataset: Dataset) -> tuple[float, float]:
     """Hook load without friction and what a friction factor of 1 adds [N], in closed form: w L cos θ and w L sin θ.
 
-    The wall does not carry the upper half of the first segment, which hangs on the top drive: 0.6 % of the friction.
+    The wall does not carry the upper half of the first segment, 5 m, which hangs on the top drive.
     """
     case = prepare(spec)[0].template.base
     pipe = section_of(case.string.components[0], case.mud.density)
-    weight = 900.0 * pipe.weight
-    return weight * np.cos(np.radians(60)), weight * np.sin(np.radians(60))
+    return 900.0 * pipe.weight * np.cos(np.radians(60)), 895.0 * pipe.weight * np.sin(np.radians(60))
 
 
 def test_the_hook_load_of_a_straight_inclined_string_is_normal_with_its_friction(tmp_path: Path) -> None:
@@ -87,8 +89,8 @@ def test_the_hook_load_of_a_straight_inclined_string_is_normal_with_its_friction
     assert table.loc[50, "high"] - table.loc[50, "low"] == pytest.approx(4 * error_of_median(count, sd), rel=0.3)
     friction, load = (found.rows[name].to_numpy() for name in ("friction", "hookload_N"))
     fitted = np.polyfit(friction, load, 1)
-    assert fitted == pytest.approx([slope, base], rel=0.012)
-    assert np.polyval(fitted, friction) == pytest.approx(load, rel=5e-4)  # 2e-4: the closed form has no stiffness
+    assert fitted == pytest.approx([slope, base], rel=2e-4)
+    assert np.polyval(fitted, friction) == pytest.approx(load, rel=1e-5)
 
 
 def error_of_median(count: int, sd: float) -> float:
