@@ -100,7 +100,7 @@ def _opening(app: Dash, served: Served) -> None:
     @app.callback(
         Output("fault", "children"), Output("opened", "data"), Output("sliders", "children"),
         Output("operations", "value"), Output("operation", "value"), Output("colour", "value"),
-        Output("depth", "min"), Output("depth", "max"), Output("depth", "value"), Output("depth-label", "children"),
+        Output("depth", "min"), Output("depth", "max"), Output("depth", "value"), Output("depth-unit", "children"),
         Output("name", "children"), Output("facts", "children"), Output("warnings", "children"),
         Output("files", "children"), Output("measured", "value"), *graphs,
         Input("where", "pathname"), Input("changed", "data"), Input("reset", "n_clicks"),
@@ -119,7 +119,7 @@ def _opening(app: Dash, served: Served) -> None:
         at = min(max(asked["depth"], depth["low"]), depth["high"])
         return (
             "", {"own": own, "values": values, "n": time.time()}, sliders, asked["operations"], asked["operation"],
-            asked["colour"], depth["low"], depth["high"], at, f"bit depth, {depth['unit']}", printable(found["name"]),
+            asked["colour"], depth["low"], depth["high"], at, depth["unit"], printable(found["name"]),
             found["facts"], page.warned(found["warnings"]), page.links(str(pathname)), session.measured,
             *(found[name] for name in page.GRAPHS),
         )  # fmt: skip

@@ -168,7 +168,7 @@ def _layout(case: Case, depths: Sequence[float], units: System) -> dict[str, Any
         title = {"text": f"{NAMES[column]}, {shown(column, units).label}", "font": {"size": 12}}
         axes[f"xaxis{k + 1 if k else ''}"] = {
             "title": title, "domain": domain, "anchor": "y", "nticks": 6, "zeroline": False,
-            "gridcolor": "#e8e8e8", "linecolor": "#c8cdd2", "showline": True, "mirror": True,
+            "gridcolor": "#e8e8e8",
         }  # fmt: skip
     return {
         **axes,

@@ -77,8 +77,12 @@ def _pictures(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             id="colour", options=colours, value="side_force", clearable=False, searchable=False,
         )]),
         html.Div([
-            html.Span(id="depth-label"), dcc.Slider(
-                id="depth", min=0, max=1, value=1, marks=None, updatemode="mouseup", step=1,
+            html.Div(
+                [html.Label("bit depth"), html.Span([html.Output(id="depth-shown"), " ", html.Span(id="depth-unit")])],
+                className="name",
+            ),
+            dcc.Slider(
+                id="depth", min=0, max=1, value=1, marks=None, updatemode="mouseup", step=1, allow_direct_input=False,
             ),
         ], className="depth slider"),
     ]  # fmt: skip
@@ -87,29 +91,41 @@ def _pictures(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             html.Button("▶ run the case", id="run"), html.Button("■ stop", id="stop", disabled=True),
             html.Progress(id="share", max="1", value="0"),
         ], className="buttons"),
-        html.P(id="run-told", role="status"),
-        dcc.Graph(id="time", figure=EMPTY, config=CONFIG),
+        html.P(
+            "The operations of the case, step by step in time, with the sliders where they stand.", id="run-told",
+            role="status",
+        ),
+        _graph("time"),
     ]  # fmt: skip
     return [
-        _picture("Hook load and torque", [_graph("loads")], [html.P(id="rows-note")], "wide"),
+        _picture("Hook load and torque", [_graph("loads")], [html.P(id="rows-note")], "chart"),
         _picture("The string in its hole", [html.Div(string, className="tools"), _graph("scene")], [
             html.P([html.Span(id="at"), html.Span(id="words")]),
-        ], ""),
-        _picture("Where it touches, side force, tension", [_graph("panels")], [], ""),
-        _picture("A run in time", run, [], "wide"),
+        ], "hole"),
+        _picture("Where it touches, side force, tension", [_graph("panels")], [], "touch"),
+        _picture("A run in time", run, [], "run"),
     ]  # fmt: skip
 
 
 def slider(one: Mapping[str, Any], value: float) -> Any:
     """A slider with its name, unit and value; one : a ``sliders.Slider`` as a table."""
-    unit = f", {one['unit']}" if one["unit"] else ""
-    ident = {"slider": one["name"]}
-    return html.Div([
-        html.Label(f"{one['label']}{unit}"),
-        dcc.Slider(
-            id=ident, min=one["low"], max=one["high"], step=one["step"], value=value, marks=None, updatemode="mouseup",
-        ),
-    ], className="slider")  # fmt: skip
+    name, unit = one["name"], one["unit"]
+    return html.Div(
+        [
+            html.Div(
+                [
+                    html.Label(one["label"]),
+                    html.Span([html.Output(f"{value:g}", id={"shown": name}), f" {unit}" if unit else ""]),
+                ],
+                className="name",
+            ),
+            dcc.Slider(
+                id={"slider": name}, min=one["low"], max=one["high"], step=one["step"], value=value, marks=None,
+                updatemode="mouseup", allow_direct_input=False,
+            ),
+        ],
+        className="slider",
+    )  # fmt: skip
 
 
 def links(address: str) -> list[Any]:
@@ -134,4 +150,5 @@ def _picture(title: str, children: Sequence[Any], below: Sequence[Any], name: st
 
 
 def _graph(name: str) -> Any:
-    return dcc.Graph(id=name, figure=EMPTY, config=CONFIG, className="graph")
+    # A graph takes the height of what is around it.
+    return html.Div(dcc.Graph(id=name, figure=EMPTY, config=CONFIG, style={"height": "100%"}), className="graph")

@@ -24,6 +24,7 @@ from fctd.view.scene import (
 from fctd.view.strings import Strings
 
 HOLE: Final = ("wall", "rings", "shoes")  # traces that friction and loads do not move
+AWAY: Final = 1.2  # of the camera
 AXES: Final = ("xaxis2", "xaxis3")
 
 
@@ -31,7 +32,10 @@ def skeletons(strings: Strings, quantity: Quantity, units: System) -> tuple[dict
     """The scene, the panels, and the exaggeration of the scene, without data; strings : the deepest one alone."""
     look = Look(strings, units)
     none = {"l": 0, "r": 0, "t": 0, "b": 0}
-    scene = {"scene": scene_layout(look), "margin": none, "uirevision": "fixed", "showlegend": False}
+    inside = scene_layout(look)
+    # The picture is narrower than that of a view.
+    inside["camera"]["eye"] = {axis: AWAY * at for axis, at in inside["camera"]["eye"].items()}
+    scene = {"scene": inside, "margin": none, "uirevision": "fixed", "showlegend": False}
     font = {"family": FONT, "size": 11}
     return (
         {"data": scene_traces(look, quantity), "layout": scene | {"font": font}},

@@ -33,6 +33,15 @@
     }, REST);
   }
 
+  const told = {};
+  // A number beside its slider, where it has changed.
+  function say(id, value) {
+    const key = JSON.stringify(id), text = String(Number(value.toPrecision(5)));
+    if (told[key] === text) return;
+    told[key] = text;
+    set(id, { children: text });
+  }
+
   function moved(drags, values, depthDrag, depth, operations, operation, colour, opened, ids) {
     if (!opened) return unchanged();
     const triggered = dash_clientside.callback_context.triggered.map(({ prop_id, value }) => {
@@ -44,6 +53,7 @@
       state.opened = opened.n;
       state.own = opened.own;
       state.values = { ...opened.own, ...opened.values };
+      for (const key of Object.keys(told)) delete told[key];
     }
     let hole = fresh, dragged = false, loads = false;
     for (const { name, id, prop, value } of triggered) {
@@ -57,7 +67,9 @@
         dragged = dragged || id === "depth";
       }
     }
+    for (const { slider } of ids) if (slider in state.values) say({ shown: slider }, state.values[slider]);
     const at = triggered.some(({ id, prop }) => id === "depth" && prop === "drag_value") ? depthDrag : depth;
+    say("depth-shown", at);
     const shown = { operations, operation, colour, depth: at };
     const same = !loads && !fresh && !opened.again && JSON.stringify(shown) === JSON.stringify(state.shown);
     state.shown = shown;
