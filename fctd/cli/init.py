@@ -2,24 +2,18 @@
 
 import os
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
-import numpy as np
 import typer
-from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
-from fctd.case.specs import WellboreSpec
 from fctd.case.text import is_utf8, printable
 from fctd.cli.manners import Silent
-from fctd.cli.new_case import Plan, Quantities, UnitSystem, aligned, from_survey, from_template
 from fctd.cli.options import check_target, messages, screen
-from fctd.cli.templates import TEMPLATES, TemplateName
+from fctd.model.new_case import Plan, Quantities, UnitSystem, assumed, from_survey, from_template, read_survey
+from fctd.model.templates import TEMPLATES, TemplateName
 from fctd.results.whole_file import whole_file
 
-Array = NDArray[np.float64]
-# A well that is steeper than this gets the string of the template ``horizontal`` [rad].
-NEARLY_HORIZONTAL = np.radians(70)
 DEPTHS = 10  # from shoe to end, at most, in the chart that is proposed
 
 
@@ -56,37 +50,15 @@ def _plan(survey: Path | None, template: TemplateName | None, units: UnitSystem,
     name = out.stem.replace("_", " ") if is_utf8(out.stem) else "my well"
     if survey is None:
         return from_template(TEMPLATES[template or "build-hold"], name, units)
-    columns, stations = read_survey(survey, "m" if units == "metric" else "ft")
-    path = Path(os.path.relpath(survey, out.absolute().parent)).as_posix()
-    if not is_utf8(path):
+    if not survey.exists():
+        raise InputError("a survey file that exists", key="SURVEY", value=survey)
+    written = Path(os.path.relpath(survey, out.absolute().parent)).as_posix()
+    columns, stations = read_survey(survey, units)
+    if not is_utf8(written):
         raise InputError("a file whose path is UTF-8, as a case file is", key="SURVEY", value=survey)
-    steep = float(stations[:, 1].max()) > NEARLY_HORIZONTAL
-    chosen: TemplateName = template or ("horizontal" if steep else "build-hold")
-    return from_survey(TEMPLATES[chosen], name, units, path, columns, stations)
-
-
-def read_survey(path: Path, unit: str) -> tuple[tuple[str, ...], Array]:
-    """Lines of TOML that a case needs beside the name of its survey, and the stations (n, 3) [m, rad, rad].
-
-    unit : of measured depth, where the file names none.  Raises InputError for a file that cannot be used.
-    """
-    if not path.exists():
-        raise InputError("a survey file that exists", key="SURVEY", value=path)
-    try:
-        return (), _hole(path).trajectory
-    except InputError as error:
-        try:
-            stations = _hole(path, columns={"md": {"unit": unit}}).trajectory
-        except InputError:
-            raise error from None  # of the file as it is
-    comment = f"the file names no unit of depth: {unit} is assumed"
-    messages.print(f"warning: {path}: {comment}, as in the key wellbore.columns", soft_wrap=True)
-    return (aligned(f'columns = {{md = {{unit = "{unit}"}}}}', comment),), stations
-
-
-def _hole(path: Path, **keys: Any) -> WellboreSpec:
-    some = {"to_md": 1.0, "diameter": 0.2, "friction": 0.2}
-    return WellboreSpec.model_validate({"survey": path.absolute(), "intervals": [some], **keys})
+    if columns:
+        messages.print(f"warning: {survey}: {assumed(units)}, as in the key wellbore.columns", soft_wrap=True)
+    return from_survey(template, name, units, written, columns, stations)
 
 
 def _next(plan: Plan, out: Path) -> list[str]:

@@ -39,6 +39,7 @@ COMMANDS: dict[str, dict[str, str]] = {
     "monitor": {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"},
     "status": {},
     "view": {"bit_depth": "--depths", "exaggeration": "--sideways"},
+    "app": {},
     "sweep": {},
     "uncertainty": {"bit_depth": "--bit-depth"},
     "compile": {},

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import fctd
-from fctd.cli.templates import TEMPLATES
+from fctd.model.templates import TEMPLATES
 from tests.cli.test_main import run
 
 SURVEY = "md_ft,inc_deg,azi_deg\n" + "".join(f"{100 * k},{min(max(k - 10, 0), 60)},{40 + k % 3}\n" for k in range(101))

@@ -9,11 +9,20 @@ import pytest
 from fctd import Case
 from fctd.case.operations import RotateOffBottom
 from fctd.case.units import DENSITY, FORCE, LENGTH
-from fctd.cli.new_case import Plan, Quantities, UnitSystem, entry, from_survey, from_template, sensible_shoe, stiff_wall
-from fctd.cli.templates import TEMPLATES, TemplateName
 from fctd.model import layouts
 from fctd.model.drillstring import lay_out
+from fctd.model.new_case import (
+    Plan,
+    Quantities,
+    UnitSystem,
+    entry,
+    from_survey,
+    from_template,
+    sensible_shoe,
+    stiff_wall,
+)
 from fctd.model.operations import rates_of_all
+from fctd.model.templates import TEMPLATES, TemplateName
 from fctd.model.torsion import period_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
@@ -131,7 +140,7 @@ def test_the_shoe_of_a_survey(stations: list[tuple[float, float]], shoe: float) 
 def test_a_depth_is_never_below_the_end_of_the_survey(units: UnitSystem) -> None:
     end = 1234.5678
     stations = np.array([[0.0, 0.0, 0.0], [600.0, 0.5, 0.0], [end, 0.5, 0.0]])
-    plan = from_survey(TEMPLATES["build-hold"], "of a survey", units, "s.csv", (), stations)
+    plan = from_survey("build-hold", "of a survey", units, "s.csv", (), stations)
     case = tomllib.loads(plan.text())
     assert case["wellbore"]["survey"] == "s.csv"
     to_md = Quantities(units)(LENGTH, end)
@@ -144,7 +153,7 @@ def test_a_depth_is_never_below_the_end_of_the_survey(units: UnitSystem) -> None
 def test_lengths_of_a_template_are_round_in_the_hole_of_a_survey(units: UnitSystem) -> None:
     """A metre of the template is written as 3 ft."""
     stations = np.array([[0.0, 0.0, 0.0], [1500.0, 0.0, 0.0], [3000.0, 0.7, 0.0]])
-    plan = from_survey(TEMPLATES["build-hold"], "of a survey", units, "s.csv", (), stations)
+    plan = from_survey("build-hold", "of a survey", units, "s.csv", (), stations)
     lengths = [part.get("length") for part in tomllib.loads(plan.text())["string"]["components"]]
     assert lengths == (["120 m", "150 m", None] if units == "metric" else ["360 ft", "450 ft", None])
 

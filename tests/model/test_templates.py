@@ -5,7 +5,7 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from fctd.cli.templates import TEMPLATES, Template, TemplateName
+from fctd.model.templates import TEMPLATES, Template, TemplateName
 
 EACH = pytest.mark.parametrize("template", TEMPLATES.values(), ids=list(TEMPLATES))
 

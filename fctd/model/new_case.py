@@ -3,17 +3,19 @@
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case.specs import ComponentSpec
+from fctd.case.errors import InputError
+from fctd.case.specs import ComponentSpec, WellboreSpec
 from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
-from fctd.cli.templates import Part, Template
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import mean_curvature
 from fctd.model.drillstring import section_of
+from fctd.model.templates import TEMPLATES, Part, Template, TemplateName
 from fctd.model.torsion import torsional_period
 
 Array = NDArray[np.float64]
@@ -37,6 +39,8 @@ UNITS: dict[UnitSystem, dict[Dimension, tuple[str, int]]] = {
     },
 }
 FOOT = 0.3048
+# A well that is steeper than this gets the string of the template ``horizontal`` [rad].
+NEARLY_HORIZONTAL = np.radians(70)
 # Column of the comments.
 COMMENTS = 38
 # The shoe is where the hole has this share of its greatest inclination, between these shares of its depth, on a round
@@ -230,18 +234,53 @@ def from_template(template: Template, name: str, units: UnitSystem) -> Plan:
 
 
 def from_survey(
-    template: Template, name: str, units: UnitSystem, path: str, columns: tuple[str, ...], stations: Array
+    name_of_template: TemplateName | None,
+    name: str,
+    units: UnitSystem,
+    path: str,
+    columns: tuple[str, ...],
+    stations: Array,
 ) -> Plan:
-    """The template's string in the well of a survey.
+    """A template's string in the well of a survey; without a name of one, that which suits the inclination.
 
-    path : as the case writes it; columns : lines of TOML about its columns; stations (n, 3) [m, rad, rad].
+    path : as the case writes it; columns, stations : of ``read_survey``.
     """
-    _, template = _scaled(template, units)
+    if name_of_template is None:
+        steep = float(stations[:, 1].max()) > NEARLY_HORIZONTAL
+        name_of_template = "horizontal" if steep else "build-hold"
+    _, template = _scaled(TEMPLATES[name_of_template], units)
     hole = (entry("survey", path), *columns)
     shoe, depth = sensible_shoe(stations, units), float(stations[-1, 0])
     comment = "an assumed casing shoe, below the build: put yours"
     title = f"the well of {path} with the string of {template.title}"
     return Plan(name, title, template, units, hole, shoe, depth, comment, stiff_wall(template, stations, shoe))
+
+
+def read_survey(path: Path, units: UnitSystem) -> tuple[tuple[str, ...], Array]:
+    """Lines of TOML that a case needs beside the name of its survey, and the stations (n, 3) [m, rad, rad].
+
+    A file that names no unit of depth is read in that of ``units``, and a line says so.  Raises InputError for a file
+    that cannot be used.
+    """
+    try:
+        return (), _hole(path).trajectory
+    except InputError as error:
+        unit = UNITS[units][LENGTH][0]
+        try:
+            stations = _hole(path, columns={"md": {"unit": unit}}).trajectory
+        except InputError:
+            raise error from None  # of the file as it is
+    return (aligned(f'columns = {{md = {{unit = "{unit}"}}}}', assumed(units)),), stations
+
+
+def assumed(units: UnitSystem) -> str:
+    """What is said of a survey whose file names no unit of depth."""
+    return f"the file names no unit of depth: {UNITS[units][LENGTH][0]} is assumed"
+
+
+def _hole(path: Path, **keys: Any) -> WellboreSpec:
+    some = {"to_md": 1.0, "diameter": 0.2, "friction": 0.2}
+    return WellboreSpec.model_validate({"survey": path.absolute(), "intervals": [some], **keys})
 
 
 def sensible_shoe(stations: Array, units: UnitSystem) -> float:

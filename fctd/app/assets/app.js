@@ -1,0 +1,100 @@
+"use strict";
+// What the page does between its events and the server: while one wish is answered the latest of the others waits.
+(() => {
+  const REST = 300; // a slider that has rested so long is solved at all depths [ms]
+  const LOST = 30000; // an answer that has not come by then will not come [ms]
+  const state = { busy: false, since: 0, next: null, rest: null, n: 0, values: {}, own: {}, shown: {}, opened: 0 };
+  const set = (id, props) => dash_clientside.set_props(id, props);
+  const unchanged = () => dash_clientside.no_update;
+  const times = [];
+
+  function send(wish) {
+    const now = performance.now();
+    if (state.busy && now - state.since < LOST) {
+      state.next = { ...wish, hole: wish.hole || Boolean(state.next && state.next.hole) };
+      return unchanged();
+    }
+    state.busy = true;
+    state.since = now;
+    return wish;
+  }
+
+  function wish(coarse, hole) {
+    // Those that stand where the case has them are left to the case.
+    const moved = Object.entries(state.values).filter(([name, value]) => value !== state.own[name]);
+    return { ...state.shown, values: Object.fromEntries(moved), coarse, hole, n: ++state.n };
+  }
+
+  function later() {
+    clearTimeout(state.rest);
+    state.rest = setTimeout(() => {
+      const wanted = send(wish(false, false));
+      if (wanted !== unchanged()) set("wish", { data: wanted });
+    }, REST);
+  }
+
+  const told = {};
+  // A number beside its slider, where it has changed.
+  function say(id, value) {
+    const key = JSON.stringify(id), text = String(Number(value.toPrecision(5)));
+    if (told[key] === text) return;
+    told[key] = text;
+    set(id, { children: text });
+  }
+
+  function moved(drags, values, depthDrag, depth, operations, operation, colour, opened, ids) {
+    if (!opened) return unchanged();
+    const triggered = dash_clientside.callback_context.triggered.map(({ prop_id, value }) => {
+      const dot = prop_id.lastIndexOf("."), id = prop_id.slice(0, dot), prop = prop_id.slice(dot + 1);
+      return { name: id.startsWith("{") ? JSON.parse(id).slider : "", id, prop, value };
+    });
+    const fresh = opened.n !== state.opened;
+    if (fresh) {
+      state.opened = opened.n;
+      state.own = opened.own;
+      state.values = { ...opened.own, ...opened.values };
+      for (const key of Object.keys(told)) delete told[key];
+    }
+    let hole = fresh, dragged = false, loads = false;
+    for (const { name, id, prop, value } of triggered) {
+      if (name && typeof value === "number") {
+        loads = loads || state.values[name] !== value;
+        state.values[name] = value;
+        hole = hole || name === "segment";
+        dragged = true;
+      } else if (!name) {
+        hole = hole || id === "depth" || id === "operation";
+        dragged = dragged || id === "depth";
+      }
+    }
+    for (const { slider } of ids) if (slider in state.values) say({ shown: slider }, state.values[slider]);
+    const at = triggered.some(({ id, prop }) => id === "depth" && prop === "drag_value") ? depthDrag : depth;
+    say("depth-shown", at);
+    const shown = { operations, operation, colour, depth: at };
+    const same = !loads && !fresh && !opened.again && JSON.stringify(shown) === JSON.stringify(state.shown);
+    state.shown = shown;
+    if (same && !dragged) return unchanged();
+    if (fresh || !dragged) return send(wish(false, hole));
+    later();
+    return same ? unchanged() : send(wish(true, hole));
+  }
+
+  function drawn(answered) {
+    state.busy = false;
+    times.push(performance.now());
+    if (state.next) {
+      const next = state.next;
+      state.next = null;
+      set("wish", { data: send(next) });
+    }
+    return unchanged();
+  }
+
+  window.dash_clientside = Object.assign(window.dash_clientside || {}, {
+    fctd: { moved, drawn, empty: (text) => !text },
+  });
+  window.fctd = { state, times };
+
+  // The server ends the run of a page that is closed; one that is loaded again asks at once.
+  window.addEventListener("pagehide", () => navigator.sendBeacon(`${location.pathname}closed`));
+})();

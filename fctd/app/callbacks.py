@@ -1,0 +1,341 @@
+"""What happens on the page: files come in, sliders move, a run goes on."""
+
+import base64
+import binascii
+import time
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
+from pathlib import PurePath
+from typing import Any, Final
+
+from dash import ALL, ClientsideFunction, Dash, Input, Output, Patch, State, no_update
+
+from fctd.app import page
+from fctd.app.charts import FONT
+from fctd.app.pool import Pool
+from fctd.app.runs import Runs, target_of
+from fctd.app.sessions import Session, Sessions, Source
+from fctd.app.sliders import Slider
+from fctd.case.errors import InputError
+from fctd.case.text import printable
+from fctd.plots.palette import PALETTE
+from fctd.results.unit_systems import System, shown
+
+CASE: Final = ".toml"
+# What a page asks of a string; see ``Well.solved``.
+ASKED: Final = ("values", "operations", "operation", "depth", "colour")
+
+
+class Served:
+    """What the callbacks work with; units : of the page."""
+
+    def __init__(self, sessions: Sessions, pool: Pool, runs: Runs, prefix: str, units: System) -> None:
+        self.sessions, self.pool, self.runs, self.prefix, self.units = sessions, pool, runs, prefix, units
+
+    def session(self, pathname: object) -> Session:
+        """The session of an address.  Raises InputError where there is none."""
+        parts = str(pathname).removeprefix(self.prefix).split("/")
+        found = self.sessions.get(parts[1]) if parts[0] == "s" and len(parts) > 1 else None
+        if found is None:
+            raise InputError("the address of a session: open the page anew", key="session")
+        return found
+
+    def ask(self, session: Session, do: str, **given: Any) -> Any:
+        """An answer about the case of a session.  Raises InputError, also where it has none."""
+        if session.source is None:
+            raise InputError("a case: drop a survey or a case", key="case")
+        return self.pool.ask(do, session.source, self.units, **given)
+
+    def asked(self, session: Session) -> dict[str, Any]:
+        """What the page of a session shows, by its settings."""
+        opened = self.ask(session, "open")
+        kinds = opened["operations"]
+        usual = {
+            "values": {}, "operations": kinds, "operation": kinds[0] if kinds else "trip_out",
+            "depth": opened["depth"]["high"], "colour": "side_force",
+        }  # fmt: skip
+        found = {name: session.settings.get(name, usual[name]) for name in ASKED}
+        return found
+
+
+def patched(changes: Sequence[tuple[Sequence[str | int], Any]]) -> Patch:
+    """Changes of a figure as the page applies them."""
+    patch = Patch()
+    for (*way, last), value in changes:
+        place = patch
+        for key in way:
+            place = place[key]
+        place[last] = value
+    return patch
+
+
+def connect(app: Dash, served: Served) -> None:
+    """Register all callbacks."""
+    for register in (_opening, _moving, _measuring, _running):
+        register(app, served)
+
+
+def _refusing(outputs: int, at: int) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Of a callback with so many outputs: what it refuses is said in the one at an index."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(function)
+        def call(*given: Any) -> Any:
+            try:
+                return function(*given)
+            except InputError as error:
+                found = [no_update] * outputs
+                found[at] = str(error)
+                return tuple(found)
+
+        return call
+
+    return decorate
+
+
+def _opening(app: Dash, served: Served) -> None:
+    """A page is opened, or its session gets another case."""
+    graphs = [Output(name, "figure") for name in page.GRAPHS]
+
+    @app.callback(
+        Output("fault", "children"), Output("opened", "data"), Output("sliders", "children"),
+        Output("operations", "value"), Output("operation", "value"), Output("colour", "value"),
+        Output("depth", "min"), Output("depth", "max"), Output("depth", "value"), Output("depth-unit", "children"),
+        Output("name", "children"), Output("facts", "children"), Output("warnings", "children"),
+        Output("files", "children"), Output("measured", "value"), *graphs,
+        Input("where", "pathname"), Input("changed", "data"), Input("reset", "n_clicks"),
+    )  # fmt: skip
+    @_refusing(18, 0)
+    def opened(pathname: str, changed: object, resets: object) -> tuple[Any, ...]:
+        from dash import ctx
+
+        session = served.session(pathname)
+        if ctx.triggered_id == "reset":
+            session.keep(values={})
+        found, asked = served.ask(session, "open"), served.asked(session)
+        values, depth = asked["values"], found["depth"]
+        sliders = [page.slider(one, _at(one, values)) for one in found["sliders"]]
+        own = {one["name"]: one["value"] for one in found["sliders"]}
+        at = min(max(asked["depth"], depth["low"]), depth["high"])
+        return (
+            "", {"own": own, "values": values, "n": time.time()}, sliders, asked["operations"], asked["operation"],
+            asked["colour"], depth["low"], depth["high"], at, depth["unit"], printable(found["name"]),
+            found["facts"], page.warned(found["warnings"]), page.links(str(pathname)), session.measured,
+            *(found[name] for name in page.GRAPHS),
+        )  # fmt: skip
+
+    @app.callback(
+        Output("upload-fault", "children"), Output("changed", "data"),
+        Input("upload", "contents"), State("upload", "filename"), State("where", "pathname"),
+        prevent_initial_call=True,
+    )  # fmt: skip
+    @_refusing(2, 0)
+    def upload(contents: Sequence[str] | None, names: Sequence[str] | None, pathname: str) -> tuple[Any, ...]:
+        session = served.session(pathname)
+        files = {name: content_of(text) for name, text in zip(names or (), contents or (), strict=True)}
+        source = source_of(files, session.source, served.pool, served.units)
+        session.put(source)
+        return "", time.time()
+
+
+def _at(one: Mapping[str, Any], values: Mapping[str, Any]) -> float:
+    """Where a slider stands; what a file of settings says of it may be of another case."""
+    slider = Slider(**one)
+    try:
+        return slider.check(values.get(slider.name, slider.value))
+    except InputError:
+        return slider.value
+
+
+def content_of(text: str) -> bytes:
+    """The content of a file as a browser sends it.  Raises InputError for another text."""
+    try:
+        return base64.b64decode(text.partition(",")[2], validate=True)
+    except (binascii.Error, ValueError):
+        raise InputError("a file", key="upload") from None
+
+
+def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, units: System) -> Source:
+    """The case of files that came together: a case with its survey, a survey alone, or the survey that a case lacks.
+
+    before : the case that the page has shown.  Raises InputError for files that make none; no name leads to a file.
+    """
+    cases = {name: content for name, content in files.items() if name.lower().endswith(CASE)}
+    surveys = {name: content for name, content in files.items() if name not in cases}
+    if len(cases) > 1 or len(surveys) > 1 or not files:
+        raise InputError(f"one case ({CASE}), one survey, or one of each", key="upload", value=list(files))
+    survey_name, survey = next(iter(surveys.items()), ("", b""))
+    if cases:
+        name, content = next(iter(cases.items()))
+        try:
+            text = content.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            raise InputError("a case file in TOML, a text in UTF-8", key="upload", value=name) from None
+        source = Source(text, survey_name, survey)
+    elif before is not None and not before.survey_name and _awaits(before.text, survey_name):
+        source = Source(before.text, survey_name, survey)
+    else:
+        name = PurePath(survey_name.replace("\\", "/")).name or "survey"
+        encoded = base64.b64encode(survey).decode()
+        text = pool.ask("new_case", name=name, survey=encoded, given_units=_init_units(units))["text"]
+        return Source(text, name, survey)
+    pool.ask("open", source, units)  # a case that cannot be used does not take the place of the one before
+    return source
+
+
+def _init_units(units: System) -> str:
+    return "metric" if units == "si" else "field"
+
+
+def _awaits(text: str, survey_name: str) -> bool:
+    """Whether a case without its survey names this one."""
+    return f'"{survey_name}"' in text or f"'{survey_name}'" in text
+
+
+def _moving(app: Dash, served: Served) -> None:
+    """Sliders, lists and buttons that change what is drawn."""
+    app.clientside_callback(
+        ClientsideFunction("fctd", "moved"), Output("wish", "data"),
+        Input({"slider": ALL}, "drag_value"), Input({"slider": ALL}, "value"), Input("depth", "drag_value"),
+        Input("depth", "value"), Input("operations", "value"), Input("operation", "value"), Input("colour", "value"),
+        Input("opened", "data"), State({"slider": ALL}, "id"),
+    )  # fmt: skip
+    app.clientside_callback(
+        ClientsideFunction("fctd", "drawn"), Output("answered", "modified_timestamp"), Input("answered", "data")
+    )
+    for name in ("fault", "upload-fault"):
+        app.clientside_callback(ClientsideFunction("fctd", "empty"), Output(name, "hidden"), Input(name, "children"))
+
+    @app.callback(
+        Output("fault", "children", allow_duplicate=True), Output("answered", "data"),
+        Output("at", "children"), Output("words", "children"), Output("rows-note", "children"),
+        *(Output(name, "figure", allow_duplicate=True) for name in page.GRAPHS),
+        Input("wish", "data"), State("where", "pathname"), prevent_initial_call=True,
+    )  # fmt: skip
+    def solve(wish: Mapping[str, Any] | None, pathname: str) -> tuple[Any, ...]:
+        wish = wish or {}
+        same = [no_update] * (3 + len(page.GRAPHS))
+        try:
+            session = served.session(pathname)
+            asked = {name: wish[name] for name in ASKED}
+            given = {"coarse": bool(wish["coarse"]), "hole": bool(wish["hole"])}
+            found = served.ask(session, "solve", measured=session.measured, **asked, **given)
+            if not wish["coarse"] and any(session.settings.get(name) != asked[name] for name in ASKED):
+                session.keep(**asked)
+        except KeyError as error:
+            return f"expected {error} in what the page asks", {"n": 0}, *same
+        except InputError as error:
+            return str(error), {"n": wish.get("n", 0)}, *same
+        figures = [patched(found[name]) for name in page.GRAPHS]
+        return "", {"n": wish.get("n", 0)}, found["where"], found["words"], found["note"], *figures
+
+
+def _measuring(app: Dash, served: Served) -> None:
+    """Measured rows, pasted or from a file."""
+
+    @app.callback(
+        Output("measured-told", "children"), Output("opened", "data", allow_duplicate=True),
+        Input("show-measured", "n_clicks"), State("measured", "value"), State("where", "pathname"),
+        State("opened", "data"), prevent_initial_call=True,
+    )  # fmt: skip
+    @_refusing(2, 0)
+    def show(clicks: object, text: str | None, pathname: str, opened: Mapping[str, Any] | None) -> tuple[Any, ...]:
+        session = served.session(pathname)
+        count = served.ask(session, "measured", text=text or "")["rows"]
+        session.keep(measured=text or "")
+        return f"{count} rows" if count else "", {**(opened or {}), "again": time.time()}
+
+    @app.callback(
+        Output("measured", "value", allow_duplicate=True), Output("measured-told", "children", allow_duplicate=True),
+        Input("measured-file", "contents"), prevent_initial_call=True,
+    )  # fmt: skip
+    @_refusing(2, 1)
+    def take(contents: str | None) -> tuple[Any, ...]:
+        return content_of(contents or "").decode("utf-8-sig", "replace"), "press show"
+
+
+def _running(app: Dash, served: Served) -> None:
+    """A run in time, and what goes on in general."""
+
+    @app.callback(
+        Output("note", "children"), Output("share", "value"), Output("run", "disabled"), Output("stop", "disabled"),
+        Output("run-kept", "data"), Output("run-told", "children"), Output("tick", "interval"),
+        Input("tick", "n_intervals"), State("where", "pathname"), State("run-kept", "data"),
+    )  # fmt: skip
+    def tick(count: object, pathname: str, before: object) -> tuple[Any, ...]:
+        note = served.pool.note
+        try:
+            session = served.session(pathname)
+        except InputError as error:
+            return str(error), *[no_update] * 5, 60 * page.TICK
+        state = served.runs.state(session)
+        going, kept = state["running"], [state["kept"], state["running"]]
+        told = no_update if state["kept"] or not state["log"] else state["log"]
+        quiet = not (note or going)
+        return (
+            note, f"{state['share']:.3f}", going, not going, no_update if kept == before else kept, told,
+            page.TICK * (5 if quiet else 1),
+        )  # fmt: skip
+
+    @app.callback(
+        Output("run-told", "children", allow_duplicate=True), Output("tick", "interval", allow_duplicate=True),
+        Input("run", "n_clicks"), State("where", "pathname"), prevent_initial_call=True,
+    )  # fmt: skip
+    @_refusing(2, 0)
+    def start(clicks: object, pathname: str) -> tuple[Any, ...]:
+        session = served.session(pathname)
+        source, name = session.source, ""
+        if source is not None and source.survey_name:
+            name = "survey" + PurePath(source.survey_name).suffix.lower()
+        text = served.ask(session, "text", values=served.asked(session)["values"], survey=name)["text"]
+        served.runs.start(session, text, name, b"" if source is None else source.survey)
+        return "the string comes to rest first; nothing is recorded yet", page.TICK
+
+    @app.callback(
+        Output("stop", "disabled", allow_duplicate=True),
+        Input("stop", "n_clicks"), State("where", "pathname"), prevent_initial_call=True,
+    )  # fmt: skip
+    def stop(clicks: object, pathname: str) -> bool:
+        served.runs.stop(served.session(pathname))
+        return True
+
+    @app.callback(
+        Output("time", "figure"), Output("run-told", "children", allow_duplicate=True),
+        Input("run-kept", "data"), State("where", "pathname"), prevent_initial_call=True,
+    )  # fmt: skip
+    @_refusing(2, 1)
+    def streamed(kept: Sequence[Any] | None, pathname: str) -> tuple[Any, ...]:
+        session = served.session(pathname)
+        if not kept or not kept[0]:
+            return page.EMPTY, no_update
+        target = str(target_of(session.folder))
+        found = served.pool.ask("records", target=target, shown_units=served.units)
+        told = [found["last"], found["status"]]
+        return time_figure(found, served.units), "; ".join(filter(None, told)) or no_update
+
+
+def time_figure(found: Mapping[str, Any], units: System) -> dict[str, Any]:
+    """Hook load and torque over time; found : of ``runs_view.records``."""
+    looks = {"hookload_N": ("hook load", PALETTE["vermilion"], "y"), "surface_torque_N_m": ("torque", "#000000", "y2")}
+    data = [
+        {
+            "type": "scatter", "mode": "lines", "x": found["time"], "y": found["curves"][name], "name": label,
+            "line": {"color": colour, "width": 1.6}, "yaxis": axis,
+            "hovertemplate": f"%{{x:.1f}} s: %{{y:.4g}} {shown(name, units).label}<extra>{label}</extra>",
+        }
+        for name, (label, colour, axis) in looks.items()
+    ]  # fmt: skip
+    axes = {
+        f"yaxis{axis[1:]}": {
+            "title": {"text": f"{label}, {shown(name, units).label}", "font": {"size": 12, "color": colour}},
+            "gridcolor": "#e8e8e8", "zeroline": False,
+        }
+        for name, (label, colour, axis) in looks.items()
+    }  # fmt: skip
+    axes["yaxis2"] |= {"overlaying": "y", "side": "right", "showgrid": False}
+    layout = {
+        **axes, "xaxis": {"title": {"text": "time, s", "font": {"size": 12}}, "gridcolor": "#e8e8e8"},
+        "margin": {"l": 64, "r": 64, "t": 10, "b": 46}, "uirevision": "fixed", "showlegend": False,
+        "font": {"family": FONT, "size": 11},
+    }  # fmt: skip
+    return {"data": data, "layout": layout}

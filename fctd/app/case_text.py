@@ -1,0 +1,167 @@
+"""A case from a text that anyone may have written, and the survey that came with it; nothing else is opened.
+
+This runs in the process of its own that worker.py is.
+"""
+
+import io
+import tomllib
+import zipfile
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+import tomlkit
+
+from fctd.app.sessions import Source
+from fctd.case.errors import InputError, look_up, set_key, split_key
+from fctd.case.load import Case, make_case
+from fctd.case.surveys.workbook import ZIP
+from fctd.model.layouts import segments_in_hole
+from fctd.model.new_case import UnitSystem, from_survey, read_survey
+
+MOST_UNPACKED: Final = 50 * 2**20  # bytes of a survey's parts
+MOST_STATIONS: Final = 50_000
+MOST_SEGMENTS: Final = 2_000
+PIECE: Final = 2**16
+
+
+class SourceCase:
+    """A source that has been read: the raw case with the survey as a file of this process, and the case of it.
+
+    folder : of this process, for the survey.  Raises InputError for a case that cannot be used, and before anything is
+    opened where it names another file than the survey beside it.
+    """
+
+    def __init__(self, source: Source, folder: Path) -> None:
+        self.source, self.folder = source, folder
+        try:
+            raw = tomllib.loads(source.text)
+        except (ValueError, RecursionError) as error:
+            raise InputError(f"a case file in TOML ({error})") from None
+        check_paths(raw, source.survey_name)
+        self._survey = folder / f"survey{_ending(source)}"
+        if source.survey_name:
+            check_survey(source.survey)
+            self._survey.write_bytes(source.survey)
+            raw["wellbore"]["survey"] = str(self._survey)
+        self.raw = raw
+        self.case = self.changed({})
+
+    def changed(self, overrides: Mapping[str, Any]) -> Case:
+        """The case with other values of dotted keys, None where a key is dropped; the survey is read once."""
+        raw: dict[str, Any] = _copied(self.raw) if overrides else self.raw
+        for key, value in overrides.items():
+            set_key(raw, key, value)
+        try:
+            case = make_case(raw, self.folder, like=getattr(self, "case", None))
+            check_size(case)
+        except InputError as error:
+            raise self.named(error) from None
+        return case
+
+    def named(self, error: InputError) -> InputError:
+        """An error with the survey's own name in place of that of the copy, and without the case's."""
+        written = Path(self.source.survey_name).name or "survey"
+        of_survey = error.file is not None and Path(error.file) == self._survey
+        value = written if error.value == str(self._survey) else error.value
+        more = [self.named(other) for other in error.more]
+        file = written if of_survey else None
+        return InputError(error.expected, key=error.key, value=value, file=file, more=more)
+
+    def text(self, overrides: Mapping[str, Any]) -> str:
+        """The text with other values, which keeps its comments."""
+        document: Any = tomlkit.parse(self.source.text)
+        for key, value in overrides.items():
+            *parents, last = split_key(key)
+            place: Any = look_up(document, *parents)
+            if value is not None:
+                set_key(document, key, value)
+            elif isinstance(place, dict) and last in place:
+                del place[last]
+        return tomlkit.dumps(document)
+
+
+def check_paths(raw: Mapping[str, Any], survey_name: str) -> None:
+    """Raise InputError where a raw case names another file than the survey that came with it."""
+    hole = raw.get("wellbore")
+    named = hole.get("survey") if isinstance(hole, dict) else None
+    if named is None:
+        return
+    if not survey_name or named != survey_name:
+        expected = "the name of a survey file that is uploaded with the case, without folders"
+        raise InputError(expected, key="wellbore.survey", value=named)
+
+
+def check_survey(content: bytes) -> None:
+    """Raise InputError for a packed file that is too large when unpacked, and for XML with a document type."""
+    if not content.startswith(ZIP):
+        if _has_doctype(content):
+            raise InputError("a survey without a document type (DOCTYPE)")
+        return
+    room = MOST_UNPACKED
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as parts:
+            for part in parts.infolist():
+                with parts.open(part) as unpacked:
+                    before = b""
+                    # What a part says of its size may be false: it is counted.
+                    while piece := unpacked.read(PIECE):
+                        room -= len(piece)
+                        if room < 0:
+                            raise InputError(f"a workbook of at most {MOST_UNPACKED >> 20} MiB when unpacked")
+                        if part.filename.endswith((".xml", ".rels")) and _has_doctype(before + piece):
+                            raise InputError("a workbook whose parts have no document type (DOCTYPE)")
+                        before = piece[-32:]
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError) as error:
+        raise InputError(f"a workbook (xlsx) that can be read ({error})") from None
+
+
+def check_size(case: Case) -> None:
+    """Raise InputError for more stations or segments than the page takes."""
+    stations = len(case.wellbore.trajectory)
+    if stations > MOST_STATIONS:
+        raise InputError(f"at most {MOST_STATIONS} stations", key="wellbore", value=stations)
+    segments = segments_in_hole(case, case.depths[1])
+    if segments > MOST_SEGMENTS:
+        expected = f"a string of at most {MOST_SEGMENTS} segments in the hole, here about {segments}"
+        raise InputError(expected, key="string.components")
+
+
+def from_upload(name: str, survey: bytes, units: UnitSystem, folder: Path) -> Source:
+    """A case of an uploaded survey, as ``fctd init`` makes it.  Raises InputError for a file that is no survey."""
+    check_survey(survey)
+    path = folder / f"new{_suffix(name)}"
+    path.write_bytes(survey)
+    try:
+        columns, stations = read_survey(path, units)
+    except InputError as error:
+        raise InputError(error.expected, key=error.key, value=error.value, file=name, more=error.more) from None
+    if len(stations) > MOST_STATIONS:
+        raise InputError(f"at most {MOST_STATIONS} stations", value=len(stations), file=name)
+    plan = from_survey(None, Path(name).stem or "my well", units, name, columns, stations)
+    return Source(plan.text(), name, survey)
+
+
+def _has_doctype(content: bytes) -> bool:
+    upper = content.upper()
+    return any("<!DOCTYPE".encode(encoding) in upper for encoding in ("ascii", "utf-16-le", "utf-16-be"))
+
+
+def _ending(source: Source) -> str:
+    return _suffix(source.survey_name)
+
+
+def _suffix(name: str) -> str:
+    """What the name of a file says of its kind, where it is one of a survey."""
+    suffix = Path(name).suffix.lower()
+    return suffix if suffix in (".xlsx", ".xml", ".csv", ".txt") else ".txt"
+
+
+def _copied(value: Any) -> Any:
+    """A copy of nested tables and lists; stations and other leaves are shared."""
+    if isinstance(value, dict):
+        return {key: _copied(inner) for key, inner in value.items()}
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return [_copied(inner) for inner in value]
+    return value

@@ -1,0 +1,137 @@
+"""The sliders of the page: what each one changes in a case, its range, and the unit in which it is shown."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import ceil, isfinite
+from typing import Any, Final
+
+from fctd.case.errors import MISSING, InputError
+from fctd.case.friction import scaled_static
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.case.units import conversion
+from fctd.model.drillstring import lay_out
+from fctd.model.layouts import is_long
+from fctd.results.unit_systems import System
+
+RPM: Final = "rpm"
+# SI unit, shown units, step and usual ends [shown], by system.
+Scale = tuple[str, str, float, float, float]
+SCALES: Final[dict[str, dict[System, Scale]]] = {
+    "friction": {"si": ("", "", 0.01, 0.0, 0.6), "field": ("", "", 0.01, 0.0, 0.6)},
+    "mud": {
+        "si": ("kg/m^3", "kg/m^3", 10.0, 800.0, 2200.0), "field": ("kg/m^3", "lb/gal", 0.1, 7.0, 18.0),
+    },
+    "wob": {"si": ("N", "kN", 5.0, 0.0, 300.0), "field": ("N", "klbf", 1.0, 0.0, 70.0)},
+    "bit_torque": {"si": ("N*m", "kN*m", 0.5, 0.0, 30.0), "field": ("N*m", "kft*lbf", 0.5, 0.0, 22.0)},
+    RPM: {"si": ("", "", 5.0, 5.0, 240.0), "field": ("", "", 5.0, 5.0, 240.0)},
+    "segment": {"si": ("m", "m", 1.0, 5.0, 60.0), "field": ("m", "ft", 2.0, 16.0, 200.0)},
+}  # fmt: skip
+LABELS: Final = {"kg/m^3": "kg/m³", "lb/gal": "ppg", "kN*m": "kN·m", "kft*lbf": "kft·lbf", "": ""}
+KIND_LABELS: Final = {"cased": "friction, cased", "open": "friction, open hole", None: "friction"}
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A slider; low, high, step and value [unit]; factor : of a shown value to SI; value : that of the case."""
+
+    name: str
+    label: str
+    unit: str
+    low: float
+    high: float
+    step: float
+    value: float
+    factor: float = 1.0
+
+    def check(self, value: object) -> float:
+        """A value that the page has sent [unit]; raises InputError for one beyond the ends."""
+        number = float(value) if isinstance(value, int | float) and not isinstance(value, bool) else float("nan")
+        if not (isfinite(number) and self.low <= number <= self.high):
+            raise InputError(f"a number from {self.low:g} to {self.high:g}", key=self.name, value=value)
+        return number
+
+
+def sliders_of(case: Case, units: System) -> list[Slider]:
+    """The sliders of a case, at its own values."""
+    found = []
+    for kind in dict.fromkeys(interval.kind for interval in case.wellbore.intervals):
+        first = next(interval for interval in case.wellbore.intervals if interval.kind == kind)
+        label = KIND_LABELS[kind] if kind or _lacks_kinds(case) else "friction, elsewhere"
+        found.append(_slider(f"friction_{kind}", label, "friction", first.friction, units))
+    found.append(_slider("mud", "mud density", "mud", case.mud.density, units))
+    found.append(_slider("wob", "weight on bit", "wob", case.bit.weight_on_bit, units))
+    found.append(_slider("bit_torque", "bit torque", "bit_torque", case.bit.torque, units))
+    turning = [operation.rpm for operation in case.operations if KINDS[operation.kind].turns]
+    rpm = float(turning[0] if turning else KINDS["rotate_off_bottom"].default_rpm)
+    found.append(_slider(RPM, "rotation", RPM, rpm, units))
+    found.append(_slider("segment", "segment length", "segment", _segment_length(case), units))
+    return found
+
+
+def changes(
+    case: Case, raw: Mapping[str, Any], sliders: Sequence[Slider], values: Mapping[str, object]
+) -> dict[str, Any]:
+    """Values of dotted keys of a case for sliders that have been moved, in the units of a case file; None drops a key.
+
+    raw : the case as it is written; values : by the names of the sliders [shown units].  Raises InputError for a value
+    beyond a slider's ends.
+    """
+    by_name, found = {slider.name: slider for slider in sliders}, dict[str, Any]()
+    for name, given in values.items():
+        if name not in by_name:
+            continue
+        slider = by_name[name]
+        value = slider.check(given) * slider.factor
+        value = float(f"{value:.10g}")
+        if name.startswith("friction_"):
+            for i, interval in enumerate(case.wellbore.intervals):
+                if f"friction_{interval.kind}" == name:
+                    static = scaled_static(raw["wellbore"]["intervals"][i], value)
+                    found[f"wellbore.intervals[{i}].friction"] = value
+                    if static is not MISSING:
+                        found[f"wellbore.intervals[{i}].static_friction"] = static
+        elif name == RPM:
+            for i, operation in enumerate(case.operations):
+                if KINDS[operation.kind].turns:
+                    found[f"operations[{i}].rpm"] = value
+        elif name == "segment":
+            for i, part in enumerate(case.string.components):
+                if not is_long(part):
+                    found[f"string.components[{i}].segments"] = None
+                    found[f"string.components[{i}].segment_length"] = value
+        else:
+            found[{"mud": "mud.density", "wob": "bit.weight_on_bit", "bit_torque": "bit.torque"}[name]] = value
+    return found
+
+
+def turning_at(case: Case, rpm: float) -> Case:
+    """The case with operations of all kinds that turn the string, at a rotation [rev/min], for steady strings alone."""
+    here = {operation.kind for operation in case.operations}
+    more: Any = tuple(
+        kind.model_construct(kind=name, rpm=rpm, speed=kind.default_speed)
+        for name, kind in KINDS.items()
+        if kind.turns and name not in here
+    )
+    return case.model_copy(update={"operations": (*case.operations, *more)})
+
+
+def _slider(name: str, label: str, scale: str, value: float, units: System) -> Slider:
+    si, unit, step, low, high = SCALES[scale][units]
+    factor = conversion(unit, si) if unit != si else 1.0
+    shown = float(f"{value / factor:.6g}")
+    high = max(high, ceil(1.5 * shown / step) * step)
+    label_of_unit = "rev/min" if name == RPM else LABELS.get(unit, unit)
+    return Slider(name, label, label_of_unit, min(low, shown), high, step, shown, factor)
+
+
+def _lacks_kinds(case: Case) -> bool:
+    return all(interval.kind is None for interval in case.wellbore.intervals)
+
+
+def _segment_length(case: Case) -> float:
+    """Mean length [m] of the segments below a long one, with the bit where the case's operations or its hole end."""
+    deepest = max((operation.end_md for operation in case.operations), default=case.depths[1])
+    string = lay_out(case, deepest)
+    lengths = string.length[1:] if string.long_segment and string.segments > 1 else string.length
+    return float(lengths.mean())

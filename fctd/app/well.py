@@ -1,0 +1,190 @@
+"""A well under the sliders: what the page opens with, and what it draws after each move.
+
+This runs in the process of its own that worker.py is.
+"""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from fctd.app import charts, scenes
+from fctd.app.case_text import SourceCase
+from fctd.app.sessions import Source
+from fctd.app.sliders import RPM, changes, sliders_of, turning_at
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.model.operations import depth_range, rates_of_all
+from fctd.plots.facts import shoes_of
+from fctd.results.measured import read_measured
+from fctd.results.unit_systems import System, reworded, shown
+from fctd.steady.equilibrium import Solver
+from fctd.steady.torque_drag import chart_rows
+from fctd.view.quantities import QUANTITIES, quantity_of
+from fctd.view.strings import Strings, of_points
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+USUAL: Final = ("trip_out", "rotate_off_bottom", "trip_in")
+DEPTHS: Final = 70
+EVERY: Final = 3  # of the depths while a slider moves
+MOST_MEASURED: Final = 5_000  # rows
+
+
+class Well:
+    """A case with its sliders; raises InputError for one that cannot be used.
+
+    depths (k,) [m] : of the chart.
+    """
+
+    def __init__(self, source: Source, folder: Path, units: System) -> None:
+        self.units, self.read = units, SourceCase(source, folder)
+        self.case = self.read.case
+        self.depths = depths_of(self.case)
+        self.sliders = sliders_of(self.case, units)
+        self._last: tuple[str, Case] = ("", self.case)
+        self._exaggeration = 1.0
+        self._opened: dict[str, Any] | None = None
+
+    def moved(self, values: Mapping[str, object]) -> Case:
+        """The case with the sliders at values [shown units]; those that are not named stand at the case's own."""
+        key = json.dumps(values, sort_keys=True)
+        if key != self._last[0]:
+            case = self.read.changed(self.overrides(values))
+            rpm = next((slider for slider in self.sliders if slider.name == RPM and RPM in values), None)
+            self._last = key, case if rpm is None else turning_at(case, rpm.check(values[RPM]))
+        return self._last[1]
+
+    def overrides(self, values: Mapping[str, object]) -> dict[str, Any]:
+        """Values of dotted keys for the sliders; see ``sliders.changes``."""
+        return changes(self.case, self.read.raw, self.sliders, values)
+
+    def opened(self) -> dict[str, Any]:
+        """What the page begins with."""
+        if self._opened is None:
+            factor, unit = shown("bit_depth_m", self.units)
+            case, quantity = self.case, QUANTITIES["side_force"]
+            strings = self._strings(case, "trip_out", self.depths[-1])
+            scene, panels, self._exaggeration = scenes.skeletons(strings, quantity, self.units)
+            usual = [*USUAL, *(["drill_rotating"] if case.bit.weight_on_bit else [])]
+            self._opened = {
+                "name": case.name, "sliders": [asdict(slider) for slider in self.sliders], "operations": usual,
+                "depth": {"low": self.depths[0] * factor, "high": self.depths[-1] * factor, "unit": unit},
+                "loads": charts.skeleton(case, self.depths, self.units), "scene": scene, "panels": panels,
+                "warnings": [reworded(str(warning), self.units) for warning in case.warnings],
+                "facts": self._facts(), "runs": bool(case.operations), "exaggeration": self._exaggeration,
+            }  # fmt: skip
+        return self._opened
+
+    def solved(
+        self, values: Mapping[str, object], operations: Sequence[str], operation: str, depth: float, colour: str,
+        measured: str = "", *, coarse: bool = False, hole: bool = True,
+    ) -> dict[str, Any]:  # fmt: skip
+        """Changes of the three figures for sliders at values.
+
+        operations : of the chart; operation, depth [shown unit] : of the string in its hole; coarse : whether every
+        third depth is enough; hole : whether the hole is drawn anew; measured : text of measured rows.
+        """
+        kinds = [kind for kind in KINDS if kind in operations]
+        if operation not in KINDS:
+            raise InputError("a kind of operation", key="operation", value=operation)
+        case = self.moved(values)
+        self.opened()
+        depths = self.depths[::-1][::EVERY][::-1] if coarse else self.depths
+        rows = chart_rows(case, kinds, depths) if kinds else []
+        points = self.measured(measured)
+        loads = charts.changes_of(rows, kinds, case, self.units, points) if rows else []
+        factor, unit = shown("bit_depth_m", self.units)
+        at = self.within(depth / factor)
+        strings = self._strings(case, operation, at)
+        scene, panels, words = scenes.changes_of(
+            strings, quantity_of(colour), self.units, self._exaggeration, hole=hole
+        )
+        where = f"{KINDS[operation].label}, bit at {at * factor:.0f} {unit}"
+        return {
+            "loads": loads, "scene": scene, "panels": panels, "where": where, "words": words, "note": self._note(rows),
+        }  # fmt: skip
+
+    def chart(self, values: Mapping[str, object], operations: Sequence[str]) -> list[dict[str, Any]]:
+        """All rows of the chart for the sliders at values."""
+        return chart_rows(self.moved(values), [kind for kind in KINDS if kind in operations] or [*USUAL], self.depths)
+
+    def check_measured(self, text: str) -> dict[str, int]:
+        """The number of measured rows of a text.  Raises InputError for one that cannot be read."""
+        found = self.measured(text)
+        return {"rows": 0 if found is None else len(found)}
+
+    def measured(self, text: str) -> "pd.DataFrame | None":
+        """Measured rows of a text in columns, apart by commas or tabs; None without any."""
+        if not text.strip():
+            return None
+        path = self.read.folder / "measured.csv"
+        path.write_bytes(text.replace("\t", ",").encode("utf-8", "replace"))
+        try:
+            found = read_measured(path, self.case)
+        except InputError as error:
+            raise InputError(error.expected, key=error.key, value=error.value, file="measured rows") from None
+        if len(found) > MOST_MEASURED:
+            raise InputError(f"at most {MOST_MEASURED} rows", value=len(found), file="measured rows")
+        return found
+
+    def profile_at(self, values: Mapping[str, object], operation: str, depth: float) -> "pd.DataFrame":
+        """The steady string of an operation with the bit at a depth [m], a row per contact point."""
+        case = self.moved(values)
+        return Solver(case).solve(operation, rates_of_all(case, [operation])[operation], self.within(depth)).profile
+
+    def within(self, depth: float) -> float:
+        """A bit depth [m], or the nearest one of the chart's."""
+        return float(np.clip(depth, self.depths[0], self.depths[-1]))
+
+    def strings_at(self, values: Mapping[str, object], operation: str, depths: Sequence[float]) -> Strings:
+        """Steady strings of an operation at depths [m]."""
+        case = self.moved(values)
+        solver, rate = Solver(case), rates_of_all(case, [operation])[operation]
+        return of_points([solver.solve(operation, rate, depth) for depth in depths], solver.hole)
+
+    def _strings(self, case: Case, operation: str, depth: float) -> Strings:
+        solver = Solver(case)
+        point = solver.solve(operation, rates_of_all(case, [operation])[operation], depth)
+        return of_points([point], solver.hole)
+
+    def _facts(self) -> str:
+        """The hole and the string in a line."""
+        case, (factor, unit) = self.case, shown("bit_depth_m", self.units)
+        stations = case.wellbore.trajectory
+        steepest = float(np.degrees(stations[:, 1].max()))
+        segments = len(self._strings(case, "trip_out", self.depths[-1]).snapshots[0].offset)
+        parts = [f"{case.depths[1] * factor:.0f} {unit} deep", f"up to {steepest:.0f}°"]
+        parts += [f"{len(stations)} stations", f"{segments} contact points"]
+        return ", ".join(parts)
+
+    def _note(self, rows: Sequence[Mapping[str, Any]]) -> str:
+        """How many rows are no plain answers."""
+        found: dict[str, int] = {}
+        for row in rows:
+            if row["status"] != "converged":
+                word = str(row["status"]).replace("_", " ")
+                found[word] = found.get(word, 0) + 1
+        return ", ".join(f"{count} of {len(rows)} {word}" for word, count in found.items())
+
+
+def depths_of(case: Case) -> list[float]:
+    """Bit depths of the chart [m]: from the last shoe, or the middle of the hole, to its end.
+
+    A string whose top segment is the paper's long one fits only where the case moves it.
+    """
+    top, bottom = case.depths
+    last = case.string.components[-1]
+    if last.long_segment and case.operations:
+        _, low, high = depth_range(case)
+    else:
+        low = next((shoe for shoe in reversed(shoes_of(case)) if top < shoe < bottom), top + 0.5 * (bottom - top))
+        high = bottom
+    if high - low < 1.0:
+        low = top + 0.5 * (high - top)
+    return [round(float(depth), 3) for depth in np.linspace(low, high, DEPTHS)]
