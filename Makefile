@@ -3,6 +3,7 @@
 #                  (BROWSER=0 leaves them out)
 # make bench       time the benchmarks on this machine, keep the times in .benchmarks for --benchmark-compare, and compare
 #                  the kernels with the last release
+# make docs        write the docs site to docs/out: open docs/out/index.html
 # make lint        check style, types and allowed imports
 # make bullet      build pybullet from source, which has no wheel for Python 3.12 and later: needs a C++ compiler and
 #                  about six minutes of one core
@@ -17,7 +18,7 @@ FLAGS := $(if $(filter-out 0,$(QUICK)),--quick)
 # The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
-.PHONY: reproduce test bench lint bullet clean
+.PHONY: reproduce test bench docs lint bullet clean
 
 reproduce: $(STAMP)
 	@status=0; $(BIN)/python -m validation --reproduce $(FLAGS) || status=$$?; \
@@ -34,6 +35,10 @@ endif
 bench: $(STAMP)
 	$(BIN)/python -m pytest benchmarks --benchmark-enable --benchmark-autosave --benchmark-sort=name
 	$(BIN)/python -m benchmarks compare
+
+docs: $(STAMP)
+	rm -rf docs/out
+	$(BIN)/python -m sphinx -W -q -j auto -b html docs docs/out
 
 lint: $(STAMP)
 	$(BIN)/python -m ruff check
@@ -55,5 +60,5 @@ bullet: $(STAMP)
 	--no-binary=pybullet "$$(sed -n 's/^\(pybullet==[^ ;]*\).*/\1/p' requirements.lock)"
 
 clean:
-	rm -rf validation/results reports/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
+	rm -rf validation/results reports/out docs/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +

@@ -17,6 +17,7 @@ from fctd.cli import main
 from fctd.model.operations import rad_per_s, steady_rates
 from fctd.results.notes import MEANINGS
 from references import __main__ as references
+from tests.browsers import needs_browser
 from tests.case import survey_files
 from validation.harness.registry import STUDIES
 
@@ -72,8 +73,9 @@ def slow(document: Path) -> Any:
 
 # Guides whose commands build on the ones before, and run one after the other in one folder.
 CHAINED = [ROOT / "docs" / "calibrate.md", ROOT / "docs" / "sweep.md"]
+# A still picture needs a browser.
 RUN = [
-    pytest.param(document, command, marks=slow(document))
+    pytest.param(document, command, marks=needs_browser if "--png" in command else slow(document))
     for document, command in COMMANDS
     if document not in CHAINED and not command.startswith(tuple(NOT_RUN))
 ]
@@ -126,7 +128,7 @@ def run_command(command: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(sys, "argv", [program, *shlex.split(shorter(command).removeprefix(f".venv/bin/{program} "))])
     with exit_code_0():
         main.run(PROGRAMS[program])
-    for target in re.findall(r"--(?:out|plot|plot-profile|table) (\S+)", command):
+    for target in re.findall(r"--(?:out|plot|plot-profile|table|png) (\S+)", command):
         assert (folder / target).exists()
 
 
@@ -281,10 +283,11 @@ def test_studies_are_called_by_their_names() -> None:
 
 def test_pictures_are_small_and_those_of_the_command() -> None:
     pytest.importorskip("matplotlib")
-    from docs import pictures
+    from docs import pictures, tutorial
 
     files = {path.stem: path for path in (ROOT / "docs" / "pictures").iterdir()}
-    assert set(files) == set(pictures.PICTURES)
+    drawn = {f"tutorial_{Path(name).stem}" for command in tutorial.commands() for name in tutorial.pictures(command)}
+    assert set(files) == set(pictures.PICTURES) | drawn
     shown = {Path(link).stem for guide in GUIDES for link in links(guide) if link.endswith(".png")}
     assert set(files) == shown
     assert max(path.stat().st_size for path in files.values()) <= 150_000

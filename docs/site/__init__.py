@@ -1,0 +1,1 @@
+"""What the docs site needs beyond Sphinx: equations as MathML, docstrings and guides as they are, pages of rooms."""
