@@ -134,6 +134,7 @@ class MovingString:
         top = topdrive
         self.top[[*SUMS_AT_THE_ENDS, top.TOP_WORK, top.FED_ENERGY, top.LOST_BIT, top.TOP_PENETRATION]] = 0.0
         readings.clear(self.top)
+        readings.forget_swing(self.top)
         self.steps = 0
 
 

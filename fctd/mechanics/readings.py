@@ -1,4 +1,7 @@
-"""Readings of every step since the last record: extremes of hook load and torque, and the turning of the bit."""
+"""Readings of every step since the last record: extremes of hook load and torque, and the turning of the bit.
+
+Over a longer time: how far and how fast the hook load swings from step to step, whatever else it does more slowly.
+"""
 
 import math
 from typing import Any, NamedTuple
@@ -8,10 +11,16 @@ from numpy.typing import NDArray
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.state import WZ
 from fctd.mechanics.topdrive import (
+    BENDS,
     BIT_ANGLE,
     BIT_STILL,
+    CHANGES,
     HOOKLOAD_MAX,
     HOOKLOAD_MIN,
+    PULL,
+    PULL_CHANGE,
+    PULL_STEPS,
+    PULL_TIME,
     SUM_HOOKLOAD,
     SUM_TOP_TORQUE,
     TOP_ANGLE,
@@ -49,6 +58,27 @@ def clear(top: NDArray[Any]) -> None:
     top[[TOP_ANGLE, BIT_ANGLE, BIT_STILL]] = 0.0
 
 
+def forget_swing(top: NDArray[Any]) -> None:
+    """Forget how the hook load swung; the two steps that follow have no change of a change yet."""
+    top[[PULL_TIME, CHANGES, BENDS]] = 0.0
+    top[PULL_STEPS] = -2.0
+
+
+def drain_swing(top: NDArray[Any], at_least: float) -> tuple[float, float]:
+    """Amplitude [N] and frequency [Hz] of the fast part of the hook load since the last call that drained it.
+
+    at_least : time [s] that must have been read; before it nothing is drained, and the amplitude is 0.  A swing
+    a sin ωt changes in a step h by 2 a sin(½ωh) and its change by 4 a sin²(½ωh), in the root of the mean square each
+    over √2.  What is slow hardly changes in a step: of several swings, the one of the largest a ω is found.
+    """
+    span, changes, bends = (float(value) for value in top[[PULL_TIME, CHANGES, BENDS]])
+    if span < at_least or bends == 0:
+        return 0.0, 0.0
+    step, ratio = span / float(top[PULL_STEPS]), math.sqrt(bends / changes)
+    top[[PULL_STEPS, PULL_TIME, CHANGES, BENDS]] = 0.0
+    return math.sqrt(2 / span) * changes / math.sqrt(bends), math.asin(min(0.5 * ratio, 1.0)) / (math.pi * step)
+
+
 def drain(top: NDArray[Any]) -> Readings:
     """Return the readings since the last call or ``clear``, and forget them."""
     read = Readings(
@@ -70,6 +100,14 @@ def read_step(S, top, n, hookload, torque, rate, motor, dt):
     pull, twist = (top[SUM_HOOKLOAD] - hookload) / dt, (top[SUM_TOP_TORQUE] - torque) / dt
     top[HOOKLOAD_MIN], top[HOOKLOAD_MAX] = min(top[HOOKLOAD_MIN], pull), max(top[HOOKLOAD_MAX], pull)
     top[TORQUE_MIN], top[TORQUE_MAX] = min(top[TORQUE_MIN], twist), max(top[TORQUE_MAX], twist)
+    change = pull - top[PULL]
+    bend = change - top[PULL_CHANGE]
+    top[PULL], top[PULL_CHANGE] = pull, change
+    top[PULL_STEPS] += 1
+    if top[PULL_STEPS] > 0:
+        top[PULL_TIME] += dt
+        top[CHANGES] += dt * change * change
+        top[BENDS] += dt * bend * bend
     spin = S[WZ + n] + motor
     top[TOP_ANGLE] += dt * rate
     top[BIT_ANGLE] += dt * spin

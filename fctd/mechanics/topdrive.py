@@ -115,7 +115,10 @@ PRESSED, HOLE_MADE, SUM_BIT_WEIGHT, SUM_BIT_TORQUE, LOST_BIT, BIT_WEIGHT, BIT_TO
 BIT_MOVED, BIT_SPIN = 25, 26
 # Of the autodriller: hook load off bottom [N], block speed of the integral part [m/s], feed since the start [m].
 TARE, TOP_FEED, FED = range(27, 30)
-TOP_SIZE = 30
+# Of the hook load from step to step (readings.py): in the last step [N], its change in that step [N]; number and time
+# [s] of the steps that were read, integrals over this time of the squares of the changes and of their changes [N^2 s].
+PULL, PULL_CHANGE, PULL_STEPS, PULL_TIME, CHANGES, BENDS = range(30, 36)
+TOP_SIZE = 36
 
 
 @inlined

@@ -78,6 +78,15 @@ MEANINGS: Final = {
         "the bit drilled nothing: its wear flats carry its weight",
         "drill for longer, put more weight on it, or lower bit.rock.wear_flat or bit.rock.contact_strength",
     ),
+    "push": Meaning(
+        "the string is pushed down with more than the weight of the block",
+        "no rig moves the string so: turn it, lower friction factor or speed, put heavier pipe into the upper part, or "
+        "give rig.block_weight what the rig can push with",
+    ),
+    "flutter": Meaning(
+        "friction and the springs of the wall make the string flutter",
+        'set solver.joint_damping = "1 ms", or use shorter segments; means change by a few per cent',
+    ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "torque": Meaning(
         "the surface torque at the end of the run is not steady",
@@ -116,7 +125,8 @@ class Note:
         return f"{self.text}: {self.remedy}"
 
 
-def _note(code: str, text: str, excess: float, place: float | None = None) -> Note:
+def note_of(code: str, text: str, excess: float, place: float | None = None) -> Note:
+    """A note with the remedy of its code."""
     return Note(code, text, MEANINGS[code].remedy, place, excess)
 
 
@@ -208,7 +218,7 @@ def _penetration(walls: Walls, radius: Array, penetration: Array) -> Note | None
         f"a contact point at {walls.md[k]:.0f} m is {1e3 * penetration[k]:.3g} mm deep in the wall, "
         f"where the clearance is {1e3 * clearance[k]:.3g} mm"
     )
-    return _note("penetration", text, float(excess[k]), float(walls.md[k]))
+    return note_of("penetration", text, float(excess[k]), float(walls.md[k]))
 
 
 def _stress(string: String, loads: Loads, walls: Walls) -> Note | None:
@@ -223,7 +233,7 @@ def _stress(string: String, loads: Loads, walls: Walls) -> Note | None:
         return None
     place = float(walls.md[k - 1]) if k else string.top_md
     text = f"the stress at {place:.0f} m is {stress[k] / 1e6:.0f} MPa, the yield strength {strength[k] / 1e6:.0f} MPa"
-    return _note("yield", text, float(stress[k] / strength[k]), place)
+    return note_of("yield", text, float(stress[k] / strength[k]), place)
 
 
 def _pull(string: String, hookload: float) -> Note | None:
@@ -232,7 +242,7 @@ def _pull(string: String, hookload: float) -> Note | None:
     if not hookload > capacity:
         return None
     text = f"the hook load is {hookload / 1e3:.0f} kN, the uppermost pipe yields at {capacity / 1e3:.0f} kN"
-    return _note("tensile_capacity", text, float(hookload / capacity), string.top_md)
+    return note_of("tensile_capacity", text, float(hookload / capacity), string.top_md)
 
 
 def under_resolved(buckling: Buckling) -> Note | None:
@@ -243,12 +253,12 @@ def under_resolved(buckling: Buckling) -> Note | None:
         f"buckling is {buckling}, where segments of {buckling.longest:.3g} m cannot bend that way; "
         f"segments of at most {buckling.segment_length:g} m would"
     )
-    return _note("buckling", text, buckling.longest / buckling.segment_length, buckling.from_md)
+    return note_of("buckling", text, buckling.longest / buckling.segment_length, buckling.from_md)
 
 
 def winds_too_much(shortfall: str, longest: float, wanted: float) -> Note | None:
     """A note where segments of up to ``longest`` [m] cannot follow a winding hole, as those of ``wanted`` [m] can."""
-    return _note("tortuosity", shortfall, longest / wanted) if shortfall else None
+    return note_of("tortuosity", shortfall, longest / wanted) if shortfall else None
 
 
 def too_deep(penetration: float, largest: float) -> Note | None:
@@ -258,7 +268,7 @@ def too_deep(penetration: float, largest: float) -> Note | None:
     text = (
         f"a contact point was {1e3 * penetration:.3g} mm deep in the wall, the step is stable to {1e3 * largest:.3g} mm"
     )
-    return _note("wall", text, penetration / largest)
+    return note_of("wall", text, penetration / largest)
 
 
 def beyond_joints(bend: float, twist: float, joint: tuple[int, int]) -> Note | None:
@@ -276,7 +286,7 @@ def beyond_joints(bend: float, twist: float, joint: tuple[int, int]) -> Note | N
         f"segment {j} {does} by {np.degrees(angle):.0f}° against the one above, where {np.degrees(most):.0f}° are "
         "within the range of the joint"
     )
-    return _note("joint", text, max(excess))
+    return note_of("joint", text, max(excess))
 
 
 def drilled_nothing(made: float, weight: float, worn: float) -> Note | None:
@@ -290,14 +300,14 @@ def drilled_nothing(made: float, weight: float, worn: float) -> Note | None:
         f"the bit drilled nothing: it carried at most {weight / 1e3:.3g} kN, and its wear flats rub without cutting up "
         f"to {worn / 1e3:.3g} kN"
     )
-    return _note("drilling", text, worn / max(weight, 1.0))
+    return note_of("drilling", text, worn / max(weight, 1.0))
 
 
 def ledger_off(error: float) -> Note | None:
     """A note where the energy ledger is off by ``error`` of the work and more than ``DOUBTFUL``; NaN counts as off."""
     if error < DOUBTFUL:
         return None
-    return _note("ledger", f"the energy ledger is off by {100 * error:.2g} %", error / DOUBTFUL)
+    return note_of("ledger", f"the energy ledger is off by {100 * error:.2g} %", error / DOUBTFUL)
 
 
 def torque_swings(last: float, mean: float, before: float, period: float, hookload: float) -> Note | None:
@@ -314,7 +324,7 @@ def torque_swings(last: float, mean: float, before: float, period: float, hooklo
         f"the surface torque of the last record is {last / 1e3:.3g} kN·m, its mean over the last torsional period of "
         f"{period:.3g} s {mean / 1e3:.3g} kN·m, and over the one before {before / 1e3:.3g} kN·m"
     )
-    return _note("torque", text, off / bound)
+    return note_of("torque", text, off / bound)
 
 
 def hookload_swings(swing: float, mean: float, before: float, period: float, weight: float) -> Note | None:
@@ -331,7 +341,7 @@ def hookload_swings(swing: float, mean: float, before: float, period: float, wei
         f"the hook load still swings by ±{swing / 1e3:.3g} kN at the end of the run; its mean over the last axial "
         f"period of {period:.3g} s is {mean / 1e3:.4g} kN, and over the one before {before / 1e3:.4g} kN"
     )
-    return _note("hookload", text, off / bound)
+    return note_of("hookload", text, off / bound)
 
 
 def whirls(sideways: float, surface: float, friction_torque: float, of_sliding: float) -> Note | None:
@@ -347,7 +357,7 @@ def whirls(sideways: float, surface: float, friction_torque: float, of_sliding: 
         f"speed of its surface, and friction has {100 * friction_torque / of_sliding:.0f} % of the torque of a string "
         "that slides"
     )
-    return _note("whirl", text, sideways / (SIDEWAYS * surface))
+    return note_of("whirl", text, sideways / (SIDEWAYS * surface))
 
 
 def rings(swing: float, frequency: float, depth: float, bound: float) -> Note | None:
@@ -361,4 +371,4 @@ def rings(swing: float, frequency: float, depth: float, bound: float) -> Note | 
         f"the string slides over the seams between the hole's cylinders at its natural frequency, {frequency:.2f} Hz: "
         f"near {depth:.0f} m they make the hook load swing by about ±{swing / 1e3:.2g} kN"
     )
-    return _note("ringing", text, swing / bound)
+    return note_of("ringing", text, swing / bound)

@@ -5,6 +5,7 @@
 - Contact points that are deep in the wall, stress and hook load (``notes.string_notes``), and segments that cannot bend
   as the buckled string does (``notes.under_resolved``).
 - Joints beyond the range of their law (``notes.beyond_joints``).
+- The hook load: a string that is pushed down (``run_notes.pushes``), and one that flutters (``run_notes.flutters``).
 - The energy ledger so far, by which a run that ends early is judged.
 """
 
@@ -17,15 +18,17 @@ from typing import ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.mechanics import state
+from fctd.mechanics import readings, state, topdrive
 from fctd.mechanics.jit import entry
 from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
+from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
 from fctd.results.notes import (
     LEAST_PENETRATION,
     MOST_PENETRATION,
     SHARE_OF_CLEARANCE,
+    SMALL_SWING,
     Note,
     beyond_joints,
     could_have_notes,
@@ -34,6 +37,7 @@ from fctd.results.notes import (
     under_resolved,
 )
 from fctd.results.profile import Loads
+from fctd.results.run_notes import flutters, pushes
 from fctd.simulation.run import Run
 
 
@@ -54,6 +58,8 @@ def may_have_notes(offset, hole, radius, tension, torque, bending, bit_tension, 
     return could_have_notes(0.0, pull, bit_tension, twist, bit_torque, bend, sections, top, hookload)
 
 
+# Time [s] over which the flutter of the hook load is read: a jolt is a small part of it.
+LISTEN = 1.0
 LOST = (*LOSSES, "lost_bit_J")
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -89,23 +95,44 @@ class Guards:
         self._keep(beyond_joints(worst.bend, worst.twist, worst.joint), bit_depth)
 
     def check_record(
-        self, bit_depth: float, hookload: float, loads: Loads, walls: Walls, buckling: Buckling,
+        self, bit_depth: float, pull: tuple[float, float], loads: Loads, walls: Walls, buckling: Buckling,
         row: Mapping[str, float],
     ) -> None:  # fmt: skip
-        """Keep the notes of a record; loads are means over its interval, row is its row of the ledger."""
+        """Keep the notes of a record; loads are means over its interval, row is its row of the ledger.
+
+        pull : mean hook load of the record, and the least of its steps [N].
+        """
         run = self.run
         radius, in_hole, string = state.row(run.S, state.RADIUS, run.segments), run.case.contact.enabled, run.string
         if not in_hole or may_have_notes(
             walls.offset, walls.radius, radius, loads.tension, loads.torque, loads.bending, float(loads.bit_tension),
-            float(loads.bit_torque), self._table(), int(string.component[0]), hookload,
+            float(loads.bit_torque), self._table(), int(string.component[0]), pull[0],
         ):  # fmt: skip
-            for note in string_notes(string, loads, hookload, walls, radius, in_hole=in_hole):
+            for note in string_notes(string, loads, pull[0], walls, radius, in_hole=in_hole):
                 self._keep(note, bit_depth)
         self._keep(under_resolved(buckling), bit_depth)
+        self._check_hookload(bit_depth, *pull)
         lost = abs(sum([row[name] for name in LOST]))
         beyond = abs(row["top_drive_work_J"] - row["gravity_J"])
         self.work = max(self.work, lost, beyond)
         self.residual = max(self.residual, abs(row["residual_J"]))
+
+    def _check_hookload(self, bit_depth: float, mean: float, least: float) -> None:
+        """Keep the notes on the hook load of a record [N], and on its flutter since it was last judged."""
+        run = self.run
+        if least >= 0 and run.top[topdrive.PULL_TIME] < LISTEN:
+            return
+        S, n, long = run.S, run.segments, float(run.top[topdrive.TOP_LENGTH])
+        weight = float(state.row(S, state.WEIGHT, n).sum()) + 0.5 * run.pipe.weight * long
+        self._keep(pushes(mean, least, run.case.rig.block_weight, weight), bit_depth)
+        amplitude, frequency = readings.drain_swing(run.top, LISTEN)
+        stiffness = state.row(S, state.K_WALL, n)
+        if amplitude > SMALL_SWING * weight and stiffness.max() > 0:
+            square = (stiffness * (state.row(S, state.INVERSE_MASS, n) - state.row(S, state.HELD_BACK, n)))[
+                stiffness > 0
+            ].min()
+            on_wall, axial = math.sqrt(square) / (2 * math.pi), 1 / axial_period_of(run.laid_out)
+            self._keep(flutters(amplitude, frequency, on_wall, axial, weight), bit_depth)
 
     def _table(self) -> NDArray[np.float64]:
         """The table of the string's sections, which are the same ones at most depths."""

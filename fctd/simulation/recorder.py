@@ -123,7 +123,8 @@ class Recorder:
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
-        self.guards.timed(self.guards.check_record, self.bit_depth, hookload, loads, walls, buckling, row)
+        pull = hookload, self.history[-1]["hookload_min_N"]
+        self.guards.timed(self.guards.check_record, self.bit_depth, pull, loads, walls, buckling, row)
         self._keep_segments(loads, walls, limits)
         low, high = sorted((before, self.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]

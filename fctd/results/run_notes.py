@@ -1,0 +1,44 @@
+"""Notes on the hook load of a run in time: a string that is pushed down its hole, and one that flutters."""
+
+from fctd.results.notes import SMALL_SWING, Note, note_of
+
+# The push of a single step counts where it exceeds what the block can give by this share of the string's weight: waves
+# of starts and stops pass the top of a light string with less.
+PUSH_OF_A_STEP = 0.10
+# A flutter is as fast as the wall's springs throw segments about, and faster than the string's axial waves: this share
+# of the lowest frequency of a segment on its wall spring, and this multiple of the slowest axial one.
+OF_THE_WALL, OF_THE_STRING = 1 / 3, 3.0
+# Half of the critical damping of a segment on its wall spring, and the damping time of the joints [s], end the flutters
+# of trips through long bends with friction factors up to 0.5 (tests/simulation/test_flutter.py).
+JOINT_DAMPING = 1e-3
+
+
+def pushes(mean: float, least: float, block: float, weight: float) -> Note | None:
+    """A note where the string is pushed down with more than the weight of the block.
+
+    mean, least : hook load of a record, and the least of its steps; block, weight : of the block and of the string [N].
+    """
+    beyond = max(-mean - SMALL_SWING * weight, -least - PUSH_OF_A_STEP * weight)
+    if not beyond > block:
+        return None
+    text = (
+        f"the hook load falls to {least / 1e3:.3g} kN in a step and is {mean / 1e3:.3g} kN on the mean of a record, "
+        f"where the block can push with {block / 1e3:.3g} kN"
+    )
+    return note_of("push", text, 1 + (beyond - block) / max(block, SMALL_SWING * weight))
+
+
+def flutters(amplitude: float, frequency: float, on_wall: float, axial: float, weight: float) -> Note | None:
+    """A note where the hook load flutters.
+
+    amplitude : of its fast part, weight : of the string [N]; frequency : of the fast part, on_wall : the lowest of a
+    segment on its wall spring, axial : the slowest axial one of the string [Hz].
+    """
+    bound = SMALL_SWING * weight
+    if not (amplitude > bound and frequency > max(OF_THE_WALL * on_wall, OF_THE_STRING * axial)):
+        return None
+    text = (
+        f"the string flutters: friction feeds the springs of the wall, and the hook load swings by ±"
+        f"{amplitude / 1e3:.3g} kN at some {frequency:.2g} Hz"
+    )
+    return note_of("flutter", text, amplitude / bound)
