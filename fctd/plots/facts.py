@@ -67,7 +67,10 @@ def heading_of_chart(
     words += [KINDS[kinds[0]].label] if len(kinds) == 1 else []
     words += [in_words(frictions[0])] if len(frictions) == 1 else []
     facts = "" if case is None else "; ".join(facts_of(case, kinds, units, rates))
-    notes = [f"note {code}: {found['headline']}" for code, found in meanings_of(chart.get("notes", ())).items()]
+    notes = [
+        f"note {code}: {found['headline']}: {found['remedy']}"
+        for code, found in meanings_of(chart.get("notes", ())).items()
+    ]
     return "; ".join(words), [facts, *_told(warnings), *notes]
 
 
@@ -78,7 +81,7 @@ def heading_of_profile(points: Sequence[Equilibrium], units: System, warnings: S
     words = [case.name, f"bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}", in_words(friction)]
     facts = "; ".join(facts_of(case, [point.operation for point in points], units))
     found = worst(note for point in points if point.answered for note in point.notes)
-    return "; ".join(words), [facts, *_told(warnings), *(f"note {note.code}: {note.text}" for note in found)]
+    return "; ".join(words), [facts, *_told(warnings), *(f"note {note.code}: {note}" for note in found)]
 
 
 def _told(warnings: Sequence[str]) -> list[str]:

@@ -96,7 +96,7 @@ def _lines(result: SimulationResult, units: System) -> list[str]:
     first = f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms"
     if np.isfinite(run["energy_error"]):
         first += f", energy error {run['energy_error']:.1e}"
-    return [first, *(reworded(note.text, units) for note in result.notes)]
+    return [first, *(reworded(f"note {note.code}: {note}", units) for note in result.notes)]
 
 
 def _load(ax: Axes, time: Array, history: pd.DataFrame, stem: str, unit: str, units: System) -> None:

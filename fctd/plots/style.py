@@ -13,7 +13,7 @@ from matplotlib.legend import Legend
 from matplotlib.typing import RcKeyType
 
 from fctd.case.text import printable
-from fctd.plots.labels import width_of
+from fctd.plots.labels import SIZE, width_of
 from fctd.plots.palette import DARK, QUIET
 from fctd.results.whole_file import whole_file
 
@@ -71,11 +71,10 @@ class Sheet:
     def __init__(
         self, width: float, panels: float, title: str, lines: Sequence[str], handles: Sequence[Artist]
     ) -> None:
-        fitting = int((width - 2 * MARGIN) * POINTS / (SMALL * SMALL_WIDTH))
         small = [
             (part, QUIET if k else DARK)
             for k, line in enumerate(lines)
-            for part in wrap(printable(line), fitting, break_on_hyphens=False)
+            for part in _wrapped(printable(line), (width - 2 * MARGIN) * POINTS)
         ]
         widest = max((width_of(str(handle.get_label())) for handle in handles), default=0.0) / POINTS
         columns = max(int((width - 2 * MARGIN) / (widest + LEGEND_HANDLE)), 1)
@@ -112,3 +111,14 @@ class Sheet:
             handles=ordered, ncols=columns, loc="lower left", bbox_to_anchor=(MARGIN / self.width, 0.04 / self.height),
             fontsize=8, borderaxespad=0, handlelength=2.6, columnspacing=1.4, labelspacing=0.45,
         )  # fmt: skip
+
+
+def _wrapped(text: str, width: float) -> list[str]:
+    """A text in lines of small type that are no wider than a width [pt]."""
+    fitting = int(width / (SMALL * SMALL_WIDTH))
+    while True:
+        parts = wrap(text, fitting, break_on_hyphens=False)
+        widest = max((width_of(part) * SMALL / SIZE for part in parts), default=0.0)
+        if widest <= width or fitting == 1:
+            return parts
+        fitting = max(min(int(fitting * width / widest), fitting - 1), 1)

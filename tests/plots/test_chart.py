@@ -111,7 +111,7 @@ def test_warnings_and_notes_stand_below_the_title() -> None:
     table.loc[3, "notes"] = "yield, penetration"
     figure = plots.chart_figure(table, "si", CASE, plots.ChartLook(warnings=["mud.density: a warning, $\\frac"]))
     found = [text.get_text() for text in figure.texts][2:]
-    notes = [f"note {code}: {MEANINGS[code].headline}" for code in ("penetration", "yield")]
+    notes = [f"note {code}: {': '.join(MEANINGS[code])}" for code in ("penetration", "yield")]
     assert found == ["warning mud.density: a warning, $\\frac", *notes]
     assert texts_that_overlap(figure) == []
 

@@ -113,6 +113,6 @@ def test_warnings_and_notes_stand_below_the_title() -> None:
     small = [text.get_text() for text in plots.profile_figure(noted, warnings=["a warning"]).texts][2:]
     assert small == [
         "warning a warning",
-        "note penetration: a contact point at 5 m is 9 mm deep",
-        "note yield: the stress at 800 m is 3000 MPa, $\\frac",
+        "note penetration: a contact point at 5 m is 9 mm deep: remedy",
+        "note yield: the stress at 800 m is 3000 MPa, $\\frac: remedy",
     ]

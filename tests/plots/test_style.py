@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 
 from fctd import plots
 from fctd.plots.style import Sheet
+from fctd.results.notes import MEANINGS
 from tests.plots.made import chart, legend_of, texts_that_overlap
 
 
@@ -28,6 +29,14 @@ def test_long_lines_of_the_heading_are_wrapped() -> None:
     sheet.axes(1, 0.3, 4, 1)
     assert len(sheet.figure.texts) > 4
     assert texts_that_overlap(sheet.figure) == []
+
+
+@pytest.mark.parametrize("line", ["WELL-NAME_IN_CAPITALS " * 12, "M" * 400, *(": ".join(m) for m in MEANINGS.values())])
+def test_lines_stay_inside_whatever_their_letters(line: str) -> None:
+    sheet = Sheet(5.0, 2.0, "title", ["", line], [])
+    assert texts_that_overlap(sheet.figure) == []
+    _, *lines = (text.get_text() for text in sheet.figure.texts)
+    assert " ".join(lines).split() == line.split() or "".join(lines) == line
 
 
 def test_entries_of_the_legend_read_from_left_to_right() -> None:

@@ -100,7 +100,7 @@ def test_a_note_is_shown_everywhere(
         note = notes[code]
         assert note.remedy == MEANINGS[code].remedy
         assert f"{note.text}: {note.remedy}" in said
-        assert note.text in picture
+        assert f"note {code}: {note}" in picture
 
 
 def test_every_code_is_raised() -> None:

@@ -36,6 +36,18 @@ def drilling(geometry: str = "arcs") -> Case:
     )  # fmt: skip
 
 
+def drilling_on(geometry: str = "arcs") -> Case:
+    """An autodriller over a connection: its stroke takes longer than planned before it, and less time after it."""
+    connection = 31 * 28.5
+    return make_case(
+        [[0, 0, 0], [300, 0, 0], [600, 45, 0], [1000, 45, 0]], STRING,
+        [DRILLED | {"from_md": connection - 1.0, "to_md": connection + 0.6}],
+        mud={"density": 1200.0, "axial_damping": 2.0, "rotational_damping": 0.3}, wellbore={"geometry": geometry},
+        bit={"weight_on_bit": 4e4, "rock": {"specific_energy": "25 MPa", "wear_flat": 0}},
+        rig={"autodriller": True, "feed": "stands", "connection_time": 5.0},
+    )  # fmt: skip
+
+
 def stopped(simulation: Simulation, after: int, chunk: int = 7) -> tuple[Checkpoint, list[dict[str, bytes]]]:
     """The checkpoint of a run after so many records, as it would be read back, and its chunks of so many records."""
     cursor, chunks = Cursor(), []

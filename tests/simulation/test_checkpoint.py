@@ -12,9 +12,9 @@ from fctd.results.tables import SimulationResult
 from fctd.simulation.checkpoint import capture, put_back
 from fctd.simulation.simulate import Simulation
 from tests.cases import make_case, pipe, rotation
-from tests.simulation.kept import BUILD, drilling, gone_on, same, stopped, tripping
+from tests.simulation.kept import BUILD, drilling, drilling_on, gone_on, same, stopped, tripping
 
-CASES = {"trip": tripping, "drill": drilling}
+CASES = {"trip": tripping, "drill": drilling, "drill on": drilling_on}
 
 
 @cache
@@ -39,15 +39,34 @@ def test_a_run_goes_on_bitwise_the_same(name: str, geometry: str, share: float) 
     same(again.result(), whole)
 
 
-def test_a_run_that_is_stopped_twice() -> None:
-    case = tripping()
-    checkpoint, chunks = stopped(Simulation(case), 20)
+def test_the_shifts_of_an_autodriller_are_made_again() -> None:
+    """Stopped before and after the first and the last shift, and in the slips; the schedule is the same one too."""
+    whole, case = Simulation(drilling_on()), drilling_on()
+    slips = next(k for k, record in enumerate(whole, start=1) if record["in_slips"])
+    for _ in whole:
+        pass
+    shifts = whole.shifts
+    assert {shift.drills_on for shift in shifts} == {True, False}
+    assert shifts[0].done < slips < shifts[-1].done
+    for record in sorted({shift.done + k for shift in (shifts[0], shifts[-1]) for k in (0, 1)} | {slips}):
+        again = gone_on(case, *stopped(Simulation(case), record))
+        assert again.shifts == [shift for shift in shifts if shift.done < record]
+        for _ in again:
+            pass
+        same(again.result(), whole.result())
+        assert (again.intervals, again.phases, again.shifts) == (whole.intervals, whole.phases, shifts)
+
+
+@pytest.mark.parametrize(("name", "first", "then"), [("trip", 20, 30), ("drill on", 27, 20)])
+def test_a_run_that_is_stopped_twice(name: str, first: int, then: int) -> None:
+    case = CASES[name]()
+    checkpoint, chunks = stopped(Simulation(case), first)
     middle = gone_on(case, checkpoint, chunks)
-    more, rest = stopped_again(middle, 30)
+    more, rest = stopped_again(middle, then)
     again = gone_on(case, more, [*chunks, rest])
     for _ in again:
         pass
-    same(again.result(), undisturbed("trip", "arcs"))
+    same(again.result(), undisturbed(name, "arcs"))
 
 
 def stopped_again(simulation: Simulation, after: int) -> tuple[object, dict[str, bytes]]:
