@@ -154,6 +154,8 @@ def _print_percentiles(found: Uncertainty, units: System) -> None:
     if "bit_depth_m" in rows:
         rows = rows[rows["bit_depth_m"] == rows["bit_depth_m"].max()]
     for row in rows.to_dict("records"):
+        if (row["operation"], row["column"]) in found.noise:
+            continue
         try:
             factor, unit = shown(row["column"], units)
         except ValueError:

@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
+from fctd.plots.keys import in_words, labelled
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
 from fctd.results.columns import COLUMNS
@@ -21,8 +22,6 @@ from fctd.sweep.uncertainty import Uncertainty
 
 WIDTH, PANEL = 9.0, 5.0  # of the sheet, and height of a panel of bands [in]
 BAR, NAMES, LEFT, APART = 0.26, 2.4, 0.9, 0.8  # height of a bar, width of parameters' names, margins [in]
-# Loads below this are rounding [N] or [N m].
-ROUNDING = 1e-3
 # The measure that a tornado shows, the first that there is.
 MEASURES = {
     "ST": "total Sobol index", "mu_star": "mean absolute effect (Morris)", "SRC": "standardised coefficient (SRC)",
@@ -42,7 +41,11 @@ def label_of(column: str, units: System) -> tuple[str, Shown]:
 def _words(column: str, unit: Shown) -> str:
     """A column without its unit, in words."""
     ends = ("_N_m", "_Pa", "_N", "_m") if unit.label else ()
-    return next((column.removesuffix(end) for end in ends if column.endswith(end)), column).replace("_", " ")
+    return (
+        next((column.removesuffix(end) for end in ends if column.endswith(end)), column)
+        .replace("_", " ")
+        .replace("stick slip", "stick-slip")
+    )
 
 
 def bands_figure(found: Uncertainty, units: System = "si") -> Figure:
@@ -57,9 +60,12 @@ def bands_figure(found: Uncertainty, units: System = "si") -> Figure:
         Line2D([], [], color=LOOKS[kind][0], marker=LOOKS[kind][1], label=KINDS[kind].label) for kind in operations
     ]
     handles.append(Patch(color=QUIET, alpha=0.3, label=f"{low:g} to {high:g} %"))
-    handles.append(Line2D([], [], color=QUIET, linestyle=":", label="its error bars of 95 %"))
+    bars = pd.concat([table[table["percentile"] == low]["low"], table[table["percentile"] == high]["high"]])
+    if bars.notna().any():  # they are open where they end beyond the samples
+        handles.append(Line2D([], [], color=QUIET, linestyle=":", label="its error bars of 95 %"))
     samples = f"{table['samples'].max()} samples, {found.spec.method.replace('_', ' ')}; line: {middle:g} %"
-    columns = found.columns[:2]
+    drawn = [name for name in found.columns[:2] if any((kind, name) not in found.noise for kind in operations)]
+    columns = drawn or found.columns[:1]
     with mpl.rc_context(RC):
         sheet = Sheet(WIDTH, PANEL + 0.7, found.spec.name, [samples], handles)
         width = (WIDTH - LEFT - 0.2 - APART * (len(columns) - 1)) / len(columns)
@@ -82,8 +88,6 @@ def _bands(axes: Axes, table: pd.DataFrame, column: str, units: System, of: tupl
             axes.plot(by[p][end] * unit.factor, depth, ":", color=colour, linewidth=0.8)
         every = max(len(depth) // 8, 1)
         axes.plot(by[of[1]]["value"] * unit.factor, depth, color=colour, marker=marker, markevery=every, markersize=4)
-    if table["value"].abs().max() < ROUNDING:  # as the torque of strings that only slide
-        axes.set_xlim(-1, 1)
     axes.invert_yaxis()
     axes.xaxis.set_label_position("top")
     axes.xaxis.tick_top()
@@ -116,7 +120,7 @@ def tornado_figure(found: Uncertainty, operation: str | None = None) -> Figure:
             places = np.arange(len(part))
             axes.barh(places, part["value"], color=PALETTE["blue"], height=0.7)
             axes.errorbar(part["value"], places, xerr=part["error"], fmt="none", ecolor=DARK, elinewidth=1, capsize=2)
-            axes.set_yticks(places, list(part["parameter"]), parse_math=False)
+            axes.set_yticks(places, [in_words(key) for key in part["parameter"]], parse_math=False)
             axes.axvline(0, color=DARK, linewidth=0.8)
             axes.grid(axis="y", visible=False)
             axes.set_title(f"{label_of(column, 'si')[0].split(',')[0]}: {MEASURES[measure]}")
@@ -154,13 +158,7 @@ def map_figure(
             drawn = axes.scatter(x, y, c=values, cmap="viridis", s=14, linewidths=0)
         bar = sheet.figure.colorbar(drawn, cax=sheet.axes(LEFT + 4.75, 0.1, 0.2, 3.9))
         bar.set_label(text)
-        names = [_parameter(found, key) for key in keys]
-        axes.set_xlabel(names[0], parse_math=False)
-        axes.set_ylabel(names[1], parse_math=False)
+        units_of = {parameter.key: parameter.unit for parameter in found.spec.parameters}
+        axes.set_xlabel(labelled(keys[0], units_of[keys[0]]), parse_math=False)
+        axes.set_ylabel(labelled(keys[1], units_of[keys[1]]), parse_math=False)
     return sheet.figure
-
-
-def _parameter(found: Uncertainty, key: str) -> str:
-    """A parameter with the unit in which the sweep file gives it."""
-    unit = next(p.unit for p in found.spec.parameters if p.key == key)
-    return f"{key}, {unit}" if unit else key

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
 # Least standard deviation of a result with indices, over its mean or one SI unit: below is rounding.
 SPREAD: Final = 1e-5
+# A torque below this share of the hook load, in metres, is what the solver leaves out of balance [N m over N]: each
+# body balances within 1e-7 of the string's weight, and a hundred of them add up.
+OUT_OF_BALANCE: Final = 1e-5
 
 
 @dataclass(frozen=True)
@@ -26,7 +30,8 @@ class Uncertainty:
 
     columns : that they tell of; percentiles, convergence : see percentiles.py; probabilities : see probabilities.py;
     indices : a row for every operation, column, parameter and measure at the depth of the indices, with value and
-    error; bit_depth [m] : of the indices, NaN where rows have none; trouble : why there are no indices, or "".
+    error; bit_depth [m] : of the indices, NaN where rows have none; trouble : why there are no indices, or "";
+    noise : operations and columns whose torque is 0 but for what the solver leaves out of balance.
     """
 
     spec: SweepSpec
@@ -38,6 +43,7 @@ class Uncertainty:
     convergence: pd.DataFrame
     bit_depth: float
     trouble: str
+    noise: frozenset[tuple[str, str]]
 
 
 def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) -> Uncertainty:
@@ -57,11 +63,11 @@ def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) ->
         raise InputError("a sweep of which a sample has an answer", value=dataset.folder)
     columns = columns_of(rows, spec.uncertainty.columns)
     depth, at = _at(rows, bit_depth)
-    found, trouble = [], ""
+    found, trouble, noise = [], "", noise_in(rows, columns)
     for operation, group in at.groupby("operation", sort=True):
         for name in columns:
             values = group.set_index("sample")[name]
-            if not values.std() > SPREAD * max(abs(values.mean()), 1.0):  # as the torque of a string that only slides
+            if (operation, name) in noise or not values.std() > SPREAD * max(abs(values.mean()), 1.0):
                 continue
             try:
                 indices = indices_of(spec, dataset.samples, values)
@@ -79,6 +85,20 @@ def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) ->
         convergence_table(rows, columns, spec.uncertainty.percentiles),
         depth,
         trouble,
+        noise,
+    )
+
+
+def noise_in(rows: pd.DataFrame, columns: Sequence[str]) -> frozenset[tuple[str, str]]:
+    """Operations and columns with a torque that is noise, as of a string that only slides."""
+    if "hookload_N" not in rows:
+        return frozenset()
+    torques = [name for name in columns if name.endswith("_torque_N_m")]
+    return frozenset(
+        (str(operation), name)
+        for operation, group in rows.groupby("operation")
+        for name in torques
+        if group[name].abs().max() < OUT_OF_BALANCE * group["hookload_N"].abs().max()
     )
 
 

@@ -26,7 +26,9 @@ pytest.importorskip("distributed")
 psutil = pytest.importorskip("psutil")
 pytestmark = pytest.mark.slow
 
-SAMPLES = 60
+# Pause before each sample [s]: two workers take six seconds, the first part is written after two, and a fault comes
+# at most two seconds later, before the sweep ends.
+SAMPLES, PAUSE, LATER = 60, 0.2, 2.0
 KINDS = ("worker", "client", "scheduler", "disk", "worker of a scheduler", "hang", "crash", "interrupt")
 # Each takes half a minute: FCTD_FAULTS=20 tries all kinds, more than twice each.
 SEEDS = range(int(os.environ.get("FCTD_FAULTS", 1)))
@@ -37,7 +39,7 @@ LONGEST = 240.0  # of a sweep [s]
 def sweep(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The sweep file; what its workers preload lies beside it, and makes them slow, so that a fault finds them busy."""
     folder = tmp_path_factory.mktemp("sweep")
-    clusters.faults(folder, pause=0.1)
+    clusters.faults(folder, pause=PAUSE)
     return sweep_file(folder, f'method = "sobol"\nsamples = {SAMPLES}\ntime_limit = "3 s"\n')
 
 
@@ -105,7 +107,7 @@ def test_a_sweep_resumes_after_a_fault_with_the_rows_of_one_undisturbed(
     """A sample that hangs or crashes is a row, and the others are as they were."""
     kind, draw, out = KINDS[seed % len(KINDS)], random.Random(seed), tmp_path / "out"
     ill = draw.randrange(SAMPLES)
-    disturb(kind, draw.uniform(0.0, 2.0), ill, sweep, out, tmp_path)
+    disturb(kind, draw.uniform(0.0, LATER), ill, sweep, out, tmp_path)
     again = start(sweep, out)
     assert again.wait(timeout=LONGEST) == 0
     found = rows_of(out)
@@ -127,8 +129,7 @@ def disturb(kind: str, wait: float, ill: int, sweep: Path, out: Path, folder: Pa
     if kind in ("scheduler", "worker of a scheduler"):
         with clusters.cluster(folder, 2, sweep.parent / "faults.py") as file:
             process = start(sweep, out, "--scheduler-file", file)
-            until(lambda: parts(out) > 0, process)
-            time.sleep(wait)
+            wait_in(process, out, wait)
             clusters.kill(file, "scheduler" if kind == "scheduler" else "worker")
             end(process)
         return
@@ -136,8 +137,7 @@ def disturb(kind: str, wait: float, ill: int, sweep: Path, out: Path, folder: Pa
     if kind == "disk":
         assert process.wait(timeout=LONGEST) == 2
         return
-    until(lambda: parts(out) > 0, process)
-    time.sleep(wait)
+    wait_in(process, out, wait)
     if kind == "interrupt":
         os.killpg(process.pid, signal.SIGINT)  # as a terminal does, which tells the workers, too
         assert process.wait(timeout=LONGEST) == 130
@@ -151,6 +151,13 @@ def disturb(kind: str, wait: float, ill: int, sweep: Path, out: Path, folder: Pa
     for pid in workers_of(process)[:1]:
         os.kill(pid, signal.SIGKILL)
     end(process)
+
+
+def wait_in(process: "subprocess.Popen[bytes]", out: Path, wait: float) -> None:
+    """Wait some time [s] after the first part of a sweep, which goes on."""
+    until(lambda: parts(out) > 0, process)
+    time.sleep(wait)
+    assert process.poll() is None
 
 
 def end(process: "subprocess.Popen[bytes]") -> None:

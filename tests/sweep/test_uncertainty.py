@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy import stats
 
@@ -12,7 +13,7 @@ from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import Dataset, begin_dataset
 from fctd.sweep.run import prepare, sample_of
 from fctd.sweep.spec import SweepSpec, read_sweep
-from fctd.sweep.uncertainty import assess
+from fctd.sweep.uncertainty import assess, noise_in
 
 # The hole hardly leaves room beside the pipe: the string hangs on the axis of the hole and lies on its low side, and
 # with a clearance c the tension T of the first segments takes some T c / 8 m off the wall.  With 8.5 in of hole that
@@ -119,6 +120,17 @@ def test_indices_of_a_result_that_does_not_vary_are_left_out(tmp_path: Path) -> 
     found = assess(dataset, spec.model_copy(update={"uncertainty": both}))
     assert set(found.indices["column"]) == {"hookload_N"}
     assert found.trouble == ""
+
+
+def test_the_torque_of_a_string_that_only_slides_is_noise() -> None:
+    rows = pd.DataFrame(
+        {"operation": ["trip_in", "trip_in", "rotate_off_bottom", "rotate_off_bottom"], "hookload_N": 1e6,
+         "surface_torque_N_m": [3.0, -9.0, 9.0, 11.0], "drive_torque_N_m": [500.0, 500.0, 3.0, 4.0]}
+    )  # fmt: skip
+    columns = ["hookload_N", "surface_torque_N_m", "drive_torque_N_m"]
+    expected = {("trip_in", "surface_torque_N_m"), ("rotate_off_bottom", "drive_torque_N_m")}
+    assert noise_in(rows, columns) == expected
+    assert noise_in(rows.drop(columns="hookload_N"), columns[1:]) == set()
 
 
 def test_too_few_samples_for_indices_are_said_and_the_rest_is_told(tmp_path: Path) -> None:

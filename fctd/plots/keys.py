@@ -1,0 +1,84 @@
+"""Keys of a case in words, with their units, for the axes of pictures."""
+
+import types
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Any, Final, Union, get_args, get_origin
+
+from fctd.case.errors import Table, split_key
+from fctd.case.load import Case
+from fctd.case.units import Quantity
+
+# Names whose words are others than their own.
+WORDS: Final = {
+    "rpm": "rotation",
+    "friction": "friction factor",
+    "static_friction": "static friction factor",
+    "youngs_modulus": "Young's modulus",
+    "poisson_ratio": "Poisson's ratio",
+    "to_md": "lower end",
+    "from_md": "upper end",
+}
+# Lists of tables, and what an item of each is called.
+ITEMS: Final = {"operations": "operation", "components": "component", "intervals": "interval"}
+# Tables that a name needs not beside it.
+PLAIN: Final = ("wellbore", "string", "rig", "contact", "solver", "record")
+KINDS: Final = {"cased": "cased hole", "open": "open hole"}
+SIGNS: Final = {"*": "·", "^2": "²", "^3": "³", "rpm": "rev/min"}
+
+
+def in_words(key: str) -> str:
+    """A key of a case in words: ``operations[0].rpm`` is "rotation, operation 1"."""
+    *tables, last = parts = split_key(key)
+    if parts[0] == "friction":  # --friction of all intervals, or of those of a kind
+        return ", ".join([WORDS["friction"], *(KINDS.get(str(part), str(part)) for part in parts[1:])])
+    text = WORDS.get(str(last), str(last).replace("_", " "))
+    before = [part for part in tables if isinstance(part, str) and part not in (*PLAIN, *ITEMS)]
+    if before and before[-1] not in text:
+        text = f"{before[-1]} {text}"
+    items = [
+        f"{ITEMS[table]} {at + 1}"
+        for table, at in pairwise(parts)
+        if isinstance(table, str) and table in ITEMS and isinstance(at, int)
+    ]
+    return ", ".join([text, *items])
+
+
+def labelled(key: str, unit: str) -> str:
+    """A key in words with a unit of its numbers: the one that they are written with, or of bare numbers the SI unit."""
+    written = unit or unit_of(key)
+    for sign, shown in SIGNS.items():
+        written = written.replace(sign, shown)
+    return f"{in_words(key)}, {written}" if written else in_words(key)
+
+
+def unit_of(key: str) -> str:
+    """The unit of a bare number in a key of the case, "" of a number without one."""
+    found: set[str] = set()
+    _look(Case, [part for part in split_key(key) if isinstance(part, str)], found)
+    return found.pop() if len(found) == 1 else ""
+
+
+def _look(model: type[Table], names: list[str], found: set[str]) -> None:
+    """Add the units of the fields that a path of names leads to."""
+    field = model.model_fields.get(names[0])
+    if field is None:
+        return
+    for annotation in (field.annotation, *field.metadata):
+        for part in _parts(annotation):
+            if isinstance(part, Quantity) and len(names) == 1:
+                found.add(part.dimension.unit)
+            elif isinstance(part, type) and issubclass(part, Table) and len(names) > 1:
+                _look(part, names[1:], found)
+
+
+def _parts(annotation: Any) -> Iterator[Any]:
+    """The types and the constraints that an annotation is made of."""
+    if hasattr(annotation, "__metadata__"):
+        yield from annotation.__metadata__
+        yield from _parts(get_args(annotation)[0])
+    elif get_origin(annotation) in (Union, types.UnionType, tuple):
+        for argument in get_args(annotation):
+            yield from _parts(argument)
+    else:
+        yield annotation
