@@ -36,10 +36,9 @@ class Worker:
     def __init__(self, folder: Path) -> None:
         self.folder, self.known = folder, set[str]()
         self.compiling = False
-        command = [sys.executable, "-m", "fctd.app.worker", str(folder)]
         # A group of its own: Ctrl-C in the terminal is for the process that serves, which ends this one.
         self._process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | FEW_THREADS | ARROW,
+            command_of(folder), stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | FEW_THREADS | ARROW,
             start_new_session=os.name == "posix", **({"umask": 0o077} if os.name == "posix" else {}),
         )  # fmt: skip
 
@@ -90,6 +89,11 @@ class Worker:
         except (OSError, ValueError):
             return {}
         return found
+
+
+def command_of(folder: Path) -> list[str]:
+    """The command of a process whose scratch files lie in a folder."""
+    return [sys.executable, "-m", "fctd.app.worker", str(folder)]
 
 
 class Pool:

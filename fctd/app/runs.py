@@ -75,14 +75,10 @@ class Runs:
             write_private(folder / "case.toml", text.encode())
             if survey_name:
                 write_private(folder / survey_name, survey)
-            command = [
-                sys.executable, "-m", "fctd", "simulate", "case.toml", "--out", "result", "--quiet", "--restart",
-                "--checkpoint-every", KEPT_EVERY, "--time-limit", LONGEST, "--memory-limit", MEMORY,
-            ]  # fmt: skip
             on_posix: dict[str, Any] = {"umask": 0o077} if os.name == "posix" else {}
             with open(os.open(folder / "log", os.O_WRONLY | os.O_CREAT, 0o600), "wb") as log:
                 process = subprocess.Popen(
-                    command, cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                    command(), cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                     start_new_session=os.name == "posix", **on_posix,
                 )  # fmt: skip
             self._runs[session.key] = Run(session.folder, process)
@@ -138,6 +134,14 @@ class Runs:
                 if now - run.closed > CLOSED_FOR or now - run.seen > SILENT_FOR:
                     run.stop()
                     run.seen, run.closed = now, float("inf")
+
+
+def command() -> list[str]:
+    """The command of a run, in the folder of its case."""
+    return [
+        sys.executable, "-m", "fctd", "simulate", "case.toml", "--out", "result", "--quiet", "--restart",
+        "--checkpoint-every", KEPT_EVERY, "--time-limit", LONGEST, "--memory-limit", MEMORY,
+    ]  # fmt: skip
 
 
 def target_of(folder: Path) -> Path:

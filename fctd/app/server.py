@@ -53,14 +53,14 @@ def listening(port: int | None, last: int) -> socket.socket:
 
 
 class AppServer:
-    """The page, served from a home until ``close``; units : in which it shows values."""
+    """The page, served from a home until ``close``; units : in which it shows values; pool : what reads and solves."""
 
-    def __init__(self, home: Home, units: System = "si", port: int | None = None, workers: int | None = None) -> None:
+    def __init__(self, home: Home, units: System = "si", port: int | None = None, pool: Pool | None = None) -> None:
         self.home, self.units = home, units
         self._socket = listening(port, home.port)
         self.port = home.port = int(self._socket.getsockname()[1])
         self.sessions = Sessions(home.folder / "sessions")
-        self.pool = Pool(home.folder) if workers is None else Pool(home.folder, workers)
+        self.pool = Pool(home.folder) if pool is None else pool
         self.runs = Runs(self.sessions.folders())
         served = Served(self.sessions, self.pool, self.runs, home.prefix, units)
         app = dash_app(served)

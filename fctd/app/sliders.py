@@ -65,7 +65,7 @@ def sliders_of(case: Case, units: System) -> list[Slider]:
     turning = [operation.rpm for operation in case.operations if KINDS[operation.kind].turns]
     rpm = float(turning[0] if turning else KINDS["rotate_off_bottom"].default_rpm)
     found.append(_slider(RPM, "rotation", RPM, rpm, units))
-    found.append(_slider("segment", "segment length", "segment", _segment_length(case), units))
+    found.append(_slider("segment", "segment length", "segment", float(f"{_segment_length(case):.3g}"), units))
     return found
 
 
