@@ -64,18 +64,19 @@ def forget_swing(top: NDArray[Any]) -> None:
     top[PULL_STEPS] = -2.0
 
 
-def drain_swing(top: NDArray[Any], at_least: float) -> tuple[float, float]:
+def drain_swing(top: NDArray[Any]) -> tuple[float, float]:
     """Amplitude [N] and frequency [Hz] of the fast part of the hook load since the last call that drained it.
 
-    at_least : time [s] that must have been read; before it nothing is drained, and the amplitude is 0.  A swing
-    a sin ωt changes in a step h by 2 a sin(½ωh) and its change by 4 a sin²(½ωh), in the root of the mean square each
-    over √2.  What is slow hardly changes in a step: of several swings, the one of the largest a ω is found.
+    A swing a sin ωt changes in a step h by 2 a sin(½ωh) and its change by 4 a sin²(½ωh), in the root of the mean square
+    each over √2.  What is slow hardly changes in a step: of several swings, the one of the largest a ω is found.  Both
+    are 0 where nothing has changed.
     """
     span, changes, bends = (float(value) for value in top[[PULL_TIME, CHANGES, BENDS]])
-    if span < at_least or bends == 0:
-        return 0.0, 0.0
-    step, ratio = span / float(top[PULL_STEPS]), math.sqrt(bends / changes)
+    steps = float(top[PULL_STEPS])
     top[[PULL_STEPS, PULL_TIME, CHANGES, BENDS]] = 0.0
+    if bends == 0:
+        return 0.0, 0.0
+    step, ratio = span / steps, math.sqrt(bends / changes)
     return math.sqrt(2 / span) * changes / math.sqrt(bends), math.asin(min(0.5 * ratio, 1.0)) / (math.pi * step)
 
 

@@ -84,8 +84,9 @@ MEANINGS: Final = {
         "give rig.block_weight what the rig can push with",
     ),
     "flutter": Meaning(
-        "friction and the springs of the wall make the string flutter",
-        'set solver.joint_damping = "1 ms", or use shorter segments; means change by a few per cent',
+        "the hook load flutters",
+        'set solver.joint_damping = "3 ms", which ends what friction and the springs of the wall, or a start with a '
+        "jolt (a short ramp_time), set off; until then read means",
     ),
     "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
     "torque": Meaning(

@@ -60,7 +60,7 @@ def _facts(simulation: Simulation, run: Run, recorder: Recorder) -> dict[str, An
     return {
         "done": simulation.done,
         "wall_s": simulation.wall_s,
-        "guards": [recorder.guards.seconds, recorder.guards.residual, recorder.guards.work],
+        "guards": [recorder.guards.seconds, recorder.guards.residual, recorder.guards.work, *recorder.guards.swing],
         "settling_residual": simulation.settling_residual,
         "step": run.step,
         "steps": run.steps,
@@ -133,7 +133,8 @@ def _recorder(run: Run, checkpoint: Checkpoint) -> Recorder:
     recorder.wanted = facts["wanted"]
     guards = recorder.guards
     guards.notes = {note.code: note for note in from_metadata(facts["notes"])}
-    guards.seconds, guards.residual, guards.work = facts["guards"]
+    guards.seconds, guards.residual, guards.work, *swing = facts["guards"]
+    guards.swing = (swing[0], swing[1])
     recorder.mean = Sums._make([*arrays["mean"], *map(float, arrays["ends"])])
     recorder.series.every, recorder.series.seen = facts["series"]
     return recorder

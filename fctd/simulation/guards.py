@@ -58,7 +58,8 @@ def may_have_notes(offset, hole, radius, tension, torque, bending, bit_tension, 
     return could_have_notes(0.0, pull, bit_tension, twist, bit_torque, bend, sections, top, hookload)
 
 
-# Time [s] over which the flutter of the hook load is read: a jolt is a small part of it.
+# Time [s] over which the flutter of the hook load is read; it counts where it lasts for two such times, as the jolt of
+# a start does not.
 LISTEN = 1.0
 LOST = (*LOSSES, "lost_bit_J")
 P = ParamSpec("P")
@@ -68,13 +69,15 @@ R = TypeVar("R")
 class Guards:
     """The checks of a run: its notes so far by code, each where it was worst, and the time that they took.
 
-    seconds : by the process's own clock.  residual, work : the largest so far of the ledger [J].
+    seconds : by the process's own clock.  residual, work : the largest so far of the ledger [J].  swing : amplitude [N]
+    and frequency [Hz] of the fast part of the hook load when it was last read.
     """
 
     def __init__(self, run: Run) -> None:
         self.run = run
         self.notes: dict[str, Note] = {}
         self.seconds = self.residual = self.work = 0.0
+        self.swing = 0.0, 0.0
         self._sections, self._of_sections = run.string.sections, run.string.table
         # Reading the compiled code from disk, or compiling it, is no part of the checks' time.
         walls, none = walls_in(np.zeros((2, WALL_COLUMNS))), np.zeros(2)
@@ -125,14 +128,17 @@ class Guards:
         S, n, long = run.S, run.segments, float(run.top[topdrive.TOP_LENGTH])
         weight = float(state.row(S, state.WEIGHT, n).sum()) + 0.5 * run.pipe.weight * long
         self._keep(pushes(mean, least, run.case.rig.block_weight, weight), bit_depth)
-        amplitude, frequency = readings.drain_swing(run.top, LISTEN)
+        if run.top[topdrive.PULL_TIME] < LISTEN:
+            return
+        long = run.top[topdrive.PULL_TIME] > 2 * LISTEN
+        now = readings.drain_swing(run.top)
+        amplitude, frequency = now if long else map(min, now, self.swing)
+        self.swing = now
         stiffness = state.row(S, state.K_WALL, n)
         if amplitude > SMALL_SWING * weight and stiffness.max() > 0:
-            square = (stiffness * (state.row(S, state.INVERSE_MASS, n) - state.row(S, state.HELD_BACK, n)))[
-                stiffness > 0
-            ].min()
-            on_wall, axial = math.sqrt(square) / (2 * math.pi), 1 / axial_period_of(run.laid_out)
-            self._keep(flutters(amplitude, frequency, on_wall, axial, weight), bit_depth)
+            inverse = state.row(S, state.INVERSE_MASS, n) - state.row(S, state.HELD_BACK, n)
+            on_wall = math.sqrt((stiffness * inverse)[stiffness > 0].min()) / (2 * math.pi)
+            self._keep(flutters(amplitude, frequency, on_wall, 1 / axial_period_of(run.laid_out), weight), bit_depth)
 
     def _table(self) -> NDArray[np.float64]:
         """The table of the string's sections, which are the same ones at most depths."""

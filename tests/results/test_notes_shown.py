@@ -55,6 +55,17 @@ RAISED: dict[str, tuple[set[str], dict[str, Any]]] = {
         well([[0, 0, 0], [100, 0, 0], [400, 85, 0], [1500, 85, 0]], [pipe(None, None, outer=0.06, inner=0.045,
              segment_length=20.0)], trip(1300, 1301, speed=0.5, ramp=0.5), friction=0.6),
     ),
+    "pushed by a block without weight": (
+        {"push"},
+        well([[0, 0, 0], [100, 0, 0], [400, 85, 0], [1500, 85, 0]], [pipe(None, None, segment_length=28.5)],
+             trip(1300, 1303, speed=0.5, ramp=2.0), friction=0.6, solver={"joint_damping": 0.003}),
+    ),
+    "pulled through a long bend": (
+        {"flutter"},
+        well([[0, 0, 0], [300, 0, 0], [900, 90, 0], [1600, 90, 0]], [pipe(None, None, inner=0.1086,
+             segment_length=28.5)], trip(1500, 1497, speed=0.5, ramp=2.0), friction=0.5, wellbore={"geometry": "arcs"},
+             mud={"density": 1200.0}, rig={"feed": "stands"}),
+    ),
     "begun within three steps": ({"ledger"}, well([[0, 0, 0], [1000, 0, 0]], [pipe(1000, 20)], rotation(1000, 0.01))),
     "wound up": (
         {"torque"},

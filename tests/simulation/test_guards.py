@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd import SimulationResult, simulate
 from fctd.mechanics import state
 from fctd.mechanics.query import walls_in
 from fctd.results import ledger
@@ -12,7 +13,7 @@ from fctd.results.notes import MOST_BEND, MOST_TWIST, beyond_joints, string_note
 from fctd.results.profile import Loads
 from fctd.simulation.guards import may_have_notes
 from fctd.simulation.simulate import Simulation
-from tests.cases import make_case, pipe, rotation
+from tests.cases import make_case, pipe, rotation, trip
 from tests.simulation.kept import BUILD, tripping
 
 
@@ -81,3 +82,51 @@ def test_the_look_misses_no_note(depth: float, pull: float, twist: float, bend: 
         int(string.component[0]), hookload,
     )  # fmt: skip
     assert looked or not found
+
+
+def pulled(friction: float, joint_damping: float = 1e-5) -> SimulationResult:
+    """5 in pipe in segments of 28.5 m, pulled through a build of 90° in 600 m with 0.5 m/s."""
+    return simulate(
+        make_case(
+            [[0, 0, 0], [300, 0, 0], [900, 90, 0], [1600, 90, 0]],
+            [pipe(None, None, inner=0.1086, segment_length=28.5)], [trip(1500, 1488, speed=0.5, ramp=3.0)],
+            wellbore={"geometry": "arcs", "intervals": [{"to_md": 1600.0, "diameter": 0.2159, "friction": friction}]},
+            mud={"density": 1200.0}, rig={"feed": "stands"}, solver={"joint_damping": joint_damping},
+        )
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("friction", [0.35, 0.5])
+def test_the_damping_that_the_note_asks_for_ends_the_flutter(friction: float) -> None:
+    """The swing falls to less than a quarter, the mean changes by less than 2 %, and the note is gone."""
+    wild, tame = pulled(friction), pulled(friction, 3e-3)
+    codes = {note.code: note for note in wild.notes}
+    assert '"3 ms"' in codes["flutter"].remedy
+    assert "flutter" not in {note.code for note in tame.notes}
+    means, swings = [], []
+    for result in (wild, tame):
+        steady = result.history[result.history["time_s"] > 8.0]
+        means.append(steady["hookload_N"].mean())
+        swings.append(steady["hookload_max_N"].max() - steady["hookload_min_N"].min())
+    assert swings[1] < 0.25 * swings[0]
+    assert means[0] == pytest.approx(means[1], rel=0.02)
+
+
+def test_the_same_trip_with_less_friction_has_no_note() -> None:
+    assert "flutter" not in {note.code for note in pulled(0.2).notes}
+
+
+def test_a_jolt_that_nothing_damps_flutters_and_a_soft_start_does_not() -> None:
+    """0.5 m/s within 0.1 s, down a gentle slope."""
+
+    def codes(ramp: float, **solver: float) -> set[str]:
+        case = make_case(
+            [[0, 0, 0], [300, 0, 0], [900, 30, 0], [1600, 30, 0]], [pipe(None, None, segment_length=28.5)],
+            [trip(1490, 1500, speed=0.5, ramp=ramp)], mud={"density": 1200.0}, rig={"feed": "stands"},
+            wellbore={"geometry": "arcs"}, solver=solver,
+        )  # fmt: skip
+        return {note.code for note in simulate(case).notes}
+
+    assert "flutter" in codes(0.1)
+    assert not {"flutter", "push"} & codes(3.0)
+    assert not {"flutter", "push"} & codes(0.1, joint_damping=3e-3)
