@@ -150,7 +150,7 @@ def chart_command(
         with resumed_folder(resume, PROGRAM, accept_changes=accept_changes) as (folder, about):
             asked = Asked.read(about["options"])
             kept = KeptRows(folder, keeping.interval(EVERY_CHART), key="--resume")
-            _chart(case_of(folder, about), asked, keeping, quiet, resume, lambda _: nullcontext(kept))
+            _chart(case_of(folder.path, about), asked, keeping, quiet, resume, lambda _: nullcontext(kept))
         return
     if case_file is None or depths is None:
         raise InputError("a case file, or --resume with an unfinished chart", key="CASE")

@@ -1,10 +1,12 @@
 """How ``fctd simulate`` and ``fctd chart`` keep what they compute, and go on with it: options, refusals, limits."""
 
+import os
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from shlex import quote
 from typing import Annotated, Any
 
 import typer
@@ -15,7 +17,7 @@ from fctd.case.text import printable
 from fctd.case.units import TIME
 from fctd.cli.options import messages, read_quantity
 from fctd.results.origin import changes, files_of, origin_of
-from fctd.results.run_folder import RunFolder, about_of, numbered, progress_of, run_path
+from fctd.results.run_folder import RunFolder, about_of, numbered, progress_of, run_path, taken, writer_of
 from fctd.simulation.limits import Limits
 
 # Longest time between two checkpoints of a run, and between two chunks of a chart [s].
@@ -131,8 +133,10 @@ def has_kept(target: Path) -> bool:
 
 
 def refuse_unfinished(target: Path, key: str) -> None:
-    """Raise InputError, with both ways out, where the run of a result has not ended."""
-    about = about_of(target)
+    """Raise InputError where a process computes a result, or, with both ways out, where its run has not ended."""
+    writer, about = writer_of(target), about_of(target)
+    if writer is not None and writer.process != os.getpid():
+        raise taken(writer, target, key)
     if about is None or not has_kept(target):
         return
     expected = (
@@ -150,7 +154,7 @@ def how_far(target: Path) -> str:
 
 def way_on(target: Path, about: Mapping[str, Any]) -> str:
     """The command that goes on with a run."""
-    return f"{about['program']} --resume {printable(str(target))}"
+    return f"{about['program']} --resume {quote(printable(str(target)))}"
 
 
 def say_how_to_go_on(target: Path) -> None:
@@ -211,9 +215,9 @@ def description_of(
     return about, copies
 
 
-def case_of(folder: RunFolder, about: Mapping[str, Any]) -> Case:
-    """The case of a run as it began, with the stations of the survey as they were then."""
+def case_of(folder: Path, about: Mapping[str, Any]) -> Case:
+    """The case of a run as it began, with the stations of the survey as they were then; folder : of the run."""
     case = Case.model_validate(about["case"])
     for copy in about["copies"]:
-        case = case.model_copy(update={"wellbore": case.wellbore.read_from(folder.path / copy)})
+        case = case.model_copy(update={"wellbore": case.wellbore.read_from(folder / copy)})
     return case

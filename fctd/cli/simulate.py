@@ -142,7 +142,7 @@ def simulate_file(
     if keeping.resume is not None:
         folder = keeping.resume
         with resumed_folder(folder, program, accept_changes=keeping.accept_changes) as (kept, about):
-            case, shown = case_of(kept, about), shown.beside(about["options"])
+            case, shown = case_of(kept.path, about), shown.beside(about["options"])
             check_result_folder(folder, shown.csv, "--resume")
             method = None if contact is None else contact(case)
             _compute(case, folder, method, shown, keeping, kept, about["identity"])

@@ -15,6 +15,7 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import file_name, printable
 from fctd.cli.chart import DEPTHS_HELP, read_depths
+from fctd.cli.keeping import case_of, how_far
 from fctd.cli.options import (
     Friction,
     Overrides,
@@ -30,8 +31,10 @@ from fctd.cli.options import (
 from fctd.cli.pictures import check_package
 from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive
 from fctd.plots.facts import shoes_of
-from fctd.results.tables import SimulationResult, open_result
+from fctd.results.run_folder import about_of, run_path
+from fctd.results.tables import open_result
 from fctd.results.unit_systems import System
+from fctd.simulation.kept_run import kept_so_far
 from fctd.view.quantities import QUANTITIES, quantity_of
 from fctd.view.strings import Strings, of_chart, of_run
 
@@ -100,8 +103,8 @@ def view_command(
         "--friction": friction,
     }
     given |= {"--set": overrides, "--resolve-buckling": resolve_buckling}
-    if source.is_dir():
-        strings, told = _of_result(source, given), []
+    if source.is_dir() or about_of(source) is not None:
+        strings, told = _of_run(source, given), []
     else:
         case = read_case(source, changes_of(overrides, friction, resolve_buckling))
         kinds = _kinds(operations)
@@ -119,14 +122,23 @@ def view_command(
     _write(strings, out, png, colour, units, exaggeration, told)
 
 
-def _of_result(folder: Path, given: dict[str, object]) -> Strings:
-    """The strings of a run; options of a case are refused."""
+def _of_run(folder: Path, given: dict[str, object]) -> Strings:
+    """The strings of a run, or of what one that has not ended has kept; options of a case are refused."""
     for key, value in given.items():
         if value not in (None, []):
             expected = "a case file in place of the folder, as the run is already computed"
             raise InputError(expected, key=key, value=value)
-    result: SimulationResult = open_result(folder)
-    return of_run(result)
+    about = about_of(folder)
+    if about is None or folder.exists():
+        result = open_result(folder)
+        if about is not None:
+            messages.print(f"this is the result before; there is a run that has not ended: {how_far(folder)}")
+        return of_run(result)
+    if about["command"] != "simulate":
+        raise InputError(
+            f"the result of fctd simulate, or its run: this is one of fctd {about['command']}", value=folder
+        )
+    return of_run(kept_so_far(run_path(folder), case_of(run_path(folder), about)))
 
 
 def _kinds(operations: Sequence[str]) -> list[str]:

@@ -61,9 +61,7 @@ class RunFolder:
                 with suppress(FileNotFoundError):  # another process has just removed the folder
                     return cls(target, RunLock.take(path))
         except HeldError as held:
-            process, since = held.holder
-            here = f"no other run writes to (process {process} does, since {clock(since)})"
-            raise InputError(f"a place that {here}: wait for it, or name another", key=key, value=target) from None
+            raise taken(held.holder, target, key) from None
         except OSError as error:
             expected = f"a place beside which the run can be kept ({error.strerror or error})"
             raise InputError(expected, key=key, value=target) from error
@@ -116,6 +114,12 @@ class RunFolder:
                 self.clear()
                 shutil.rmtree(self.path)
         self._lock.release()
+
+
+def taken(writer: Holder, target: Path, key: str) -> InputError:
+    """The refusal of a result that another process computes."""
+    here = f"no other run writes to (process {writer.process} does, since {clock(writer.since)})"
+    return InputError(f"a place that {here}: wait for it, or name another", key=key, value=target)
 
 
 def cannot_keep(error: OSError, folder: RunFolder, key: str, kept: str) -> InputError:

@@ -4,12 +4,17 @@ import io
 import json
 import time
 from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from fctd.case.errors import InputError
+from fctd.case.load import Case
 from fctd.results.pacing import Clocks, Pace
 from fctd.results.run_folder import REPORTED_EVERY, Progress, RunFolder, cannot_keep, numbered
+from fctd.results.tables import SimulationResult
 from fctd.simulation.checkpoint import Checkpoint, capture, put_back
 from fctd.simulation.chunks import NAMES, Cursor, add_chunk, chunk_since, read_chunk, size_of, warm_up
 from fctd.simulation.disk import bytes_needed, check_disk
@@ -18,6 +23,8 @@ from fctd.simulation.simulate import Simulation
 CHECKPOINT = "checkpoint.npz"
 # Checkpoints of a run, the last of which may be damaged.
 KEPT_CHECKPOINTS = 2
+# To read a run to which another process is writing.
+ATTEMPTS = 3
 
 
 class KeptRun:
@@ -97,23 +104,8 @@ class KeptRun:
         self._number, self.kept = number, checkpoint.time
 
     def _go_on(self, simulation: Simulation, number: int) -> None:
-        path = self.folder.path
-        content = (path / f"{number}-{CHECKPOINT}").read_bytes()  # numpy leaves a file open that is damaged
-        with np.load(io.BytesIO(content), allow_pickle=False) as read:
-            arrays = {name: read[name] for name in read.files}
-        facts = json.loads(arrays.pop("facts").tobytes())
-        chunks = []
-        for k in range(1, number + 1):
-            files = {name: path / f"{k}-{name}.parquet" for name in NAMES}
-            chunks.append(read_chunk({name: file.read_bytes() for name, file in files.items() if file.exists()}))
-        cursor = Cursor(*facts["cursor"])
-        if size_of(chunks) != (cursor.records, cursor.records, cursor.profiles):
-            raise ValueError("a chunk of its records is missing")
-        recorder = put_back(simulation, Checkpoint(arrays, facts))  # once all has been read
-        for chunk in chunks:
-            add_chunk(recorder, chunk)
-        simulation.go_on(recorder)
-        self._number, self._cursor, self.kept = number, cursor, facts["last_time"]
+        facts = _restore(self.folder.path, simulation, number)
+        self._number, self._cursor, self.kept = number, Cursor(*facts["cursor"]), facts["last_time"]
         self._before, self._spent_before = facts["took"], Clocks(*facts["spent"])
         simulation.keeping = self.spent
 
@@ -121,3 +113,40 @@ class KeptRun:
         """Remove chunks and checkpoints after one, which a process had begun to write or which cannot be read."""
         for kind in (CHECKPOINT, *(f"{name}.parquet" for name in NAMES)):
             self.folder.remove({name for k, name in numbered(self.folder.path, kind).items() if k > number})
+
+
+def kept_so_far(folder: Path, case: Case) -> SimulationResult:
+    """What a run that has not ended has kept in its folder, to which another process may be writing.
+
+    Raises InputError where nothing is kept.
+    """
+    simulation = Simulation(case)
+    for _ in range(ATTEMPTS):
+        for number in reversed(numbered(folder, CHECKPOINT)):
+            with suppress(Exception):  # damaged, or removed by the run meanwhile
+                _restore(folder, simulation, number)
+                return simulation.result()
+    raise InputError("a run of which something has been kept (fctd status says how far it is)", value=folder)
+
+
+def _restore(folder: Path, simulation: Simulation, number: int) -> dict[str, Any]:
+    """Put a run into the state of a checkpoint, with its records; returns the facts of the checkpoint.
+
+    Raises nearly anything where a file is damaged; the run is then as it was.
+    """
+    content = (folder / f"{number}-{CHECKPOINT}").read_bytes()  # numpy leaves a file open that is damaged
+    with np.load(io.BytesIO(content), allow_pickle=False) as read:
+        arrays = {name: read[name] for name in read.files}
+    facts: dict[str, Any] = json.loads(arrays.pop("facts").tobytes())
+    chunks = []
+    for k in range(1, number + 1):
+        files = {name: folder / f"{k}-{name}.parquet" for name in NAMES}
+        chunks.append(read_chunk({name: file.read_bytes() for name, file in files.items() if file.exists()}))
+    records, profiles, _ = facts["cursor"]
+    if size_of(chunks) != (records, records, profiles):
+        raise ValueError("a chunk of its records is missing")
+    recorder = put_back(simulation, Checkpoint(arrays, facts))  # once all has been read
+    for chunk in chunks:
+        add_chunk(recorder, chunk)
+    simulation.go_on(recorder)
+    return facts

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,6 +14,7 @@ from fctd.cli import chart, main, simulate
 from fctd.cli.keeping import read_bytes
 from fctd.results import pacing, run_folder
 from fctd.results.run_folder import RunFolder, run_path
+from fctd.results.run_lock import RunLock
 from fctd.simulation import limits
 from tests.cli.test_main import CASE, run
 from tests.simulation.kept import same
@@ -80,6 +82,36 @@ def test_a_killed_run_is_refused_with_both_ways_out_and_goes_on(
     assert not run_path(Path("../out")).exists()
     assert run(monkeypatch, "simulate", "--resume", "../out") == 2
     assert "a result whose run has not ended" in capsys.readouterr().err
+
+
+def test_the_way_on_can_be_typed_as_it_stands(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    name = "the run's ü"
+    asked = tuple(name if word == "out" else word for word in RUN)
+    killed(monkeypatch, asked)
+    capsys.readouterr()
+    assert run(monkeypatch, *asked) == 2
+    (way,) = re.findall("`(.*?)`", capsys.readouterr().err)
+    assert run(monkeypatch, *shlex.split(way)[1:], "--quiet") == 0
+    assert open_result(name).status == "completed"
+
+
+def test_a_run_that_lasts_is_named_and_not_offered(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Another process computes: neither --resume nor --restart is a way out."""
+    killed(monkeypatch, RUN)
+    lock = RunLock.take(run_path(Path("out")))
+    (run_path(Path("out")) / "lock").write_text("[4242, 1e9]")
+    for asked in (RUN, (*RUN, "--restart"), ("simulate", "--resume", "out")):
+        capsys.readouterr()
+        assert run(monkeypatch, *asked) == 2
+        message = capsys.readouterr().err
+        assert "(process 4242 does, since" in message
+        assert "goes on with it" not in message
+    lock.release()
+    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet") == 0
 
 
 def test_restart_drops_what_is_kept(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,6 +6,10 @@ import pytest
 
 pytest.importorskip("plotly")
 
+from fctd.cli import chart as chart_of
+from fctd.results import pacing
+from fctd.results.run_folder import run_path
+from tests.cli.test_keeping import CHART, RUN, killed
 from tests.cli.test_main import CASE, run
 
 
@@ -27,6 +31,28 @@ def test_a_case_and_its_run_become_pages(
     assert run(monkeypatch, "simulate", case_file, "--out", "run", "--quiet") == 0
     assert run(monkeypatch, "view", "run", "--out", "run.html", "--colour", "stress") == 0
     assert "rotating off bottom, bit at 800.0 m" in Path("run.html").read_text(encoding="utf-8")
+
+
+def test_a_run_that_has_not_ended(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What it has kept is shown, and a whole result before it; the run goes on afterwards as if nobody had looked."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(pacing, "SHARE", 1e9)
+    killed(monkeypatch, RUN)
+    before = {path.name: path.read_bytes() for path in run_path(Path("out")).iterdir()}
+    assert run(monkeypatch, "view", "out", "--out", "out.html") == 0
+    assert "rotating off bottom, bit at 800.0 m" in Path("out.html").read_text(encoding="utf-8")
+    assert {path.name: path.read_bytes() for path in run_path(Path("out")).iterdir()} == before
+    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet") == 0
+    killed(monkeypatch, RUN)
+    capsys.readouterr()
+    assert run(monkeypatch, "view", "out", "--out", "out.html") == 0
+    assert "this is the result before; there is a run that has not ended: 3 of 4 s are kept" in capsys.readouterr().err
+    chart = (*CHART, "--checkpoint-every", "0 s", "--quiet")
+    killed(monkeypatch, chart, after=9, module=chart_of)
+    assert run(monkeypatch, "view", "chart.csv") == 2
+    assert "this is one of fctd chart" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

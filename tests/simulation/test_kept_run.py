@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
+import pandas as pd
 import pytest
 
 from fctd.case.errors import InputError
@@ -14,7 +15,7 @@ from fctd.results import pacing, run_folder
 from fctd.results.run_folder import RunFolder, numbered, progress_of
 from fctd.results.tables import SimulationResult
 from fctd.simulation import kept_run
-from fctd.simulation.kept_run import CHECKPOINT, KeptRun
+from fctd.simulation.kept_run import CHECKPOINT, KeptRun, kept_so_far
 from fctd.simulation.simulate import Simulation, simulate
 from tests.simulation.kept import same, tripping
 
@@ -141,6 +142,22 @@ def _damage(path: Path, how: str) -> None:
         for k in range(100, len(content), 97):
             content[k] ^= 0x55
     path.write_bytes(content)
+
+
+def test_what_is_kept_so_far_can_be_looked_at(folder: RunFolder) -> None:
+    """It changes nothing, and is that of the checkpoint before where the last one is damaged."""
+    with pytest.raises(InputError, match="a run of which something has been kept"):
+        kept_so_far(folder.path, tripping())
+    killed_after(folder, 25)
+    for damaged, records in ((False, 25), (True, 24)):
+        if damaged:
+            (name,) = list(numbered(folder.path, CHECKPOINT).values())[-1:]
+            _damage(folder.path / name, "cut")
+        before = {path.name: path.read_bytes() for path in folder.path.iterdir()}
+        found = kept_so_far(folder.path, tripping())
+        pd.testing.assert_frame_equal(found.history, undisturbed().history[:records], check_exact=True)
+        assert (found.status, found.message) == ("interrupted", f"at {at(records):.4g} s")
+        assert {path.name: path.read_bytes() for path in folder.path.iterdir()} == before
 
 
 class Failing(io.FileIO):
