@@ -100,8 +100,8 @@ class Sweeps:
         command = [sys.executable, "-m", "fctd", "sweep", self.file, "--out", out, "--quiet"]
         local = () if options else ("--workers", "2")
         return subprocess.Popen(
-            list(map(str, (*command, *local, *options))), cwd=ROOT, env=environment, preexec_fn=before or _heed_interrupts,
-            start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            list(map(str, (*command, *local, *options))), cwd=ROOT, env=environment, start_new_session=True,
+            preexec_fn=before or _heed_interrupts, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
 
     def try_fault(self, seed: int) -> Tried:
