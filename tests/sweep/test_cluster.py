@@ -12,8 +12,8 @@ from fctd.sweep.cluster import Where, connected, encrypted, worker_count
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import sweep
 from fctd.sweep.spec import read_sweep
-from tests.sweep import clusters
 from tests.sweep.made import sweep_file
+from validation.parts import clusters
 
 pytest.importorskip("distributed")
 
@@ -41,8 +41,8 @@ def test_a_local_sweep_listens_on_the_loopback_alone() -> None:
 @pytest.mark.slow
 def test_a_scheduler_with_workers_of_its_own_runs_a_sweep(tmp_path: Path) -> None:
     spec = read_sweep(sweep_file(tmp_path))
-    with clusters.cluster(tmp_path, workers=2) as file:
-        found = sweep(spec, tmp_path / "out", Where(scheduler_file=file))
+    with clusters.cluster(tmp_path, workers=2) as dask:
+        found = sweep(spec, tmp_path / "out", Where(scheduler_file=dask.file))
     assert (found.workers, found.rows) == (2, 48)
     sweep(spec, tmp_path / "local", Where(workers=1))
     assert open_dataset(tmp_path / "out").rows().equals(open_dataset(tmp_path / "local").rows())
@@ -50,9 +50,9 @@ def test_a_scheduler_with_workers_of_its_own_runs_a_sweep(tmp_path: Path) -> Non
 
 @pytest.mark.slow
 def test_workers_with_more_threads_than_one_are_refused(tmp_path: Path) -> None:
-    with clusters.cluster(tmp_path, threads=2) as file:
+    with clusters.cluster(tmp_path, threads=2) as dask:
         expected = pytest.raises(InputError, match="workers with one thread each")
-        with expected, connected(Where(scheduler_file=file)):
+        with expected, connected(Where(scheduler_file=dask.file)):
             pass
 
 
@@ -85,7 +85,7 @@ def test_a_scheduler_that_is_not_there_is_answered(tmp_path: Path, monkeypatch: 
 @pytest.mark.slow
 def test_a_scheduler_without_workers_is_answered(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster, "WORKERS", 1.0)
-    with clusters.cluster(tmp_path, workers=0) as file:
+    with clusters.cluster(tmp_path, workers=0) as dask:
         expected = pytest.raises(InputError, match="a scheduler with workers")
-        with expected, connected(Where(scheduler_file=file)):
+        with expected, connected(Where(scheduler_file=dask.file)):
             pass

@@ -11,8 +11,8 @@ from fctd.sweep.cluster import Where
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import prepare, sweep
 from fctd.sweep.spec import read_sweep
-from tests.sweep.clusters import faults
 from tests.sweep.made import PARAMETERS, WORK, about, sweep_file
+from validation.parts.clusters import failing
 
 pytest.importorskip("distributed")
 ONE = Where(workers=1)
@@ -39,7 +39,7 @@ def test_a_sweep_has_the_rows_of_its_samples_and_a_second_call_computes_nothing(
 def test_hanging_and_crashing_samples_are_rows_and_the_others_have_answers(tmp_path: Path) -> None:
     dask = pytest.importorskip("dask")
     spec = read_sweep(sweep_file(tmp_path, 'method = "sobol"\nsamples = 12\ntime_limit = "1 s"\n'))
-    with dask.config.set({"distributed.worker.preload": [str(faults(tmp_path, hang=(3,), crash=(8,)))]}):
+    with dask.config.set({"distributed.worker.preload": [str(failing(tmp_path, hang=(3,), crash=(8,)))]}):
         found = sweep(spec, tmp_path / "out", ONE)
     table = open_dataset(tmp_path / "out").rows().set_index("sample")
     assert found.without_answer == {"timed_out": 1, "crashed": 1}

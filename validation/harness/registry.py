@@ -48,4 +48,6 @@ STUDIES: dict[str, str] = {
     "calibration": "validation.studies.calibration",
     "monitoring": "validation.studies.monitoring",
     "monitoring_f4": "validation.studies.monitoring_f4",
+    "sweep": "validation.studies.sweep",
+    "sweep_faults": "validation.studies.sweep_faults",
 }
