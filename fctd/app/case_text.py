@@ -15,7 +15,7 @@ import tomlkit
 
 from fctd.app.sessions import Source
 from fctd.case.errors import InputError, look_up, set_key, split_key
-from fctd.case.load import Case, make_case
+from fctd.case.load import LARGEST_FILE, Case, make_case
 from fctd.case.surveys.workbook import ZIP
 from fctd.model.layouts import segments_in_hole
 from fctd.model.new_case import UnitSystem, from_survey, read_survey
@@ -35,13 +35,14 @@ class SourceCase:
 
     def __init__(self, source: Source, folder: Path) -> None:
         self.source, self.folder = source, folder
+        if len(source.text) > LARGEST_FILE * 2**20:
+            raise InputError(f"a case file of at most {LARGEST_FILE} MiB")
         try:
             raw = tomllib.loads(source.text)
         except (ValueError, RecursionError) as error:
             raise InputError(f"a case file in TOML ({error})") from None
-        check_paths(raw, source.survey_name)
-        self._survey = folder / f"survey{_ending(source)}"
-        if source.survey_name:
+        self._survey = folder / f"survey{_suffix(source.survey_name)}"
+        if check_paths(raw, source.survey_name):
             check_survey(source.survey)
             self._survey.write_bytes(source.survey)
             raw["wellbore"]["survey"] = str(self._survey)
@@ -82,15 +83,16 @@ class SourceCase:
         return tomlkit.dumps(document)
 
 
-def check_paths(raw: Mapping[str, Any], survey_name: str) -> None:
-    """Raise InputError where a raw case names another file than the survey that came with it."""
+def check_paths(raw: Mapping[str, Any], survey_name: str) -> bool:
+    """Whether a raw case names the survey that came with it; raises InputError where it names another file."""
     hole = raw.get("wellbore")
     named = hole.get("survey") if isinstance(hole, dict) else None
     if named is None:
-        return
+        return False
     if not survey_name or named != survey_name:
         expected = "the name of a survey file that is uploaded with the case, without folders"
         raise InputError(expected, key="wellbore.survey", value=named)
+    return True
 
 
 def check_survey(content: bytes) -> None:
@@ -146,10 +148,6 @@ def from_upload(name: str, survey: bytes, units: UnitSystem, folder: Path) -> So
 def _has_doctype(content: bytes) -> bool:
     upper = content.upper()
     return any("<!DOCTYPE".encode(encoding) in upper for encoding in ("ascii", "utf-16-le", "utf-16-be"))
-
-
-def _ending(source: Source) -> str:
-    return _suffix(source.survey_name)
 
 
 def _suffix(name: str) -> str:

@@ -142,8 +142,8 @@ class Pool:
         took = time.monotonic() - began
         if found is None:
             self._replace(worker)
-            why = f"answered within {self.longest:g} s" if took >= self.longest else "worked with in 1 GiB of memory"
-            raise InputError(f"a case and a survey that can be {why}", key=do)
+            why = f"takes longer than {self.longest:g} s" if took >= self.longest else "ends the process that computes"
+            raise RefusedError(f"this case {why}: a smaller survey, or fewer segments")
         worker.known.add(digest)
         self._give(worker)
         if "refused" in found:
@@ -174,6 +174,7 @@ class Pool:
                     self._warm = True
                 elif worker in self._all:
                     self._all.remove(worker)
+                    worker.end()
                     if not self._all:
                         self.trouble = "the process that computes does not start; the terminal says why"
                 self._change.notify_all()

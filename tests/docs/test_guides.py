@@ -30,6 +30,7 @@ NOT_RUN = {
     "make ": "installs the environment that this test runs in, or takes minutes",
     ".venv/bin/python -m pytest benchmarks/": "measures times for minutes",
     "python -m benchmarks ": "measures times for minutes",
+    ".venv/bin/fctd app ": "serves until Ctrl-C; tests/cli/test_app.py runs it",
 }
 # Programs of .venv/bin that run in this process.
 PROGRAMS = {"fctd": main.app, "python -m references": references.app}

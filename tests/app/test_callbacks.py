@@ -1,0 +1,51 @@
+"""What happens on the page: files make cases, changes make patches."""
+
+import base64
+from pathlib import Path
+
+import pytest
+
+from fctd.app.callbacks import content_of, patched, source_of, time_figure
+from fctd.app.runs_view import records
+from fctd.case.errors import InputError
+from tests.app.made import SURVEY, TEXT, InProcess, source
+
+
+def test_files_that_come_together_make_a_case() -> None:
+    pool = InProcess()
+    case = {"well.toml": TEXT.encode()}
+    assert source_of(case | {"survey.csv": SURVEY}, None, pool, "si") == source()  # type: ignore[arg-type]
+    alone = source_of({"../my well.csv": SURVEY}, source(), pool, "si")  # type: ignore[arg-type]
+    assert alone.survey_name == "my well.csv"
+    assert 'survey = "my well.csv"' in alone.text
+    waiting = source(TEXT, "", b"")
+    assert source_of({"survey.csv": SURVEY}, waiting, pool, "si") == source()  # type: ignore[arg-type]
+    other = source_of({"other.csv": SURVEY}, waiting, pool, "si")  # type: ignore[arg-type]
+    assert other.survey_name == "other.csv"
+    for files, words in (
+        ({}, "one case"), ({"a.csv": b"", "b.csv": b""}, "one case"), ({"a.toml": b"", "b.toml": b""}, "one case"),
+        ({"a.toml": b"\xff\xfe\x00"}, "UTF-8"), ({"a.toml": b"="}, "TOML"), ({"a.csv": bytes(9)}, "a survey"),
+        (case, "uploaded with the case"), (case | {"other.csv": SURVEY}, "uploaded with the case"),
+    ):  # fmt: skip
+        with pytest.raises(InputError, match=words):
+            source_of(files, None, pool, "si")  # type: ignore[arg-type]
+    pool.close()
+
+
+def test_contents_of_files() -> None:
+    assert content_of("data:text/csv;base64," + base64.b64encode(b"a,b").decode()) == b"a,b"
+    for text in ("data:text/csv;base64,?", "data:;base64,a", "data:;base64,é"):
+        with pytest.raises(InputError, match="a file"):
+            content_of(text)
+
+
+def test_changes_become_a_patch_of_their_places_alone() -> None:
+    found = patched([(["data", 3, "x"], [1]), (["layout", "xaxis", "range"], [0, 1])]).to_plotly_json()
+    assert [one["location"] for one in found["operations"]] == [["data", 3, "x"], ["layout", "xaxis", "range"]]
+    assert {one["operation"] for one in found["operations"]} == {"Assign"}
+
+
+def test_a_run_without_records_is_an_empty_figure(tmp_path: Path) -> None:
+    figure = time_figure(records(tmp_path, str(tmp_path / "none"), "field"), "field")
+    assert [trace["name"] for trace in figure["data"]] == ["hook load", "torque"]
+    assert "klbf" in figure["layout"]["yaxis"]["title"]["text"]

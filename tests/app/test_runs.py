@@ -1,0 +1,107 @@
+"""Runs that pages begin: two at most, stopped as Ctrl-C does, ended with their page."""
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from fctd.app import runs as module
+from fctd.app.runs import Runs, target_of
+from fctd.app.sessions import Session, Sessions
+from fctd.case.errors import InputError
+from fctd.results.tables import open_result
+from tests.app.made import SURVEY, TEXT
+
+# A run that waits for its end.
+WAITING = """
+import signal, sys, time
+try:
+    print("begun", flush=True)
+    time.sleep(60)
+except KeyboardInterrupt:
+    print("interrupted"); sys.exit(130)
+"""
+
+
+@pytest.fixture
+def runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Runs]:
+    monkeypatch.setattr(module, "command", lambda: [sys.executable, "-c", WAITING])
+    found = Runs()
+    yield found
+    found.close()
+
+
+def until(wanted: Callable[[], Any], seconds: float = 30.0) -> None:
+    end = time.monotonic() + seconds
+    while not wanted():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def begin(runs: Runs, session: Session) -> None:
+    runs.start(session, TEXT, "survey.csv", SURVEY)
+    until(lambda: (session.folder / "run" / "log").read_text() == "begun\n")
+
+
+def test_two_at_a_time_and_one_a_page(runs: Runs, tmp_path: Path) -> None:
+    sessions = Sessions(tmp_path)
+    first, second, third = (sessions.new() for _ in range(3))
+    assert not runs.state(first)["began"]
+    begin(runs, first)
+    begin(runs, second)
+    files = {path.name: path.stat().st_mode & 0o777 for path in (first.folder / "run").iterdir()}
+    assert files == {"case.toml": 0o600, "survey.csv": 0o600, "log": 0o600}
+    with pytest.raises(InputError, match="at most 2 runs"):
+        runs.start(third, TEXT, "", b"")
+    with pytest.raises(InputError, match="stop it first"):
+        runs.start(first, TEXT, "", b"")
+    assert runs.state(first)["running"]
+    runs.stop(first)
+    until(lambda: not runs.state(first)["running"])
+    assert runs.state(first)["log"] == "begun\ninterrupted"
+    begin(runs, third)
+    begin_again = runs.state(second)
+    assert begin_again["running"]
+
+
+def test_the_run_of_a_closed_page_ends_and_that_of_a_page_that_asks_again_does_not(
+    runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "CLOSED_FOR", 0.5)
+    session = Sessions(tmp_path).new()
+    begin(runs, session)
+    runs.closed(session)
+    assert runs.state(session)["running"]  # loaded again
+    time.sleep(2.0)
+    assert runs.state(session)["running"]
+    runs.closed(session)
+    until(lambda: "interrupted" in (session.folder / "run" / "log").read_text())
+
+
+def test_the_run_of_a_silent_page_ends(runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = Sessions(tmp_path).new()
+    begin(runs, session)
+    monkeypatch.setattr(module, "SILENT_FOR", 0.2)
+    until(lambda: "interrupted" in (session.folder / "run" / "log").read_text())
+
+
+def test_a_run_streams_and_is_stopped_with_its_records_kept(tmp_path: Path) -> None:
+    text = TEXT.replace('duration = "2 s"', 'duration = "1 h"')
+    session, found = Sessions(tmp_path).new(), Runs()
+    try:
+        found.start(session, text, "survey.csv", SURVEY)
+        until(lambda: found.state(session)["kept"] not in ("", "0", "0.0"), 120)
+        assert 0 < found.state(session)["share"] < 1
+        other = Runs([session.folder])  # a server that was killed and started again
+        assert other.state(session)["running"]
+        other.stop(session)
+        until(lambda: not other.state(session)["running"])
+        other.close()
+        result = open_result(target_of(session.folder))
+        assert len(result.history)
+        assert result.status == "interrupted"
+    finally:
+        found.close()

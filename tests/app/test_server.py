@@ -1,0 +1,253 @@
+"""The page served by waitress: attacks are refused, and its address lasts."""
+
+import base64
+import http.client
+import json
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+from waitress import wasyncore
+
+from fctd.app.downloads import FILES
+from fctd.app.home import Home
+from fctd.app.server import MOST_RECEIVED, AppServer, listening
+from fctd.case.errors import InputError
+from tests.app.made import NAME, SURVEY, TEXT, InProcess, source
+
+
+class Answer(NamedTuple):
+    status: int
+    headers: dict[str, str]
+    body: bytes
+
+
+@contextmanager
+def served(folder: Path) -> Iterator[AppServer]:
+    server, ended = AppServer(Home.open(folder), port=None, pool=InProcess()), threading.Event()  # type: ignore[arg-type]
+
+    def run() -> None:
+        while not ended.is_set():
+            wasyncore.loop(timeout=0.05, map=server._server._map, count=1)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    try:
+        yield server
+    finally:
+        ended.set()
+        thread.join()
+        server.close()
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[AppServer]:
+    with served(tmp_path_factory.mktemp("state") / "app") as found:
+        yield found
+
+
+def ask(server: AppServer, path: str, body: bytes | None = None, **headers: str) -> Answer:
+    """An answer; path : with the prefix."""
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)
+    given = {name.replace("_", "-"): value for name, value in headers.items()}
+    try:
+        connection.request("GET" if body is None else "POST", path, body, given)
+        answer = connection.getresponse()
+        return Answer(answer.status, dict(answer.getheaders()), answer.read())
+    finally:
+        connection.close()
+
+
+def call(server: AppServer, key: str, output: str, inputs: list[Any], state: list[Any]) -> Any:
+    """What a callback of the page of a session answers; inputs, state : (id, property, value)."""
+    prefix = server.home.prefix
+    dependencies = json.loads(ask(server, f"{prefix}_dash-dependencies").body)
+    (one,) = [each for each in dependencies if output in each["output"] and inputs[0][0] in json.dumps(each["inputs"])]
+    outputs = []
+    for text in one["output"].strip(".").split("..."):
+        name, _, prop = text.rpartition(".")
+        outputs.append({"id": name, "property": prop})
+    state = [*state, ("where", "pathname", f"{prefix}s/{key}/")]
+
+    def listed(given: list[Any], wanted: list[Any]) -> list[Any]:
+        values = {f"{name}.{prop}": value for name, prop, value in given}
+        return [{**each, "value": values.get(f"{each['id']}.{each['property']}")} for each in wanted]
+
+    body = {
+        "output": one["output"], "outputs": outputs if len(outputs) > 1 else outputs[0],
+        "inputs": listed(inputs + state, one["inputs"]), "state": listed(inputs + state, one["state"]),
+        "changedPropIds": [f"{inputs[0][0]}.{inputs[0][1]}"],
+    }  # fmt: skip
+    answer = ask(
+        server, f"{prefix}_dash-update-component", json.dumps(body).encode(), Content_Type="application/json",
+        Origin=f"http://127.0.0.1:{server.port}",
+    )  # fmt: skip
+    assert answer.status == 200, answer.body[:500]
+    return json.loads(answer.body)["response"]
+
+
+def upload(server: AppServer, key: str, **files: bytes) -> str:
+    """What is said of files that are dropped on the page, empty where they are taken."""
+    contents = ["data:;base64," + base64.b64encode(content).decode() for content in files.values()]
+    names = [name.replace("_dot_", ".").replace("_slash_", "/") for name in files]
+    found = call(
+        server, key, "upload-fault.children", [("upload", "contents", contents)], [("upload", "filename", names)]
+    )
+    return str(found["upload-fault"]["children"])
+
+
+def test_the_page_its_scripts_and_its_data_are_behind_the_token(server: AppServer) -> None:
+    prefix, key = server.home.prefix, server.sessions.new().key
+    page = ask(server, f"{prefix}s/{key}/")
+    assert page.status == 200
+    sources = [part.split('"')[0] for part in page.body.decode().split('src="')[1:]]
+    assert len(sources) > 5
+    assert all(source.startswith(prefix) for source in sources)
+    assert b"http://" not in page.body
+    assert b"https://" not in page.body
+    for path in (*sources, f"{prefix}_dash-layout", f"{prefix}_dash-dependencies"):
+        answer = ask(server, path)
+        assert answer.status == 200
+        assert answer.headers["Cache-Control"] == "no-store"
+        assert "'unsafe-eval'" not in answer.headers["Content-Security-Policy"]
+        assert ask(server, path.replace(prefix, "/")).status == 404
+        assert ask(server, path.replace(prefix, f"/{'x' * 32}/")).status == 404
+        assert ask(server, path, Origin="http://example.org").status == 403
+        assert ask(server, path, Host="example.org").status == 403
+    body = b"{}"
+    path = f"{prefix}_dash-update-component"
+    assert ask(server, path, body, Origin="http://example.org", Content_Type="application/json").status == 403
+    assert ask(server, "/_dash-update-component", body, Content_Type="application/json").status == 404
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "s/../../token", "s/%2e%2e/token", "s/KEY/files/../settings.json", "s/KEY/files/%2e%2e%2fsettings.json",
+        "s/KEY/settings.json", "s/KEY/files/settings.json", "s/KEY/files/", "s/KEY/closed", "token", "static/x",
+        "assets/../home.py", "assets/%2e%2e/home.py", "assets/..%2fhome.py", "s/x/", "s/" + "a" * 12 + "/",
+        "_dash-component-suites/dash/../fctd/app/home.py", "_dash-component-suites/fctd/app/home.py", "admin",
+    ],
+)  # fmt: skip
+def test_no_path_leads_elsewhere(path: str, server: AppServer) -> None:
+    key = server.sessions.new().key
+    answer = ask(server, server.home.prefix + path.replace("KEY", key))
+    assert answer.status in (404, 500) if path.startswith("_dash-comp") else answer.status == 404
+    assert server.home.token.encode() not in answer.body
+    assert b"class Home" not in answer.body
+
+
+def test_too_large_a_request_is_refused(server: AppServer) -> None:
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)
+    connection.putrequest("POST", f"{server.home.prefix}_dash-update-component")
+    connection.putheader("Content-Length", str(MOST_RECEIVED + 1))
+    connection.endheaders()  # refused before it is sent
+    assert connection.getresponse().status == 413
+    connection.close()
+
+
+def test_files_are_taken_or_refused_in_words(server: AppServer) -> None:
+    session = server.sessions.new()
+    assert upload(server, session.key, well_dot_toml=TEXT.encode(), survey_dot_csv=SURVEY) == ""
+    assert session.source == source()
+    kept = session.source
+    hostile = {
+        "other": (TEXT.replace('"survey.csv"', '"/etc/passwd"').encode(), "uploaded with the case"),
+        "binary": (b"\x00\x01\x02", "UTF-8"),
+        "words": (b"name = 3", "expected"),
+    }
+    hostile["binary"] = (b"\xff\xfe\x00", "UTF-8")
+    for content, words in hostile.values():
+        said = upload(server, session.key, well_dot_toml=content, survey_dot_csv=SURVEY)
+        assert words in said
+        assert "root:" not in said
+    for content, words in (
+        (bytes(1000), "expected a survey"), (b"<!DOCTYPE a><a/>", "DOCTYPE"), (b"PK\x03\x04" + bytes(99), "xlsx"),
+        (b"md_m,inc_deg,azi_deg\n0,<b>0</b>,0\n", "<b>0</b>"),
+    ):  # fmt: skip
+        assert words in upload(server, session.key, survey_dot_csv=content)
+    assert session.source is kept
+    assert upload(server, session.key, _dot__dot__slash_x_dot_csv=SURVEY) == ""
+    assert session.source is not None
+    assert session.source.survey_name == "x.csv"
+
+
+def opened(server: AppServer, key: str) -> Any:
+    where = [("where", "pathname", f"{server.home.prefix}s/{key}/")]
+    return call(server, key, "opened.data", where, [])
+
+
+def wish(**given: Any) -> dict[str, Any]:
+    usual = {
+        "values": {"mud": 1300}, "operations": ["trip_out"], "operation": "trip_out", "depth": 800, "coarse": False,
+        "colour": "tension", "hole": False, "n": 7,
+    }  # fmt: skip
+    return usual | given
+
+
+def test_a_killed_server_goes_on_at_its_address(tmp_path: Path) -> None:
+    with served(tmp_path / "app") as server:
+        address = server.begin(source())
+        key = address.rstrip("/").rpartition("/")[2]
+        before = opened(server, key)
+        assert before["name"]["children"] == NAME
+        found = call(server, key, "answered.data", [("wish", "data", wish())], [])
+        assert found["answered"]["data"] == {"n": 7}
+        assert "picking up, bit at 800 m" in found["at"]["children"]
+        assert found["loads"]["figure"]["__dash_patch_update"]
+    with served(tmp_path / "app") as server:
+        assert server.address(key) == address
+        after = opened(server, key)
+        assert after["opened"]["data"]["values"] == {"mud": 1300}
+        assert after["depth"]["value"] == 800
+        assert ask(server, server.home.prefix).headers["Location"].endswith(f"/s/{key}/")
+        server.home.new_token()
+        server.home.leave()
+    with served(tmp_path / "app") as server:
+        assert ask(server, address.partition(str(server.port))[2]).status == 404
+        assert opened(server, key)["name"]["children"] == NAME
+
+
+def test_what_the_page_never_asks_is_answered_in_words(server: AppServer) -> None:
+    session = server.sessions.new()
+    session.put(source())
+    for wrong in ({}, wish(values={"mud": 1e9}), wish(operation="<b>"), wish(colour=3), wish(operations=5)):
+        found = call(server, session.key, "answered.data", [("wish", "data", wrong)], [])
+        assert found["fault"]["children"], wrong
+        assert "loads" not in found
+    assert session.settings == {"survey": "survey.csv"}
+    found = call(server, "x" * 12, "answered.data", [("wish", "data", wish())], [])
+    assert "open the page anew" in found["fault"]["children"]
+
+
+def test_files_come_as_attachments(server: AppServer) -> None:
+    session = server.sessions.new()
+    session.put(source())
+    address = f"{server.home.prefix}s/{session.key}/files/"
+    for name in ("case.toml", "profile.csv"):
+        answer = ask(server, address + name)
+        assert answer.status == 200
+        assert answer.headers["Content-Disposition"].startswith("attachment;")
+        assert answer.headers["X-Content-Type-Options"] == "nosniff"
+    assert ask(server, address + "case.toml").body == TEXT.encode()
+    assert set(FILES) > {"case.toml", "profile.csv"}
+
+
+def test_the_first_page_has_a_well(server: AppServer) -> None:
+    answer = ask(server, f"{server.home.prefix}new")
+    assert answer.status == 302
+    key = answer.headers["Location"].rstrip("/").rpartition("/")[2]
+    assert opened(server, key)["name"]["children"] == "a first well"
+
+
+def test_a_port_that_is_taken(tmp_path: Path) -> None:
+    with listening(None, 0) as first:
+        first.listen()
+        port = first.getsockname()[1]
+        with pytest.raises(InputError, match="a free port"):
+            listening(port, port)
+        with listening(None, port) as other:
+            assert other.getsockname()[1] != port
