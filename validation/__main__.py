@@ -8,7 +8,7 @@ from rich.console import Console
 
 from fctd.case.text import degrade_output, printable_lines
 from validation.claims import judgement, ledger
-from validation.harness import fingerprint, runner, study
+from validation.harness import fingerprint, runner, side_by_side, study
 from validation.harness.registry import STUDIES
 
 CLAIMS = "claims"  # No study: it judges by what the studies have stored.
@@ -32,7 +32,8 @@ def main(
 
     A result is kept, and its study not repeated, until its code, the files it read, a package or the processor changes;
     a quick result does not count for a full run, nor a full result for a quick run. An interrupted run continues with
-    the studies that are not stored. At the end of --all and --reproduce, and by the name claims, the paper's claims are
+    the studies that are not stored. --all and --reproduce run studies that time nothing side by side on all processors,
+    and the others alone afterwards. At the end of --all and --reproduce, and by the name claims, the paper's claims are
     judged by the stored results.
 
     Exit code 0: each check as recorded in expected.toml or better, each verdict as recorded in claims.toml. 1: worse
@@ -63,6 +64,7 @@ def main(
                 quick=quick,
                 force=force,
                 audited=audit,
+                processes=1 if names else side_by_side.workers(),
                 data=study.data_folder(),
                 expected=expected,
                 results=study.RESULTS,

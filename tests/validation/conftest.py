@@ -50,9 +50,10 @@ def register(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, empty_registry: No
         reproduce: bool = True,
         needs: tuple[str, ...] = (),
         uses: tuple[str, ...] = (),
+        timed: bool = False,
     ) -> None:
         module = ModuleType(f"toy_{name}")
-        module.STUDY = Study(name, f"Is {name} right?", run, reproduce, needs, uses)
+        module.STUDY = Study(name, f"Is {name} right?", run, reproduce, needs, uses, timed)
         monkeypatch.setitem(sys.modules, module.__name__, module)
         registry.STUDIES[name] = module.__name__
 
@@ -70,12 +71,17 @@ def run(tmp_path: Path, sources: Sources) -> Callable[..., tuple[int, str]]:
     """Run studies by name into ``tmp_path / "results"``; gives the exit code and what was printed."""
 
     def call(
-        *names: str, expected: runner.Expected | None = None, data: Path | None = None, quick: bool = False
+        *names: str,
+        expected: runner.Expected | None = None,
+        data: Path | None = None,
+        quick: bool = False,
+        processes: int = 1,
     ) -> tuple[int, str]:
         text = io.StringIO()
         code = runner.run_all(
             names,
             quick=quick,
+            processes=processes,
             data=data,
             expected=expected or {},
             results=tmp_path / "results",

@@ -1,4 +1,4 @@
-"""Run studies one after the other, compare each with its record in expected.toml, and keep finished results."""
+"""Run studies, compare each with its record in expected.toml, and keep finished results."""
 
 import difflib
 import importlib
@@ -7,11 +7,12 @@ import sys
 import time
 import tomllib
 import traceback
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cache
+from itertools import chain
 from pathlib import Path
 
 from rich.console import Console
@@ -31,8 +32,9 @@ from validation.harness import audit, fingerprint, store
 from validation.harness.files import declared
 from validation.harness.fingerprint import Inputs, Sources
 from validation.harness.registry import STUDIES
+from validation.harness.side_by_side import apart, each
 from validation.harness.store import Judged, Provenance, Record, Standing
-from validation.harness.study import NEEDS, ROOT, Context, Outcome, Study, T
+from validation.harness.study import NEEDS, ROOT, Context, Outcome, Study, T, one_by_one, silent
 
 EXPECTED = ROOT / "validation" / "expected.toml"
 
@@ -73,6 +75,14 @@ def is_reproduced(name: str) -> bool:
     except Exception:
         # A study that cannot be loaded is run all the same, so that its failure is recorded and seen.
         return True
+
+
+def is_timed(name: str) -> bool:
+    """Whether nothing may run beside the study."""
+    try:
+        return load(name).timed
+    except Exception:
+        return False  # it is run, and its failure recorded
 
 
 def check_results(folder: Path) -> None:
@@ -145,6 +155,7 @@ def run_all(
     quick: bool,
     force: bool = False,
     audited: bool = False,
+    processes: int = 1,
     data: Path | None,
     expected: Expected,
     results: Path,
@@ -153,8 +164,9 @@ def run_all(
 ) -> int:
     """Run and store each study named, unless its result is up to date; return the exit code.
 
-    force : repeat those as well.  audited : the same, each study watched (see ``Run``).  The code is 0, 1 for worse
-    than recorded, 130 when interrupted.
+    force : repeat those as well.  audited : the same, each study watched (see ``Run``).  processes : in which studies
+    run side by side that time nothing; the others run alone afterwards.  The code is 0, 1 for worse than recorded, 130
+    when interrupted.
     """
     rules = Run(results, sources, store.provenance(), force or audited, audited)
     around = fingerprint.surroundings(quick, sources.root)
@@ -168,12 +180,19 @@ def run_all(
     )
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
         context = Context(quick=quick, data=data, progress=Bars(bars))
+        beside = [name for name in names if processes > 1 and not is_timed(name)]
+        alone = [name for name in names if name not in beside]
+        # An audit sees what happens in its own process.
+        spread = replace(context, progress=silent, apart=one_by_one if audited else apart)
+
+        def done_in(its: Context) -> Callable[[str], Done]:
+            return lambda name: run_one(name, its, expected.get(name, {}), around, rules)
+
         try:
-            for name in context.progress(names, "studies"):
-                recorded = expected.get(name, {})
-                done = run_one(name, context, recorded, around, rules)
+            together = each(done_in(spread), beside, processes) if beside else ()
+            for done in context.progress(Counted(chain(together, map(done_in(context), alone)), len(names)), "studies"):
                 finished.append(done)
-                tell(done, recorded, console)
+                tell(done, expected.get(done.record.study, {}), console)
         except KeyboardInterrupt:
             there = ", ".join(done.record.study for done in finished) or "nothing had finished"
             _say(console, f"interrupted; kept: {there}; the same command continues from there", "bold red")
@@ -334,6 +353,20 @@ def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
     # A quick run may leave a check out.
     if gone and run.status == "finished" and not run.quick:
         _say(console, f"  expected.toml records checks that this study does not make: {gone}", "yellow")
+
+
+@dataclass(frozen=True)
+class Counted:
+    """Items of which the number is known before they are."""
+
+    items: Iterable[Done]
+    count: int
+
+    def __iter__(self) -> Iterator[Done]:
+        return iter(self.items)
+
+    def __len__(self) -> int:
+        return self.count
 
 
 class Bars:

@@ -19,6 +19,7 @@ RESULTS = ROOT / "validation" / "results"
 Kind = Literal["at_most", "at_least", "within"]
 Need = Literal["data"]
 T = TypeVar("T")
+A = TypeVar("A")
 
 NEEDS: dict[Need, str] = {
     "data": (
@@ -121,30 +122,45 @@ def silent(items: Iterable[T], label: str) -> Iterable[T]:
     return items
 
 
+class Apart(Protocol):
+    """The results of a function for each of several arguments, in their order; it may use a process for each."""
+
+    def __call__(self, function: Callable[[A], T], arguments: Sequence[A]) -> list[T]: ...
+
+
+def one_by_one(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
+    """All in this process, one after the other."""
+    return [function(argument) for argument in arguments]
+
+
 @dataclass(frozen=True)
 class Context:
     """The input of a study: whether to run the short version, the folder of the public data, the progress display.
 
-    ``data`` is a folder for a study that says ``needs=("data",)`` and None for any other.
+    ``data`` is a folder for a study that says ``needs=("data",)`` and None for any other. ``apart`` runs parts of a
+    study that do not depend on each other; the function that it takes stands in a module.
     """
 
     quick: bool = False
     data: Path | None = None
     progress: Progress = silent
+    apart: Apart = one_by_one
 
 
 @dataclass(frozen=True)
 class Study:
     """One question, and the function that answers it.
 
-    ``reproduce`` : whether ``make reproduce`` runs it. ``needs`` : what must be available; otherwise the study is
-    skipped with a message. ``uses`` : the registry entries that it uses, "module:class", to which no import statement
-    leads.
+    ``reproduce`` : whether ``make reproduce`` runs it: where a claim of the paper rests on it, or the first page of the
+    report. ``timed`` : whether a check or a figure of it is a time, so that nothing may run beside it. ``needs`` : what
+    must be available; otherwise the study is skipped with a message. ``uses`` : the registry entries that it uses,
+    "module:class", to which no import statement leads.
     """
 
     name: str
     question: str
     run: Callable[[Context], Outcome]
-    reproduce: bool = True
+    reproduce: bool = False
     needs: tuple[Need, ...] = ()
     uses: tuple[str, ...] = ()
+    timed: bool = False

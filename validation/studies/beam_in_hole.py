@@ -149,4 +149,5 @@ STUDY = Study(
     "beam_in_hole",
     "Does a short stiff string bend as beam theory predicts: on supports, in a pendulum, with a bent housing?",
     run,
+    reproduce=True,
 )

@@ -299,6 +299,5 @@ STUDY = Study(
     "buckled_wells",
     "Does every row of a chart in which strings buckle and lock up have an answer or a reason?",
     run,
-    reproduce=False,
     needs=("data",),
 )

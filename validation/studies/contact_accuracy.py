@@ -250,4 +250,6 @@ STUDY = Study(
     "How accurate is each contact method, and what does it cost per point?",
     run,
     uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
+    reproduce=True,
+    timed=True,
 )

@@ -251,4 +251,6 @@ STUDY = Study(
     "How many operations does a contact test take?",
     run,
     uses=(METHODS["coal"], METHODS["trimesh"]),
+    reproduce=True,
+    timed=True,
 )

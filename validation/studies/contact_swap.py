@@ -269,4 +269,6 @@ STUDY = Study(
     "What does the contact method cost in the loop, and does the torque depend on it?",
     run,
     uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
+    reproduce=True,
+    timed=True,
 )

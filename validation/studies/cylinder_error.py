@@ -59,4 +59,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("cylinder_error", "How short must cylinders be?", run)
+STUDY = Study("cylinder_error", "How short must cylinders be?", run, reproduce=True)

@@ -198,6 +198,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study(
-    "drilling", "Does a string that drills in time keep the balances of bit and string?", run, reproduce=False
-)
+STUDY = Study("drilling", "Does a string that drills in time keep the balances of bit and string?", run)

@@ -101,4 +101,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("energy_ledger", "How well does the energy ledger close?", run)
+STUDY = Study("energy_ledger", "How well does the energy ledger close?", run, reproduce=True)

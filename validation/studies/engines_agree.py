@@ -1,5 +1,6 @@
 """The same string in independent engines: loads, contact forces, and the 1000:1 model."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,8 @@ from references.engines import EngineRun, Window
 from references.engines.run import late
 from references.engines.scaling import SCALE, Factors, factors, scaled
 from validation.cases import load, rotation, trip
-from validation.harness.study import Check, Context, Outcome, Study, left_out
-from validation.parts import engine_settings
+from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts import engine_notes, engine_settings
 from validation.parts.windows import last_seconds
 
 BIT, S_BIT = 2450.0, 480.0
@@ -252,20 +253,66 @@ def small() -> Case:
     )
 
 
-def run(context: Context) -> Outcome:
-    """Curved chain in three operations and in a turning hole, paper-well, 1000:1; the settings of the engines."""
-    missing = [name for name, (engine, _) in ENGINES.items() if engines.installed_version(engine) is None]
-    quick, there = context.quick, [name for name in ENGINES if name not in missing]
-    fair = tuple(name for name in there if name in ("FCTD", *FAIR))
-    ball_chain = ("MuJoCo ball chain",) if "MuJoCo" in there else ()
-    tables = {
-        **chain_tables(context, fair if quick else tuple(there)),
+@dataclass(frozen=True)
+class Part:
+    """What one process computes: the runs of one engine beside FCTD's own, or, without one, what is not split.
+
+    names : configurations of the engine; fair : FCTD, and the best one of each engine; missing : not installed.
+    """
+
+    engine: str
+    names: tuple[str, ...]
+    fair: tuple[str, ...]
+    missing: tuple[str, ...]
+    quick: bool
+
+
+def of_part(part: Part) -> dict[str, pd.DataFrame]:
+    """The tables of a part."""
+    quick, context = part.quick, Context(quick=part.quick)
+    if not part.engine:
+        names = (*part.fair, *(("MuJoCo ball chain",) if "MuJoCo" in part.fair else ()))
+        tables = {
+            "hanging": hanging(names, 2.5 if quick else 5.0),
+            "thousand": one_to_thousand(("Bullet",) if "Bullet" in part.fair else (), 1.0 if quick else 3.0),
+            "friction": engine_settings.friction((0.0, 30.0) if quick else engine_settings.AZIMUTHS, [*part.missing]),
+        }
+        return tables | ({"impedance": engine_settings.impedances()} if "MuJoCo" in part.fair and not quick else {})
+    fair = tuple(dict.fromkeys(("FCTD", *(name for name in part.names if name in part.fair))))
+    return {
+        **chain_tables(context, tuple(dict.fromkeys(("FCTD", *part.names)))),
         "well": well_table(context, fair),
         "s_shape": s_shape_table(context, fair),
-        "hanging": hanging((*fair, *ball_chain), 2.5 if quick else 5.0),
-        "thousand": one_to_thousand(("Bullet",) if "Bullet" in there else (), 1.0 if quick else 3.0),
-        "friction": engine_settings.friction((0.0, 30.0) if quick else engine_settings.AZIMUTHS, missing),
+        **({} if quick else {"steps": engine_settings.steps(fair)}),
     }
+
+
+def joined(parts: list[dict[str, pd.DataFrame]]) -> dict[str, pd.DataFrame]:
+    """The tables of all parts, as if one process had computed them: by case, then by engine; FCTD's rows once."""
+    found: dict[str, pd.DataFrame] = {}
+    for name in dict.fromkeys(name for part in parts for name in part):
+        own = [part[name] for part in parts if name in part]
+        table = pd.concat([own[0], *(other[other["engine"] != "FCTD"] for other in own[1:])], ignore_index=True)
+        if len(own) > 1:
+            cases = [key for key in ("hole", "operation", "segments", "geometry") if key in table]
+            order = table["engine"].map({engine: k for k, engine in enumerate(ENGINES)})
+            groups = table.groupby(cases, sort=False).ngroup() if cases else 0
+            table = table.assign(group=groups, order=order).sort_values(["group", "order"], kind="stable")
+            table = table.drop(columns=["group", "order"]).reset_index(drop=True)
+        found[name] = table
+    return found
+
+
+def run(context: Context) -> Outcome:
+    """Curved chain in three operations and in a turning hole, paper-well, 1000:1; the settings of the engines."""
+    missing = tuple(name for name, (engine, _) in ENGINES.items() if engines.installed_version(engine) is None)
+    quick, there = context.quick, [name for name in ENGINES if name not in missing]
+    fair = tuple(name for name in there if name in ("FCTD", *FAIR))
+    others = [name for name in (fair if quick else there) if name != "FCTD"] or ["FCTD"]
+    split = {engine: tuple(name for name in others if name.partition(",")[0] == engine) for engine in ("FCTD", *FAIR)}
+    parts = [Part(engine, names, fair, missing, quick) for engine, names in split.items() if names]
+    found = context.apart(of_part, [*parts, Part("", (), fair, missing, quick)])
+    tables = joined(found[:-1]) | found[-1]
     display = {
         "chain": "Curved chain: every engine over the same window from FCTD's state in motion",
         "well": "Paper-well tripped in to 2250 m: 60 and 170 segments",
@@ -273,14 +320,15 @@ def run(context: Context) -> Outcome:
         "hanging": "No wall, vertical, spun up from rest",
         "thousand": "The 1000:1 model: loads scaled back, against the full-size string",
         "friction": "Coulomb's law alone: friction of a pipe turning in a straight hole, over the azimuth of the hole",
+        "steps": "The rotating chain spun up from rest over 10 s in each engine, over the time step",
+        "impedance": "MuJoCo's contact: friction of the pipe in a straight hole, over impedance and wall",
     }
-    if not quick:
-        tables["steps"] = engine_settings.steps(fair)
-        display["steps"] = "The rotating chain spun up from rest over 10 s in each engine, over the time step"
-        if "MuJoCo" in there:
-            tables["impedance"] = engine_settings.impedances()
-            display["impedance"] = "MuJoCo's contact: friction of the pipe in a straight hole, over impedance and wall"
-    return Outcome(tables=tables, checks=checks(tables, fair, missing), notes=notes(missing), display=display)
+    return Outcome(
+        tables=tables,
+        checks=checks(tables, fair, [*missing]),
+        notes=engine_notes.notes([*missing], LEAD, WELL_LEAD, RAMP),
+        display={name: caption for name, caption in display.items() if name in tables},
+    )
 
 
 def checks(tables: dict[str, pd.DataFrame], fair: tuple[str, ...], missing: list[str]) -> list[Check]:
@@ -346,55 +394,7 @@ def scaling_checks(table: pd.DataFrame) -> list[Check]:
     return made
 
 
-def notes(missing: list[str]) -> list[str]:
-    """Notes for the reader of the numbers."""
-    return [
-        *left_out(missing),
-        f"Every engine starts from the same state: FCTD's stepper after {LEAD:g} s ({WELL_LEAD:g} s in paper-well), "
-        "in motion; the rows over the step start from FCTD's frictionless shape at rest. All numbers are means under "
-        "a Hann window. A run that fails a check is marked invalid and its numbers are kept.",
-        "The axial ringing of a sliding string does not decay, in paper-well with a period of 2.06 s: Coulomb "
-        f"friction does not depend on speed and does not damp it. Paper-well is therefore started over {RAMP:g} s, "
-        "which leaves 0.3 % of ringing in the hook load, and whole periods are used to check that the hook load has "
-        "settled.",
-        "No engine was set with FCTD's loads: the step of each is the best of its ladder by one definition; MuJoCo's "
-        "contact parameters are those that give Coulomb's law for a pipe in a straight hole. Changes since a first "
-        "round, whose settings had been chosen with FCTD's torque in view: MuJoCo without its contact margin of 5 mm "
-        "and with impedance 0.3 in place of 0.5; Bullet with the hole along its own axes (default: the global ones); "
-        "PyElastica with a step of 0.45 in place of 1.03 ms. Errors of ours corrected since: PyElastica's string "
-        "lacked the weight of pipe fed before the window (0.4 % of hook load in trips), its nodes were offset from "
-        "its open joints, and its ledger lacked the work of the drive on the clamped element.",
-        "Bullet's friction is not opposite to the sliding: Bullet solves it along two directions that follow from "
-        "the wall's normal and its axes, each over the body's effective mass along it, so that friction opposes M·v "
-        "in place of v. The table of friction shows this angle, the lean: 32° in a straight hole at 15° to the axes, "
-        "as those masses predict, and zero along an axis. With its z axis across the plane of the hole Bullet "
-        "agrees; in a hole that turns no axes fit all of it, and part of the lean remains. Tried and rejected: "
-        "bodies in maximal coordinates, whose friction follows the sliding but has a separate μN in the second "
-        "direction. The note of a row gives the share of μN that opposes the sliding, measured on its own contacts, "
-        "where it is below 98 %.",
-        "The S-shaped well was added after the engines had been set, with nothing changed since. In arcs the spacing "
-        "of the rings of Bullet's and MuJoCo's tube follows from a chord tolerance of 0.5 mm; with rings only at the "
-        "ends of the arcs, as before, the tube cut through the bends and the string left it within 0.2 s.",
-        "MuJoCo's default friction cone is a pyramid along fixed directions and leans as much as Bullet's; its fair "
-        "configuration uses the elliptic cone. Its friction is a soft constraint, and contact chatters on a wall as "
-        "stiff as the case's.",
-        "Bullet, MuJoCo and PyElastica integrate spinning bodies with an explicit gyroscopic moment, which adds "
-        "energy: at FCTD's own step Bullet's and MuJoCo's string leaves the hole within 10 s, and PyElastica's at "
-        "0.9 ms gains 18 % of the work, at half of that 0.3 %. In PyElastica wall and friction are our code: its "
-        "agreement verifies only the beam and the integrator. While tripping its upper end is lowered, no pipe is "
-        "fed.",
-        "Rows of the 1000:1 model with Bullet are computed in millimetres, as a user of Adams would do: fixed limits "
-        "and tolerances in Bullet's units make both fail, and the checks report it. The steady solver cannot solve "
-        "the naive model at a thousandth (see its row); it solves it at full size with steel a thousand times as "
-        "stiff, which is the same by similarity; at a tenth both ways are computed and agree. A second route, which "
-        "needs neither solver nor similarity, is the stepper: it runs the naive model at a thousandth of the size, "
-        "with wall and dampers of a small string.",
-    ]
-
-
 STUDY = Study(
-    "engines_agree",
-    "Does the same string give the same loads in independent engines?",
-    run,
-    uses=tuple(engines.ENGINES.values()),
-)
+    "engines_agree", "Does the same string give the same loads in independent engines?", run,
+    uses=tuple(engines.ENGINES.values()), reproduce=True,
+)  # fmt: skip

@@ -124,4 +124,4 @@ def _eight_hours(folder: Path, rng: np.random.Generator) -> list[Check]:
     ]  # fmt: skip
 
 
-STUDY = Study("faults", "Is anything lost when a run is killed or something fails?", run)
+STUDY = Study("faults", "Is anything lost when a run is killed or something fails?", run, timed=True)

@@ -181,4 +181,6 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("friction_laws", "What does the paper's friction law do to a string that slides and turns?", run)
+STUDY = Study(
+    "friction_laws", "What does the paper's friction law do to a string that slides and turns?", run, reproduce=True
+)

@@ -177,4 +177,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("long_segment", "Which loads does one long segment for the vertical part change?", run)
+STUDY = Study("long_segment", "Which loads does one long segment for the vertical part change?", run, reproduce=True)

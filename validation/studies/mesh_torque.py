@@ -59,5 +59,9 @@ def run(context: Context) -> Outcome:
 
 
 STUDY = Study(
-    "mesh_torque", "Does the torque off bottom depend on the contact method?", run, uses=(contact.METHODS[METHOD],)
+    "mesh_torque",
+    "Does the torque off bottom depend on the contact method?",
+    run,
+    uses=(contact.METHODS[METHOD],),
+    reproduce=True,
 )

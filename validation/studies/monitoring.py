@@ -155,5 +155,5 @@ STUDY = Study(
     "monitoring",
     "How soon does monitoring find a step of the friction, and how often is an alarm false?",
     run,
-    reproduce=False,
+    timed=True,
 )

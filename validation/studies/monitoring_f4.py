@@ -134,6 +134,5 @@ STUDY = Study(
     "monitoring_f4",
     "Are the stretches that monitoring finds in a real series those of another hand?",
     run,
-    reproduce=False,
     needs=("data",),
 )

@@ -251,4 +251,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("mud_effects", "How do buoyancy and damping of the mud change loads and waves?", run)
+STUDY = Study("mud_effects", "How do buoyancy and damping of the mud change loads and waves?", run, reproduce=True)

@@ -99,4 +99,6 @@ def paper_search(S, owner, n, packed, C, geometry):  # type: ignore[no-untyped-d
     state.row(S, state.HOLE, n)[for_loop_owners(C, points) < 0] = np.inf
 
 
-STUDY = Study("overlap", "Does the overlap of cylinders remove gaps and jumps of the contact force?", run)
+STUDY = Study(
+    "overlap", "Does the overlap of cylinders remove gaps and jumps of the contact force?", run, reproduce=True
+)

@@ -71,4 +71,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("ownership", "Does the paper's FOR-loop find the right cylinder?", run)
+STUDY = Study("ownership", "Does the paper's FOR-loop find the right cylinder?", run, reproduce=True)

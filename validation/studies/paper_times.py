@@ -121,4 +121,10 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("paper_times", "What tripping speed and what cost of contact do the paper's times imply?", run)
+STUDY = Study(
+    "paper_times",
+    "What tripping speed and what cost of contact do the paper's times imply?",
+    run,
+    reproduce=True,
+    timed=True,
+)

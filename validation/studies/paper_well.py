@@ -91,4 +91,5 @@ STUDY = Study(
     "What are torque and hook load in the paper's well, and where does the string touch the wall?",
     run,
     reproduce=True,
+    timed=True,
 )

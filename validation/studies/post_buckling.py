@@ -387,4 +387,5 @@ STUDY = Study(
     "post_buckling",
     "Does a pipe that buckles do so at the right force, into the right shape, and with the right wall force?",
     run,
+    reproduce=True,
 )

@@ -52,6 +52,6 @@ STUDY = Study(
     "real_chart",
     "Does the steady solver find a solution at every depth of a real well?",
     run,
-    reproduce=False,
     needs=("data",),
+    timed=True,
 )

@@ -58,6 +58,5 @@ STUDY = Study(
     "real_survey",
     "Does a simulation on a real survey of eight kilometres run to its end?",
     run,
-    reproduce=False,
     needs=("data",),
 )

@@ -31,4 +31,5 @@ STUDY = Study(
     "refine",
     "Is the error of fctd refine within its tolerance on wells it was not tuned on, and does grading help?",
     run,
+    reproduce=True,
 )

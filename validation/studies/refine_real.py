@@ -87,6 +87,5 @@ STUDY = Study(
     "refine_real",
     "Is the error of fctd refine within its tolerance in a real well?",
     run,
-    reproduce=False,
     needs=("data",),
 )

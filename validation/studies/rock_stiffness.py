@@ -146,4 +146,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("rock_stiffness", "How much does the stiffness of the rock change the loads?", run)
+STUDY = Study("rock_stiffness", "How much does the stiffness of the rock change the loads?", run, reproduce=True)

@@ -382,4 +382,5 @@ STUDY = Study(
     "scaled_section",
     "Do 30 rigid segments in a bend have the contact positions and forces of beam finite elements?",
     run,
+    reproduce=True,
 )

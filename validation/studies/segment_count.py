@@ -365,4 +365,6 @@ STUDY = Study(
     "segment_count",
     "How many segments, and how short cylinders, does a given accuracy need, and what do they cost?",
     run,
+    reproduce=True,
+    timed=True,
 )

@@ -241,4 +241,4 @@ NOTES = [
 ]
 
 
-STUDY = Study("soft_stiff_map", "Where does the soft string fail?", run)
+STUDY = Study("soft_stiff_map", "Where does the soft string fail?", run, reproduce=True)

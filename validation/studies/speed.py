@@ -362,6 +362,10 @@ def notes(kernel: pd.DataFrame, missing: list[str]) -> list[str]:
 
 
 STUDY = Study(
-    "speed", "What does a simulated second cost, in FCTD and in other engines, and what do the ratios contain?", run,
+    "speed",
+    "What does a simulated second cost, in FCTD and in other engines, and what do the ratios contain?",
+    run,
     uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
-)  # fmt: skip
+    reproduce=True,
+    timed=True,
+)

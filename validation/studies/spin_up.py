@@ -80,4 +80,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("spin_up", "How does the torque of a string build up when it starts to turn?", run, reproduce=False)
+STUDY = Study("spin_up", "How does the torque of a string build up when it starts to turn?", run)

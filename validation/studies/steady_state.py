@@ -145,4 +145,5 @@ STUDY = Study(
     "steady_state",
     "Does the steady solver give the loads to which the stepper settles, at every depth, and how fast?",
     run,
+    timed=True,
 )

@@ -243,4 +243,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("stick_slip", "When does a bit stick and slip, and what does the drive change?", run, reproduce=False)
+STUDY = Study("stick_slip", "When does a bit stick and slip, and what does the drive change?", run)

@@ -328,6 +328,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study(
-    "sticking", "Does friction that sticks hold without creep, and let go where it should?", run, reproduce=False
-)
+STUDY = Study("sticking", "Does friction that sticks hold without creep, and let go where it should?", run)

@@ -144,4 +144,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("top_drive", "Does the rig's drive reflect torque waves as its impedance says?", run, reproduce=False)
+STUDY = Study("top_drive", "Does the rig's drive reflect torque waves as its impedance says?", run)

@@ -96,4 +96,4 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("tortuosity", "How much apparent friction does micro-tortuosity make?", run, reproduce=False)
+STUDY = Study("tortuosity", "How much apparent friction does micro-tortuosity make?", run)

@@ -215,6 +215,5 @@ STUDY = Study(
     "trips",
     "Does a trip of stands, in any well, have the hook load of the steady string?",
     run,
-    reproduce=False,
     needs=("data",),
 )

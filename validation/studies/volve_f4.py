@@ -255,6 +255,5 @@ STUDY = Study(
     "volve_f4",
     "Does a calibration on some measured rows of a public well predict the others?",
     run,
-    reproduce=False,
     needs=("data",),
 )

@@ -168,4 +168,6 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-STUDY = Study("well_profile", "What is the path of the paper's well, and how accurate are Eqs 21–23?", run)
+STUDY = Study(
+    "well_profile", "What is the path of the paper's well, and how accurate are Eqs 21–23?", run, reproduce=True
+)

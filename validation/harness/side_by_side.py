@@ -1,0 +1,53 @@
+"""Work in several processes: studies that time nothing run side by side, and so do the parts of one of them."""
+
+import os
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import active_children, get_all_start_methods, get_context
+from typing import Any
+
+from validation.harness.study import A, T
+
+# What the processes of ``each`` call: they are copies of this one, and need not be sent it.
+_CALLED: list[Callable[[Any], Any]] = []
+
+
+def workers() -> int:
+    """As many processes as there are processors; 1 where a process cannot be copied, as on Windows."""
+    return (os.cpu_count() or 1) if "fork" in get_all_start_methods() else 1
+
+
+def each(function: Callable[[A], T], arguments: Sequence[A], processes: int) -> Iterator[T]:
+    """The results of a function for each argument, as they become ready; where it is left before, all end."""
+    _CALLED.append(function)
+    others = set(active_children())
+    try:
+        with ProcessPoolExecutor(processes, get_context("fork"), _ignore_interrupts) as pool:
+            try:
+                for ready in as_completed([pool.submit(_call, argument) for argument in arguments]):
+                    yield ready.result()
+            except BaseException:
+                for process in set(active_children()) - others:
+                    process.terminate()
+                raise
+    finally:
+        _CALLED.pop()
+
+
+def _call(argument: Any) -> Any:
+    return _CALLED[-1](argument)
+
+
+def _ignore_interrupts() -> None:
+    """Ctrl-C reaches every process of a terminal; the first one answers it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def apart(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
+    """The results of a function for each argument, in their order; see ``validation.harness.study.Apart``.
+
+    In fresh processes: this one may have threads, which a copy would lack.
+    """
+    with ProcessPoolExecutor(min(workers(), len(arguments)), mp_context=get_context("spawn")) as pool:
+        return list(pool.map(function, arguments))
