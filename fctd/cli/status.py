@@ -11,6 +11,8 @@ from fctd.case.text import printable
 from fctd.cli.keeping import has_kept, way_on
 from fctd.cli.manners import Silent
 from fctd.cli.options import screen
+from fctd.cli.pictures import PICTURES
+from fctd.cli.steady import TABLES
 from fctd.results.run_folder import about_of, clock, progress_of, run_path, writer_of
 from fctd.results.tables import open_result
 
@@ -64,6 +66,8 @@ def _stopped(target: Path, about: dict[str, Any]) -> str:
 def _of_the_result(target: Path) -> list[str]:
     """What there is to say of a result that is there."""
     if target.is_file():
+        if target.suffix.lower() not in (*TABLES, *PICTURES):
+            return []
         return [f"a chart, written at {clock(target.stat().st_mtime)}"]
     if not target.is_dir():
         return []

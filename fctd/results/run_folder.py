@@ -137,7 +137,7 @@ def open_file(path: Path) -> BinaryIO:
 def run_path(target: Path) -> Path:
     """Where the run of a result is kept; the result of a symlink is what it leads to."""
     target = Path(os.path.realpath(target))
-    return target.with_name(f".{target.name}-run")
+    return target.parent / f".{target.name}-run"  # also of the root, which has no name
 
 
 def about_of(target: Path) -> dict[str, Any] | None:

@@ -22,7 +22,7 @@ class Limits:
         if self.time is not None and monotonic() - self.began >= self.time:
             raise LimitReached(f"the time limit of {self.time:g} s is reached")
         if self.memory is not None and (used := largest_memory()) >= self.memory:
-            raise LimitReached(f"{used / 1e6:.0f} MB of memory are in use, the limit is {self.memory / 1e6:.0f} MB")
+            raise LimitReached(f"{used / 1e6:.0f} MB of memory are in use, the limit is {self.memory / 1e6:g} MB")
 
 
 def largest_memory() -> float:

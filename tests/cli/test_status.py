@@ -71,3 +71,14 @@ def test_of_a_chart(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixtu
 def test_of_nothing(name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(monkeypatch, "status", name) == 2
     assert "expected the result of fctd simulate or fctd chart" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("place", ["small.toml", "/", ".", "nowhere/deep", "small.toml/out"])
+def test_of_a_place_without_a_result(
+    place: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A case is no chart, and the root has no name."""
+    assert run(monkeypatch, "status", place) == 2
+    assert "expected the result of fctd simulate or fctd chart, or the place of an" in capsys.readouterr().err
+    assert run(monkeypatch, "simulate", "--resume", place) == 2
+    assert "expected a result whose run has not ended" in capsys.readouterr().err
