@@ -60,8 +60,11 @@ def browser(*flags: str) -> Iterator[Browser]:
 
 
 @contextmanager
-def opened(where: Browser, path: Path, width: int = 1280, height: int = 800) -> Iterator[tuple[Page, Seen]]:
-    """A page in a window of a size [px]; what it says and asks for is empty in the end."""
+def opened(where: Browser, path: Path | str, width: int = 1280, height: int = 800) -> Iterator[tuple[Page, Seen]]:
+    """A page, of a file or at an address, in a window of a size [px]; what it says and asks for elsewhere is empty in
+    the end."""
+    address = path if isinstance(path, str) else path.resolve().as_uri()
+    own = (*HERE, "/".join(address.split("/")[:4])) if isinstance(path, str) else HERE
     page, seen = where.new_page(viewport={"width": width, "height": height}), Seen()
     page.set_default_timeout(LONGEST)
 
@@ -71,9 +74,9 @@ def opened(where: Browser, path: Path, width: int = 1280, height: int = 800) -> 
 
     page.on("console", said)
     page.on("pageerror", lambda error: seen.said.append(f"exception: {error}"))
-    page.on("request", lambda request: None if request.url.startswith(HERE) else seen.asked.append(request.url))
+    page.on("request", lambda request: None if request.url.startswith(own) else seen.asked.append(request.url))
     try:
-        page.goto(path.resolve().as_uri())
+        page.goto(address)
         yield page, seen
         seen.check()
     finally:

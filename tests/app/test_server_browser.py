@@ -1,0 +1,153 @@
+"""The live page in a real browser: sliders move the pictures, files come in, and its address outlives the server."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("dash")
+
+from fctd.app.charts import place_of
+from tests.app.made import NAME, SURVEY, TEXT
+from tests.browsers import LONGEST, browser, needs_browser, opened, overflow, pixels
+
+pytestmark = needs_browser
+
+# Values of a curve as they are painted.
+CURVE = """(k) => Array.from(document.querySelector("#loads .js-plotly-plot")._fullData[k]?.x ?? [])"""
+STRING = """() => Array.from(document.querySelector("#scene .js-plotly-plot")._fullData
+  .find((trace) => trace.name === "string")?.line?.color ?? [])"""
+
+
+class Program:
+    """``fctd app`` as a process, which can be killed and started again."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.environment = folder, os.environ | {"XDG_STATE_HOME": str(folder / "state")}
+        self.address = self.start("well.toml")
+
+    def start(self, *case: str) -> str:
+        command = [sys.executable, "-m", "fctd", "app", *case, "--no-browser"]
+        self.process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, text=True, cwd=self.folder, env=self.environment
+        )
+        assert self.process.stdout is not None
+        match = re.fullmatch(r"The page: (\S+)\n", self.process.stdout.readline())
+        assert match is not None
+        return match[1]
+
+    def end(self, number: int) -> None:
+        self.process.send_signal(number)
+        self.process.communicate(timeout=60)
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Program]:
+    folder = tmp_path_factory.mktemp("app")
+    (folder / "survey.csv").write_bytes(SURVEY)
+    (folder / "well.toml").write_text(TEXT)
+    found = Program(folder)
+    yield found
+    found.end(signal.SIGINT)
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    with browser() as found:
+        yield found
+
+
+@pytest.fixture
+def page(chromium: Any, program: Program) -> Iterator[Any]:
+    """The page of the well, drawn; in the end it has said nothing and asked nobody else."""
+    with opened(chromium, program.address) as (found, _):
+        drawn(found)
+        yield found
+
+
+def drawn(page: Any) -> None:
+    """The pictures are painted with data, and nothing is wrong."""
+    page.locator("#words", has_text="points touch").wait_for()
+    until(page, lambda: len(page.evaluate(STRING)) > 0)
+    assert page.locator("#fault").is_hidden(), page.locator("#fault").text_content()
+
+
+def until(page: Any, wanted: Callable[[], object]) -> None:
+    """Wait; the page's policy forbids playwright's own way of waiting, which evaluates text."""
+    for _ in range(LONGEST // 50):
+        if wanted():
+            return
+        page.wait_for_timeout(50)
+    assert wanted()
+
+
+def test_a_slider_moves_all_pictures(page: Any) -> None:
+    k = place_of("line", "hookload_N", "trip_out")
+    chart, string, words = page.evaluate(CURVE, k), page.evaluate(STRING), page.locator("#words").inner_text()
+    before = pixels(page)
+    slider = page.locator("#sliders [role=slider]").nth(1)
+    slider.focus()
+    page.keyboard.press("ArrowRight")
+    until(page, lambda: page.locator("#words").inner_text() != words)
+    until(page, lambda: len(page.evaluate(CURVE, k)) == 70 and page.evaluate(CURVE, k) != chart)
+    assert page.evaluate(STRING) != string
+    assert np.array(page.evaluate(CURVE, k))[-1] > np.array(chart)[-1]  # more friction, more load
+    assert page.locator("#sliders output").nth(1).inner_text() == "0.26"
+    page.wait_for_timeout(300)
+    assert (pixels(page) != before).any()
+    page.locator("#reset").click()
+    until(page, lambda: page.evaluate(CURVE, k) == chart)
+    assert page.locator("#sliders output").nth(1).inner_text() == "0.25"
+
+
+def test_names_are_text_and_nothing_is_wider_than_the_page(page: Any) -> None:
+    assert page.locator("h1").inner_text() == NAME
+    assert page.locator("a[href*=example]").count() == 0
+    for width in (400, 1280, 1920):
+        page.set_viewport_size({"width": width, "height": 800})
+        until(page, lambda: overflow(page) <= 0)  # pictures follow the window
+
+
+def test_a_survey_that_is_chosen_becomes_a_case(page: Any) -> None:
+    page.locator("#upload input").set_input_files(
+        [{"name": "my <b>well.csv", "mimeType": "text/csv", "buffer": SURVEY.replace(b"900", b"950")}]
+    )
+    page.locator("h1", has_text="my <b>well").wait_for()
+    page.locator("#facts", has_text="950 m deep").wait_for()
+    drawn(page)
+    page.locator("#upload input").set_input_files(
+        [{"name": "x.csv", "mimeType": "text/csv", "buffer": b"\x00\x01 <img src=x onerror=alert(1)>"}]
+    )
+    page.locator("#upload-fault", has_text="expected a survey").wait_for()
+    assert page.locator("img").count() == 0
+    page.locator("#upload input").set_input_files(
+        [
+            {"name": "well.toml", "mimeType": "text/plain", "buffer": TEXT.encode()},
+            {"name": "survey.csv", "mimeType": "text/csv", "buffer": SURVEY},
+        ]
+    )
+    page.locator("h1", has_text=NAME).wait_for()
+    assert page.locator("#upload-fault").is_hidden()
+
+
+def test_the_address_of_a_killed_server_shows_the_same_page(chromium: Any, program: Program) -> None:
+    settings = program.folder / "state/fctd/app/sessions" / program.address.rstrip("/").rpartition("/")[2]
+    with opened(chromium, program.address) as (page, _):
+        drawn(page)
+        page.locator("#sliders [role=slider]").nth(2).focus()
+        page.keyboard.press("ArrowLeft")
+        mud = page.locator("#sliders output").nth(2)
+        until(page, lambda: f'"mud": {mud.inner_text()}' in (settings / "settings.json").read_text())
+        moved = mud.inner_text()
+    program.end(signal.SIGKILL)
+    assert program.start().startswith(program.address.rpartition("/s/")[0])
+    with opened(chromium, program.address) as (page, _):
+        drawn(page)
+        assert page.locator("#sliders output").nth(2).inner_text() == moved
