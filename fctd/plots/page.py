@@ -52,21 +52,35 @@ SHOE: Final = {"color": QUIET, "dash": "dot", "width": 1}
 CLEAR: Final = "rgba(0,0,0,0)"
 PANEL: Final = 560  # height of a row of panels [px]
 LINE: Final = 18  # height of a line of the heading [px]
+ABOVE: Final = 40  # height above the panels of a page, whose heading is text [px]
 # A page stays on its machine: plotly's own button would upload the chart.
 CONFIG: Final = {"displaylogo": False, "modeBarButtonsToRemove": ["sendChartToCloud"]}
-# Lines of the heading have 150 characters and do not wrap: on a narrow screen the page moves sideways.
-HEAD: Final = (
-    '<meta name="viewport" content="width=device-width">'
-    "<style>html {overflow-y: scroll} #fctd {min-width: 960px}</style>"
-)
+FOLDER: Final = Path(__file__).parent
+VIEWPORT: Final = '<meta name="viewport" content="width=device-width, initial-scale=1">'
 
 
 def save_page(figure: go.Figure, path: Path) -> list[Path]:
-    """Write a page; returns the file.  Raises InputError where it cannot be written."""
+    """Write a page; returns the file.  Raises InputError where it cannot be written.
+
+    The heading of the figure becomes text that wraps, and its panels stand in rows that the window has room for.
+    """
+    drawn, style = go.Figure(figure), (FOLDER / "page.css").read_text(encoding="utf-8")
+    heading = drawn.layout.meta or {}
+    if heading:
+        # The room above the panels, but for the titles of their groups.
+        saved = drawn.layout.margin.t - ABOVE
+        drawn.update_layout(title=None, meta=None, margin_t=ABOVE, height=drawn.layout.height - saved)
+    lines = "".join(f"<p>{plain(line)}</p>" for line in heading.get("lines", ()))
+    title = plain(heading.get("title", ""))
     with whole_file(path) as scratch:
         # A name of its own for the drawing would differ from run to run.
-        text = figure.to_html(include_plotlyjs=True, div_id="fctd", config=CONFIG)
-        scratch.write_text(text.replace("</head>", f"{HEAD}</head>", 1), encoding="utf-8")
+        text = drawn.to_html(
+            include_plotlyjs=True, div_id="fctd", config=CONFIG, default_height=None,
+            post_script=(FOLDER / "page.js").read_text(encoding="utf-8"),
+        )  # fmt: skip
+        text = text.replace("</head>", f"{VIEWPORT}<title>{title}</title><style>{style}</style></head>", 1)
+        text = text.replace("<body>", f"<body><header><h1>{title}</h1>{lines}</header>", 1)
+        scratch.write_text(text, encoding="utf-8")
     return [path]
 
 
@@ -269,6 +283,8 @@ def _with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: i
     title_text = f"<b>{plain(title)}</b>{small}"
     figure.update_layout(
         title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 20}},
+        # A page writes the same as text.
+        meta={"title": title, "lines": list(lines)},
         height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 45, "b": 110},
         template="plotly_white", modebar={"orientation": "v"},  # beside the panels, not over the title
         legend={"orientation": "h", "y": 0, "yref": "container", "yanchor": "bottom"}, hovermode="closest",
