@@ -8,10 +8,10 @@ import shutil
 import signal
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -19,7 +19,7 @@ import pandas as pd
 from fctd.cli.keeping import has_kept
 from fctd.cli.main import app, run
 from fctd.results import pacing
-from fctd.results.run_folder import numbered, run_path
+from fctd.results.run_folder import PROGRESS, numbered, run_path
 from fctd.results.tables import TABLES, open_result
 from references.__main__ import app as references
 
@@ -77,6 +77,8 @@ rpm = 40
 ramp_time = "5 s"
 """
 ROTATE = """
+[record]
+interval = "0.05 s"
 [[operations]]
 kind = "rotate_off_bottom"
 at_md = "1000 m"
@@ -142,53 +144,89 @@ def meshed(duration: float) -> Command:
 class Killed:
     """What became of a command: exit codes of its processes, and what was found wrong after any of them.
 
-    kept : chunks after each process; took : of the undisturbed process [s].
+    took : by the undisturbed process, of which so much computing; resumed : processes that went on with what another
+    had kept; kept : chunks after each process that was killed.
     """
 
     command: str
     took: float = 0.0
+    computing: float = 0.0
     kills: int = 0
     processes: int = 0
+    resumed: int = 0
     wrong: list[str] = field(default_factory=list)
     kept: list[int] = field(default_factory=list)
 
 
-def forked(
-    program: Any, arguments: Sequence[str], *, kill_after: float | None = None, log: Path, before: Any = None
-) -> int:
-    """Run a command in a fork; its exit code, or −9 where it was killed after so many seconds.
+class Ended(NamedTuple):
+    """A process that has ended: its exit code, −9 where it was killed, and how long it had been computing [s]."""
 
-    log : gets what it prints; before : called in the fork first.
+    code: int
+    computing: float
+
+
+def forked(program: Any, arguments: Sequence[str], *, log: Path, before: Callable[[], None] | None = None) -> int:
+    """Exit code of a command in a fork; log : gets what it prints; before : called in the fork first."""
+    return os.waitstatus_to_exitcode(os.waitpid(_fork(program, arguments, log, before), 0)[1])
+
+
+def watched(
+    program: Any, arguments: Sequence[str], result: Path, *, log: Path, kill_after: float | None = None,
+    from_the_start: bool = False,
+) -> Ended:  # fmt: skip
+    """A command in a fork, killed after so many seconds of computing, or from its start on.
+
+    It computes from its first report of progress on; before that it prepares and settles.
     """
-    sys.stdout.flush()
-    child = os.fork()
-    if child == 0:
-        code = 70
-        # A checkpoint may take any share of the time, so that there are many.
-        pacing.SHARE = 1.0
-        try:
-            out = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
-            os.dup2(out, 1)
-            os.dup2(out, 2)
-            sys.stdout = sys.stderr = os.fdopen(1, "w", buffering=1, closefd=False)  # a test has replaced them
-            sys.argv = ["fctd", *arguments]
-            if before is not None:
-                before()
-            run(program)
-            code = 0
-        except SystemExit as ended:
-            code = ended.code if isinstance(ended.code, int) else int(bool(ended.code))
-        finally:
-            os._exit(code)
-    ends = None if kill_after is None else time.monotonic() + kill_after
+    progress = run_path(result) / PROGRESS
+    began, reported = time.monotonic(), _changed(progress)
+    child = _fork(program, arguments, log)
+    computing = None
     while True:
         pid, status = os.waitpid(child, os.WNOHANG)
-        if pid:
-            return os.waitstatus_to_exitcode(status)
-        if ends is not None and time.monotonic() >= ends:
+        now = time.monotonic()
+        if computing is None and _changed(progress) != reported:
+            computing = now
+        since = began if from_the_start else computing
+        if not pid and kill_after is not None and since is not None and now - since >= kill_after:
             os.kill(child, signal.SIGKILL)
-            return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+            pid, status = os.waitpid(child, 0)
+        if pid:
+            return Ended(os.waitstatus_to_exitcode(status), 0.0 if computing is None else now - computing)
         time.sleep(0.005)
+
+
+def _fork(program: Any, arguments: Sequence[str], log: Path, before: Callable[[], None] | None = None) -> int:
+    """The number of the process."""
+    sys.stdout.flush()
+    child = os.fork()
+    if child:
+        return child
+    code = 70
+    # A checkpoint may take any share of the time, so that there are many.
+    pacing.SHARE = 1.0
+    try:
+        out = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
+        os.dup2(out, 1)
+        os.dup2(out, 2)
+        sys.stdout = sys.stderr = os.fdopen(1, "w", buffering=1, closefd=False)  # a test has replaced them
+        sys.argv = ["fctd", *arguments]
+        if before is not None:
+            before()
+        run(program)
+        code = 0
+    except SystemExit as ended:
+        code = ended.code if isinstance(ended.code, int) else int(bool(ended.code))
+    finally:
+        os._exit(code)
+
+
+def _changed(path: Path) -> int | None:
+    """When a file was written; None where there is none."""
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return None
 
 
 def kill_again_and_again(
@@ -196,8 +234,9 @@ def kill_again_and_again(
 ) -> Killed:
     """Run a command undisturbed; then run it, and kill and resume it until it was killed so often.
 
-    A kill comes after a time that is uniform up to ``longest`` of the undisturbed one.  Where the command ends before,
-    its result is compared and it begins anew.  An earlier result stands there meanwhile.
+    A kill comes after a time of computing that is uniform up to ``longest`` of the undisturbed one; every fourth comes
+    while the process prepares, or soon after.  Where the command ends before, its result is compared and it begins
+    anew.  An earlier result stands there meanwhile.
     """
     folder.mkdir(parents=True)
     (folder / "case.toml").write_text(command.case)
@@ -208,20 +247,27 @@ def kill_again_and_again(
         for left in (whole, run_path(whole)):
             shutil.rmtree(left, ignore_errors=True)
     began = time.monotonic()
-    if code := forked(command.program, command.begin(folder, whole), log=log):
+    code, found.computing = watched(command.program, command.begin(folder, whole), whole, log=log)
+    found.took = time.monotonic() - began
+    if code:
         found.wrong.append(f"the undisturbed command ended with {code}")
         return found
-    found.took = time.monotonic() - began
     wanted = tables_of(whole)
     while found.kills < kills:
         _earlier(whole, result)
         before = _identity(result)
         kept = 0
         while True:
-            kill_after = float(rng.uniform(0, longest * found.took)) if found.kills < kills else None
-            arguments = command.resume(result) if has_kept(result) else command.begin(folder, result)
-            code = forked(command.program, arguments, kill_after=kill_after, log=log)
+            preparing, share = found.kills % 4 == 3, float(rng.uniform())
+            span = found.took - found.computing if preparing else longest * found.computing
+            kill_after = share * span if found.kills < kills else None
+            goes_on = has_kept(result)
+            arguments = command.resume(result) if goes_on else command.begin(folder, result)
+            code, _ = watched(
+                command.program, arguments, result, log=log, kill_after=kill_after, from_the_start=preparing
+            )
             found.processes += 1
+            found.resumed += goes_on
             if code != -signal.SIGKILL:
                 break
             found.kills += 1
