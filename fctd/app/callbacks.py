@@ -300,18 +300,18 @@ def _running(app: Dash, served: Served) -> None:
         return True
 
     @app.callback(
-        Output("time", "figure"), Output("run-told", "children", allow_duplicate=True),
+        Output("time", "figure"), Output("run-told", "children", allow_duplicate=True), Output("time-box", "hidden"),
         Input("run-kept", "data"), State("where", "pathname"), prevent_initial_call=True,
     )  # fmt: skip
-    @_refusing(2, 1)
+    @_refusing(3, 1)
     def streamed(kept: Sequence[Any] | None, pathname: str) -> tuple[Any, ...]:
         session = served.session(pathname)
         if not kept or not kept[0]:
-            return page.EMPTY, no_update
+            return page.EMPTY, no_update, True
         target = str(target_of(session.folder))
         found = served.pool.ask("records", target=target, shown_units=served.units)
         told = [found["last"], found["status"]]
-        return time_figure(found, served.units), "; ".join(filter(None, told)) or no_update
+        return time_figure(found, served.units), "; ".join(filter(None, told)) or no_update, not found["records"]
 
 
 def time_figure(found: Mapping[str, Any], units: System) -> dict[str, Any]:

@@ -95,7 +95,7 @@ def _pictures(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             "The operations of the case, step by step in time, with the sliders where they stand.", id="run-told",
             role="status",
         ),
-        _graph("time"),
+        html.Div(_graph("time"), id="time-box", hidden=True),
     ]  # fmt: skip
     return [
         _picture("Hook load and torque", [_graph("loads")], [html.P(id="rows-note")], "chart"),

@@ -3,6 +3,7 @@
 import base64
 import re
 import socket
+import sys
 import webbrowser
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,7 +11,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 import waitress
 from dash import Dash
+from dash.exceptions import DependencyException, InvalidResourceError, PreventUpdate
 from flask import Flask, Response, redirect, request
+from werkzeug.exceptions import HTTPException
 
 from fctd.app import page
 from fctd.app.callbacks import Served, connect
@@ -20,6 +23,7 @@ from fctd.app.pool import Pool
 from fctd.app.runs import Runs
 from fctd.app.sessions import Sessions, Source
 from fctd.case.errors import InputError
+from fctd.case.text import printable
 from fctd.model.new_case import from_template
 from fctd.model.templates import TEMPLATES
 from fctd.results.unit_systems import System
@@ -119,6 +123,7 @@ def dash_app(served: Served) -> Dash:
     # Without a folder of its own, flask has no address that the prefix does not begin.
     flask = Flask("fctd.app", static_folder=None)
     flask.before_request(lambda: _steered(served))
+    flask.register_error_handler(Exception, _failed)
     app = Dash(
         "fctd.app.page", server=flask, url_base_pathname=served.prefix, title=page.TITLE, update_title="",
         assets_folder="assets", add_log_handler=False, enable_mcp=False, suppress_callback_exceptions=True,
@@ -127,6 +132,18 @@ def dash_app(served: Served) -> Dash:
     app.layout = page.layout()
     connect(app, served)
     return app
+
+
+def _failed(error: Exception) -> "Answer":
+    """The answer to a request that the page never makes, or to one that meets a defect, which is told in a line."""
+    if isinstance(error, HTTPException):
+        return error.get_response()
+    if isinstance(error, PreventUpdate):
+        return Response("", 204)
+    if isinstance(error, InvalidResourceError | DependencyException):
+        return Response("Not Found", 404, mimetype="text/plain")
+    print(printable(f"fctd app: {request.path.rpartition('/')[2]}: {type(error).__name__}: {error}"), file=sys.stderr)
+    return Response("Bad Request", 400, mimetype="text/plain")
 
 
 def _steered(served: Served) -> "Answer | None":

@@ -135,7 +135,7 @@ def test_the_page_its_scripts_and_its_data_are_behind_the_token(server: AppServe
 def test_no_path_leads_elsewhere(path: str, server: AppServer) -> None:
     key = server.sessions.new().key
     answer = ask(server, server.home.prefix + path.replace("KEY", key))
-    assert answer.status in (404, 500) if path.startswith("_dash-comp") else answer.status == 404
+    assert answer.status == 404
     assert server.home.token.encode() not in answer.body
     assert b"class Home" not in answer.body
 
@@ -221,6 +221,20 @@ def test_what_the_page_never_asks_is_answered_in_words(server: AppServer) -> Non
     assert session.settings == {"survey": "survey.csv"}
     found = call(server, "x" * 12, "answered.data", [("wish", "data", wish())], [])
     assert "open the page anew" in found["fault"]["children"]
+
+
+def test_requests_that_no_page_makes_are_told_in_a_line(server: AppServer, capfd: pytest.CaptureFixture[str]) -> None:
+    path = f"{server.home.prefix}_dash-update-component"
+    for body in (b"", b"{", b"[]", b"{}", b'{"output": "x.y", "changedPropIds": []}', b"\xff" * 99):
+        assert 400 <= ask(server, path, body, Content_Type="application/json").status < 500
+    said = capfd.readouterr().err
+    assert "Traceback" not in said
+    assert server.home.token not in said
+
+
+def test_a_page_says_that_it_is_closed(server: AppServer) -> None:
+    key = server.sessions.new().key
+    assert ask(server, f"{server.home.prefix}s/{key}/closed", b"").status == 204
 
 
 def test_files_come_as_attachments(server: AppServer) -> None:
