@@ -123,7 +123,8 @@ def check_samples(template: Template, samples: Any, keys: Sequence[str], task: T
             continue
         if first and (error := misfit(case, task)) is not None:
             told = f"a depth at which string and hole of sample {number} fit ({error})"
-            raise InputError(told, key="work.depths" if template.spec.work.depths is not None else "work.bit_depth")
+            key = "depths" if template.spec.work.depths is not None else "bit_depth"
+            raise InputError(told, key=f"work.{key}", value=getattr(template.spec.work, key))
         first = False
     if first and refusal is not None:
         raise refusal

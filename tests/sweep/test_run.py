@@ -110,5 +110,5 @@ def test_a_sweep_that_ends_before_its_workers_are_there_has_no_share() -> None:
 def test_a_key_that_no_case_has_is_refused_also_where_bad_samples_are_rows(tmp_path: Path) -> None:
     head = 'method = "random"\nsamples = 12\nbad_samples = "rows"'
     unknown = sweep_file(tmp_path, head, PARAMETERS.replace("mud.density", "mud.densty") + WORK)
-    with pytest.raises(InputError, match="mud.densty"):
+    with pytest.raises(InputError, match=r"mud\.densty"):
         prepare(read_sweep(unknown))
