@@ -8,14 +8,18 @@ import os
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pandas as pd
 
+from fctd.sweep.chunk import as_stream, from_stream
 from fctd.sweep.cluster import Where, connected
-from fctd.sweep.run import Summary, sweep
+from fctd.sweep.dataset import begin_dataset
+from fctd.sweep.run import Summary, prepare, sample_of, sweep
 from fctd.sweep.spec import SweepSpec
+from fctd.sweep.work import WORK
 
 ROOT = Path(__file__).parents[1]
 CASE = ROOT / "validation" / "cases" / "paper_well.toml"
@@ -24,6 +28,7 @@ WORKERS = (1, 2, 4, 8, 16)
 SHORT, CHUNK = 0.05, 0.4  # shortest and usual work of a chunk [s]
 FITTED = 1, 16  # numbers of workers from which the model's two times are taken
 SPAN = 5.0  # of a measurement with sleeping workers [s]
+ALONE = 60  # samples whose processor time is taken in this process
 
 
 class Model(NamedTuple):
@@ -63,9 +68,42 @@ def served(workers: int, work: float) -> float:
         return count / (time.perf_counter() - began)
 
 
+def shares(samples: int = ALONE) -> pd.DataFrame:
+    """Processor time of what is done for a sample, in this process: it does not depend on what else the machine does.
+
+    A row for each part of the work, with its time [ms] and its share; ``solving`` includes layout and rows.
+    """
+    bench, table = prepare(the_sweep(samples))
+    bench.warm_up()
+    spent = dict.fromkeys(("making the case", "solving", "stream of the rows", "writing"), 0.0)
+
+    def timed(part: str, act: Callable[[], Any]) -> Any:
+        began = time.process_time()
+        found = act()
+        spent[part] += time.process_time() - began
+        return found
+
+    with tempfile.TemporaryDirectory() as folder:
+        dataset = begin_dataset(Path(folder) / "out", bench.template, table)
+        tables = []
+        for number in range(samples):
+            sample = sample_of(table, bench.keys, number)
+            values = dict(zip(bench.keys, sample.values, strict=True))
+            case = timed("making the case", partial(bench.template.case, number, values))
+            rows = timed("solving", partial(WORK["chart"], case, bench.task, lambda: None))
+            named = [{"sample": number, **row} for row in rows]
+            tables.append(timed("stream of the rows", lambda named=named: from_stream(as_stream(named))))
+        timed("writing", partial(dataset.write, tables))
+    whole = sum(spent.values())
+    return pd.DataFrame(
+        {"part": part, "ms_per_sample": 1e3 * taken / samples, "share": taken / whole} for part, taken in spent.items()
+    )
+
+
 def measure(tell: Callable[[str], None]) -> None:
     """Tell the tables as they are measured, the model, and the load of the machine before and after."""
     tell(f"load before: {os.getloadavg()}")
+    tell(shares().to_string(index=False))
     for workers in (1, 2):
         tell(pd.DataFrame([costs(swept(workers))]).to_string(index=False))
     rows = []

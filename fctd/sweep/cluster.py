@@ -5,7 +5,9 @@ The workers of this machine and their scheduler listen on 127.0.0.1 alone.
 
 from __future__ import annotations
 
+import json
 import logging
+import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 LOOPBACK: Final = "127.0.0.1"
 # Waiting for a scheduler, and for the first of its workers [s].
 CONNECT, WORKERS = 10.0, 60.0
+ADDRESS: Final = re.compile(r"(?P<protocol>tcp://|tls://|)[\w.:\[\]-]+:(?P<port>\d{1,5})")
 PACKAGES: Final = ("fctd", "numba", "numpy", "python")
 
 
@@ -91,13 +94,9 @@ def _joined(where: Where) -> Iterator[Client]:
 
     key = "--scheduler" if where.scheduler is not None else "--scheduler-file"
     value: Any = where.scheduler or where.scheduler_file
-    given: dict[str, Any] = {"address": where.scheduler}
-    if where.scheduler_file is not None:
-        if not where.scheduler_file.is_file():
-            raise InputError("the file that a running scheduler has written", key=key, value=value)
-        given = {"scheduler_file": str(where.scheduler_file)}
+    address = address_of(where)
     try:
-        client = Client(**given, timeout=CONNECT, security=_security(where), set_as_default=False)
+        client = Client(address, timeout=CONNECT, security=_security(where), set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InputError(f"a scheduler that answers within {CONNECT:g} s ({reason})", key=key, value=value) from None
@@ -108,6 +107,32 @@ def _joined(where: Where) -> Iterator[Client]:
             expected = f"a scheduler with workers (none came within {WORKERS:g} s)"
             raise InputError(expected, key=key, value=value) from None
         yield client
+
+
+def address_of(where: Where) -> str:
+    """The address of the scheduler that is named or has written the file.
+
+    Raises InputError for another text or file, and for an address that is encrypted without files of TLS, or is not
+    with them: Dask's own client answers those with errors of its insides, twenty seconds later.
+    """
+    key, value, address = "--scheduler", str(where.scheduler), str(where.scheduler)
+    if where.scheduler_file is not None:
+        key, value = "--scheduler-file", str(where.scheduler_file)
+        try:
+            address = str(json.loads(where.scheduler_file.read_text(encoding="utf-8"))["address"])
+        except (OSError, ValueError, KeyError, TypeError, IndexError):
+            raise InputError("the file that a running scheduler has written", key=key, value=value) from None
+    found = ADDRESS.fullmatch(address)
+    if found is None or not 0 < int(found["port"]) < 65536:
+        raise InputError("a scheduler's address such as tcp://host:8786", key=key, value=value)
+    if (found["protocol"] == "tls://") != (where.tls is not None):
+        expected = (
+            "--tls-ca, --tls-cert and --tls-key beside an address that begins with tls://"
+            if where.tls is None
+            else f"an address that begins with tls:// beside --tls-ca (this one is {address})"
+        )
+        raise InputError(expected, key=key, value=value)
+    return address
 
 
 def _security(where: Where) -> Any:

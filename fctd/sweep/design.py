@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import product
+from math import prod
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -35,12 +35,15 @@ def samples_of(spec: SweepSpec) -> pd.DataFrame:
 
     keys = [parameter.key for parameter in spec.parameters]
     if spec.method in LISTED:
-        columns = [_listed(parameter) for parameter in spec.parameters]
-        size = int(np.prod([len(column) for column in columns], dtype=float))
-        if spec.method == "grid" and size > MOST_SAMPLES:
-            raise InputError(f"a grid of at most {MOST_SAMPLES} samples", key="parameters", value=f"{size} samples")
-        rows = list(product(*columns) if spec.method == "grid" else zip(*columns, strict=True))
-        table = pd.DataFrame(rows, columns=keys)
+        counts = [len(parameter.choices) or parameter.count or 0 for parameter in spec.parameters]
+        size = prod(counts) if spec.method == "grid" else counts[0]
+        if size > MOST_SAMPLES:
+            raise InputError(f"a grid of at most {MOST_SAMPLES} samples", key="parameters", value=f"{size:.7g} samples")
+        number, columns = np.arange(size), {}
+        for parameter, count in zip(reversed(spec.parameters), reversed(counts), strict=True):
+            columns[parameter.key] = pd.Series(_listed(parameter)).take(number % count).reset_index(drop=True)
+            number = number // count if spec.method == "grid" else number  # the last parameter varies fastest
+        table = pd.DataFrame({key: columns[key] for key in keys})
     else:
         cube = unit_cube(spec)
         table = pd.DataFrame({p.key: drawn(p, cube[:, k]) for k, p in enumerate(spec.parameters)})

@@ -25,7 +25,7 @@ from fctd.sweep.dataset import Dataset, alone, begin_dataset
 from fctd.sweep.design import samples_of
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.template import Template, template_of
-from fctd.sweep.work import task_of
+from fctd.sweep.work import Task, misfit, task_of
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -78,7 +78,8 @@ class Summary:
     @property
     def share(self) -> float:
         """Share of the workers' time that went into solving and writing."""
-        return min((self.solving + self.writing) / (self.wall * self.workers), 1.0) if self.wall else float("nan")
+        whole = self.wall * self.workers  # 0 of a sweep that ends before its workers are there
+        return min((self.solving + self.writing) / whole, 1.0) if whole else float("nan")
 
 
 # Called when samples are done, with their number so far and in all, and how many have no answer.
@@ -93,13 +94,17 @@ def prepare(spec: SweepSpec) -> tuple[Bench, Any]:
     template = template_of(spec)
     samples = samples_of(spec)
     keys = tuple(parameter.key for parameter in spec.parameters)
-    if spec.bad_samples == "refuse":
-        check_samples(template, samples, keys)
-    return Bench(template, task_of(spec.work, template.base), keys, spec.time_limit), samples
+    task = task_of(spec.work, template.base)
+    check_samples(template, samples, keys, task)
+    return Bench(template, task, keys, spec.time_limit), samples
 
 
-def check_samples(template: Template, samples: Any, keys: Sequence[str]) -> None:
-    """Raise InputError, which names sample and values, where one of some samples has no case."""
+def check_samples(template: Template, samples: Any, keys: Sequence[str], task: Task) -> None:
+    """Raise InputError, which names sample and values, where one of some samples has no case; where such samples are to
+    be rows, if none of them has one; and where string and hole fit at no depth of the first of them.
+    """
+    rows, first = template.spec.bad_samples == "rows", True
+    refusal: InputError | None = None
     tried = {0, len(samples) - 1, *range(0, len(samples), max(len(samples) // TRIED, 1))}
     for key in keys:
         numbers = samples[key]
@@ -108,11 +113,21 @@ def check_samples(template: Template, samples: Any, keys: Sequence[str]) -> None
     for number in sorted(tried):
         sample = sample_of(samples, keys, number)
         try:
-            template.case(number, dict(zip(keys, sample.values, strict=True)))
+            case = template.case(number, dict(zip(keys, sample.values, strict=True)))
         except InputError as error:
             values = ", ".join(f"{key} = {value}" for key, value in zip(keys, sample.values, strict=True))
-            expected = f'values that a case can have, or bad_samples = "rows"; sample {number} has none: {error}'
-            raise InputError(expected, key="parameters", value=values) from None
+            expected = "values that a case can have" + ("" if rows else ', or bad_samples = "rows"')
+            refusal = InputError(f"{expected}; sample {number} has none: {error}", key="parameters", value=values)
+            if not rows:
+                raise refusal from None
+            continue
+        if first and (error := misfit(case, task)) is not None:
+            told = f"a depth at which string and hole of sample {number} fit ({error})"
+            key = "depths" if template.spec.work.depths is not None else "bit_depth"
+            raise InputError(told, key=f"work.{key}", value=getattr(template.spec.work, key))
+        first = False
+    if first and refusal is not None:
+        raise refusal
 
 
 def sample_of(samples: Any, keys: Sequence[str], number: int) -> Sample:

@@ -270,6 +270,8 @@ class SweepSpec(Table):
                     raise InputError(
                         "two parameters of the sweep", key=f"correlations[{i}].keys", value=list(pair.keys)
                     )
+            if any({*pair.keys} == {*other.keys} for other in self.correlations[:i]):
+                raise InputError("one correlation of each pair", key=f"correlations[{i}].keys", value=list(pair.keys))
         return self
 
     def _check_listed(self) -> None:
@@ -308,6 +310,10 @@ class SweepSpec(Table):
         if self.correlations:
             expected = f'no correlations beside method = "{self.method}", whose indices need independent parameters'
             raise InputError(expected, key="correlations")
+        size = self.samples * (len(self.parameters) + (2 if self.method == "saltelli" else 1))
+        if size > MOST_SAMPLES:
+            expected = f"a number with which the design has at most {MOST_SAMPLES} samples (it has {size})"
+            raise InputError(expected, key="samples", value=self.samples)
         if self.method == "saltelli" and self.samples & (self.samples - 1):
             raise InputError("a power of 2, as Sobol's sequence needs", key="samples")
 

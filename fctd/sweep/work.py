@@ -75,6 +75,23 @@ def _number(text: str) -> float | str:
         return text
 
 
+def misfit(case: Case, task: Task) -> InputError | None:
+    """Why string and hole fit at none of the depths; None where they fit at one, and for work without depths."""
+    from fctd.steady.equilibrium import Solver
+
+    if not task.depths:
+        return None
+    solver, found = Solver(case), list[InputError]()
+    for depth in task.depths:
+        try:
+            solver.lay_out(depth)
+        except InputError as error:
+            found.append(error)
+        else:
+            return None
+    return found[0]
+
+
 def chart(case: Case, task: Task, tick: Tick) -> list[Row]:
     """A row for every operation and depth, as of ``fctd chart``."""
     spec = task.spec

@@ -1,14 +1,19 @@
 """Where a sweep runs: loopback sockets alone, schedulers of others, versions, and schedulers that are not there."""
 
 import importlib.metadata
+import json
 import os
+import re
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from fctd.case.errors import InputError
 from fctd.sweep import cluster
-from fctd.sweep.cluster import Where, connected, encrypted, worker_count
+from fctd.sweep.cluster import Where, address_of, connected, encrypted, worker_count
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import sweep
 from fctd.sweep.spec import read_sweep
@@ -71,15 +76,74 @@ def test_workers_of_another_version_are_refused(monkeypatch: pytest.MonkeyPatch)
         versions._version_cached.cache_clear()
 
 
-def test_a_scheduler_that_is_not_there_is_answered(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_scheduler_that_is_not_there_is_answered(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster, "CONNECT", 1.0)
-    for where, words in {
-        Where(scheduler="tcp://127.0.0.1:9"): "a scheduler that answers within",
-        Where(scheduler="nonsense://127.0.0.1:9"): "a scheduler that answers within",
-        Where(scheduler_file=tmp_path / "none.json"): "the file that a running scheduler has written",
-    }.items():
-        with pytest.raises(InputError, match=words), connected(where):
-            pass
+    where = Where(scheduler="tcp://127.0.0.1:9")
+    with pytest.raises(InputError, match="a scheduler that answers within"), connected(where):
+        pass
+
+
+FILES = (Path("ca.pem"), Path("me.pem"), Path("key.pem"))
+
+
+@pytest.mark.parametrize(
+    ("address", "tls", "words"),
+    [
+        ("nonsense://127.0.0.1:9", None, "a scheduler's address such as tcp://host:8786"),
+        ("tcp://127.0.0.1", None, "a scheduler's address"),
+        ("tcp://127.0.0.1:99999", None, "a scheduler's address"),
+        ("", None, "a scheduler's address"),
+        ("tls://127.0.0.1:9", None, "--tls-ca, --tls-cert and --tls-key beside"),
+        ("tcp://127.0.0.1:9", FILES, "an address that begins with tls://"),
+    ],
+)
+def test_an_address_that_cannot_be_one_is_answered_at_once(
+    address: str, tls: tuple[Path, Path, Path] | None, words: str, tmp_path: Path
+) -> None:
+    (tmp_path / "cluster.json").write_text(json.dumps({"address": address}))
+    for where in (Where(scheduler=address, tls=tls), Where(scheduler_file=tmp_path / "cluster.json", tls=tls)):
+        with pytest.raises(InputError, match=re.escape(words)):
+            address_of(where)
+
+
+@pytest.mark.parametrize("content", [None, "junk", "[]", "{}", "5", "\x00"])
+def test_a_file_that_no_scheduler_wrote_is_answered(content: str | None, tmp_path: Path) -> None:
+    if content is not None:
+        (tmp_path / "cluster.json").write_text(content)
+    with pytest.raises(InputError, match="the file that a running scheduler has written"):
+        address_of(Where(scheduler_file=tmp_path / "cluster.json"))
+
+
+@pytest.mark.slow
+def test_a_sweep_runs_on_an_encrypted_cluster(tmp_path: Path) -> None:
+    """The commands of the guide, with certificates of our own; no warning."""
+    if shutil.which("openssl") is None:
+        pytest.skip("openssl, which makes the certificates, is not installed")
+    at = certificates(tmp_path)
+    sweep_file(tmp_path)
+    tls = ["--tls-ca-file", at["ca"], "--tls-cert", at["cert"], "--tls-key", at["key"]]
+    own = ["--tls-ca", at["ca"], "--tls-cert", at["cert"], "--tls-key", at["key"]]
+    with clusters.cluster(tmp_path, tls=tls) as dask:
+        command = ["sweep", tmp_path / "sweep.toml", "--out", tmp_path / "out", "--scheduler-file", dask.file, *own]
+        ended = subprocess.run([sys.executable, "-m", "fctd", *command], capture_output=True, text=True, check=False)
+    assert ended.returncode == 0, ended.stderr
+    assert "12 samples; 48 rows" in ended.stdout
+    assert "warning" not in ended.stderr
+
+
+def certificates(folder: Path) -> dict[str, Path]:
+    """Files of an authority, and of a certificate that it has signed with its key."""
+    at = {name: folder / f"{name}.pem" for name in ("ca", "ca-key", "cert", "key", "request")}
+
+    def openssl(*arguments: object) -> None:
+        subprocess.run(["openssl", *map(str, arguments)], check=True, capture_output=True)
+
+    new = "-newkey", "rsa:2048", "-nodes"
+    openssl("req", "-x509", *new, "-subj", "/CN=authority", "-days", 2, "-keyout", at["ca-key"], "-out", at["ca"])
+    openssl("req", *new, "-subj", "/CN=sweep", "-keyout", at["key"], "-out", at["request"])
+    signed = "-CA", at["ca"], "-CAkey", at["ca-key"], "-set_serial", 1, "-days", 2
+    openssl("x509", "-req", "-in", at["request"], *signed, "-out", at["cert"])
+    return at
 
 
 @pytest.mark.slow

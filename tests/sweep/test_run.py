@@ -1,5 +1,6 @@
 """Whole sweeps on local workers: rows, resumption, failures, and sweeps that are refused before any work."""
 
+import math
 from pathlib import Path
 
 import pandas as pd
@@ -74,6 +75,7 @@ def test_samples_that_no_case_can_have_are_refused_or_rows(tmp_path: Path) -> No
         (PARAMETERS.replace("mud.density", "mud.densty") + WORK, ["mud.densty", "density"]),
         (PARAMETERS.replace("1.3 sg", "1.3 kN").replace("1.0 sg", "1 kN") + WORK, ["mud.density", "a density"]),
         (PARAMETERS + WORK.replace("600:900:100", "600:900"), ["work.depths"]),
+        (PARAMETERS + WORK.replace("600:900:100", "1600:1900:100"), ["work.depths", "string and hole", "900 m"]),
     ],
 )
 def test_a_bad_sweep_is_answered_before_any_work(body: str, words: list[str], tmp_path: Path) -> None:
@@ -98,3 +100,15 @@ def test_chunks_are_larger_for_more_workers_and_smaller_at_the_end(tmp_path: Pat
         while len(running.waiting) > left:
             running.waiting.pop()
         assert running._size() == size
+
+
+def test_a_sweep_that_ends_before_its_workers_are_there_has_no_share() -> None:
+    assert math.isnan(run.Summary(10, 0, wall=1.0).share)
+    assert run.Summary(10, 0, wall=2.0, workers=2, solving=3.0, writing=0.5).share == 0.875
+
+
+def test_a_key_that_no_case_has_is_refused_also_where_bad_samples_are_rows(tmp_path: Path) -> None:
+    head = 'method = "random"\nsamples = 12\nbad_samples = "rows"'
+    unknown = sweep_file(tmp_path, head, PARAMETERS.replace("mud.density", "mud.densty") + WORK)
+    with pytest.raises(InputError, match=r"mud\.densty"):
+        prepare(read_sweep(unknown))

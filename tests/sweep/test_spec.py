@@ -68,6 +68,12 @@ WRONG = {
         LHS, PARAMETERS + '[[correlations]]\nkeys = ["friction.open", "mud.density"]\ncoefficient = 2\n' + WORK,
         ["correlations[0].coefficient", "at most 1"],
     ),
+    "correlation twice": (
+        LHS, PARAMETERS + 2 * '[[correlations]]\nkeys = ["friction.open", "mud.density"]\ncoefficient = 0.5\n' + WORK,
+        ["correlations[1].keys", "one correlation of each pair"],
+    ),
+    "too many of saltelli": ('method = "saltelli"\nsamples = 8388608', PARAMETERS + WORK, ["samples", "33554432"]),
+    "too many of morris": ('method = "morris"\nsamples = 5000000', PARAMETERS + WORK, ["samples", "15000000"]),
     "nothing varies": (LHS, WORK, ["at least one table [[parameters]]"]),
     "no work": (LHS, PARAMETERS, ["work", "a table [work]"]),
     "unknown work": (LHS, PARAMETERS + '[work]\nkind = "guess"\n', ["work.kind", "'chart'"]),
