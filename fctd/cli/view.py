@@ -30,13 +30,15 @@ from fctd.cli.options import (
 from fctd.cli.pictures import check_package
 from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive
 from fctd.plots.facts import shoes_of
-from fctd.results.tables import SimulationResult, open_result
+from fctd.results.run_folder import run_path
+from fctd.results.tables import SimulationResult, open_result, result_files
 from fctd.results.unit_systems import System
 from fctd.view.quantities import QUANTITIES, quantity_of
 from fctd.view.strings import Strings, of_chart, of_run
 
 USUAL = ("trip_out", "rotate_off_bottom", "trip_in")
 DEPTHS = 40  # of a view without --depths
+MOST_SIDEWAYS = 1e5  # a clearance of 10 cm is then as wide as a well is deep
 
 
 def view_command(
@@ -71,6 +73,7 @@ def view_command(
             "--sideways",
             metavar="X",
             min=1.0,
+            max=MOST_SIDEWAYS,
             show_default=False,
             help="How many times as large offsets and clearance are drawn; default: a round number that shows them.",
         ),
@@ -100,6 +103,7 @@ def view_command(
         "--friction": friction,
     }
     given |= {"--set": overrides, "--resolve-buckling": resolve_buckling}
+    _refuse_unfinished(source)
     if source.is_dir():
         strings, told = _of_result(source, given), []
     else:
@@ -117,6 +121,15 @@ def view_command(
 
             strings = of_chart(case, kinds, wanted, **drive, progress=show)
     _write(strings, out, png, colour, units, exaggeration, told)
+
+
+def _refuse_unfinished(source: Path) -> None:
+    """Raise InputError for a run without a result, and for a folder that is none."""
+    if not source.exists() and run_path(source).is_dir():
+        expected = "a result: its run has not ended (fctd status says how far it is, and how to go on with it)"
+        raise InputError(expected, value=source)
+    if source.is_dir() and not any((source / name).exists() for name in result_files(csv=False)):
+        raise InputError("a case file, or the folder of a result of fctd simulate", value=source)
 
 
 def _of_result(folder: Path, given: dict[str, object]) -> Strings:
