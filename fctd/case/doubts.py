@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import accumulate
 from typing import Final, NamedTuple, Protocol
 
 import numpy as np
@@ -70,6 +71,7 @@ UNDERREAMED: Final = 1.5  # an under-reamer opens the hole below a shoe to some 
 LIGHT, HEAVY = 0.85, 2.5  # mass over that of the pipe body: spiral collars have 0.95, tool joints add up to 0.6
 FASTEST_HOIST, FASTEST_DRILLING, FASTEST_ROTATION = 3.0, 0.1, 300.0  # [m/s], [m/s], [rev/min]
 LEAST_EFFICIENCY: Final = 0.7  # of twelve lines over old sheaves
+IN_GAUGE: Final = 0.9  # of the hole's diameter: a bit that drilled the hole, or runs in it
 BELOW_TD: Final = 30.0  # [m]: the last station is some way above the bit
 FOOT: Final = 0.3048
 
@@ -96,7 +98,7 @@ def warnings_of(
         *mud_density(case.mud),
         *materials(case.string),
         *light_string(case.string, case.mud),
-        *bit_size(case.string),
+        *bit_size(case.string, case.wellbore, float(stations[-1, 0])),
         *bit_load(case, {*kinds, *(operation.kind for operation in case.operations)}),
         *rig_loads(case.rig),
         *rates(case.operations, kinds, speed, rpm),
@@ -197,11 +199,19 @@ def light_string(string: StringSpec, mud: MudSpec) -> Doubts:
 _REMEDY_OF_MASS: Final = "write linear_mass with its unit, such as '19.5 lb/ft', and check diameters and density"
 
 
-def bit_size(string: StringSpec) -> Doubts:
-    """A bit that is smaller than the string above it, or that is not the first component."""
+def bit_size(string: StringSpec, hole: WellboreSpec, td: float) -> Doubts:
+    """A bit that is smaller than the string above it, or that is not the first component.
+
+    A bit that fits the hole at the end of the well [m] is below pipe of any size that stays in the wider hole above.
+    """
     first, *others = string.components
     bits = [_is_bit(part) for part in string.components]
-    widest = max(string.components, key=lambda part: part.contact_diameter)
+    compared = list(string.components)
+    if first.contact_diameter >= IN_GAUGE * hole.intervals[-1].diameter:
+        above = hole.intervals[-2].to_md if len(hole.intervals) > 1 else 0.0
+        below = accumulate((part.length or np.inf for part in string.components), initial=0.0)
+        compared = [part for part, length in zip(compared, below, strict=False) if td - length > above or part is first]
+    widest = max(compared, key=lambda part: part.contact_diameter)
     if bits[0] and widest.contact_diameter > first.contact_diameter:
         yield InputWarning(
             "bit_size", "string.components[0].outer_diameter",

@@ -158,7 +158,8 @@ def known_keys(table: Mapping[Any, Any], keys: Collection[str], owner: str = "")
 def nearest(word: object, choices: Collection[str], noun: str) -> str:
     """The accepted words in place of a wrong one: the nearest choice, or all choices when none is near."""
     near = difflib.get_close_matches(str(word), choices, n=1)
-    return f"the {noun} {near[0]}" if near else f"one of the {noun}s {', '.join(choices)}"
+    nouns = re.sub(r"(?<![aeiou])y$", "ie", noun) + "s"
+    return f"the {noun} {near[0]}" if near else f"one of the {nouns} {', '.join(choices)}"
 
 
 class Expects(ABC):

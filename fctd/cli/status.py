@@ -14,7 +14,7 @@ from fctd.cli.options import screen
 from fctd.cli.pictures import PICTURES
 from fctd.cli.steady import TABLES
 from fctd.results.run_folder import about_of, clock, progress_of, run_path, writer_of
-from fctd.results.tables import open_result
+from fctd.results.tables import open_result, result_files
 
 
 def status_command(
@@ -25,7 +25,12 @@ def status_command(
     quiet: Silent = False,
 ) -> None:
     """Say how far a run is, also while it lasts, and how to go on with one that has stopped."""
-    lines = [*_of_the_run(result), *_of_the_result(result)]
+    lines = _of_the_run(result)
+    try:
+        lines += _of_the_result(result)
+    except InputError:
+        if not lines and any((result / name).exists() for name in result_files(csv=False)):
+            raise  # it says which table cannot be read
     if not lines:
         raise InputError("the result of fctd simulate or fctd chart, or the place of an unfinished one", value=result)
     for line in () if quiet else lines:
@@ -64,17 +69,14 @@ def _stopped(target: Path, about: dict[str, Any]) -> str:
 
 
 def _of_the_result(target: Path) -> list[str]:
-    """What there is to say of a result that is there."""
+    """What there is to say of a result that is there; raises InputError for a folder that cannot be read as one."""
     if target.is_file():
         if target.suffix.lower() not in (*TABLES, *PICTURES):
             return []
         return [f"a chart, written at {clock(target.stat().st_mtime)}"]
     if not target.is_dir():
         return []
-    try:
-        found = open_result(target, pause=0.0)
-    except InputError:
-        return []
+    found = open_result(target, pause=0.0)
     line = f"a result: {found.status}, {len(found.history)} records"
     if len(found.history):
         last = found.history.iloc[-1]

@@ -40,6 +40,7 @@ from fctd.view.strings import Strings, of_chart, of_run
 
 USUAL = ("trip_out", "rotate_off_bottom", "trip_in")
 DEPTHS = 40  # of a view without --depths
+MOST_SIDEWAYS = 1e5  # a clearance of 10 cm is then as wide as a well is deep
 
 
 def view_command(
@@ -74,6 +75,7 @@ def view_command(
             "--sideways",
             metavar="X",
             min=1.0,
+            max=MOST_SIDEWAYS,
             show_default=False,
             help="How many times as large offsets and clearance are drawn; default: a round number that shows them.",
         ),

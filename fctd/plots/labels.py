@@ -29,9 +29,13 @@ class Place(NamedTuple):
 
 
 @cache
-def width_of(text: str) -> float:
-    """Width of a text [pt]."""
-    outline = TextPath((0, 0), text, size=SIZE, prop=FontProperties(family="DejaVu Sans"))
+def width_of(text: str, size: float = SIZE, weight: str = "normal") -> float:
+    """Width of a text [pt], with its dollar signs as they stand."""
+    if not text.strip():
+        return 0.0  # a path has no outline
+    # A path reads what stands between two of them as a formula.
+    plain = text.replace("$", "0")
+    outline = TextPath((0, 0), plain, size=size, prop=FontProperties(family="DejaVu Sans", weight=weight))
     return HINTED * float(outline.get_extents().width)
 
 

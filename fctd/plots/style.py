@@ -45,6 +45,7 @@ DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (
 LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": QUIET}
 POINTS = 72.0  # in an inch
 TITLE, SMALL = 10.5, 7.5  # sizes of type [pt]
+TITLE_LINE, TITLE_LINES = 1.2, 3  # height of a line of a title, in its size, and the most lines
 LINE = 1.35  # height of a line of small type, in its size
 SMALL_WIDTH = 0.56  # of a character of small type on average, in its size
 MARGIN = 0.1  # beside everything [in]
@@ -61,6 +62,16 @@ def save(figure: Figure, path: Path) -> list[Path]:
     return [path]
 
 
+def _wrapped_title(title: str, width: float) -> list[str]:
+    """Lines of a title that fit a width [pt]; a title that is longer still is cut with an ellipsis."""
+    fitting = len(title)
+    lines = [title]
+    while (widest := max(width_of(line, TITLE, "bold") for line in lines)) > width:
+        fitting = max(min(int(fitting * width / widest), fitting - 1), 1)
+        lines = wrap(title, fitting, break_on_hyphens=False, max_lines=TITLE_LINES, placeholder=" …")
+    return lines
+
+
 class Sheet:
     """A figure laid out in inches from its upper left corner: heading, panels, legend.
 
@@ -71,6 +82,7 @@ class Sheet:
     def __init__(
         self, width: float, panels: float, title: str, lines: Sequence[str], handles: Sequence[Artist]
     ) -> None:
+        heading = _wrapped_title(printable(title), (width - 2 * MARGIN) * POINTS)
         small = [
             (part, QUIET if k else DARK)
             for k, line in enumerate(lines)
@@ -80,14 +92,15 @@ class Sheet:
         columns = max(int((width - 2 * MARGIN) / (widest + LEGEND_HANDLE)), 1)
         rows = -(-len(handles) // columns)
         step = SMALL * LINE / POINTS
-        self.top = MARGIN + 1.5 * TITLE / POINTS + step * len(small) + 0.08
+        below = MARGIN + (1.5 + TITLE_LINE * (len(heading) - 1)) * TITLE / POINTS
+        self.top = below + step * len(small) + 0.08
         self.width, self.height = width, self.top + panels + rows * LEGEND_LINE + (0.16 if rows else 0.0)
         self.figure = Figure(figsize=(self.width, self.height))
         self.figure.suptitle(
-            printable(title), x=MARGIN / width, y=1 - MARGIN / self.height, ha="left", va="top", fontsize=TITLE,
-            fontweight="bold", parse_math=False,
+            "\n".join(heading), x=MARGIN / width, y=1 - MARGIN / self.height, ha="left", va="top", fontsize=TITLE,
+            fontweight="bold", linespacing=TITLE_LINE, parse_math=False,
         )  # fmt: skip
-        down = MARGIN + 1.5 * TITLE / POINTS
+        down = below
         for line, colour in small:
             place = (MARGIN / width, 1 - down / self.height)
             self.figure.text(*place, line, fontsize=SMALL, color=colour, va="top", parse_math=False)

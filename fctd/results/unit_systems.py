@@ -6,7 +6,7 @@ In memory and in files the columns are SI; screen and pictures show the same qua
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
 from fctd.case.units import conversion
 from fctd.results.columns import COLUMNS
@@ -71,15 +71,26 @@ def shown_unit(unit: str, system: System) -> Shown:
     return Shown(conversion(unit, _PINTS.get(label, label)) if label != unit else 1.0, label.replace("*", "·"))
 
 
+# Columns of sentences with SI units.
+_SENTENCES: Final = ("friction_label", "left_out", "reason")
+
+
+def _reworded(text: Any) -> Any:
+    return reworded(text, "field") if isinstance(text, str) else text
+
+
 def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
-    """An SI table in field units: ``hookload_N`` becomes ``hookload_klbf``, ``bit_depth_m`` ``bit_depth_ft``."""
+    """An SI table in field units: ``hookload_N`` becomes ``hookload_klbf``, ``bit_depth_m`` ``bit_depth_ft``.
+
+    Texts that the program wrote, such as the reason of a row, are reworded.
+    """
     import pandas as pd
 
     columns = {}
     for name in table.columns:
         measure = measure_of(name)
         if measure is None:
-            columns[name] = table[name]
+            columns[name] = table[name].map(_reworded) if name in _SENTENCES else table[name]
         else:
             renamed = name.removesuffix(_ending(measure.table)) + _ending(measure.field)
             # Division by 0.3048, which is exact, and rounding to 15 digits give 100 ft for 30.48 m.

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fctd.plots.page import plain
 from fctd.plots.palette import DARK, EDGE, PALETTE, QUIET
 from fctd.plots.tracks import side_force_unit
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System, reworded, shown
 from fctd.view.hole import clearance_at, exaggeration_of, rings, wall_lines
 from fctd.view.quantities import MODES, QUANTITIES, Quantity
 from fctd.view.strings import Snapshot, Strings
@@ -269,7 +269,7 @@ def caption_of(look: Look, one: Snapshot) -> str:
         words += [f"torque {one.torque * torque.factor:z.2f} {torque.label}"]
     if len(one.offset):
         words += [f"{int(one.touching.sum())} of {len(one.offset)} points touch"]
-    return plain("; ".join([*words, *([one.status] if one.status else [])]))
+    return plain("; ".join([*words, *([reworded(one.status, look.units)] if one.status else [])]))
 
 
 def unrolled(angle: Array) -> Array:

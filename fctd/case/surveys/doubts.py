@@ -26,6 +26,7 @@ _GAP: Final = 300.0  # [m] without a station ...
 _TURN: Final = 5.0  # ... in which the hole turns by more than this [deg]
 _NAMED: Final = 5  # rejected stations in a message
 _STEEP: Final = 5.0  # [deg]: at a first station below surface, a hole that is not vertical above it
+_HILL: Final = 50.0  # [m]: a crossing of a river or a tunnel may end so far above its start
 _LONGEST: Final = 12_000.0  # [m]: a dozen wells are longer, which were drilled by two or three rigs
 # Surveys are taken at connections: stands of three joints are 28 to 30 m or 92 to 96 ft long.
 _STANDS: Final = {"m": (91.0, 97.0), "ft": (27.0, 30.3), "usft": (27.0, 30.3)}
@@ -66,6 +67,22 @@ def _rejected(survey: Survey) -> Iterator[InputWarning]:
             survey.written.file,
             f"stations that the file marks as rejected are left out: {len(numbers)} ({some})",
             "check that they were rejected for good",
+        )
+
+
+def _above_surface(survey: Survey) -> Iterator[InputWarning]:
+    """A hole that rises above its first station: inclinations of a dip, or from another zero."""
+    md, inclination = survey.stations[:, 0], survey.stations[:, 1]
+    cosines = np.cos(inclination)
+    # The mean of the cosines stands for the arc between two stations: only the sign of a depth of metres counts.
+    depth = np.concatenate([[0.0], np.cumsum(np.diff(md) * (cosines[1:] + cosines[:-1]) / 2)])
+    highest = int(np.argmin(depth))
+    if depth[highest] < -_HILL:
+        yield InputWarning(
+            "above_surface",
+            survey.rows(highest, highest),
+            f"the hole rises to {-depth[highest]:.4g} m above its first station",
+            "check that inclinations are measured from the vertical: 0 is straight down, 90 level, 180 straight up",
         )
 
 
@@ -136,7 +153,7 @@ def _another_unit(survey: Survey, columns: str, accepted: str) -> str:
     return f"say so in the case: columns = {{{columns}}}"
 
 
-_DOUBTS: Final[tuple[Doubt, ...]] = (_tie_in, _few, _rejected, _gap, _radians, _depth_unit)
+_DOUBTS: Final[tuple[Doubt, ...]] = (_tie_in, _few, _rejected, _above_surface, _gap, _radians, _depth_unit)
 
 
 def find(survey: Survey, *, smoothed: bool = False) -> tuple[InputWarning, ...]:
