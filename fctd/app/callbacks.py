@@ -332,7 +332,7 @@ def time_figure(found: Mapping[str, Any], units: System) -> dict[str, Any]:
         }
         for name, (label, colour, axis) in looks.items()
     }  # fmt: skip
-    axes["yaxis2"] |= {"overlaying": "y", "side": "right", "showgrid": False}
+    axes["yaxis2"] |= {"overlaying": "y", "side": "right", "showgrid": False, "tickmode": "auto"}
     layout = {
         **axes, "xaxis": {"title": {"text": "time, s", "font": {"size": 12}}, "gridcolor": "#e8e8e8"},
         "margin": {"l": 64, "r": 64, "t": 10, "b": 46}, "uirevision": "fixed", "showlegend": False,

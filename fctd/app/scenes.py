@@ -50,7 +50,7 @@ def changes_of(
     """New data of scene and panels, and what is to be said of the string; hole : whether it is drawn anew."""
     (one,) = strings.snapshots
     look = Look(strings, units, exaggeration)
-    places, values = scene_data(look, one), panel_data(look, one)
+    places, values = scene_data(look, one, hole=hole), panel_data(look, one)
     colour = one.columns[quantity.column] * quantity.shown(units).factor
     texts = hover_texts(look, one)
     scene: list[Change] = []

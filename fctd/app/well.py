@@ -13,17 +13,20 @@ import numpy as np
 
 from fctd.app import charts, scenes
 from fctd.app.case_text import SourceCase
+from fctd.app.rows import Rows
 from fctd.app.sessions import Source
 from fctd.app.sliders import RPM, changes, sliders_of, turning_at
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.model.operations import depth_range, rates_of_all
+from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.plots.facts import shoes_of
 from fctd.results.measured import read_measured
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Solver
 from fctd.steady.torque_drag import chart_rows
+from fctd.view.hole import drawn_hole
 from fctd.view.quantities import QUANTITIES, quantity_of
 from fctd.view.strings import Strings, of_points
 
@@ -47,7 +50,9 @@ class Well:
         self.case = self.read.case
         self.depths = depths_of(self.case)
         self.sliders = sliders_of(self.case, units)
-        self._last: tuple[str, Case] = ("", self.case)
+        self.hole, self._rows = build_wellbore(self.case), Rows()
+        self._drawn = drawn_hole(self.case, self.hole, self.case.string.top_md)
+        self._last: tuple[str, Case, Wellbore] = ("", self.case, self.hole)
         self._exaggeration = 1.0
         self._opened: dict[str, Any] | None = None
 
@@ -57,7 +62,10 @@ class Well:
         if key != self._last[0]:
             case = self.read.changed(self.overrides(values))
             rpm = next((slider for slider in self.sliders if slider.name == RPM and RPM in values), None)
-            self._last = key, case if rpm is None else turning_at(case, rpm.check(values[RPM]))
+            case = case if rpm is None else turning_at(case, rpm.check(values[RPM]))
+            # No slider moves the hole: its wall alone changes.
+            factors = np.array([interval.friction for interval in case.wellbore.intervals])
+            self._last = key, case, self.hole.with_friction(factors)
         return self._last[1]
 
     def overrides(self, values: Mapping[str, object]) -> dict[str, Any]:
@@ -96,12 +104,12 @@ class Well:
         case = self.moved(values)
         self.opened()
         depths = self.depths[::-1][::EVERY][::-1] if coarse else self.depths
-        rows = chart_rows(case, kinds, depths) if kinds else []
+        rows = self._rows.solve(case, self._last[2], kinds, depths) if kinds else []
         points = self.measured(measured)
         loads = charts.changes_of(rows, kinds, case, self.units, points) if rows else []
         factor, unit = shown("bit_depth_m", self.units)
         at = self.within(depth / factor)
-        strings = self._strings(case, operation, at)
+        strings = self._strings(case, operation, at, self._last[2])
         scene, panels, words = scenes.changes_of(
             strings, quantity_of(colour), self.units, self._exaggeration, hole=hole
         )
@@ -148,10 +156,10 @@ class Well:
         solver, rate = Solver(case), rates_of_all(case, [operation])[operation]
         return of_points([solver.solve(operation, rate, depth) for depth in depths], solver.hole)
 
-    def _strings(self, case: Case, operation: str, depth: float) -> Strings:
-        solver = Solver(case)
+    def _strings(self, case: Case, operation: str, depth: float, hole: Wellbore | None = None) -> Strings:
+        solver = self._rows.solver(case, self.hole if hole is None else hole)
         point = solver.solve(operation, rates_of_all(case, [operation])[operation], depth)
-        return of_points([point], solver.hole)
+        return of_points([point], solver.hole, self._drawn)
 
     def _facts(self) -> str:
         """The hole and the string in a line."""

@@ -94,8 +94,8 @@ def scene_traces(look: Look, quantity: Quantity) -> list[Trace]:
     return [{**empty, "name": name, **looks[name]} for name in SCENE]
 
 
-def scene_data(look: Look, one: Snapshot) -> dict[str, Array]:
-    """Places (m, 3) [m] of the traces of the scene for one string."""
+def scene_data(look: Look, one: Snapshot, *, hole: bool = True) -> dict[str, Array]:
+    """Places (m, 3) [m] of the traces of the scene for one string; hole : whether those of the hole are wanted."""
     drawn, times = look.strings.drawn, look.exaggeration
     md, clearance = one.columns["md_m"], one.columns["clearance_m"]
 
@@ -104,10 +104,13 @@ def scene_data(look: Look, one: Snapshot) -> dict[str, Array]:
 
     axis = drawn.hole.at(md)[0] if len(md) else np.empty((0, 3))
     string = axis + times * one.offset
-    return {
+    around = {
         "wall": wall_lines(drawn.lines, radius(drawn.lines.md)),
         "rings": rings(drawn.rings, radius(drawn.rings.md)),
         "shoes": rings(drawn.shoes, radius(drawn.shoes.md)),
+    } if hole else {}  # fmt: skip
+    return {
+        **around,
         "string": string,
         "contacts": string[one.touching],
         "picked": np.empty((0, 3)),

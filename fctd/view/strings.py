@@ -119,8 +119,8 @@ def of_chart(
     return of_points(points, solver.hole)
 
 
-def of_points(points: Sequence[Equilibrium], hole: Wellbore | None = None) -> Strings:
-    """Steady strings of one case; hole : the case's, if it has been built already."""
+def of_points(points: Sequence[Equilibrium], hole: Wellbore | None = None, drawn: DrawnHole | None = None) -> Strings:
+    """Steady strings of one case; hole, drawn : the case's, if they have been made already."""
     case = points[0].case
     hole = build_wellbore(case) if hole is None else hole
     snapshots = tuple(
@@ -130,7 +130,8 @@ def of_points(points: Sequence[Equilibrium], hole: Wellbore | None = None) -> St
         )
         for point in points
     )  # fmt: skip
-    return Strings(case, "bit depth", snapshots, drawn_hole(case, hole, case.string.top_md))
+    drawn = drawn_hole(case, hole, case.string.top_md) if drawn is None else drawn
+    return Strings(case, "bit depth", snapshots, drawn)
 
 
 def of_run(result: SimulationResult, most: int = MOST_RECORDS) -> Strings:

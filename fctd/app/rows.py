@@ -1,0 +1,85 @@
+"""The rows of the page's chart: as those of ``fctd.torque_drag``, with memory that is kept from one move to the next.
+
+A move of a slider asks for a few dozen rows at once; arrays made anew for each would take half of its time.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Final
+
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.model.operations import rates_of_all
+from fctd.model.wellbore import Wellbore
+from fctd.results.status import SteadyStatus
+from fctd.steady.batch import Row, cores, hole_of, solve_batch
+from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.laid_string import LaidString
+from fctd.steady.problem import Workspace
+
+MOST_THREADS: Final = 4
+
+
+class Rows:
+    """Solves rows on all processors, up to ``MOST_THREADS``."""
+
+    def __init__(self) -> None:
+        count = min(cores(), MOST_THREADS)
+        self._work, self._own = [Workspace(0) for _ in range(count)], Workspace(0)
+        self._threads = ThreadPoolExecutor(count)
+
+    def solver(self, case: Case, hole: Wellbore) -> Solver:
+        """A solver of single strings."""
+        return Solver(case, hole, self._own)
+
+    def solve(self, case: Case, hole: Wellbore, kinds: Sequence[str], depths: Sequence[float]) -> list[dict[str, Any]]:
+        """A row for each operation and bit depth [m]: operation, bit_depth_m, hookload_N, surface_torque_N_m, status,
+        buckling and reason, as in the table of ``fctd.torque_drag``."""
+        rates, solver = rates_of_all(case, kinds), self.solver(case, hole)
+        laid: dict[float, LaidString | str] = {}
+        for depth in depths:
+            try:
+                laid[depth] = solver.lay_out(depth)
+            except InputError as error:
+                laid[depth] = str(error)
+        asked = [
+            Row(string, 0, kind, rates[kind])
+            for string in laid.values()
+            if isinstance(string, LaidString)
+            for kind in kinds
+        ]
+        parts = [asked[k :: len(self._work)] for k in range(len(self._work))]
+        segments = max((row.laid.string.segments for row in asked), default=0)
+        self._work = [work.for_segments(segments) for work in self._work]
+        packed = hole_of(case, [hole])
+        futures = [
+            self._threads.submit(solve_batch, case, packed, p, w) for p, w in zip(parts, self._work, strict=True)
+        ]
+        answers = [future.result() for future in futures]
+        found: dict[tuple[float, str], Equilibrium | str] = {}
+        for part, of in zip(parts, answers, strict=True):
+            for row, answer in zip(part, of, strict=True):
+                try:
+                    point: Equilibrium | str = solver.finish(row.operation, row.rates, row.laid, answer)
+                except InputError as error:
+                    point = str(error)
+                found[row.laid.string.bit_depth, row.operation] = point
+        self._own = solver.work
+        return [
+            _row(kind, depth, string if isinstance(string, str) else found[string.string.bit_depth, kind])
+            for kind in kinds
+            for depth, string in laid.items()
+        ]
+
+
+def _row(kind: str, depth: float, point: Equilibrium | str) -> dict[str, Any]:
+    row: dict[str, Any] = {"operation": kind, "bit_depth_m": depth}
+    if isinstance(point, str):
+        lost = {"hookload_N": float("nan"), "surface_torque_N_m": float("nan"), "buckling": "unknown"}
+        return row | lost | {"status": str(SteadyStatus.NOT_POSSIBLE), "reason": point}
+    known = point.answered
+    return row | {
+        "hookload_N": point.hookload if known else float("nan"),
+        "surface_torque_N_m": point.surface_torque if known else float("nan"),
+        "buckling": point.buckling.mode, "status": str(point.status), "reason": point.message or "none",
+    }  # fmt: skip
