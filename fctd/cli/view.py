@@ -124,12 +124,10 @@ def view_command(
 
 
 def _refuse_unfinished(source: Path) -> None:
-    """Raise InputError for a run without a result, and for a folder that is none."""
+    """Raise InputError for a run that has no result yet."""
     if not source.exists() and run_path(source).is_dir():
         expected = "a result: its run has not ended (fctd status says how far it is, and how to go on with it)"
         raise InputError(expected, value=source)
-    if source.is_dir() and not any((source / name).exists() for name in result_files(csv=False)):
-        raise InputError("a case file, or the folder of a result of fctd simulate", value=source)
 
 
 def _of_result(folder: Path, given: dict[str, object]) -> Strings:
@@ -138,6 +136,8 @@ def _of_result(folder: Path, given: dict[str, object]) -> Strings:
         if value not in (None, []):
             expected = "a case file in place of the folder, as the run is already computed"
             raise InputError(expected, key=key, value=value)
+    if not any((folder / name).exists() for name in result_files(csv=False)):
+        raise InputError("a case file, or the folder of a result of fctd simulate", value=folder)
     result: SimulationResult = open_result(folder)
     return of_run(result)
 

@@ -31,6 +31,8 @@ class Place(NamedTuple):
 @cache
 def width_of(text: str, size: float = SIZE, weight: str = "normal") -> float:
     """Width of a text [pt], with its dollar signs as they stand."""
+    if not text.strip():  # it has no outline
+        return 0.0
     # A path reads what stands between two of them as a formula.
     plain = text.replace("$", "0")
     outline = TextPath((0, 0), plain, size=size, prop=FontProperties(family="DejaVu Sans", weight=weight))

@@ -71,3 +71,11 @@ def test_of_a_chart(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixtu
 def test_of_nothing(name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(monkeypatch, "status", name) == 2
     assert "expected the result of fctd simulate or fctd chart" in capsys.readouterr().err
+
+
+def test_of_a_damaged_result(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, *RUN, "--quiet") == 0
+    Path("out/segments.parquet").write_bytes(b"PAR1")
+    capsys.readouterr()
+    assert run(monkeypatch, "status", "out") == 2
+    assert '"out/segments.parquet": expected a table that fctd simulate wrote' in capsys.readouterr().err

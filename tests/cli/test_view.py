@@ -38,6 +38,7 @@ def test_a_case_and_its_run_become_pages(
         (("--operation", "fly"), ["--operation", "fly"]),
         (("--depths", "5000:6000:500"), ["5000", "900 m"]),
         (("--out", "small.toml"), ["--out"]),
+        (("--sideways", "inf"), ["--sideways", "100000"]),
     ],
 )
 def test_wrong_options_are_refused(
@@ -58,4 +59,13 @@ def test_options_of_a_case_are_refused_for_a_run(
     assert run(monkeypatch, "view", tmp_path, "--depths", "1:2:1") == 2
     assert "the run is already computed" in capsys.readouterr().err
     assert run(monkeypatch, "view", tmp_path) == 2
-    assert "fctd simulate wrote" in capsys.readouterr().err
+    assert "the folder of a result of fctd simulate" in capsys.readouterr().err
+
+
+def test_a_run_that_has_not_ended_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / ".out-run").mkdir()
+    assert run(monkeypatch, "view", "out") == 2
+    assert "its run has not ended (fctd status" in capsys.readouterr().err
