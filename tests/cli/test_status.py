@@ -74,7 +74,7 @@ def test_of_nothing(name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.C
 
 
 def test_of_a_damaged_result(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(monkeypatch, *RUN, "--quiet") == 0
+    assert run(monkeypatch, *RUN) == 0
     Path("out/segments.parquet").write_bytes(b"PAR1")
     capsys.readouterr()
     assert run(monkeypatch, "status", "out") == 2
