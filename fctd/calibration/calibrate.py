@@ -20,7 +20,7 @@ from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row, read_rows
 from fctd.calibration.rules import left_out_by_rule
 from fctd.calibration.setup import Setup, UnknownSpec, read_setup
-from fctd.calibration.unknowns import find_unknowns, parse_fits
+from fctd.calibration.unknowns import find_unknowns, parse_fits, refuse_overridden
 from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case, load_case, naming_file
 
@@ -116,6 +116,7 @@ def predict(
                 raise InputError("a posterior, since the case is not from a file", key="posterior")
             posterior = posterior_file(Path(case.file))
         known = posterior if isinstance(posterior, Posterior) else read_posterior(Path(posterior))
+        refuse_overridden([unknown.name for unknown in known.unknowns], case, overrides or {})
         found, cases = gather_rows(case, rows, known.setup, strings, overrides, measured=False)
         return predict_rows(known, found, cases, samples, seed)
 

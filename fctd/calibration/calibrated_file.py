@@ -8,7 +8,7 @@ import tomlkit
 
 from fctd.calibration.predict import posterior_file
 from fctd.calibration.result import Calibration
-from fctd.calibration.unknowns import intervals_of
+from fctd.calibration.unknowns import keys_of
 from fctd.case import spellings
 from fctd.case.errors import InputError, look_up, set_key, split_key
 from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension
@@ -28,7 +28,7 @@ def write_calibrated(found: Calibration, source: Path, overrides: Mapping[str, A
     """
     raw = changed_document(source, overrides)
     for name, value in found.values.items():
-        for key in _keys_of(name, found):
+        for key in keys_of(name, found.base):
             old, last = look_up(raw, *split_key(key)), str(split_key(key)[-1])
             set_key(raw, key, _written(value, old, _DIMENSIONS.get(last)))
             *parents, _ = split_key(key)
@@ -42,17 +42,6 @@ def write_calibrated(found: Calibration, source: Path, overrides: Mapping[str, A
     with whole_file(out) as scratch:
         scratch.write_text(_heading(found, beside) + tomlkit.dumps(raw), encoding="utf-8")
     return [out, beside]
-
-
-def _keys_of(name: str, found: Calibration) -> list[str]:
-    """The keys of the case's own file that an unknown sets; none for a bias, or for a component of another string."""
-    case = found.base
-    if name.startswith(("rig.", "mud.")):
-        return [name]
-    if name.startswith("mass."):
-        parts = enumerate(case.string.components)
-        return [f"string.components[{i}].linear_mass" for i, part in parts if part.name == name.removeprefix("mass.")]
-    return [f"wellbore.intervals[{i}].friction" for i in intervals_of(name, case)]
 
 
 def _written(value: float, old: object, dimension: Dimension | None) -> object:

@@ -186,6 +186,26 @@ def intervals_of(name: str, case: Case) -> list[int]:
     return [i for i, interval in enumerate(intervals) if name == f"friction.{interval.kind}"]
 
 
+def keys_of(name: str, case: Case) -> list[str]:
+    """The keys of the case's own file that an unknown sets; none for a bias, or for a component of another string."""
+    if name.startswith(("rig.", "mud.")):
+        return [name]
+    if name.startswith("mass."):
+        parts = enumerate(case.string.components)
+        return [f"string.components[{i}].linear_mass" for i, part in parts if part.name == name.removeprefix("mass.")]
+    return [f"wellbore.intervals[{i}].friction" for i in intervals_of(name, case)]
+
+
+def refuse_overridden(names: Iterable[str], case: Case, overrides: Mapping[str, Any]) -> None:
+    """Raise InputError for an override of what an unknown sets: its calibrated value would take the place unseen."""
+    for key, value in overrides.items():
+        for name in names:
+            held = {*keys_of(name, case), *(["friction"] if name.startswith("friction") else [])}
+            if any(one == key or one.startswith((f"{key}.", f"{key}[")) for one in held):
+                expected = f"a key that the posterior does not hold: it has {name} with its band; calibrate again"
+                raise InputError(expected, key=key, value=value)
+
+
 def _check_overlaps(names: Iterable[str], cases: Sequence[Case]) -> None:
     """Raise InputError where two friction factors are those of one interval."""
     factors = [name for name in names if name.startswith("friction")]
@@ -194,7 +214,9 @@ def _check_overlaps(names: Iterable[str], cases: Sequence[Case]) -> None:
         for name in factors:
             for i in intervals_of(name, case):
                 if i in taken:
-                    raise InputError(f"one friction factor for an interval, {taken[i]} or {name}", key="fit")
+                    raise InputError(
+                        f"one friction factor for an interval, {taken[i]} or {name}", key="fit", value=name
+                    )
                 taken[i] = name
 
 

@@ -199,7 +199,7 @@ def _table(texts: list[str], numbers: list[str], last: list[str]) -> Table:
     for heading in texts:
         table.add_column(heading, overflow="fold")
     for heading in numbers:
-        table.add_column(heading, justify="right", overflow="fold")
+        table.add_column(heading, justify="right", overflow="fold", no_wrap=screen.keeps_numbers)
     for heading in last:
         table.add_column(heading, overflow="fold")
     return table

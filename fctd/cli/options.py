@@ -22,6 +22,7 @@ from fctd.results.whole_folder import repair
 
 # Units of bare numbers of options with ``--units field``, by SI unit.
 BARE_FIELD_UNITS = {"m": "ft", "m/s": "ft/min"}
+USUAL_WIDTH = 80  # columns of a terminal
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
@@ -38,6 +39,11 @@ class Terminal(Console):
         """The string as rich lays it out; rich calls this for strings, also those in tables."""
         shown = printable_lines(text).encode(self.encoding, errors="backslashreplace")  # before columns get their width
         return super().render_str(shown.decode(self.encoding), **options)
+
+    @property
+    def keeps_numbers(self) -> bool:
+        """Whether columns of numbers keep their width beside texts, which wrap; a narrow screen folds all of them."""
+        return self.width >= USUAL_WIDTH
 
 
 # Results go to standard output, progress and errors to standard error, so that each can be redirected.

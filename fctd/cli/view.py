@@ -32,7 +32,7 @@ from fctd.cli.pictures import check_package
 from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive
 from fctd.plots.facts import shoes_of
 from fctd.results.run_folder import about_of, run_path
-from fctd.results.tables import open_result
+from fctd.results.tables import open_result, result_files
 from fctd.results.unit_systems import System
 from fctd.simulation.kept_run import kept_so_far
 from fctd.view.quantities import QUANTITIES, quantity_of
@@ -131,6 +131,8 @@ def _of_run(folder: Path, given: dict[str, object]) -> Strings:
             expected = "a case file in place of the folder, as the run is already computed"
             raise InputError(expected, key=key, value=value)
     about = about_of(folder)
+    if about is None and not any((folder / name).exists() for name in result_files(csv=False)):
+        raise InputError("a case file, or the folder of a result of fctd simulate", value=folder)
     if about is None or folder.exists():
         result = open_result(folder)
         if about is not None:

@@ -64,7 +64,7 @@ def save(figure: Figure, path: Path) -> list[Path]:
 
 def _wrapped_title(title: str, width: float) -> list[str]:
     """Lines of a title that fit a width [pt]; a title that is longer still is cut with an ellipsis."""
-    fitting = len(title)
+    fitting = max(len(title), 1)
     lines = [title]
     while (widest := max(width_of(line, TITLE, "bold") for line in lines)) > width:
         fitting = max(min(int(fitting * width / widest), fitting - 1), 1)

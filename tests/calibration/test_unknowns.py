@@ -5,7 +5,15 @@ from typing import Any
 import pytest
 
 from fctd.calibration.setup import Setup
-from fctd.calibration.unknowns import Prior, Unknown, find_unknowns, intervals_of, parse_fits, with_values
+from fctd.calibration.unknowns import (
+    Prior,
+    Unknown,
+    find_unknowns,
+    intervals_of,
+    parse_fits,
+    refuse_overridden,
+    with_values,
+)
 from fctd.case.errors import InputError
 from fctd.model.drillstring import section_of
 from tests.calibration.wells import well
@@ -84,3 +92,24 @@ def test_values_change_the_case_where_they_belong() -> None:
     assert [intervals_of(name, case) for name in ("friction", "friction.cased", "friction[1]", "mass.x")] == [
         [0, 1], [0], [1], [],
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [
+        ("friction.open", "wellbore.intervals[1].friction"),
+        ("friction.open", "friction"),
+        ("friction.open", "wellbore"),
+        ("rig.block_weight", "rig.block_weight"),
+        ("rig.block_weight", "rig"),
+        ("mass.collars", "string.components[0].linear_mass"),
+    ],
+)
+def test_an_override_of_an_unknown_is_refused(name: str, key: str) -> None:
+    with pytest.raises(InputError, match=f"it has {name} with its band"):
+        refuse_overridden([name], well(), {"bit.torque": 1.0, key: 1.0})
+
+
+def test_an_override_beside_the_unknowns_stays() -> None:
+    others = {"wellbore.intervals[0].friction": 0.1, "rig.block_weights": 1.0, "mud.density": 1.0, "friction.cased": 1}
+    refuse_overridden(["friction.open", "rig.block_weight", "mass.collars", "bias.torque.DDR"], well(), others)

@@ -110,6 +110,25 @@ def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = N
             {"components": [pipe(1, 1, name="PDC bit", outer=0.2), pipe(None, 20)]},
             {"components": [pipe(1, 1, name="PDC bit", outer=0.12), pipe(None, 20)]},
         ),
+        (  # the wide pipe stays in the wide hole
+            "bit_size",
+            {
+                "wellbore": hole((600, 0.3), (1000, 0.11)),
+                "components": [pipe(1, 1, name="bit", outer=0.1), pipe(500, 10, 0.09), pipe(None, 20, 0.12)],
+            },
+            {
+                "wellbore": hole((600, 0.3), (1000, 0.2)),
+                "components": [pipe(1, 1, name="bit", outer=0.1), pipe(500, 10, 0.09), pipe(None, 20, 0.12)],
+            },
+        ),
+        (
+            "bit_size",
+            {"components": [pipe(1, 1, name="bit", outer=0.3), pipe(None, 20)]},
+            {
+                "wellbore": hole((600, 0.3), (1000, 0.125)),
+                "components": [pipe(1, 1, name="bit", outer=0.115), pipe(300, 10, 0.12), pipe(None, 20, 0.09)],
+            },
+        ),
         (
             "bit_not_first",
             {"components": [pipe(1, 1, name="motor"), pipe(2, 1, name="bit sub"), pipe(None, 20)]},

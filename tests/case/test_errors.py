@@ -92,3 +92,5 @@ def test_long_values_are_cut_and_paths_are_whole() -> None:
 def test_the_nearest_choice_or_all_of_them() -> None:
     assert nearest("trip_inn", ["trip_in", "back_ream"], "kind") == "the kind trip_in"
     assert nearest("dance", ["trip_in", "back_ream"], "kind") == "one of the kinds trip_in, back_ream"
+    assert nearest("dance", ["torque"], "quantity") == "one of the quantities torque"
+    assert nearest("dance", ["mud"], "key") == "one of the keys mud"

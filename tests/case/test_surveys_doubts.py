@@ -278,3 +278,18 @@ def test_stations_of_a_case_are_named_by_their_keys(case_file: Path) -> None:
     hole = load_case(case_file, {"wellbore.stations[0][0]": 100}).wellbore
     assert [(warning.code, warning.key) for warning in hole.survey_warnings] == [("tie_in", "wellbore.stations[0]")]
     assert hole.trajectory[0, 0] == 0.0
+
+
+# --- a hole above the ground -----------------------------------------------------------------------
+
+
+def test_a_hole_that_rises_above_its_first_station() -> None:
+    angles = np.column_stack([DENSE, 180.0 - SOUND[:, 1], SOUND[:, 2]])  # measured from straight up
+    (warning,) = [one for one in found(angles) if one.code == "above_surface"]
+    assert warning.key == "s.csv, row 53"
+    build = np.radians(49.0)
+    height = 300 + 700 / build * np.sin(build) + (DENSE[-1] - 1000) * np.cos(build)  # exact but for the turn
+    assert f"the hole rises to {height:.4g} m" in warning.text
+    crossing = [[30.0 * k, 80.0 + k, 0.0] for k in range(25)]  # ends some 25 m above
+    assert "above_surface" not in codes(crossing)
+    assert "above_surface" in codes([*crossing, *([30.0 * k, 105.0, 0.0] for k in range(25, 30))])

@@ -31,4 +31,6 @@ def test_rows_without_readings_have_bands_and_no_scores(
     assert table["inside95"].tolist() == ["", ""]
     hang = 700 * 30 * 9.80665  # [N]; the hole is vertical
     assert float(table["predicted"][0]) - hang == pytest.approx(200e3, rel=0.02)
+    assert run(monkeypatch, "predict", new, plan, "--set", "rig.block_weight=1 kN") == 2
+    assert "rig.block_weight" in capsys.readouterr().err
     assert plot.read_bytes().startswith(b"\x89PNG")

@@ -82,3 +82,11 @@ def test_of_a_place_without_a_result(
     assert "expected the result of fctd simulate or fctd chart, or the place of an" in capsys.readouterr().err
     assert run(monkeypatch, "simulate", "--resume", place) == 2
     assert "expected a result whose run has not ended" in capsys.readouterr().err
+
+
+def test_of_a_damaged_result(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(monkeypatch, *RUN) == 0
+    Path("out/segments.parquet").write_bytes(b"PAR1")
+    capsys.readouterr()
+    assert run(monkeypatch, "status", "out") == 2
+    assert '"out/segments.parquet": expected a table that fctd simulate wrote' in capsys.readouterr().err

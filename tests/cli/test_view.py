@@ -64,6 +64,7 @@ def test_a_run_that_has_not_ended(
         (("--operation", "fly"), ["--operation", "fly"]),
         (("--depths", "5000:6000:500"), ["5000", "900 m"]),
         (("--out", "small.toml"), ["--out"]),
+        (("--sideways", "inf"), ["--sideways", "100000"]),
     ],
 )
 def test_wrong_options_are_refused(
@@ -84,4 +85,4 @@ def test_options_of_a_case_are_refused_for_a_run(
     assert run(monkeypatch, "view", tmp_path, "--depths", "1:2:1") == 2
     assert "the run is already computed" in capsys.readouterr().err
     assert run(monkeypatch, "view", tmp_path) == 2
-    assert "fctd simulate wrote" in capsys.readouterr().err
+    assert "the folder of a result of fctd simulate" in capsys.readouterr().err

@@ -7,6 +7,7 @@ import pytest
 pytest.importorskip("matplotlib")
 
 from matplotlib.lines import Line2D
+from matplotlib.text import Text
 
 from fctd import plots
 from fctd.plots.style import Sheet
@@ -48,3 +49,19 @@ def test_entries_of_the_legend_read_from_left_to_right() -> None:
     read = sorted(places, key=lambda name: (-round(places[name].y0), places[name].x0))
     assert read == names
     assert set(legend_of(sheet.figure)) == set(names)
+
+
+@pytest.mark.parametrize("title", ["a well with a long name and $x^2$ " * 4, "W" * 80, "word " * 400, "x" * 5000])
+def test_a_long_title_stays_in_the_picture(title: str) -> None:
+    sheet = Sheet(6.0, 2.0, title, ["a fact", "a note"], [])
+    sheet.figure.draw_without_rendering()
+    (shown,) = [text for text in sheet.figure.findobj(Text) if text.get_text()[:5] == title[:5]]
+    assert shown.get_window_extent().x1 <= sheet.figure.bbox.x1
+    assert 1 < len(shown.get_text().splitlines()) <= 3
+    assert ("…" in shown.get_text()) == (len(title) > 1000)
+    assert texts_that_overlap(sheet.figure) == []
+
+
+@pytest.mark.parametrize("title", ["", " ", "$", "$x"])
+def test_a_title_of_any_text_is_drawn(title: str) -> None:
+    Sheet(6.0, 2.0, title, ["a fact"], []).figure.draw_without_rendering()

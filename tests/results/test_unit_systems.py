@@ -106,3 +106,11 @@ def test_values_whose_unit_stands_beside_them(unit: str, label: str, factor: flo
 
 def test_metric_pictures_show_thousands_of_newtons() -> None:
     assert [shown_unit(unit, "si") for unit in ("N", "N*m", "kg/m")] == [(1e-3, "kN"), (1e-3, "kN·m"), (1.0, "kg/m")]
+
+
+def test_sentences_of_a_table_are_in_field_units() -> None:
+    texts = {"reason": ["segments of 30.48 m", "none"], "name": ["a 10 m sub", "x"], "left_out": ["at 304.8 m", "none"]}
+    table = in_field_units(pd.DataFrame(texts, dtype=object))
+    assert table["reason"].tolist() == ["segments of 100 ft", "none"]
+    assert table["name"].tolist() == texts["name"]  # the user's
+    assert table["left_out"].tolist() == ["at 1000 ft", "none"]

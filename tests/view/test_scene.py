@@ -1,5 +1,7 @@
 """Traces of a view: the string lies on the drawn wall exactly where it touches."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -88,3 +90,5 @@ def test_the_caption_counts_contacts() -> None:
     made = strings()
     one = made.snapshots[-1]
     assert f"{one.touching.sum()} of {len(one.offset)} points touch" in caption_of(Look(made), one)
+    lost = replace(one, status="under resolved: segments of 30.48 m cannot bend that way")
+    assert "segments of 100 ft" in caption_of(Look(made, "field"), lost)
