@@ -10,7 +10,8 @@ import numpy as np
 
 from fctd.mechanics import contact
 from fctd.mechanics.state import CYLINDERS
-from fctd.model.wellbore import RUN_OUT, Wellbore
+from fctd.model.pieces import RUN_OUT
+from fctd.model.wellbore import Wellbore
 
 
 def with_derrick(hole: Wellbore, height: float) -> Wellbore:

@@ -14,8 +14,9 @@ from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY, PerMetre
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.mud import hole_radius, steady_resistance
+from fctd.model.pieces import RADIUS, TO_MD
 from fctd.model.string_rows import fill_rows, find_contacts, find_stiffness
-from fctd.model.wellbore import RADIUS, TO_MD, Wellbore
+from fctd.model.wellbore import Wellbore
 
 Array = NDArray[np.float64]
 

@@ -21,7 +21,8 @@ from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.state import Laws
 from fctd.mechanics.topdrive import SUM_HOOKLOAD, SUM_TOP_TORQUE, Motion, drive_top, move_top_drive
 from fctd.mechanics.wall_law import stiffen_walls
-from fctd.model.wellbore import DECAY, EXCESS, FRICTION, RADIUS, STIFFNESS, TO_MD, Contacts, Wellbore
+from fctd.model.pieces import DECAY, EXCESS, FRICTION, RADIUS, STIFFNESS, TO_MD
+from fctd.model.wellbore import Contacts, Wellbore
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,8 @@ from fctd.case.load import Case
 from fctd.case.specs import WellboreSpec
 from fctd.mechanics import contact
 from fctd.mechanics.state import ARCS
-from fctd.model.wellbore import RADIUS, Contacts, Wellbore, build_wellbore
+from fctd.model.pieces import RADIUS
+from fctd.model.wellbore import Contacts, Wellbore, build_wellbore
 from references.contact.for_loop import for_loop_owner
 
 Array = NDArray[np.float64]

@@ -15,7 +15,8 @@ from scipy.spatial import cKDTree
 from fctd.case import units
 from fctd.case.errors import InputError, Table
 from fctd.case.load import Case
-from fctd.model.wellbore import RADIUS, RUN_OUT, TO_MD, Contacts, Wellbore, build_wellbore
+from fctd.model.pieces import RADIUS, RUN_OUT, TO_MD
+from fctd.model.wellbore import Contacts, Wellbore, build_wellbore
 from references.registry import import_optional
 
 Array = NDArray[np.float64]

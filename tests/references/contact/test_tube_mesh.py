@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.model.wellbore import RUN_OUT, build_wellbore, find_contacts
+from fctd.model.pieces import RUN_OUT
+from fctd.model.wellbore import build_wellbore, find_contacts
 from tests.references.wells import HOLE, bent_case
 
 trimesh = pytest.importorskip("trimesh")
