@@ -88,7 +88,15 @@ MEANINGS: Final = {
         'set solver.joint_damping = "3 ms", which ends what friction and the springs of the wall, or a start with a '
         "jolt (a short ramp_time), set off; until then read means",
     ),
-    "ledger": Meaning("the energy ledger is off", "try a smaller solver.step, shorter segments, or arcs"),
+    "slow": Meaning(
+        "the string slides too slowly for the time step, and its drag is too low",
+        'set contact.friction_law = "karnopp", or a smaller solver.step',
+    ),
+    "ledger": Meaning(
+        "the energy ledger is off",
+        'set solver.joint_damping = "3 ms", or contact.friction_law = "karnopp" where the string slides slowly, or try '
+        "a smaller solver.step, shorter segments, or arcs",
+    ),
     "torque": Meaning(
         "the surface torque at the end of the run is not steady",
         "read the mean of its operation, or rotate longer, with a record.interval of the torsional period",

@@ -1,4 +1,4 @@
-"""Notes on the hook load of a run in time: a string that is pushed down its hole, and one that flutters."""
+"""Notes on a run in time: a string that is pushed down its hole, one that flutters, and one that slides too slowly."""
 
 from fctd.results.notes import SMALL_SWING, Note, note_of
 
@@ -9,6 +9,8 @@ PUSH_OF_A_STEP = 0.10
 # of the lowest frequency of a segment on its wall spring, and this multiple of the slowest axial one.  Below this share
 # of the string's weight it is small: the fast part of what a start leaves behind is below 1 %.
 OF_THE_WALL, OF_THE_STRING, SMALL_FLUTTER = 1 / 2, 3.0, 0.02
+# Share of the drag that a string may lack.
+LACKING = 0.02
 
 
 def pushes(mean: float, least: float, block: float, weight: float) -> Note | None:
@@ -37,3 +39,17 @@ def flutters(amplitude: float, frequency: float, on_wall: float, axial: float, w
         return None
     text = f"the hook load flutters for seconds by ±{amplitude / 1e3:.3g} kN at some {frequency:.2g} Hz"
     return note_of("flutter", text, amplitude / bound)
+
+
+def slides_slowly(speed: float, lacking: float, step: float) -> Note | None:
+    """A note where a string slides so slowly that friction of law ``coulomb`` holds it around the hole.
+
+    speed : along the hole [m/s]; lacking : share of the drag that is missing; step [s].
+    """
+    if not lacking > LACKING:
+        return None
+    text = (
+        f"the string slides at {speed:.2g} m/s, too slowly for friction of law coulomb in steps of {1e3 * step:.2g} "
+        f"ms: it holds the string around the hole, and along it {100 * lacking:.2g} % of the drag are missing"
+    )
+    return note_of("slow", text, lacking / LACKING)

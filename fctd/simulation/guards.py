@@ -6,6 +6,7 @@
   as the buckled string does (``notes.under_resolved``).
 - Joints beyond the range of their law (``notes.beyond_joints``).
 - The hook load: a string that is pushed down (``run_notes.pushes``), and one that flutters (``run_notes.flutters``).
+- Sliding that is too slow for the step (``run_notes.slides_slowly``).
 - The energy ledger so far, by which a run that ends early is judged.
 """
 
@@ -20,7 +21,16 @@ from numpy.typing import NDArray
 
 from fctd.mechanics import readings, state, topdrive
 from fctd.mechanics.jit import entry
+from fctd.mechanics.laws import CODES
 from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
+from fctd.mechanics.state import (
+    ARM_CONTACT,
+    HELD_BACK,
+    INVERSE_JA,
+    INVERSE_JT,
+    INVERSE_MASS,
+    RADIUS,
+)
 from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
@@ -37,7 +47,7 @@ from fctd.results.notes import (
     under_resolved,
 )
 from fctd.results.profile import Loads
-from fctd.results.run_notes import flutters, pushes
+from fctd.results.run_notes import flutters, pushes, slides_slowly
 from fctd.simulation.run import Run
 
 
@@ -61,7 +71,9 @@ def may_have_notes(offset, hole, radius, tension, torque, bending, bit_tension, 
 # Time [s] over which the flutter of the hook load is read; it counts where it lasts for two such times, as the jolt of
 # a start does not.
 LISTEN = 1.0
+COULOMB = CODES["coulomb"]
 LOST = (*LOSSES, "lost_bit_J")
+Array = NDArray[np.float64]
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -139,6 +151,26 @@ class Guards:
             inverse = state.row(S, state.INVERSE_MASS, n) - state.row(S, state.HELD_BACK, n)
             on_wall = math.sqrt((stiffness * inverse)[stiffness > 0].min()) / (2 * math.pi)
             self._keep(flutters(amplitude, frequency, on_wall, 1 / axial_period_of(run.laid_out), weight), bit_depth)
+
+    def check_sliding(self, bit_depth: float, speed: float, torque: Array, full: Array) -> None:
+        """Keep the note on a string that slides along its hole and does not turn, by means over a record.
+
+        speed [m/s]; torque (n,) : r F_t of friction around the hole; full (n,) : r μ F_n [N m].
+
+        Law ``coulomb`` sets friction against the sliding before the step.  Where that of a step h from rest around the
+        hole, μF_n h (m⁻¹ + a²/J_t + r²/J_a), exceeds the speed along it, friction can hold a force around the hole
+        without any sliding there, and spends itself on that; no force is held across the sliding of real friction.
+        """
+        run, n = self.run, self.run.segments
+        total = float(full.sum())
+        if run.laws.friction != COULOMB or not total > 0:
+            return
+        rows = (INVERSE_MASS, HELD_BACK, ARM_CONTACT, INVERSE_JT, RADIUS, INVERSE_JA)
+        mass, held, arm, across, radius, along = (state.row(run.S, offset, n) for offset in rows)
+        slow = run.step * full * (mass - held + arm**2 * across + radius**2 * along) > speed * radius
+        around = np.minimum(np.abs(torque[slow]) / full[slow], 1.0)
+        lacking = float((full[slow] * (1 - np.sqrt(1 - around**2))).sum()) / total
+        self._keep(slides_slowly(speed, lacking, run.step), bit_depth)
 
     def _table(self) -> NDArray[np.float64]:
         """The table of the string's sections, which are the same ones at most depths."""

@@ -125,6 +125,10 @@ class Recorder:
         self.ledger.append({"time_s": self.last_time, **row})
         pull = hookload, self.history[-1]["hookload_min_N"]
         self.guards.timed(self.guards.check_record, self.bit_depth, pull, loads, walls, buckling, row)
+        move, speed = case.operations[operation], abs(self.bit_depth - before) / span
+        if spin == 0 and (speed >= 0.5 * move.speed > 0 or (case.rig.autodriller and speed > 0)):  # not in a ramp
+            friction = mean.friction_torque, mean.r_mu_normal
+            self.guards.timed(self.guards.check_sliding, self.bit_depth, speed, *friction)
         self._keep_segments(loads, walls, limits)
         low, high = sorted((before, self.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]

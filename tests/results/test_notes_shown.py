@@ -66,6 +66,13 @@ RAISED: dict[str, tuple[set[str], dict[str, Any]]] = {
              segment_length=28.5)], trip(1500, 1497, speed=0.5, ramp=2.0), friction=0.5, wellbore={"geometry": "arcs"},
              mud={"density": 1200.0}, rig={"feed": "stands"}),
     ),
+    "slid at 36 m/h": (
+        {"slow"},
+        well([[0, 0, 0], [200, 0, 0], [600, 40, 0], [1000, 60, 60], [1400, 60, 120]], [pipe(None, None, outer=0.178,
+             inner=0.157, segment_length=25.0)], trip(1300, 1299.5, speed=0.01, ramp=2.0), friction=0.5,
+             wellbore={"geometry": "arcs"}, rig={"feed": "stands"}, solver={"joint_damping": 0.003},
+             mud={"density": 1200.0, "viscosity": 0, "lateral_damping": 50.0}),
+    ),
     "begun within three steps": ({"ledger"}, well([[0, 0, 0], [1000, 0, 0]], [pipe(1000, 20)], rotation(1000, 0.01))),
     "wound up": (
         {"torque"},

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fctd.results.run_notes import flutters, pushes
+from fctd.results.run_notes import flutters, pushes, slides_slowly
 
 
 @pytest.mark.parametrize(
@@ -44,3 +44,12 @@ def test_a_hook_load_that_flutters(amplitude: float, frequency: float, axial: fl
     if note is not None:
         assert (note.code, note.excess) == ("flutter", pytest.approx(2.0))
         assert "±20 kN at some 15 Hz" in note.text
+
+
+def test_a_string_that_slides_too_slowly_for_its_step() -> None:
+    assert slides_slowly(0.01, 0.02, 2e-3) is None
+    note = slides_slowly(0.01, 0.1, 2e-3)
+    assert note is not None
+    assert (note.code, note.excess) == ("slow", pytest.approx(5.0))
+    assert "slides at 0.01 m/s" in note.text
+    assert "steps of 2 ms: it holds the string around the hole, and along it 10 % of the drag are missing" in note.text

@@ -130,3 +130,33 @@ def test_a_jolt_that_nothing_damps_flutters_and_a_soft_start_does_not() -> None:
     assert "flutter" in codes(0.1)
     assert not {"flutter", "push"} & codes(3.0)
     assert not {"flutter", "push"} & codes(0.1, joint_damping=3e-3)
+
+
+def slid(speed: float, law: str, step: float | str = "auto") -> tuple[float, set[str]]:
+    """Hook load [N] at the end of 2.5 m out of a hole that builds and turns, and the notes."""
+    case = make_case(
+        [[0, 0, 0], [200, 0, 0], [600, 40, 0], [1000, 60, 60], [1400, 60, 120]],
+        [pipe(None, None, outer=0.178, inner=0.157, segment_length=25.0)], [trip(1300, 1297.5, speed=speed, ramp=2.0)],
+        mud={"density": 1200.0, "viscosity": 0, "lateral_damping": 50.0}, rig={"feed": "stands"},
+        wellbore={"geometry": "arcs", "intervals": [{"to_md": 1400.0, "diameter": 0.2159, "friction": 0.5}]},
+        contact={"friction_law": law}, solver={"joint_damping": 3e-3, "step": step},
+    )  # fmt: skip
+    result = simulate(case)
+    assert result.status.has_loads
+    return float(result.history["hookload_N"].iloc[-5:].mean()), {note.code for note in result.notes}
+
+
+@pytest.mark.slow
+def test_slow_sliding_that_loses_drag_has_a_note() -> None:
+    """At 36 m/h law ``coulomb`` loses drag; law ``karnopp`` does not."""
+    (pull, codes), (full, sound) = slid(0.01, "coulomb"), slid(0.01, "karnopp")
+    assert "slow" in codes
+    assert "slow" not in sound
+    assert pull < 0.98 * full
+
+
+def test_sliding_as_on_a_trip_has_no_such_note() -> None:
+    """At 0.1 m/s the hook loads of both laws agree."""
+    (pull, codes), (full, _) = slid(0.1, "coulomb"), slid(0.1, "karnopp")
+    assert "slow" not in codes
+    assert pull == pytest.approx(full, rel=0.005)
