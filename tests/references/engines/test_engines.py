@@ -315,6 +315,15 @@ def test_another_engine_refuses_what_it_would_leave_out(key: str, table: dict[st
     check_supported(turning())
 
 
+@pytest.mark.parametrize("key", ["bend", "eccentricity"])
+def test_another_engine_refuses_a_component_that_only_fctd_turns(key: str) -> None:
+    """A bent housing, and a mass beside its axis, in the lowest of two components."""
+    case = make_case(STATIONS, [pipe(100, 5, **{key: 0.01}), pipe(None, None, segment_length=20.0)], [rotation(500, 2)])
+    with pytest.raises(InputError, match="0 in another engine than FCTD's") as caught:
+        check_supported(case)
+    assert caught.value.key == f"string.components[0].{key}"
+
+
 def test_an_engine_that_is_unstable_at_once_is_invalid_with_a_message() -> None:
     """With a step above the stability limit, before the first record."""
     case = turning(wellbore={"geometry": "arcs"})
