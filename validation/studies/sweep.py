@@ -1,6 +1,7 @@
 """Do samples, percentiles, indices and survey errors of a sweep agree with closed forms?"""
 
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from scipy import stats
 
 from fctd.model.drillstring import section_of
 from fctd.model.survey import along_courses, minimum_curvature
+from fctd.steady.torque_drag import chart_rows
 from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import Dataset, begin_dataset
 from fctd.sweep.design import samples_of
@@ -17,6 +19,7 @@ from fctd.sweep.run import prepare, sample_of
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.survey_errors import SurveyErrors, erred
 from fctd.sweep.uncertainty import assess
+from validation.cases.wells import drilled_paper_well
 from validation.harness.study import Check, Context, Outcome, Study
 
 # A straight inclined hole that hardly leaves room beside the pipe.  With a clearance c the tension T takes some
@@ -40,6 +43,7 @@ ISHIGAMI = {
     ("S1", "a"): 0.3139, ("S1", "b"): 0.4424, ("S1", "c"): 0.0, ("ST", "a"): 0.5576, ("ST", "b"): 0.4424,
     ("ST", "c"): 0.2437,
 }  # fmt: skip
+DEPTHS = 71  # of a timed chart
 DEPTH, COURSE, SLANT, AZIMUTH, ERROR = 3000.0, 30.0, 0.9, 0.4, 0.004  # of a surveyed straight well [m], [rad]
 
 
@@ -49,6 +53,7 @@ def run(context: Context) -> Outcome:
         hookload, load_checks = _hook_loads(Path(folder), 200 if context.quick else 2000)
         linear = _linear_indices(Path(folder), 256 if context.quick else 1024)
     indices = pd.concat([linear, _ishigami()], ignore_index=True)
+    charts = pd.DataFrame([_chart(segments, 1 if context.quick else 5) for segments in (61, 500)])
     surveys = 2000 if context.quick else 8000
     spread = _spreads(surveys)
     checks = [
@@ -57,12 +62,19 @@ def run(context: Context) -> Outcome:
               "at_most", "", "closed form: shares of the variance"),
         Check("Sobol indices of Ishigami's function, largest difference", _largest(indices, "Ishigami"), 0.02,
               "at_most", "", "Ishigami & Homma 1990"),
+        Check("rows of charts that differ from the same row solved alone, or on two threads",
+              int(charts["different_rows"].sum()), 0, "at_most", "", "to the last bit"),
+        *(
+            Check(f"processor time of a depth in a chart of {DEPTHS} depths, {segments} segments", taken, most,
+                  "at_most", "ms", "target")
+            for segments, taken, most in zip((61, 500), charts["depth_ms"], (0.3, 3.0), strict=True)
+        ),
         Check("position spread of a straight well, largest difference",
               float(np.abs(spread["found_m"] / spread["closed_m"] - 1).max()), 0.03, "at_most", "",
               "closed form: half of the courses beside a station turn with it"),
     ]  # fmt: skip
     return Outcome(
-        tables={"hook_load": hookload, "indices": indices, "spread": spread},
+        tables={"hook_load": hookload, "indices": indices, "spread": spread, "charts": charts},
         checks=checks,
         notes=[
             "The hook load is w L cos θ + μ w (L − 5 m) sin θ with normal μ; sampling errors are those of the mean and "
@@ -74,6 +86,7 @@ def run(context: Context) -> Outcome:
             "hook_load": "Hook load of a straight inclined string with normal friction",
             "indices": "Sobol indices against closed forms",
             "spread": "Spread of the end of a straight well, across it",
+            "charts": "Charts of tripping out of the paper's well, in one thread",
         },
     )
 
@@ -183,6 +196,24 @@ def _spreads(count: int) -> pd.DataFrame:
             row = {"found_m": float((off @ towards).std()), "closed_m": ERROR * length * scale}
             rows.append({"errors": kind, "across": name, **row})
     return pd.DataFrame(rows)
+
+
+def _chart(segments: int, times: int) -> dict[str, float]:
+    """The rows of a chart against each of them alone and on two threads, and the least processor time of a depth."""
+    case = drilled_paper_well(segments)
+    depths = [1750.0 + 10.0 * k for k in range(DEPTHS)]
+    rows = chart_rows(case, "trip_out", depths, threads=1)
+    alone = [chart_rows(case, "trip_out", [depth], threads=1)[0] for depth in depths]
+    both = chart_rows(case, "trip_out", depths, threads=2)
+    taken = []
+    for _ in range(times):
+        began = time.thread_time()
+        chart_rows(case, "trip_out", depths, threads=1)
+        taken.append(time.thread_time() - began)
+    # NaN is no number's equal: rows are compared as they are written.
+    different = sum(len({repr(row), repr(one), repr(two)}) > 1 for row, one, two in zip(rows, alone, both, strict=True))
+    return {"segments": segments, "depth_ms": 1e3 * min(taken) / DEPTHS, "different_rows": different,
+            "iterations": float(np.mean([row["iterations"] for row in rows]))}  # fmt: skip
 
 
 def _end(stations: np.ndarray) -> np.ndarray:
