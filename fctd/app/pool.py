@@ -77,11 +77,6 @@ class Worker:
                 pipe.close()
         self._process.wait()
 
-    @property
-    def process(self) -> int:
-        """The number of the process."""
-        return int(self._process.pid)
-
     def _read(self) -> dict[str, Any]:
         assert self._process.stdout is not None
         try:
