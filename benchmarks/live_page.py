@@ -9,7 +9,6 @@ import base64
 import http.client
 import json
 import os
-import re
 import signal
 import statistics
 import subprocess
@@ -44,7 +43,8 @@ class Served:
 
     def __init__(self, address: str, process: int) -> None:
         self.address, self.process = address, process
-        self.port, self.path = re.fullmatch(r"http://127\.0\.0\.1:(\d+)(/.*)", address).groups()  # type: ignore[union-attr]
+        _, _, host, *parts = address.split("/")
+        self.port, self.path = host.partition(":")[2], f"/{'/'.join(parts)}"
         self.prefix = f"/{self.path.split('/')[1]}/"
         self._callbacks = json.loads(self.ask("GET", f"{self.prefix}_dash-dependencies"))
 

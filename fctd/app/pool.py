@@ -37,9 +37,9 @@ class Worker:
         self.folder, self.known = folder, set[str]()
         self.compiling = False
         # A group of its own: Ctrl-C in the terminal is for the process that serves, which ends this one.
-        self._process = subprocess.Popen(
+        self._process: subprocess.Popen[bytes] = subprocess.Popen(
             command_of(folder), stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | FEW_THREADS | ARROW,
-            start_new_session=os.name == "posix", **({"umask": 0o077} if os.name == "posix" else {}),
+            start_new_session=os.name == "posix", umask=0o077 if os.name == "posix" else -1,
         )  # fmt: skip
 
     def wait(self) -> bool:
@@ -76,11 +76,6 @@ class Worker:
             with suppress(OSError):  # what could not be written any more
                 pipe.close()
         self._process.wait()
-
-    @property
-    def process(self) -> int:
-        """The number of the process."""
-        return self._process.pid
 
     def _read(self) -> dict[str, Any]:
         assert self._process.stdout is not None

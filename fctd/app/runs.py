@@ -75,11 +75,10 @@ class Runs:
             write_private(folder / "case.toml", text.encode())
             if survey_name:
                 write_private(folder / survey_name, survey)
-            on_posix: dict[str, Any] = {"umask": 0o077} if os.name == "posix" else {}
             with open(os.open(folder / "log", os.O_WRONLY | os.O_CREAT, 0o600), "wb") as log:
                 process = subprocess.Popen(
                     command(), cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                    start_new_session=os.name == "posix", **on_posix,
+                    start_new_session=os.name == "posix", umask=0o077 if os.name == "posix" else -1,
                 )  # fmt: skip
             self._runs[session.key] = Run(session.folder, process)
 
