@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -52,9 +53,27 @@ class Seen:
         assert self.asked == []
 
 
+_SHARED = ExitStack()
+
+
+@cache
+def shared() -> Browser:
+    """The browser of all tests, which takes seconds to start; ``close`` ends it."""
+    return _SHARED.enter_context(open_browser())
+
+
+def close() -> None:
+    """End the shared browser."""
+    _SHARED.close()
+    shared.cache_clear()
+
+
 @contextmanager
 def browser(*flags: str) -> Iterator[Browser]:
-    """A browser of this machine."""
+    """A browser of this machine; one for all tests but for those with flags of their own."""
+    if not flags:
+        yield shared()
+        return
     with open_browser(*flags) as found:
         yield found
 

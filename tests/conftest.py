@@ -2,6 +2,7 @@
 
 import functools
 import gc
+import sys
 
 import hypothesis
 import typer.main
@@ -13,6 +14,12 @@ hypothesis.settings.load_profile("fctd")
 
 # A program builds its command line once and runs one command; the tests run hundreds.
 typer.main.get_command = functools.cache(typer.main.get_command)
+
+
+def pytest_sessionfinish() -> None:
+    """The browser of all tests is open until the end."""
+    if browsers := sys.modules.get("tests.browsers"):
+        browsers.close()
 
 
 def pytest_collection_finish() -> None:

@@ -51,7 +51,7 @@ def test_panels_are_readable_at_every_width(chromium: Any, files: dict[str, Path
         heights = {}
         for width in (1280, 400, 1920):
             shown.set_viewport_size({"width": width, "height": 800})
-            shown.wait_for_timeout(500)
+            shown.wait_for_function("document.getElementById('fctd')._fullLayout.width === innerWidth")
             assert overflow(shown) <= 0, width
             panels = shown.evaluate(AXES)
             assert len(panels) == count
