@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fctd.app.runs_view import records
+from fctd.results import pacing
 from fctd.results.run_folder import RunFolder
-from fctd.simulation import kept_run
 from fctd.simulation.kept_run import KeptRun
 from fctd.simulation.simulate import simulate
 from tests.app.test_well import unpacked
@@ -15,7 +15,7 @@ from tests.cases import make_case, pipe, rotation
 
 
 def test_a_run_is_seen_from_its_first_chunk_to_its_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kept_run, "SHARE", 1e9)  # a chunk a record
+    monkeypatch.setattr(pacing, "SHARE", 1e9)  # a chunk a record
     target = tmp_path / "result"
     assert records(tmp_path, str(target), "si")["records"] == 0
     case = make_case(components=[pipe(None, None, segment_length=100.0)], operations=[rotation(900, 4.0, ramp=1.0)])

@@ -27,5 +27,5 @@ def test_frames_change_the_string_and_texts_are_escaped() -> None:
 
 
 def test_an_unknown_quantity_is_refused() -> None:
-    with pytest.raises(InputError, match="quantity"):
+    with pytest.raises(InputError, match="one of the quantities"):
         view_figure(strings(), "weight")
