@@ -68,6 +68,11 @@ def served(workers: int, work: float) -> float:
         return count / (time.perf_counter() - began)
 
 
+def _through_a_stream(rows: list[dict[str, Any]]) -> Any:
+    """Rows as a worker sends them and the client reads them."""
+    return from_stream(as_stream(rows))
+
+
 def shares(samples: int = ALONE) -> pd.DataFrame:
     """Processor time of what is done for a sample, in this process: it does not depend on what else the machine does.
 
@@ -92,7 +97,7 @@ def shares(samples: int = ALONE) -> pd.DataFrame:
             case = timed("making the case", partial(bench.template.case, number, values))
             rows = timed("solving", partial(WORK["chart"], case, bench.task, lambda: None))
             named = [{"sample": number, **row} for row in rows]
-            tables.append(timed("stream of the rows", lambda named=named: from_stream(as_stream(named))))
+            tables.append(timed("stream of the rows", partial(_through_a_stream, named)))
         timed("writing", partial(dataset.write, tables))
     whole = sum(spent.values())
     return pd.DataFrame(

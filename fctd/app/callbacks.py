@@ -84,7 +84,7 @@ def _refusing(outputs: int, at: int) -> Callable[[Callable[..., Any]], Callable[
             try:
                 return function(*given)
             except InputError as error:
-                found = [no_update] * outputs
+                found: list[Any] = [no_update] * outputs
                 found[at] = str(error)
                 return tuple(found)
 

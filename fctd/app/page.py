@@ -11,7 +11,7 @@ from fctd.view.quantities import QUANTITIES
 
 TITLE: Final = "fctd"
 GRAPHS: Final = ("loads", "scene", "panels")
-CONFIG: Final[dict[str, Any]] = {
+CONFIG: Final[Any] = {
     "displaylogo": False, "responsive": True, "modeBarButtonsToRemove": ["sendChartToCloud", "lasso2d", "select2d"],
 }  # fmt: skip
 EMPTY: Final[dict[str, Any]] = {"data": [], "layout": {"xaxis": {"visible": False}, "yaxis": {"visible": False}}}
@@ -58,7 +58,7 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             html.Summary("Measured rows"),
             html.P("Paste rows with headers, such as bit_depth_m, operation, hookload_kN, torque_kN_m; or choose a CSV "
                    "file."),
-            dcc.Textarea(id="measured", spellCheck="false", rows=5),
+            dcc.Textarea(id="measured", spellCheck=False, rows=5),
             html.Div([
                 html.Button("show", id="show-measured"),
                 dcc.Upload(id="measured-file", children=html.Button("choose a file"), className="inline"),

@@ -121,7 +121,7 @@ def serving(home: Home, units: System = "si", port: int | None = None) -> Iterat
 def dash_app(served: Served) -> Dash:
     """The page with its callbacks below its prefix; other addresses lead to a session, or nowhere."""
     # Without a folder of its own, flask has no address that the prefix does not begin.
-    flask = Flask("fctd.app", static_folder=None)
+    flask: Any = Flask("fctd.app", static_folder=None)
     flask.before_request(lambda: _steered(served))
     flask.register_error_handler(Exception, _failed)
     app = Dash(

@@ -121,8 +121,8 @@ def check_samples(template: Template, samples: Any, keys: Sequence[str], task: T
             if not rows:
                 raise refusal from None
             continue
-        if first and (error := misfit(case, task)) is not None:
-            told = f"a depth at which string and hole of sample {number} fit ({error})"
+        if first and (reason := misfit(case, task)) is not None:
+            told = f"a depth at which string and hole of sample {number} fit ({reason})"
             key = "depths" if template.spec.work.depths is not None else "bit_depth"
             raise InputError(told, key=f"work.{key}", value=getattr(template.spec.work, key))
         first = False

@@ -139,7 +139,10 @@ class Sweeps:
         folder = self.folder / f"{out.name}-cluster"
         folder.mkdir()
         if kind in ("hang", "crash"):
-            ending = self.start(out, preload=failing(folder, **{kind: (ill,)}))
+            ending = self.start(
+                out,
+                preload=failing(folder, hang=(ill,) if kind == "hang" else (), crash=(ill,) if kind == "crash" else ()),
+            )
             return _ended(ending, (1,))
         if kind == "disk":
             return _ended(self.start(out, before=_small_disk), (2,))

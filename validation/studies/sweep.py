@@ -124,7 +124,7 @@ def _hook_loads(folder: Path, count: int) -> tuple[pd.DataFrame, list[Check]]:
         share = percentile / 100
         true = stats.norm.ppf(share, mean, sd)
         error = np.sqrt(share * (1 - share) / count) / stats.norm.pdf(true, mean, sd)
-        row = {"found_N": told.loc[percentile, "value"], "closed_N": true, "sampling_error_N": error}
+        row = {"found_N": told["value"][percentile], "closed_N": true, "sampling_error_N": error}
         rows.append({"of": f"{percentile:g} %", **row})
     table = pd.DataFrame(rows)
     off = (table["found_N"] - table["closed_N"]).abs() / table["sampling_error_N"]
@@ -146,9 +146,9 @@ def _linear_indices(folder: Path, count: int) -> pd.DataFrame:
     spec, dataset = swept(folder / "indices", raw)
     shares = np.array([(FRICTION["sd"] * closed_form(spec)[1]) ** 2, BLOCK["sd"] ** 2])  # type: ignore[operator]
     table = assess(dataset, spec).indices
-    table = table[table["column"] == "weight_indicator_N"].set_index(["measure", "parameter"])["value"]
+    found = table[table["column"] == "weight_indicator_N"].set_index(["measure", "parameter"])["value"]
     return pd.DataFrame(
-        {"case": "weight indicator", "measure": measure, "parameter": key, "found": table[measure, key],
+        {"case": "weight indicator", "measure": measure, "parameter": key, "found": found[measure, key],
          "closed": share}
         for measure in ("S1", "ST")
         for key, share in zip(("friction", "rig.block_weight"), shares / shares.sum(), strict=True)
