@@ -58,13 +58,12 @@ class Buckling:
     def __str__(self) -> str:
         return self.mode if np.isnan(self.from_md) else f"{self.mode} from {self.from_md:.0f} to {self.to_md:.0f} m"
 
-    @property
-    def shortfall(self) -> str:
-        """Where segments are too long, and the length that would do."""
+    def shortfall(self, resolving: str = "detect") -> str:
+        """Where segments are too long, and the length that would do; resolving : ``solver.buckling`` of the case."""
+        other = "" if resolving == "resolve" else ', or solver.buckling = "resolve" (--resolve-buckling)'
         return (
             f"buckling is {self}, where segments of {self.longest:.3g} m cannot bend that way: "
-            f'use segments of at most {self.segment_length:g} m there, or solver.buckling = "resolve" '
-            "(--resolve-buckling)"
+            f"use segments of at most {self.segment_length:g} m there{other}"
         )
 
 

@@ -51,6 +51,7 @@ Array = NDArray[np.float64]
 APART = 0.01
 AT_FULL = "solved at its full friction alone, from which share of it on is not known"
 TOO_MUCH = "resolving takes more work than a row may"
+TOO_FINE = f"resolving takes more than the {state.MAX_SEGMENTS} segments that a string may have: use smaller loads"
 ANALYTIC = "the wall force of the helix is the analytic one, r F²/4EI"
 
 
@@ -220,6 +221,8 @@ class Solver:
         unsolved = code != CONVERGED or negative > 0
         if self.case.solver.buckling == "resolve" and (unsolved or point.buckling.mode != NOT_BUCKLED.mode):
             resolved = self.resolve(problem, iterations)
+            if resolved.status == SteadyStatus.UNDER_RESOLVED:
+                return replace(resolved, message=f"{TOO_FINE}; {resolved.message}")
             if resolved.status != SteadyStatus.MAX_ITERATIONS:
                 return resolved
             problem = self.problem(problem.operation, problem.rates, problem.laid)
@@ -254,7 +257,7 @@ class Solver:
             return point
         if code != CONVERGED and coarse and followed.status == SteadyStatus.UNSTABLE and not path.rolls:
             # Whether the string has a shape is not known: its segments cannot bend into it.
-            message = f"{followed.message}; {followed._shape.buckling.shortfall}"
+            message = f"{followed.message}; {followed._shape.buckling.shortfall(self.case.solver.buckling)}"
             return replace(followed, status=SteadyStatus.UNDER_RESOLVED, message=message)
         if code != CONVERGED or followed.answered or followed.status == SteadyStatus.LOCKED_UP:
             return followed
@@ -358,22 +361,19 @@ class Solver:
         """Status and message of a solution."""
         if code == NOT_FINITE:
             return SteadyStatus.NOT_FINITE, SteadyStatus.NOT_FINITE.message
-        if self.geometry != state.OPEN:
-            outside = int(shape.numbers[OUTSIDE])
-            if outside:
-                text = f"segment {outside} lies deeper in the wall than the hole's radius"
-                return SteadyStatus.DIVERGED, f"{text}: use a stiffer wall or a smaller load"
+        if self.geometry != state.OPEN and (outside := int(shape.numbers[OUTSIDE])):
+            text = f"segment {outside} lies deeper in the wall than the hole's radius"
+            return SteadyStatus.DIVERGED, f"{text}: use a stiffer wall or a smaller load"
         if code != CONVERGED:
-            return (
-                SteadyStatus.MAX_ITERATIONS,
-                f"forces are out of balance by {imbalance:.3g} N: the string may have no steady shape",
-            )
+            text = f"forces are out of balance by {imbalance:.3g} N: the string may have no steady shape"
+            return SteadyStatus.MAX_ITERATIONS, text
         coarse = self.geometry != state.OPEN and not shape.buckling.resolved
+        lacks = shape.buckling.shortfall(self.case.solver.buckling) if coarse else ""
         if pushed:
             text = f"{SteadyStatus.LOCKED_UP.message}; {AT_FULL}"
-            return SteadyStatus.LOCKED_UP, f"{text}; {shape.buckling.shortfall}" if coarse else text
+            return SteadyStatus.LOCKED_UP, f"{text}; {lacks}" if coarse else text
         if coarse:
-            return SteadyStatus.UNDER_RESOLVED, shape.buckling.shortfall
+            return SteadyStatus.UNDER_RESOLVED, lacks
         if lacks := shortfall(self.case.wellbore.tortuosity, shape.laid.string.longest):
             return SteadyStatus.UNDER_RESOLVED, lacks
         if negative:

@@ -200,8 +200,10 @@ def test_segments_resolve_the_wave_or_not(
         np.testing.assert_allclose(rows[:, NEEDED], length, rtol=1e-9)
         assert 0.9 * length < found.segment_length <= length * (1 + 1e-12)
         assert found.excess == pytest.approx(share)
-    assert f"segments of {found.longest:.3g} m" in found.shortfall
-    assert f"at most {found.segment_length:g} m" in found.shortfall
+    assert f"segments of {found.longest:.3g} m" in found.shortfall()
+    assert f"at most {found.segment_length:g} m" in found.shortfall()
+    assert "resolve" in found.shortfall()
+    assert "resolve" not in found.shortfall("resolve")
 
 
 def test_a_segment_beside_a_buckled_point_counts() -> None:

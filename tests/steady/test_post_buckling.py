@@ -5,10 +5,11 @@ import pytest
 
 import fctd
 from fctd.case.load import Case
+from fctd.mechanics import state
 from fctd.model.drillstring import section_of
 from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
-from fctd.steady.equilibrium import AT_FULL, TOO_MUCH, Solver
+from fctd.steady.equilibrium import AT_FULL, TOO_FINE, TOO_MUCH, Solver
 from tests.steady.buckled import HOLE, level_case, onset
 
 
@@ -54,12 +55,24 @@ def test_a_string_that_is_not_buckled_is_solved_as_it_is() -> None:
     assert np.isnan(resolved.hookload_low)
 
 
+def test_a_string_that_needs_more_segments_than_there_may_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It keeps those of its case, and the remedy is none that the case has already."""
+    monkeypatch.setattr(state, "MAX_SEGMENTS", 20)
+    case = level_case(1.3, 120.0, 12.0, friction=0.0)
+    pushing = case.model_copy(update={"rig": case.rig.model_copy(update={"block_weight": 1e6})})
+    point = fctd.equilibrium(with_resolution(pushing), "drill_sliding", 120.0)
+    assert point.status == "under_resolved"
+    assert point.message.startswith(TOO_FINE)
+    assert "--resolve-buckling" not in point.message
+
+
 def test_a_row_whose_work_is_spent_has_the_loads_of_the_segments_of_its_case() -> None:
     case = level_case(1.3, 120.0, 12.0, friction=0.1)
     as_it_is = fctd.equilibrium(case, "drill_sliding", 120.0)
     solver = Solver(with_resolution(case), allowance=50.0)
     cut = solver.solve("drill_sliding", steady_rates(case, "drill_sliding"), 120.0)
     assert (cut.status, cut.shape, cut.hookload) == (as_it_is.status, "none", as_it_is.hookload)
-    assert cut.message == f"{TOO_MUCH}; with the segments of the case: {as_it_is.message}"
+    found = as_it_is.message.replace(', or solver.buckling = "resolve" (--resolve-buckling)', "")
+    assert cut.message == f"{TOO_MUCH}; with the segments of the case: {found}"
     assert AT_FULL in as_it_is.message
     assert np.isnan([as_it_is.slack_off_spent_at, as_it_is.locked_up_at]).all()
