@@ -120,7 +120,7 @@ def served(segments: int) -> Iterator[Served]:
             text = text.replace(f"segments = {before}\n", f"segments = {after}\n")
         (folder / "well.toml").write_text(text, "utf-8")
         (folder / "paper_well.csv").write_bytes((CASES / "paper_well.csv").read_bytes())
-        command = [sys.executable, "-m", "fctd", "app", "well.toml", "--no-browser"]
+        command = [sys.executable, "-P", "-m", "fctd", "app", "well.toml", "--no-browser"]
         environment = os.environ | {"XDG_STATE_HOME": scratch}
         process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.PIPE, text=True)
         try:

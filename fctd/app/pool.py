@@ -87,8 +87,11 @@ class Worker:
 
 
 def command_of(folder: Path) -> list[str]:
-    """The command of a process whose scratch files lie in a folder."""
-    return [sys.executable, "-m", "fctd.app.worker", str(folder)]
+    """The command of a process whose scratch files lie in a folder.
+
+    It takes no module from the folder in which it starts, such as that of the user's state, which has one named fctd.
+    """
+    return [sys.executable, "-P", "-m", "fctd.app.worker", str(folder)]
 
 
 class Pool:

@@ -138,7 +138,7 @@ class Runs:
 def command() -> list[str]:
     """The command of a run, in the folder of its case."""
     return [
-        sys.executable, "-m", "fctd", "simulate", "case.toml", "--out", "result", "--quiet", "--restart",
+        sys.executable, "-P", "-m", "fctd", "simulate", "case.toml", "--out", "result", "--quiet", "--restart",
         "--checkpoint-every", KEPT_EVERY, "--time-limit", LONGEST, "--memory-limit", MEMORY,
     ]  # fmt: skip
 
