@@ -19,7 +19,7 @@ import pandas as pd
 from fctd.cli.keeping import has_kept
 from fctd.cli.main import app, run
 from fctd.results import pacing
-from fctd.results.run_folder import PROGRESS, numbered, run_path
+from fctd.results.run_folder import PROGRESS, about_of, numbered, run_path
 from fctd.results.tables import TABLES, open_result
 from references.__main__ import app as references
 
@@ -236,7 +236,8 @@ def kill_again_and_again(
 
     A kill comes after a time of computing that is uniform up to ``longest`` of the undisturbed one; every fourth comes
     while the process prepares, or soon after.  Where the command ends before, its result is compared and it begins
-    anew.  An earlier result stands there meanwhile.
+    anew, also where it was killed after its result had been put into its place.  An earlier result of a run stands
+    there meanwhile.
     """
     folder.mkdir(parents=True)
     (folder / "case.toml").write_text(command.case)
@@ -256,12 +257,12 @@ def kill_again_and_again(
     while found.kills < kills:
         _earlier(whole, result)
         before = _identity(result)
-        kept = 0
+        kept, cleaning = 0, False
         while True:
             preparing, share = found.kills % 4 == 3, float(rng.uniform())
             span = found.took - found.computing if preparing else longest * found.computing
             kill_after = share * span if found.kills < kills else None
-            goes_on = has_kept(result)
+            goes_on = about_of(result) is not None and has_kept(result)
             arguments = command.resume(result) if goes_on else command.begin(folder, result)
             code, _ = watched(
                 command.program, arguments, result, log=log, kill_after=kill_after, from_the_start=preparing
@@ -271,20 +272,20 @@ def kill_again_and_again(
             if code != -signal.SIGKILL:
                 break
             found.kills += 1
+            if cleaning := _identity(result) not in (before, ""):
+                break
             now = _chunks(result)
             found.kept.append(now)
             if now < kept:
                 found.wrong.append(f"{kept} chunks were kept, and {now} after a kill")
             kept = now
-            if _identity(result) not in (before, ""):
-                before = _identity(result)  # killed after its result had been put into place
             if forked(app, ["status", str(result)], log=log):
                 found.wrong.append("fctd status failed after a kill")
-        if code:
+        if code and not cleaning:
             found.wrong.append(f"a process ended with {code}")
             break
         found.wrong += [f"{name} differs" for name, bits in tables_of(result).items() if bits != wanted[name]]
-        if run_path(result).exists():
+        if run_path(result).exists() and not cleaning:
             found.wrong.append("the folder of the run is still there")
     if "Traceback" in log.read_text(errors="replace"):
         found.wrong.append("a traceback was printed")
@@ -293,13 +294,17 @@ def kill_again_and_again(
 
 def _earlier(whole: Path, result: Path) -> None:
     """Put an earlier result into the place of the one that is computed."""
+    if result.is_file():
+        result.unlink()
     shutil.rmtree(result, ignore_errors=True)
     if whole.is_dir():
         shutil.copytree(whole, result)
 
 
 def _identity(result: Path) -> str:
-    """Identity of a run's result; opening it fails where the folder is not whole."""
+    """Identity of a run's result, or the name of a chart's, which has none before; opening a part of a folder fails."""
+    if result.is_file():
+        return result.name
     return open_result(result).identity if result.is_dir() else ""
 
 
