@@ -71,9 +71,8 @@ def drain_swing(top: NDArray[Any]) -> tuple[float, float]:
     each over √2.  What is slow hardly changes in a step: of several swings, the one of the largest a ω is found.  Both
     are 0 where nothing has changed.
     """
-    span, changes, bends = (float(value) for value in top[[PULL_TIME, CHANGES, BENDS]])
-    steps = float(top[PULL_STEPS])
-    top[[PULL_STEPS, PULL_TIME, CHANGES, BENDS]] = 0.0
+    steps, span, changes, bends = top[PULL_STEPS : BENDS + 1].tolist()
+    top[PULL_STEPS : BENDS + 1] = 0.0
     if bends == 0:
         return 0.0, 0.0
     step, ratio = span / steps, math.sqrt(bends / changes)

@@ -146,8 +146,7 @@ class Guards:
         now = readings.drain_swing(run.top)
         amplitude, frequency = now if long else map(min, now, self.swing)
         self.swing = now
-        stiffness = state.row(S, state.K_WALL, n)
-        if amplitude > SMALL_SWING * weight and stiffness.max() > 0:
+        if amplitude > SMALL_SWING * weight and (stiffness := state.row(S, state.K_WALL, n)).max() > 0:
             inverse = state.row(S, state.INVERSE_MASS, n) - state.row(S, state.HELD_BACK, n)
             on_wall = math.sqrt((stiffness * inverse)[stiffness > 0].min()) / (2 * math.pi)
             self._keep(flutters(amplitude, frequency, on_wall, 1 / axial_period_of(run.laid_out), weight), bit_depth)

@@ -40,6 +40,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+# A string that slides too slowly does so for long: every so many records are enough to see it.
+LOOKS_AT = 3
 SAME_DEPTH = 1e-3  # [m]: the schedule reaches its depths to the rounding of a step
 
 
@@ -126,7 +128,8 @@ class Recorder:
         pull = hookload, self.history[-1]["hookload_min_N"]
         self.guards.timed(self.guards.check_record, self.bit_depth, pull, loads, walls, buckling, row)
         move, speed = case.operations[operation], abs(self.bit_depth - before) / span
-        if spin == 0 and (speed >= 0.5 * move.speed > 0 or (case.rig.autodriller and speed > 0)):  # not in a ramp
+        in_a_ramp = not case.rig.autodriller and (speed < 0.5 * move.speed or move.speed == 0)
+        if len(self.history) % LOOKS_AT == 0 and spin == 0 and speed > 0 and not in_a_ramp:
             friction = mean.friction_torque, mean.r_mu_normal
             self.guards.timed(self.guards.check_sliding, self.bit_depth, speed, *friction)
         self._keep_segments(loads, walls, limits)
