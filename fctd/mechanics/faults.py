@@ -22,7 +22,7 @@ class UnstableError(Exception):
 
 
 @entry
-def _worst(S, n):
+def worst_of(S, n):
     """Whether all values are finite, and the worst of three measures of bodies 1..n, each with its body.
 
     Distance beyond twice the hole radius, less the contact radius [m], above 0 outside; cosine of the bend and
@@ -57,7 +57,7 @@ def check(S: np.ndarray, n: int) -> Worst:
 
     Axes and walls must belong to the positions.  Returns the joints that bend and twist most.
     """
-    finite, outside, bend, twist = _worst(S, n)
+    finite, outside, bend, twist = worst_of(S, n)
     if not finite:
         raise UnstableError("a position or velocity is not finite")
     if outside[0] > 0:

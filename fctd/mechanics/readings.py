@@ -64,14 +64,15 @@ def forget_swing(top: NDArray[Any]) -> None:
     top[PULL_STEPS] = -2.0
 
 
-def drain_swing(top: NDArray[Any]) -> tuple[float, float]:
+@inlined
+def drain_swing(top):
     """Amplitude [N] and frequency [Hz] of the fast part of the hook load since the last call that drained it.
 
     A swing a sin ωt changes in a step h by 2 a sin(½ωh) and its change by 4 a sin²(½ωh), in the root of the mean square
     each over √2.  What is slow hardly changes in a step: of several swings, the one of the largest a ω is found.  Both
     are 0 where nothing has changed.
     """
-    steps, span, changes, bends = top[PULL_STEPS : BENDS + 1].tolist()
+    steps, span, changes, bends = top[PULL_STEPS], top[PULL_TIME], top[CHANGES], top[BENDS]
     top[PULL_STEPS : BENDS + 1] = 0.0
     if bends == 0:
         return 0.0, 0.0

@@ -31,7 +31,7 @@ from fctd.results.buckling import (
 from fctd.results.profile import Loads, at_contacts, profile_table, von_mises
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
-from fctd.simulation.guards import Guards
+from fctd.simulation.guards import Guards, Slid
 from fctd.simulation.run import Run, contact_points
 from fctd.simulation.series import SegmentSeries
 
@@ -40,8 +40,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-# A string that slides too slowly does so for long: every so many records are enough to see it.
-LOOKS_AT = 3
 SAME_DEPTH = 1e-3  # [m]: the schedule reaches its depths to the rounding of a step
 
 
@@ -125,13 +123,12 @@ class Recorder:
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
-        pull = hookload, self.history[-1]["hookload_min_N"]
-        self.guards.timed(self.guards.check_record, self.bit_depth, pull, loads, walls, buckling, row)
         move, speed = case.operations[operation], abs(self.bit_depth - before) / span
         in_a_ramp = not case.rig.autodriller and (speed < 0.5 * move.speed or move.speed == 0)
-        if len(self.history) % LOOKS_AT == 0 and spin == 0 and speed > 0 and not in_a_ramp:
-            friction = mean.friction_torque, mean.r_mu_normal
-            self.guards.timed(self.guards.check_sliding, self.bit_depth, speed, *friction)
+        slides = spin == 0 and speed > 0 and not in_a_ramp
+        slid = Slid(speed, mean.friction_torque, mean.r_mu_normal) if slides else None
+        pull = hookload, self.history[-1]["hookload_min_N"]
+        self.guards.timed(self.guards.check_record, self.bit_depth, pull, loads, walls, buckling, row, slid)
         self._keep_segments(loads, walls, limits)
         low, high = sorted((before, self.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]

@@ -10,7 +10,7 @@ from fctd.mechanics import readings, state, topdrive
 from tests.compiled import kept
 
 Array = NDArray[np.float64]
-read_step = kept(readings.read_step)
+read_step, drain_swing = kept(readings.read_step), kept(readings.drain_swing)
 
 
 def test_extremes_angles_and_rest() -> None:
@@ -44,7 +44,7 @@ def swing(dt: float, load: Callable[[Array], Array], span: float = 4.0) -> tuple
         top[topdrive.SUM_HOOKLOAD] += dt * pull
         read_step(S, top, 1, before, 0.0, 0.0, 0.0, dt)
     assert top[topdrive.PULL_TIME] == pytest.approx(span - 2 * dt)
-    found = readings.drain_swing(top)
+    found = drain_swing(top)
     assert top[topdrive.PULL_TIME] == 0
     return found
 

@@ -1,0 +1,101 @@
+"""What the guards look at in every record, compiled: whether there is anything that a note could say.
+
+Most records have no notes.  A look takes a microsecond or two, where numpy takes ten times as long; the note itself,
+with its text and place, is made in Python where a look has found something.
+"""
+
+import math
+
+from fctd.mechanics.faults import worst_of
+from fctd.mechanics.jit import entry
+from fctd.mechanics.readings import drain_swing
+from fctd.mechanics.state import (
+    ARM_CONTACT,
+    HELD_BACK,
+    INVERSE_JA,
+    INVERSE_JT,
+    INVERSE_MASS,
+    K_WALL,
+    RADIUS,
+    WEIGHT,
+    lateral_inverse_mass,
+)
+from fctd.mechanics.topdrive import PULL_TIME, TOP_LENGTH
+from fctd.results.notes import (
+    LEAST_PENETRATION,
+    MOST_BEND,
+    MOST_PENETRATION,
+    MOST_TWIST,
+    SHARE_OF_CLEARANCE,
+    could_have_notes,
+)
+
+# Time [s] over which the flutter of the hook load is read; it counts where it lasts for two such times, as the jolt of
+# a start does not.
+LISTEN = 1.0
+# Cosines within which ``notes.beyond_joints`` has no note; where rounding could matter, it decides.
+COS_BEND, COS_HALF_TWIST = math.cos(0.999 * MOST_BEND), math.cos(0.999 * MOST_TWIST / 2)
+
+
+@entry
+def is_sound(S, n):
+    """Whether the state is finite and in the hole, and no joint of bodies 1..n is beyond its range."""
+    finite, outside, bend, twist = worst_of(S, n)
+    return finite and outside[0] <= 0 and bend[0] > COS_BEND and twist[0] > COS_HALF_TWIST
+
+
+@entry
+def may_have_notes(S, offset, hole, tension, torque, bending, bit_tension, bit_torque, sections, component, hookload):
+    """Whether ``notes.string_notes`` may find something.
+
+    offset (n, 3), hole (n,) : of the walls [m]; loads (n,) as in ``Loads``; sections : a row for each component, of
+    which ``component`` (n,) has that of each segment.
+    """
+    pull, twist, bend = 0.0, 0.0, 0.0
+    for j in range(len(hole)):
+        distance, radius = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2), S[RADIUS + 1 + j]
+        most = min(max(SHARE_OF_CLEARANCE * (hole[j] - radius), LEAST_PENETRATION), MOST_PENETRATION)
+        if distance - hole[j] + radius > 0.999 * most:  # string_notes, which rounds otherwise, decides
+            return True
+        pull, twist, bend = max(pull, abs(tension[j])), max(twist, abs(torque[j])), max(bend, bending[j])
+    return could_have_notes(0.0, pull, bit_tension, twist, bit_torque, bend, sections, component[0], hookload)
+
+
+@entry
+def listen(S, top, n, fed):
+    """Read how the hook load swung, where it was listened to for ``LISTEN``; it then begins anew.
+
+    fed : weight of the pipe fed at the top [N/m].  Returns the string's weight [N]; the lowest frequency of a segment
+    on its wall spring [Hz], infinite without walls; the time listened [s], 0 where it was too short; and amplitude [N]
+    and frequency [Hz] of the fast part of the hook load.
+    """
+    weight, square = 0.5 * fed * top[TOP_LENGTH], math.inf
+    for j in range(1, n + 1):
+        weight += S[WEIGHT + j]
+        if S[K_WALL + j] > 0:
+            square = min(square, S[K_WALL + j] * lateral_inverse_mass(S, j))
+    on_wall, heard = math.sqrt(square) / (2 * math.pi), top[PULL_TIME]
+    if heard < LISTEN:
+        return weight, on_wall, 0.0, (0.0, 0.0)
+    return weight, on_wall, heard, drain_swing(top)
+
+
+@entry
+def missing_drag(S, step, speed, torque, full):
+    """Share of the drag that a string lacks which slides along its hole and does not turn, by means over a record.
+
+    step [s]; speed [m/s]; torque (n,) : r F_t of friction around the hole; full (n,) : r μ F_n [N m].
+
+    Law ``coulomb`` sets friction against the sliding before the step.  Where that of a step h from rest around the
+    hole, μF_n h (m⁻¹ + a²/J_t + r²/J_a), exceeds the speed along it, friction can hold a force around the hole
+    without any sliding there, and spends itself on that; no force is held across the sliding of real friction.
+    """
+    total, missing = 0.0, 0.0
+    for j in range(1, len(full) + 1):
+        most, radius, arm = full[j - 1], S[RADIUS + j], S[ARM_CONTACT + j]
+        total += most
+        moved = S[INVERSE_MASS + j] - S[HELD_BACK + j] + arm**2 * S[INVERSE_JT + j] + radius**2 * S[INVERSE_JA + j]
+        if step * most * moved > speed * radius:
+            around = min(abs(torque[j - 1]) / most, 1.0)
+            missing += most * (1 - math.sqrt(1 - around**2))
+    return missing / total if total > 0 else 0.0
