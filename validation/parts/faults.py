@@ -72,7 +72,7 @@ class Ground:
             "--out",
             self.out,
             "--checkpoint-every",
-            "0.05 s",
+            "0.02 s",  # the least that the first takes; the whole run computes for a tenth of a second
             *more,
             before=before,
         )
