@@ -85,7 +85,7 @@ class Sweeps:
         self.folder, self.file = folder, folder / "sweep.toml"
         (folder / "well.toml").write_text(CASE, encoding="utf-8")
         self.file.write_text(SWEEP, encoding="utf-8")
-        # The workers are slow, so that a fault finds them at work.
+        # Workers that are to be disturbed are slow, so that a fault finds them at work.
         self.slow = failing(folder, pause=PAUSE)
         if code := self.start(folder / "whole").wait(timeout=LONGEST):
             raise AssertionError(f"the undisturbed sweep ended with {code}")
@@ -95,8 +95,9 @@ class Sweeps:
         self, out: Path, *options: object, before: Callable[[], None] | None = None, preload: Path | None = None
     ) -> "subprocess.Popen[bytes]":
         """``fctd sweep`` as a process of its own; before : called in it first; preload : by its workers."""
-        environment = os.environ | {"DASK_DISTRIBUTED__WORKER__PRELOAD": f"['{preload or self.slow}']"}
-        environment |= {"PYTHONPATH": str(ROOT)}
+        environment = os.environ | {"PYTHONPATH": str(ROOT)}
+        if preload is not None:
+            environment["DASK_DISTRIBUTED__WORKER__PRELOAD"] = f"['{preload}']"
         command = [sys.executable, "-m", "fctd", "sweep", self.file, "--out", out, "--quiet"]
         local = () if options else ("--workers", "2")
         return subprocess.Popen(
@@ -145,7 +146,7 @@ class Sweeps:
             )
             return _ended(ending, (1,))
         if kind == "disk":
-            return _ended(self.start(out, before=_small_disk), (2,))
+            return _ended(self.start(out, before=_small_disk, preload=self.slow), (2,))
         if kind in ("scheduler", "worker of a scheduler"):
             with cluster(folder, 2, self.slow) as dask:
                 process = self.start(out, "--scheduler-file", dask.file)
@@ -153,7 +154,7 @@ class Sweeps:
                     return wrong
                 dask.kill("scheduler" if kind == "scheduler" else "worker")
                 return _ended(process, (1, 2) if kind == "scheduler" else (0,))
-        process = self.start(out)
+        process = self.start(out, preload=self.slow)
         if wrong := _wait_in(process, out, after):
             return wrong
         workers = _workers_of(process)
