@@ -25,7 +25,7 @@ def layout() -> Any:
         id="page",
         children=[
             dcc.Location(id="where", refresh=False),
-            *(dcc.Store(id=name) for name in ("wish", "answered", "opened", "changed", "run-kept")),
+            *(dcc.Store(id=name) for name in ("wish", "answered", "turn", "opened", "changed", "run-kept")),
             dcc.Interval(id="tick", interval=TICK),
             html.Header([
                 html.Div([html.Span("fctd", className="brand"), html.H1(id="name")], className="title"),

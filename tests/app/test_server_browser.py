@@ -24,6 +24,13 @@ pytestmark = needs_browser
 CURVE = """(k) => Array.from(document.querySelector("#loads .js-plotly-plot")._fullData[k]?.x ?? [])"""
 STRING = """() => Array.from(document.querySelector("#scene .js-plotly-plot")._fullData
   .find((trace) => trace.name === "string")?.line?.color ?? [])"""
+# The pictures in the order in which they are drawn from now on.
+WATCH = """() => {
+  window.drawn = [];
+  for (const id of ["loads", "panels", "scene"]) {
+    document.querySelector(`#${id} .js-plotly-plot`).on("plotly_afterplot", () => window.drawn.push(id));
+  }
+}"""
 
 
 class Program:
@@ -92,14 +99,17 @@ def test_a_slider_moves_all_pictures(page: Any) -> None:
     k = place_of("line", "hookload_N", "trip_out")
     chart, string, words = page.evaluate(CURVE, k), page.evaluate(STRING), page.locator("#words").inner_text()
     before = pixels(page)
+    page.evaluate(WATCH)
     slider = page.locator("#sliders [role=slider]").nth(1)
     slider.focus()
     page.keyboard.press("ArrowRight")
     until(page, lambda: page.locator("#words").inner_text() != words)
     until(page, lambda: len(page.evaluate(CURVE, k)) == 70 and page.evaluate(CURVE, k) != chart)
-    assert page.evaluate(STRING) != string
+    until(page, lambda: page.evaluate(STRING) != string)
     assert np.array(page.evaluate(CURVE, k))[-1] > np.array(chart)[-1]  # more friction, more load
     assert page.locator("#sliders output").nth(1).inner_text() == "0.26"
+    until(page, lambda: "scene" in page.evaluate("window.drawn"))
+    assert page.evaluate("window.drawn.slice(0, 3)") == ["loads", "panels", "scene"]
     page.wait_for_timeout(300)
     assert (pixels(page) != before).any()
     page.locator("#reset").click()
