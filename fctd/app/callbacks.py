@@ -295,17 +295,20 @@ def _running(app: Dash, served: Served) -> None:
 
     @app.callback(
         Output("time", "figure"), Output("run-told", "children", allow_duplicate=True), Output("time-box", "hidden"),
-        Input("run-kept", "data"), State("where", "pathname"), prevent_initial_call=True,
+        Output("run-scene", "figure"), Output("run-at", "children"), Output("run-words", "children"),
+        Input("run-kept", "data"), Input("colour", "value"), State("where", "pathname"), prevent_initial_call=True,
     )  # fmt: skip
-    @_refusing(3, 1)
-    def streamed(kept: Sequence[Any] | None, pathname: str) -> tuple[Any, ...]:
+    @_refusing(6, 1)
+    def streamed(kept: Sequence[Any] | None, colour: str, pathname: str) -> tuple[Any, ...]:
         session = served.session(pathname)
         if not kept or not kept[0]:
-            return page.EMPTY, no_update, True
+            return page.EMPTY, no_update, True, page.EMPTY, "", ""
         target = str(target_of(session.folder))
-        found = served.pool.ask("records", target=target, shown_units=served.units)
-        told = [found["last"], found["status"]]
-        return time_figure(found, served.units), "; ".join(filter(None, told)) or no_update, not found["records"]
+        found = served.pool.ask("records", target=target, shown_units=served.units, colour=colour)
+        told = "; ".join(filter(None, [found["last"], found["status"]])) or no_update
+        string = found["string"] or {"figure": page.EMPTY, "where": "", "words": ""}
+        curves, empty = time_figure(found, served.units), not found["records"]
+        return curves, told, empty, string["figure"], string["where"], string["words"]
 
 
 def time_figure(found: Mapping[str, Any], units: System) -> dict[str, Any]:

@@ -125,7 +125,7 @@ def test_names_are_text_and_nothing_is_wider_than_the_page(page: Any) -> None:
         until(page, lambda: overflow(page) <= 0)  # pictures follow the window
 
 
-def test_a_survey_that_is_chosen_becomes_a_case(page: Any) -> None:
+def test_a_survey_that_is_chosen_becomes_a_case_and_a_case_is_run(page: Any) -> None:
     page.locator("#upload input").set_input_files(
         [{"name": "my <b>well.csv", "mimeType": "text/csv", "buffer": SURVEY.replace(b"900", b"950")}]
     )
@@ -145,6 +145,10 @@ def test_a_survey_that_is_chosen_becomes_a_case(page: Any) -> None:
     )
     page.locator("h1", has_text=NAME).wait_for()
     assert page.locator("#upload-fault").is_hidden()
+    page.locator("#run").click()
+    page.locator("#run-words", has_text="points touch").wait_for()
+    until(page, lambda: len(page.evaluate(STRING.replace("#scene", "#run-scene"))) > 30)
+    page.locator("#run-told", has_text="completed").wait_for()
 
 
 def test_the_address_of_a_killed_server_shows_the_same_page(chromium: Any, program: Program) -> None:
