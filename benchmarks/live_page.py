@@ -27,11 +27,12 @@ CASES: Final = Path(__file__).parents[1] / "validation" / "cases"
 SEGMENTS: Final = {61: (20, 40), 161: (53, 107), 461: (153, 307)}  # collars, pipe; beside the long one
 SESSIONS: Final = 10
 OPERATIONS: Final = ["trip_out", "rotate_off_bottom", "trip_in"]
+PICTURES: Final = {"loads": "chart", "panels": "panels", "scene": "scene"}
 # When a key went down, and when each picture was painted after it.
-WATCH: Final = """() => {
+WATCH: Final = """(ids) => {
   window.painted = {}; window.down = 0;
   document.addEventListener("keydown", () => { window.down = performance.now(); window.painted = {}; }, true);
-  for (const id of ["loads", "panels", "scene"]) {
+  for (const id of ids) {
     document.querySelector(`#${id} .js-plotly-plot`).on("plotly_afterplot", () =>
       requestAnimationFrame(() => setTimeout(() => { window.painted[id] ??= performance.now() - window.down; })));
   }
@@ -67,7 +68,7 @@ class Served:
         began = time.perf_counter()
         found = self.call("answered.data", {"wish.data": wish}, session or self.path)
         took = time.perf_counter() - began
-        assert "loads" in found, found["fault"]
+        assert "loads" in found["answered"]["data"], found["fault"]
         return took
 
     def begin(self, case: bytes, survey: bytes) -> str:
@@ -158,30 +159,30 @@ def at_once(server: Served) -> None:
 
 
 def painted(server: Served, moves: int) -> None:
-    """Print the time from a key to painted charts and scene."""
+    """Print the time from a key to each painted picture."""
     if browser_path() is None:
         print("  no browser: nothing is painted")
         return
-    found: dict[str, list[float]] = {"loads": [], "scene": []}
+    found: dict[str, list[float]] = {name: [] for name in PICTURES}
     with open_browser() as browser:
         page = browser.new_page(viewport={"width": 1280, "height": 800})
         page.set_default_timeout(120_000)
         page.goto(server.address)
         page.locator("#words", has_text="points touch").wait_for()
         page.wait_for_timeout(3000)
-        page.evaluate(WATCH)
+        page.evaluate(WATCH, list(PICTURES))
         page.locator("#sliders [role=slider]").first.focus()
         for _ in range(moves):
             page.keyboard.press("ArrowRight" if len(found["loads"]) % 40 < 20 else "ArrowLeft")
             times: dict[str, Any] = {}
-            while not {"loads", "scene"} <= set(times):
+            while not set(PICTURES) <= set(times):
                 page.wait_for_timeout(20)
                 times = page.evaluate("() => window.painted")
             for name, values in found.items():
                 values.append(1e-3 * times[name])
             page.wait_for_timeout(1500)  # all depths are solved and drawn meanwhile
-    say("  key to painted chart", found["loads"])
-    say("  key to painted scene", found["scene"])
+    for name, values in found.items():
+        say(f"  key to painted {PICTURES[name]}", values)
 
 
 def say(what: str, took: list[float], more: str = "") -> None:

@@ -8,7 +8,7 @@ from functools import wraps
 from pathlib import PurePath
 from typing import Any, Final
 
-from dash import ALL, ClientsideFunction, Dash, Input, Output, Patch, State, no_update
+from dash import ALL, ClientsideFunction, Dash, Input, Output, State, no_update
 
 from fctd.app import page
 from fctd.app.charts import FONT
@@ -24,6 +24,7 @@ from fctd.results.unit_systems import System, shown
 CASE: Final = ".toml"
 # What a page asks of a string; see ``Well.solved``.
 ASKED: Final = ("values", "operations", "operation", "depth", "colour")
+LATER: Final = ("panels", "scene")  # figures that wait until the chart is painted
 
 
 class Served:
@@ -56,17 +57,6 @@ class Served:
         }  # fmt: skip
         found = {name: session.settings.get(name, usual[name]) for name in ASKED}
         return found
-
-
-def patched(changes: Sequence[tuple[Sequence[str | int], Any]]) -> Patch:
-    """Changes of a figure as the page applies them."""
-    patch = Patch()
-    for (*way, last), value in changes:
-        place = patch
-        for key in way:
-            place = place[key]
-        place[last] = value
-    return patch
 
 
 def connect(app: Dash, served: Served) -> None:
@@ -201,20 +191,24 @@ def _moving(app: Dash, served: Served) -> None:
         Input("opened", "data"), State({"slider": ALL}, "id"),
     )  # fmt: skip
     app.clientside_callback(
-        ClientsideFunction("fctd", "drawn"), Output("answered", "modified_timestamp"), Input("answered", "data")
-    )
+        ClientsideFunction("fctd", "drawn"), Output("loads", "figure", allow_duplicate=True),
+        Input("answered", "data"), State("loads", "figure"), prevent_initial_call=True,
+    )  # fmt: skip
+    app.clientside_callback(
+        ClientsideFunction("fctd", "drawnInTurn"), *(Output(name, "figure", allow_duplicate=True) for name in LATER),
+        Input("turn", "data"), *(State(name, "figure") for name in LATER), prevent_initial_call=True,
+    )  # fmt: skip
     for name in ("fault", "upload-fault"):
         app.clientside_callback(ClientsideFunction("fctd", "empty"), Output(name, "hidden"), Input(name, "children"))
 
     @app.callback(
         Output("fault", "children", allow_duplicate=True), Output("answered", "data"),
         Output("at", "children"), Output("words", "children"), Output("rows-note", "children"),
-        *(Output(name, "figure", allow_duplicate=True) for name in page.GRAPHS),
         Input("wish", "data"), State("where", "pathname"), prevent_initial_call=True,
     )  # fmt: skip
     def solve(wish: Mapping[str, Any] | None, pathname: str) -> tuple[Any, ...]:
         wish = wish or {}
-        same = [no_update] * (3 + len(page.GRAPHS))
+        same = [no_update] * 3
         try:
             session = served.session(pathname)
             asked = {name: wish[name] for name in ASKED}
@@ -226,8 +220,8 @@ def _moving(app: Dash, served: Served) -> None:
             return f"expected {error} in what the page asks", {"n": 0}, *same
         except InputError as error:
             return str(error), {"n": wish.get("n", 0)}, *same
-        figures = [patched(found[name]) for name in page.GRAPHS]
-        return "", {"n": wish.get("n", 0)}, found["where"], found["words"], found["note"], *figures
+        answered = {"n": wish.get("n", 0)} | {name: found[name] for name in page.GRAPHS}
+        return "", answered, found["where"], found["words"], found["note"]
 
 
 def _measuring(app: Dash, served: Served) -> None:
@@ -301,17 +295,20 @@ def _running(app: Dash, served: Served) -> None:
 
     @app.callback(
         Output("time", "figure"), Output("run-told", "children", allow_duplicate=True), Output("time-box", "hidden"),
-        Input("run-kept", "data"), State("where", "pathname"), prevent_initial_call=True,
+        Output("run-scene", "figure"), Output("run-at", "children"), Output("run-words", "children"),
+        Input("run-kept", "data"), Input("colour", "value"), State("where", "pathname"), prevent_initial_call=True,
     )  # fmt: skip
-    @_refusing(3, 1)
-    def streamed(kept: Sequence[Any] | None, pathname: str) -> tuple[Any, ...]:
+    @_refusing(6, 1)
+    def streamed(kept: Sequence[Any] | None, colour: str, pathname: str) -> tuple[Any, ...]:
         session = served.session(pathname)
         if not kept or not kept[0]:
-            return page.EMPTY, no_update, True
+            return page.EMPTY, no_update, True, page.EMPTY, "", ""
         target = str(target_of(session.folder))
-        found = served.pool.ask("records", target=target, shown_units=served.units)
-        told = [found["last"], found["status"]]
-        return time_figure(found, served.units), "; ".join(filter(None, told)) or no_update, not found["records"]
+        found = served.pool.ask("records", target=target, shown_units=served.units, colour=colour)
+        told = "; ".join(filter(None, [found["last"], found["status"]])) or no_update
+        string = found["string"] or {"figure": page.EMPTY, "where": "", "words": ""}
+        curves, empty = time_figure(found, served.units), not found["records"]
+        return curves, told, empty, string["figure"], string["where"], string["words"]
 
 
 def time_figure(found: Mapping[str, Any], units: System) -> dict[str, Any]:

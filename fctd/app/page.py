@@ -25,7 +25,7 @@ def layout() -> Any:
         id="page",
         children=[
             dcc.Location(id="where", refresh=False),
-            *(dcc.Store(id=name) for name in ("wish", "answered", "opened", "changed", "run-kept")),
+            *(dcc.Store(id=name) for name in ("wish", "answered", "turn", "opened", "changed", "run-kept")),
             dcc.Interval(id="tick", interval=TICK),
             html.Header([
                 html.Div([html.Span("fctd", className="brand"), html.H1(id="name")], className="title"),
@@ -95,7 +95,8 @@ def _pictures(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             "The operations of the case, step by step in time, with the sliders where they stand.", id="run-told",
             role="status",
         ),
-        html.Div(_graph("time"), id="time-box", hidden=True),
+        html.Div([_graph("time"), html.P([html.Span(id="run-at"), html.Span(id="run-words")]), _graph("run-scene")],
+                 id="time-box", hidden=True),
     ]  # fmt: skip
     return [
         _picture("Hook load and torque", [_graph("loads")], [html.P(id="rows-note")], "chart"),

@@ -3,52 +3,106 @@
 This runs in the process of its own that worker.py is.
 """
 
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
 import pandas as pd
 
+from fctd.app import scenes
 from fctd.app.charts import packed
 from fctd.case.errors import InputError
+from fctd.case.load import Case, load_case
+from fctd.case.operations import KINDS
+from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.run_folder import numbered, run_path
 from fctd.results.tables import open_result
 from fctd.results.unit_systems import System, shown
-from fctd.simulation.chunks import read_chunk
+from fctd.simulation.chunks import NUMBER, read_chunk
+from fctd.simulation.series import KEPT, SegmentSeries
+from fctd.view.quantities import quantity_of
+from fctd.view.strings import of_records
 
 COLUMNS: Final = ("hookload_N", "surface_torque_N_m", "bit_depth_m")
 MOST_POINTS: Final = 4_000  # of a curve
 
 
-def records(folder: Path, target: str, shown_units: System) -> dict[str, Any]:
-    """The curves of a run over time [s], and how many records they are of; target : the folder of its result."""
-    history, status = _history(Path(target))
+def records(folder: Path, target: str, shown_units: System, colour: str = "side_force") -> dict[str, Any]:
+    """The curves of a run over time [s], how many records they are of, and its string at the last kept record.
+
+    target : the folder of its result, beside its case; colour : quantity by which the string is coloured.
+    """
+    history, segments, status = _kept(Path(target))
     step = max(len(history) // MOST_POINTS, 1)
     found = history.iloc[::step]
     curves = {name: packed(found[name].to_numpy(float) * shown(name, shown_units).factor) for name in COLUMNS}
     return {
         "time": packed(found["time_s"].to_numpy(float)), "curves": curves, "records": len(history), "status": status,
-        "last": _last(history, shown_units),
+        "last": _last(history, shown_units), "string": _string(Path(target), history, segments, shown_units, colour),
     }  # fmt: skip
 
 
-def _history(target: Path) -> tuple[pd.DataFrame, str]:
-    """Records kept while a run lasts, or those of its result, and how it ended."""
-    parts = []
-    for name in numbered(run_path(target), "history.parquet").values():
-        try:
-            content = (run_path(target) / name).read_bytes()
-            parts.append(read_chunk({"history": content})["history"].to_pandas())
-        except (OSError, ValueError):  # removed, as the run has just ended
-            parts = []
-            break
-    if parts:
-        return pd.concat(parts, ignore_index=True), ""
+def _kept(target: Path) -> tuple[pd.DataFrame, pd.DataFrame, str]:
+    """Records kept while a run lasts with the segments kept last, or those of its result; and how it ended."""
+    path = run_path(target)
+    try:
+        # A chunk's history is written before its segments: read after them, it has their times.
+        last = max(numbered(path, "segments.parquet").items(), default=None)
+        segments = pd.DataFrame() if last is None else _segments(_read(path / last[1], "segments"), _hole(target)[1])
+        parts = [_read(path / name, "history").to_pandas() for name in numbered(path, "history.parquet").values()]
+        if parts:
+            return pd.concat(parts, ignore_index=True), segments, ""
+    except (OSError, ValueError):  # removed, as the run has just ended
+        pass
     try:
         result = open_result(target, pause=0.0)
     except InputError:
-        return pd.DataFrame(columns=["time_s", *COLUMNS]), ""
+        return pd.DataFrame(columns=["time_s", *COLUMNS]), pd.DataFrame(), ""
     message = f": {result.message}" if result.message else ""
-    return result.history, f"{result.status}{message}"
+    return result.history, result.segments, f"{result.status}{message}"
+
+
+def _read(file: Path, name: str) -> Any:
+    return read_chunk({name: file.read_bytes()})[name]
+
+
+def _segments(table: Any, hole: Wellbore) -> pd.DataFrame:
+    """The last record of a chunk's segments, as a result has it."""
+    numbers = table.column(NUMBER).to_numpy()
+    series, last = SegmentSeries(), numbers == numbers.max(initial=0)
+    series.put_back(0, np.stack([table.column(name).to_numpy()[last] for name in KEPT], axis=1))
+    return series.table(hole)
+
+
+def _hole(target: Path) -> tuple[Case, Wellbore]:
+    file = target.parent / "case.toml"
+    return _hole_of(file, file.stat().st_mtime_ns)
+
+
+@lru_cache(maxsize=2)
+def _hole_of(file: Path, changed: int) -> tuple[Case, Wellbore]:
+    case = load_case(file)
+    return case, build_wellbore(case)
+
+
+def _string(
+    target: Path, history: pd.DataFrame, segments: pd.DataFrame, units: System, colour: str
+) -> dict[str, Any] | None:
+    """The string in its hole at the last record of its segments: the scene, when it is, and what is said of it."""
+    if not len(segments) or not len(history):
+        return None
+    segments = segments[segments["time_s"] == segments["time_s"].max()]
+    strings, quantity = of_records(*_hole(target), segments, history), quantity_of(colour)
+    figure, _, times = scenes.skeletons(strings, quantity, units)
+    changes, _, words = scenes.changes_of(strings, quantity, units, times, hole=True)
+    for (*way, last), value in changes:
+        place: Any = figure
+        for key in way:
+            place = place[key]
+        place[last] = value
+    (one,) = strings.snapshots
+    return {"figure": figure, "where": f"{one.at:.0f} s, {KINDS[one.operation].label}", "words": words}
 
 
 def _last(history: pd.DataFrame, units: System) -> str:

@@ -245,7 +245,7 @@ def panel_layout(look: Look) -> dict[str, Any]:
             "title": {"text": title, "font": {"size": 11}}, "range": list(ends), "anchor": "y", "nticks": 5,
             "domain": [k * width + (0.03 if k else 0.0), (k + 1) * width], "tickfont": {"size": 10}, "tickangle": 0,
         }  # fmt: skip
-    layout["xaxis"] |= {"tickvals": [-90, 0, 90, 180, 270], "zeroline": False}
+    layout["xaxis"] |= {"tickvals": [-90, 0, 90, 180], "zeroline": False}
     return layout
 
 

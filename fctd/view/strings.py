@@ -146,12 +146,16 @@ def of_run(result: SimulationResult, most: int = MOST_RECORDS) -> Strings:
     if missing:
         expected = f"a run whose segments have {', '.join(missing)}: simulate the case again"
         raise InputError(expected, key="result", value=result.case.name)
-    case, hole = result.case, build_wellbore(result.case)
     times = table["time_s"].unique()
     picked = times[np.unique(np.linspace(0, len(times) - 1, min(most, len(times))).round().astype(int))]
+    return of_records(result.case, build_wellbore(result.case), table[table["time_s"].isin(picked)], history)
+
+
+def of_records(case: Case, hole: Wellbore, table: pd.DataFrame, history: pd.DataFrame) -> Strings:
+    """The strings of a run at the times of its segments ``table``; history : of the run, with these times."""
     records: dict[Any, dict[Any, Any]] = history.set_index("time_s").to_dict("index")
     snapshots = []
-    for time, rows in table[table["time_s"].isin(picked)].groupby("time_s", sort=True):
+    for time, rows in table.groupby("time_s", sort=True):
         record = records[time]
         snapshots.append(
             Snapshot(

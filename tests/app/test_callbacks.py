@@ -1,11 +1,11 @@
-"""What happens on the page: files make cases, changes make patches."""
+"""What happens on the page: files make cases, records make curves."""
 
 import base64
 from pathlib import Path
 
 import pytest
 
-from fctd.app.callbacks import content_of, patched, source_of, time_figure
+from fctd.app.callbacks import content_of, source_of, time_figure
 from fctd.app.runs_view import records
 from fctd.case.errors import InputError
 from tests.app.made import SURVEY, TEXT, InProcess, source
@@ -37,12 +37,6 @@ def test_contents_of_files() -> None:
     for text in ("data:text/csv;base64,?", "data:;base64,a", "data:;base64,é"):
         with pytest.raises(InputError, match="a file"):
             content_of(text)
-
-
-def test_changes_become_a_patch_of_their_places_alone() -> None:
-    found = patched([(["data", 3, "x"], [1]), (["layout", "xaxis", "range"], [0, 1])]).to_plotly_json()
-    assert [one["location"] for one in found["operations"]] == [["data", 3, "x"], ["layout", "xaxis", "range"]]
-    assert {one["operation"] for one in found["operations"]} == {"Assign"}
 
 
 def test_a_run_without_records_is_an_empty_figure(tmp_path: Path) -> None:

@@ -1,32 +1,37 @@
 """The curves of a run: of its chunks while it lasts, of its result afterwards."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from fctd.app.runs_view import records
+from fctd.case.load import load_case
 from fctd.results import pacing
 from fctd.results.run_folder import RunFolder
 from fctd.simulation.kept_run import KeptRun
 from fctd.simulation.simulate import simulate
+from fctd.view.strings import of_run
+from tests.app.made import SURVEY, TEXT
 from tests.app.test_well import unpacked
-from tests.cases import make_case, pipe, rotation
 
 
 def test_a_run_is_seen_from_its_first_chunk_to_its_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pacing, "SHARE", 1e9)  # a chunk a record
     target = tmp_path / "result"
     assert records(tmp_path, str(target), "si")["records"] == 0
-    case = make_case(components=[pipe(None, None, segment_length=100.0)], operations=[rotation(900, 4.0, ramp=1.0)])
-    folder, seen = RunFolder.take(target), list[int]()
+    (tmp_path / "survey.csv").write_bytes(SURVEY)
+    (tmp_path / "case.toml").write_text(TEXT)
+    case = load_case(tmp_path / "case.toml")
+    folder, seen = RunFolder.take(target), list[dict[str, Any]]()
 
     def progress(now: float, total: float, factor: float) -> None:
-        seen.append(records(tmp_path, str(target), "si")["records"])
+        seen.append(records(tmp_path, str(target), "si", "tension"))
 
-    result = simulate(case.model_copy(), progress=progress, keeper=KeptRun(folder, 0.0))
+    result = simulate(case, progress=progress, keeper=KeptRun(folder, 0.0))
     folder.leave(remove=True)
-    assert seen[0] < seen[-1]
+    assert seen[0]["records"] < seen[-1]["records"]
     result.save(target)
     found = records(tmp_path, str(target), "field")
     assert found["records"] == len(result.history)
@@ -35,4 +40,13 @@ def test_a_run_is_seen_from_its_first_chunk_to_its_result(tmp_path: Path, monkey
     np.testing.assert_allclose(
         unpacked(found["curves"]["hookload_N"]), result.history["hookload_N"] / 4448.2216, rtol=1e-6
     )
-    assert found["last"].startswith("4 s: hook load")
+    assert found["last"].startswith("2 s: hook load")
+    run = of_run(result)
+    assert seen[-1]["string"] is not None
+    for shows in (one for one in seen if one["string"]):  # each the string of the last record kept by then
+        last = run.snapshots[shows["records"] - 1]
+        assert shows["string"]["where"] == f"{last.at:.0f} s, rotating off bottom"
+        assert f"{last.touching.sum()} of {len(last.offset)} points touch" in shows["string"]["words"]
+        line = next(trace for trace in shows["string"]["figure"]["data"] if trace["name"] == "string")["line"]
+        np.testing.assert_allclose(unpacked(line["color"]), last.columns["effective_tension_N"] / 1e3, rtol=1e-5)
+    assert found["string"]["where"] == "2 s, rotating off bottom"

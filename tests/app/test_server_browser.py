@@ -24,6 +24,13 @@ pytestmark = needs_browser
 CURVE = """(k) => Array.from(document.querySelector("#loads .js-plotly-plot")._fullData[k]?.x ?? [])"""
 STRING = """() => Array.from(document.querySelector("#scene .js-plotly-plot")._fullData
   .find((trace) => trace.name === "string")?.line?.color ?? [])"""
+# The pictures in the order in which they are drawn from now on.
+WATCH = """() => {
+  window.drawn = [];
+  for (const id of ["loads", "panels", "scene"]) {
+    document.querySelector(`#${id} .js-plotly-plot`).on("plotly_afterplot", () => window.drawn.push(id));
+  }
+}"""
 
 
 class Program:
@@ -92,14 +99,17 @@ def test_a_slider_moves_all_pictures(page: Any) -> None:
     k = place_of("line", "hookload_N", "trip_out")
     chart, string, words = page.evaluate(CURVE, k), page.evaluate(STRING), page.locator("#words").inner_text()
     before = pixels(page)
+    page.evaluate(WATCH)
     slider = page.locator("#sliders [role=slider]").nth(1)
     slider.focus()
     page.keyboard.press("ArrowRight")
     until(page, lambda: page.locator("#words").inner_text() != words)
     until(page, lambda: len(page.evaluate(CURVE, k)) == 70 and page.evaluate(CURVE, k) != chart)
-    assert page.evaluate(STRING) != string
+    until(page, lambda: page.evaluate(STRING) != string)
     assert np.array(page.evaluate(CURVE, k))[-1] > np.array(chart)[-1]  # more friction, more load
     assert page.locator("#sliders output").nth(1).inner_text() == "0.26"
+    until(page, lambda: "scene" in page.evaluate("window.drawn"))
+    assert page.evaluate("window.drawn.slice(0, 3)") == ["loads", "panels", "scene"]
     page.wait_for_timeout(300)
     assert (pixels(page) != before).any()
     page.locator("#reset").click()
@@ -115,7 +125,7 @@ def test_names_are_text_and_nothing_is_wider_than_the_page(page: Any) -> None:
         until(page, lambda: overflow(page) <= 0)  # pictures follow the window
 
 
-def test_a_survey_that_is_chosen_becomes_a_case(page: Any) -> None:
+def test_a_survey_that_is_chosen_becomes_a_case_and_a_case_is_run(page: Any) -> None:
     page.locator("#upload input").set_input_files(
         [{"name": "my <b>well.csv", "mimeType": "text/csv", "buffer": SURVEY.replace(b"900", b"950")}]
     )
@@ -135,6 +145,10 @@ def test_a_survey_that_is_chosen_becomes_a_case(page: Any) -> None:
     )
     page.locator("h1", has_text=NAME).wait_for()
     assert page.locator("#upload-fault").is_hidden()
+    page.locator("#run").click()
+    page.locator("#run-words", has_text="points touch").wait_for()
+    until(page, lambda: len(page.evaluate(STRING.replace("#scene", "#run-scene"))) > 30)
+    page.locator("#run-told", has_text="completed").wait_for()
 
 
 def test_the_address_of_a_killed_server_shows_the_same_page(chromium: Any, program: Program) -> None:

@@ -3,10 +3,10 @@
 (() => {
   const REST = 300; // a slider that has rested so long is solved at all depths [ms]
   const LOST = 30000; // an answer that has not come by then will not come [ms]
-  const state = { busy: false, since: 0, next: null, rest: null, n: 0, values: {}, own: {}, shown: {}, opened: 0 };
+  const state = {
+    busy: false, since: 0, next: null, rest: null, drawing: false, turn: 0, n: 0, values: {}, own: {}, shown: {}, opened: 0 };
   const set = (id, props) => dash_clientside.set_props(id, props);
   const unchanged = () => dash_clientside.no_update;
-  const times = [];
 
   function send(wish) {
     const now = performance.now();
@@ -28,6 +28,7 @@
   function later() {
     clearTimeout(state.rest);
     state.rest = setTimeout(() => {
+      if (state.drawing) return later();  // a server on the same machine would slow the pictures of the last move
       const wanted = send(wish(false, false));
       if (wanted !== unchanged()) set("wish", { data: wanted });
     }, REST);
@@ -79,21 +80,63 @@
     return same ? unchanged() : send(wish(true, hole));
   }
 
-  function drawn(answered) {
+  // A figure with changes, which are ways and values; what stays is shared with the figure before.
+  function changed(figure, changes) {
+    const own = new Set();
+    const copy = (part) => {
+      const made = Array.isArray(part) ? [...part] : { ...part };
+      own.add(made);
+      return made;
+    };
+    const found = copy(figure);
+    for (const [way, value] of changes) {
+      const last = way.length - 1;
+      let place = found;
+      for (const key of way.slice(0, last)) {
+        if (!own.has(place[key])) place[key] = copy(place[key]);
+        place = place[key];
+      }
+      place[way[last]] = value;
+    }
+    return found;
+  }
+
+  // One picture is painted after the other, the chart first: what is drawn in one turn is painted at once, and without
+  // a graphics card the scene takes longer than all the rest.
+  const due = { panels: [], scene: [] };
+  const names = Object.keys(due);
+  function turnTo(name) {
+    state.drawing = true;
+    requestAnimationFrame(() => setTimeout(() => {
+      state.drawing = Boolean(name);
+      if (name) set("turn", { data: { name, n: ++state.turn } });
+    }));
+  }
+
+  function drawn(answered, loads) {
     state.busy = false;
-    times.push(performance.now());
     if (state.next) {
       const next = state.next;
       state.next = null;
       set("wish", { data: send(next) });
     }
-    return unchanged();
+    if (!answered.loads) return unchanged();
+    for (const name of names) due[name].push(...answered[name]);
+    turnTo(names[0]);
+    return changed(loads, answered.loads);
+  }
+
+  function drawnInTurn(turn, ...figures) {
+    turnTo(names[names.indexOf(turn.name) + 1]);
+    return names.map((name, k) => {
+      if (name !== turn.name || !due[name].length) return unchanged();
+      return changed(figures[k], due[name].splice(0));
+    });
   }
 
   window.dash_clientside = Object.assign(window.dash_clientside || {}, {
-    fctd: { moved, drawn, empty: (text) => !text },
+    fctd: { moved, drawn, drawnInTurn, empty: (text) => !text },
   });
-  window.fctd = { state, times };
 
   // The server ends the run of a page that is closed; one that is loaded again asks at once.
   window.addEventListener("pagehide", () => navigator.sendBeacon(`${location.pathname}closed`));
