@@ -47,7 +47,7 @@ class Run:
         number = self.number
         if number is not None:
             with suppress(OSError):
-                os.kill(number, signal.SIGINT if os.name == "posix" else signal.SIGTERM)
+                os.kill(number, signal.SIGTERM)  # Ctrl-C is ignored until its imports begin, where this process does
 
 
 class Runs:

@@ -16,8 +16,9 @@ from fctd.case.drilling import BitSpec, DriveSpec
 from fctd.case.friction import FrictionSet
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
-from fctd.case.specs import ComponentSpec, MudSpec, RigSpec, StringSpec, WellboreSpec
+from fctd.case.specs import ComponentSpec, MudSpec, RigSpec, SolverSpec, StringSpec, WellboreSpec
 from fctd.case.units import FASTEST, MOST_RPM, Slip, looks_like
+from fctd.case.wall import ContactSpec
 
 Doubts = Iterator[InputWarning]
 
@@ -31,6 +32,10 @@ class Well(Protocol):
     def string(self) -> StringSpec: ...
     @property
     def mud(self) -> MudSpec: ...
+    @property
+    def contact(self) -> ContactSpec: ...
+    @property
+    def solver(self) -> SolverSpec: ...
     @property
     def rig(self) -> RigSpec: ...
     @property
@@ -65,6 +70,12 @@ WEAR: Final = Range("m", 1e-4, 0.05, "0.1 to 50 mm", (Slip(0.1, 50, " mm"),))
 BLOCK: Final = Range("N", 1e3, 5e6, "1 kN to 5 MN", (Slip(10, 999, " kN"),))
 GUIDES: Final = Range("N", 100, 200e3, "0.1 to 200 kN", (Slip(0.1, 99, " kN"),))
 OFFSET: Final = Range("N*m", 5, 50e3, "5 N*m to 50 kN*m", (Slip(0.1, 4.99, " kN*m"),))
+# A segment on its wall spring is damped critically by 1e5 N*s/m; mud of 2 Pa*s damps a metre of string by 1e3 N*s/m^2
+# and its rotation by 1 N*s; 3 ms in the joints end all chatter.
+AT_CONTACTS: Final = Range("N*s/m", 0, 1e7, "up to 10 MN*s/m", ())
+IN_MUD: Final = Range("N*s/m^2", 0, 1e4, "up to 10 kN*s/m^2", ())
+TURNING: Final = Range("N*s", 0, 10, "up to 10 N*s", ())
+IN_JOINTS: Final = Range("s", 0, 0.1, "up to 100 ms", (Slip(0.1, 100, " ms"),))
 ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
 NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
 UNDERREAMED: Final = 1.5  # an under-reamer opens the hole below a shoe to some 1.3 times its diameter
@@ -96,6 +107,7 @@ def warnings_of(
         *rough_wall(case.wellbore, frictions),
         *no_mud(case.mud, float(stations[-1, 0])),
         *mud_density(case.mud),
+        *dampings(case.contact, case.mud, case.solver),
         *materials(case.string),
         *light_string(case.string, case.mud),
         *bit_size(case.string, case.wellbore, float(stations[-1, 0])),
@@ -169,6 +181,15 @@ def no_mud(mud: MudSpec, td: float) -> Doubts:
 def mud_density(mud: MudSpec) -> Doubts:
     """A density that no mud has."""
     yield from _outside("mud_density", "mud.density", mud.density, "a mud", MUD)
+
+
+def dampings(contact: ContactSpec, mud: MudSpec, solver: SolverSpec) -> Doubts:
+    """Dampings far above what walls, mud and joints have, or in a wrong unit."""
+    yield from _outside("damping", "contact.damping", contact.damping, "a damping", AT_CONTACTS)
+    yield from _outside("damping", "mud.axial_damping", mud.axial_damping or 0.0, "a damping", IN_MUD)
+    yield from _outside("damping", "mud.lateral_damping", mud.lateral_damping or 0.0, "a damping", IN_MUD)
+    yield from _outside("damping", "mud.rotational_damping", mud.rotational_damping or 0.0, "a damping", TURNING)
+    yield from _outside("damping", "solver.joint_damping", solver.joint_damping, "a damping", IN_JOINTS)
 
 
 def materials(string: StringSpec) -> Doubts:

@@ -86,8 +86,12 @@ def show(value: object) -> str:
         return json.dumps(str(value), ensure_ascii=False)
     try:
         text = repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False, default=str)
-    except (ValueError, TypeError):  # integers of thousands of digits, keys that are no strings
-        text = f"a {type(value).__name__}"
+    except (
+        ValueError,
+        TypeError,
+        RecursionError,
+    ):  # thousands of digits, keys that are no strings, thousands of tables
+        text = {dict: "a table", int: "a long number"}.get(type(value), f"a {type(value).__name__}")
     return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
 
 

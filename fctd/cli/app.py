@@ -1,7 +1,5 @@
 """``fctd app``: a live page for a case, in the user's browser."""
 
-import signal
-import threading
 from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
@@ -54,9 +52,6 @@ def app_command(
     home = Home.open()
     if new_token:
         home.new_token()
-    if threading.current_thread() is threading.main_thread():
-        # Processes that are started inherit an ignored Ctrl-C, with which runs are stopped.
-        signal.signal(signal.SIGINT, signal.default_int_handler)
     with serving(home, units, port) as server:
         address = server.begin(source)
         if not quiet:

@@ -13,8 +13,10 @@ from types import FrameType
 def as_interrupts() -> Iterator[None]:
     """Inside, SIGTERM and SIGHUP raise KeyboardInterrupt as Ctrl-C does, unless the caller ignores or handles them.
 
-    Later signals are ignored: a terminal that closes sends several, and they must not stop the writing of the results
-    after the first one.  Does nothing outside the main thread.
+    Later ones are ignored: a terminal that closes sends several, and they must not stop the writing of the results
+    after the first one.  A shell ignores Ctrl-C for what a script starts in the background; it stops a command there
+    too, and the processes that the command starts, and what has been computed is kept.  Does nothing outside the main
+    thread.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -29,9 +31,14 @@ def as_interrupts() -> Iterator[None]:
 
     for number in ours:
         signal.signal(number, interrupt)
+    ignored = signal.getsignal(signal.SIGINT) == signal.SIG_IGN
+    if ignored:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         yield
     finally:
+        if ignored:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
         for number in ours:
             signal.signal(number, signal.SIG_DFL)
 

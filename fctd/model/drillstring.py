@@ -26,8 +26,9 @@ LONG_SEGMENT_TILT = np.radians(1.0)
 SHORTEST_LONG_SEGMENT = 10.0
 # Largest error of a length in a layout [m].
 SAME_LENGTH = 1e-6
-# Shortest segment that can be computed with [m]; the stiffness of a joint grows with the third power of 1/length.
-SHORTEST_SEGMENT = 1e-6
+# Shortest segment that can be computed with [m]: the stiffness of a joint grows with the third power of 1/length, and
+# below a millimetre its rounding makes stable strings unstable, or forces infinite.
+SHORTEST_SEGMENT = 1e-3
 
 
 class LongSegmentError(InputError):

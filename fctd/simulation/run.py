@@ -35,6 +35,7 @@ LONGEST_SETTLING = 400.0  # [s] simulated
 # segment takes some 20 ns, a record keeps 2 kB and a row of a profile 200 bytes.
 MOST_SEGMENT_STEPS = 1e12
 MOST_RECORDS = 200_000
+FINE_STEP = 1e-4  # [s]: of a run with short, stiff pieces; a run that is too long with it is too long by its durations
 MOST_PROFILE_ROWS = 2_000_000
 
 
@@ -224,7 +225,7 @@ def _run(
         )
     tangent = hole.at(string.top_md + np.cumsum(string.length))[1][:, 2]
     check_weight(case, float((string.of("weight") * string.length * tangent).sum()))
-    _check_cost(case, most, step, sum(s.motion.duration for s in phases))
+    _check_cost(case, most, step, phases)
     spring = max(float(probe[state.K_TWIST + 1]) for probe, _ in probes)
     # A walk from the top would stop at the first slab that contains a point; past 90° that may be a distant piece.
     owner = np.zeros(most + 2, np.int64)
@@ -261,12 +262,24 @@ def own_wall(case: Case, hole: Wellbore) -> HoleWall:
     return HoleWall(hole.pieces, case.wellbore.geometry)
 
 
-def _check_cost(case: Case, segments: int, step: float, duration: float) -> None:
-    """Raise InputError for a run that would take hours or too much memory; step and duration [s]."""
+def _check_cost(case: Case, segments: int, step: float, phases: list[Phase]) -> None:
+    """Raise InputError for a run that would take hours or too much memory; step [s]."""
     most = MOST_SEGMENT_STEPS / dynamics.padded_columns(segments)
+    lasting = [0.0] * len(case.operations)
+    for phase in phases:
+        lasting[phase.operation] += phase.motion.duration
+    duration = sum(lasting)
+    if duration > most * max(step, FINE_STEP):
+        k = int(np.argmax(lasting))
+        key = "duration" if "duration" in type(case.operations[k]).model_fields else "speed"
+        raise InputError(
+            f"a run of at most {most * step / 3600:.3g} h, in steps of {1e3 * step:.3g} ms of {segments} segments",
+            key=f"operations[{k}].{key}",
+            value=f"{lasting[k] / 3600:.3g} h",
+        )
     if (duration + LONGEST_SETTLING) / step > most:
         raise InputError(
-            f"masses, stiffnesses, speeds and durations that need at most {most:.2g} steps of {segments} segments",
+            f"masses, stiffnesses, dampings and durations that need at most {most:.2g} steps of {segments} segments",
             key="solver.step",
             value=f"{step:.3g} s for {duration:g} s and up to {LONGEST_SETTLING:g} s of settling",
         )

@@ -1,5 +1,6 @@
 """Runs that pages begin: two at most, stopped as Ctrl-C does, ended with their page."""
 
+import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -17,10 +18,12 @@ from tests.app.made import SURVEY, TEXT
 
 # A run that waits for its end.
 WAITING = """
-import signal, sys, time
+import sys, time
+from fctd.cli.interrupts import as_interrupts
 try:
-    print("begun", flush=True)
-    time.sleep(60)
+    with as_interrupts():
+        print("begun", flush=True)
+        time.sleep(60)
 except KeyboardInterrupt:
     print("interrupted"); sys.exit(130)
 """
@@ -88,6 +91,15 @@ def test_the_run_of_a_silent_page_ends(runs: Runs, tmp_path: Path, monkeypatch: 
     until(lambda: "interrupted" in (session.folder / "run" / "log").read_text())
 
 
+@pytest.fixture
+def background() -> Iterator[None]:
+    """This process ignores Ctrl-C, as one that a script starts in the background, and those that it starts do too."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("background")
 def test_a_run_streams_and_is_stopped_with_its_records_kept(tmp_path: Path) -> None:
     text = TEXT.replace('duration = "2 s"', 'duration = "1 h"')
     session, found = Sessions(tmp_path).new(), Runs()

@@ -1,6 +1,7 @@
 """Input errors: their text, their order, and the keys they name."""
 
 import pickle
+from functools import reduce
 from pathlib import Path
 from typing import Any
 
@@ -86,7 +87,9 @@ def test_long_values_are_cut_and_paths_are_whole() -> None:
     assert show("x" * 200) == '"' + "x" * 76 + "..."
     assert show(Path("x" * 200)) == '"' + "x" * 200 + '"'
     assert show(0.1 + 0.2) == "0.30000000000000004"
-    assert show(10**5000) == "a int"
+    assert show(10**5000) == "a long number"
+    assert show(reduce(lambda inner, _: {"a": inner}, range(5000), dict[str, Any]())) == "a table"
+    assert show(reduce(lambda inner, _: [inner], range(5000), list[Any]())) == "a list"
 
 
 def test_the_nearest_choice_or_all_of_them() -> None:

@@ -176,6 +176,27 @@ def test_signals_that_the_caller_ignores_or_handles_stay_so() -> None:
         signal.signal(signal.SIGTERM, before[1])
 
 
+def test_ctrl_c_stops_what_a_script_has_started_in_the_background() -> None:
+    """Its shell has told the process to ignore Ctrl-C, and it does so again afterwards."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with pytest.raises(KeyboardInterrupt), as_interrupts():
+            os.kill(os.getpid(), signal.SIGINT)
+        assert signal.getsignal(signal.SIGINT) == signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_a_run_in_the_background_of_a_script_keeps_what_it_has(case_file: Path, tmp_path: Path) -> None:
+    """Stopped as scripts do."""
+    out, going = tmp_path / "out", tmp_path / ".out-run" / "progress.json"
+    run = f"'{sys.executable}' -m fctd simulate {case_file} --out {out} --set operations[0].duration=1e5 --quiet"
+    script = f"{run} & until [ -e {going} ]; do sleep 0.1; done; kill -INT $!; wait $!"
+    done = subprocess.run(["sh", "-c", script], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 130, done.stderr
+    assert open_result(out).status == "interrupted"
+
+
 def test_afterwards_the_signals_are_the_systems_again() -> None:
     with pytest.raises(KeyboardInterrupt), as_interrupts():
         os.kill(os.getpid(), signal.SIGTERM)

@@ -45,8 +45,8 @@ from tests.cases import make_case, pipe, rotation, trip
             r"string\.components\[1\].*9\.5 m of it at the top.*at least 10 m",
         ),
         (
-            {"components": [pipe(5e-7, 1), pipe(None, 20)]},
-            r"string\.components\[0\].*5e-07 m of it in one segment.*segments of at least 1e-06 m",
+            {"components": [pipe(9e-4, 1), pipe(None, 20)]},
+            r"string\.components\[0\].*0.0009 m of it in one segment.*segments of at least 0.001 m",
         ),
         (
             {"components": [pipe(995, 20), pipe(None, 1)]},

@@ -293,6 +293,17 @@ def test_records_and_profiles_up_to_their_bounds(monkeypatch: pytest.MonkeyPatch
         prepare(two)
 
 
+def test_an_operation_that_takes_too_long_is_named() -> None:
+    """Not the step, which is that of other runs; at 1 µs it is the step that is named."""
+    turns = [rotation(1000, 200), rotation(1000, 1e9)]
+    with pytest.raises(InputError, match=r'operations\[1\]\.duration = "2\.78e\+05 h": expected a run of at most'):
+        prepare(make_case(operations=turns))
+    with pytest.raises(InputError, match=r'operations\[0\]\.speed = "2\.78e\+05 h": expected a run of at most'):
+        prepare(make_case(operations=[trip(990, 1000, speed=1e-8, ramp=1.0)]))
+    with pytest.raises(InputError, match=r"solver\.step = .*at most .* steps of 20 segments"):
+        prepare(make_case(operations=[rotation(1000, 1e6)], solver={"step": 1e-6}))
+
+
 def test_an_operation_below_the_survey_is_named() -> None:
     with pytest.raises(InputError, match=r'operations\[1\]\.to_md = "1001 m": expected a depth below string\.top_md'):
         prepare(make_case(operations=[trip(990, 1000), trip(1000, 1001)]))
