@@ -22,6 +22,8 @@ from rich.text import Text
 from fctd.case.errors import InputError
 from fctd.case.text import file_name, printable
 from fctd.cli.options import FAILED, Quiet, messages, screen
+from fctd.results.status import ACCEPTABLE
+from fctd.sweep.chunk import NO_ROWS
 from fctd.sweep.cluster import Where, encrypted
 from fctd.sweep.run import SchedulerLostError, Summary, sweep
 from fctd.sweep.spec import read_sweep
@@ -84,7 +86,7 @@ def sweep_command(
         messages.print(f"Interrupted; what was written stays in {printable(str(folder))}. {AGAIN}", soft_wrap=True)
         raise
     _print(found, folder)
-    if found.without_answer:
+    if not ACCEPTABLE.issuperset(found.statuses):
         raise typer.Exit(FAILED)
 
 
@@ -147,18 +149,18 @@ def _tell(client: "Client", where: Where) -> None:
 
 
 def _print(found: Summary, folder: Path) -> None:
-    """Print what was computed, how long it took, and the samples without an answer."""
+    """Print what was computed, how long it took, and all samples and rows that have no answer, or one to doubt."""
     new = found.samples - found.done_before
     name = printable(str(folder))
-    if not new:
-        screen.print(f"All {found.samples} samples are there: {name}", soft_wrap=True)
-        return
-    before = f", {found.done_before} were there" if found.done_before else ""
-    screen.print(
-        f"{new} samples{before}; {found.rows} rows in {found.wall:.1f} s on {found.workers} workers "
-        f"({100 * found.share:.0f} % solving and writing), start {found.start:.1f} s",
-        soft_wrap=True,
-    )
-    for status, count in found.without_answer.items():
-        messages.print(f"{count} samples {status}: see the column reason", soft_wrap=True)
-    screen.print(f"Written: {name}", soft_wrap=True)
+    if new:
+        before = f", {found.done_before} were there" if found.done_before else ""
+        screen.print(
+            f"{new} samples{before}; {found.rows} rows in {found.wall:.1f} s on {found.workers} workers "
+            f"({100 * found.share:.0f} % solving and writing), start {found.start:.1f} s",
+            soft_wrap=True,
+        )
+    for status, count in found.statuses.items():
+        if status not in ACCEPTABLE:
+            what = "samples" if status in NO_ROWS else f"of {sum(found.statuses.values())} rows"
+            messages.print(f"{count} {what} {status}: see the column reason", soft_wrap=True)
+    screen.print(f"Written: {name}" if new else f"All {found.samples} samples are there: {name}", soft_wrap=True)

@@ -128,7 +128,7 @@ class Plan:
 
     @property
     def period(self) -> float:
-        """The slowest torsional period of the string [s], rounded to 0.1 s."""
+        """The slowest torsional period of the string [s], rounded to 0.1 s, or to one digit of a shorter one."""
         lengths = lengths_of(self.template, self.shoe, self.depth)
         parts = [
             (length, section.axial_inertia, section.GJ)
@@ -136,7 +136,8 @@ class Plan:
             for section in [section_of(_component(part), self.template.mud)]
             if length > 0
         ]
-        return round(torsional_period(*zip(*reversed(parts), strict=True)), 1)
+        period = torsional_period(*zip(*reversed(parts), strict=True))
+        return round(period, 1) if period >= 0.1 else float(f"{period:.1g}")
 
     def _part(self, part: Part, quantity: "Quantities") -> Iterator[str]:
         yield entry("name", part.name)

@@ -4,7 +4,7 @@ The members are strings: ``status == "converged"`` is true, and tables and files
 """
 
 from enum import StrEnum
-from typing import Self
+from typing import Final, Self
 
 
 class Status(StrEnum):
@@ -60,3 +60,9 @@ class RefineStatus(Status):
     WITHIN_TOLERANCE = "within_tolerance", "", True, True
     NOT_REACHED = "not_reached", "the error exceeds the tolerance at the largest number of segments", True, False
     NO_ANSWER = "no_answer", "no equilibrium was found with any number of segments", False, False
+
+
+ACCEPTABLE: Final = frozenset(
+    str(status) for kind in (SteadyStatus, RunStatus, RefineStatus) for status in kind if status.acceptable
+)
+"""Statuses, of any kind of computation, with which a command succeeds."""

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 FAILED, TIMED_OUT, CRASHED = "failed", "timed_out", "crashed"
+NO_ROWS = (FAILED, TIMED_OUT, CRASHED)
 """Statuses of samples without an answer, each a row with its ``reason``."""
 # Times the limit of a sample after which its process is ended: by a thread of Python, and where that cannot run, too.
 OVERRUN, LAST = 2.0, 3.0

@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -77,18 +78,28 @@ class Dataset:
         self.done.update(has)
         return path
 
-    def rows(self) -> pd.DataFrame:
-        """All rows, in the order of the samples; raises InputError for a part that cannot be read."""
-        import pyarrow as pa
+    def statuses(self) -> dict[str, int]:
+        """How many rows have which status; raises InputError for a part that cannot be read."""
+        return dict(Counter(status for table in self._tables(["status"]) for status in table["status"].to_pylist()))
+
+    def _tables(self, columns: list[str] | None = None) -> list[pa.Table]:
+        """The rows of every part, of all or of some columns."""
         import pyarrow.parquet as pq
 
         tables = []
         for path in self.parts:
             try:
                 with path.open("rb") as source:
-                    tables.append(pq.read_table(source).replace_schema_metadata(None))
+                    tables.append(pq.read_table(source, columns=columns).replace_schema_metadata(None))
             except (OSError, ValueError) as error:
                 raise InputError(f"a part that fctd sweep wrote ({error})", value=path) from error
+        return tables
+
+    def rows(self) -> pd.DataFrame:
+        """All rows, in the order of the samples; raises InputError for a part that cannot be read."""
+        import pyarrow as pa
+
+        tables = self._tables()
         if not tables:
             raise InputError("the rows of at least one sample: fctd sweep makes them", value=self.folder / ROWS)
         table: pd.DataFrame = pa.concat_tables(tables, promote_options="permissive").to_pandas()

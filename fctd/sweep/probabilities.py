@@ -1,4 +1,4 @@
-"""Probabilities over the samples: of lock-up, of buckling, of no answer, and of exceeding limits.
+"""Probabilities over the samples: of lock-up, of buckling, of no or a doubtful answer, and of exceeding limits.
 
 Intervals of 95 % are Wilson's (1927), which are sound for no and for few events, too.
 """
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from scipy import stats
 
+from fctd.results.status import ACCEPTABLE
 from fctd.sweep.percentiles import columns_of, places_of
 from fctd.sweep.spec import LimitSpec
 
@@ -23,6 +24,9 @@ ANSWERED: Final = (
     "converged", "locked_up", "under_resolved", "unstable", "completed", "inaccurate", "within_tolerance",
     "not_reached",
 )  # fmt: skip
+
+# Those of them whose loads are to be doubted.
+DOUBTED: Final = tuple(sorted(set(ANSWERED) - ACCEPTABLE))
 
 
 def probability_table(rows: pd.DataFrame, limits: Sequence[LimitSpec], samples: int) -> pd.DataFrame:
@@ -53,6 +57,7 @@ def probability_table(rows: pd.DataFrame, limits: Sequence[LimitSpec], samples: 
 def _events(rows: pd.DataFrame, limits: Sequence[LimitSpec]) -> Mapping[str, pd.Series[bool]]:
     status = rows["status"]
     events = {NO_ANSWER: ~status.isin(ANSWERED)}
+    events |= {name.replace("_", " "): status == name for name in DOUBTED if (status == name).any()}
     if "buckling" in rows:
         events |= {
             LOCKED_UP: status == "locked_up",

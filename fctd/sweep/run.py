@@ -19,7 +19,7 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
-from fctd.sweep.chunk import CRASHED, FAILED, TIMED_OUT, Bench, Done, Sample, as_table, from_stream, without_answer
+from fctd.sweep.chunk import CRASHED, NO_ROWS, TIMED_OUT, Bench, Done, Sample, as_table, from_stream, without_answer
 from fctd.sweep.cluster import Where, connected, worker_count
 from fctd.sweep.dataset import Dataset, alone, begin_dataset
 from fctd.sweep.design import samples_of
@@ -57,7 +57,8 @@ class Summary:
 
     start : of cluster and workers; wall : from the first chunk to the last file; solving, elapsed : sums over the
     chunks, of their samples and of all that a worker does; writing : of files; shortest : least time of a chunk with as
-    many samples as were planned; statuses : of samples without an answer, with their numbers.
+    many samples as were planned; without_answer : statuses of samples of this run that have none, with their numbers;
+    statuses : of all rows of the dataset, with their numbers.
     """
 
     samples: int
@@ -74,6 +75,7 @@ class Summary:
     shortest: float = math.inf
     rows: int = 0
     without_answer: dict[str, int] = field(default_factory=dict)
+    statuses: dict[str, int] = field(default_factory=dict)
 
     @property
     def share(self) -> float:
@@ -153,7 +155,7 @@ def sweep(
     with alone(folder):
         dataset = begin_dataset(folder, bench.template, samples)
         if not dataset.missing:
-            return Summary(len(dataset.samples), len(dataset.done))
+            return Summary(len(dataset.samples), len(dataset.done), statuses=dataset.statuses())
         began = time.perf_counter()
         with connected(where or Where()) as client:
             if told is not None:
@@ -166,6 +168,7 @@ def sweep(
                 running.run()
             finally:
                 running.finish()
+        running.summary.statuses = dataset.statuses()
     return running.summary
 
 
@@ -303,7 +306,7 @@ class _Running:
         self.suspects.difference_update(numbers)
         self.tables.append(table)
         for status in table["status"].to_pylist():
-            if status in (FAILED, CRASHED, TIMED_OUT):
+            if status in NO_ROWS:
                 self.summary.without_answer[status] = self.summary.without_answer.get(status, 0) + 1
         if self.progress is not None:
             self.progress(len(self.taken), self.summary.samples, sum(self.summary.without_answer.values()))

@@ -41,6 +41,20 @@ def test_samples_without_an_answer_are_exit_code_1(tmp_path: Path) -> None:
     assert "2 samples timed_out" in done.stderr
 
 
+def test_rows_to_be_doubted_are_said_and_are_exit_code_1_however_often_it_is_asked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Segments of 25 and 50 m are too long for waves of 60 m."""
+    pytest.importorskip("distributed")
+    monkeypatch.chdir(tmp_path)
+    waves = '[wellbore.tortuosity]\namplitude = "1 cm"\nwavelength = "60 m"\n'
+    command = ["sweep", str(sweep_file(tmp_path, 'method = "random"\nsamples = 2', case=waves)), "--workers", "1"]
+    for _ in range(2):
+        done = CliRunner().invoke(app, command)
+        assert done.exit_code == 1
+        assert "8 of 8 rows under_resolved: see the column reason" in done.stderr
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [

@@ -158,6 +158,16 @@ def test_lengths_of_a_template_are_round_in_the_hole_of_a_survey(units: UnitSyst
     assert lengths == (["120 m", "150 m", None] if units == "metric" else ["360 ft", "450 ft", None])
 
 
+@pytest.mark.parametrize("depth", [5.0, 36.6])
+def test_the_case_of_a_hole_of_few_metres_records_its_short_period(depth: float) -> None:
+    stations = np.array([[0.0, 0.0, 0.0], [depth, 0.35, 0.0]])
+    raw = tomllib.loads(from_survey("build-hold", "short", "metric", "s.csv", (), stations).text())
+    raw["wellbore"] |= {"survey": None, "stations": [[0.0, 0.0, 0.0], [depth, 20.0, 0.0]]}
+    case = Case.model_validate(raw)
+    period = period_of(lay_out(case, case.depths[1]))
+    assert case.record.interval == pytest.approx(period, rel=0.25)
+
+
 @pytest.mark.parametrize(
     ("length", "metric", "field"),
     [(100.0, "100", "500"), (101.0, "200", "500"), (30.48, "50", "100"), (0.3, "0.5", "1")],

@@ -36,6 +36,7 @@ def test_parts_hold_their_samples_with_the_values_beside_them(tmp_path: Path) ->
     assert table["mud.density"].tolist() == found.samples["mud.density"].iloc[[0, 1, 4, 5]].tolist()
     assert table["hookload_N"].isna().tolist() == [False, True, False, False]
     assert table["reason"].iloc[1] == "why"
+    assert again.statuses() == {"converged": 3, "failed": 1}
 
 
 def test_a_part_of_a_later_run_takes_a_new_name(tmp_path: Path) -> None:

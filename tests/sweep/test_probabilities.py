@@ -42,6 +42,16 @@ def test_a_sample_without_rows_is_one_without_an_answer() -> None:
     assert probability("no answer", 100.0) == (0.25, 1)
 
 
+def test_answers_that_are_to_be_doubted_are_events() -> None:
+    doubtful = ROWS.assign(
+        status=["under_resolved", "converged", "converged", "unstable", "converged", "converged", "failed"]
+    )
+    table = probability_table(doubtful, [], 4)
+    counts = table[table["bit_depth_m"].isna()].set_index("event")["count"]
+    assert (counts["under resolved"], counts["unstable"]) == (1, 1)
+    assert "inaccurate" not in counts
+
+
 def test_a_limit_of_a_column_that_is_not_there_is_refused() -> None:
     with pytest.raises(InputError, match="the column hookload_N"):
         probability_table(ROWS, [LimitSpec(column="hookloads_N", below=1)], 4)
