@@ -122,7 +122,7 @@ def cylinder_wall(C, i, x, y, z):
     hole, stiffness, friction = C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR]
     md = C[i, START_MD] + s
     into = s - C[i, ALONE_TO]
-    if into.real > 0:
+    if into > 0:
         qx, qy, qz, along = axis_offset(C, i + 1, x, y, z)
         v = into / C[i, OVERLAP]
         u = 1 - v
@@ -199,8 +199,8 @@ def wall_of_arc(arc, x, y, z):
     past_middle = arc.half_cos * u - arc.half_sine * cosine
     along = past_middle * reciprocal(arc.half_cos * cosine + k * arc.half_sine * sine + rho)
     s = 0.5 * arc.length + 2 * along * arctan_ratio(k * along * k * along)
-    within = 0 * s if s.real < 0 else s
-    within = arc.length + 0 * s if s.real > arc.length else within
+    within = 0.0 if s < 0 else s
+    within = arc.length if s > arc.length else within
     hole = arc.hole + within * arc.hole_gain
     stiffness = arc.stiffness + within * arc.stiffness_gain
     friction = arc.friction + within * arc.friction_gain
@@ -211,21 +211,6 @@ def wall_of_arc(arc, x, y, z):
 def arc_wall(C, i, x, y, z):
     """``wall_of_arc`` for row i of the table."""
     return wall_of_arc(read_arc(C, i), x, y, z)
-
-
-@inlined
-def cylinder_direction(C, i, x, y, z):
-    """Unit vector along cylinder i; in an overlap, blended with the direction of the next one."""
-    tx, ty, tz = C[i, DIRECTION] + 0 * x, C[i, DIRECTION + 1] + 0 * x, C[i, DIRECTION + 2] + 0 * x
-    into = distance_along(C, i, x, y, z) - C[i, ALONE_TO]
-    if into.real > 0:
-        v = into / C[i, OVERLAP]
-        tx = (1 - v) * tx + v * C[i + 1, DIRECTION]
-        ty = (1 - v) * ty + v * C[i + 1, DIRECTION + 1]
-        tz = (1 - v) * tz + v * C[i + 1, DIRECTION + 2]
-        k = reciprocal(root(tx * tx + ty * ty + tz * tz))
-        tx, ty, tz = k * tx, k * ty, k * tz
-    return tx, ty, tz
 
 
 @inlined

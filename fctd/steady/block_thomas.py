@@ -3,10 +3,15 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.mechanics.jit import entry
+from fctd.mechanics.jit import entry, inlined
 
 Array = NDArray[np.float64]
 SIZE = 6
+BLOCK = SIZE * SIZE
+# Columns of a row of work: a block, the right-hand side and 0, whole packed operations.
+WIDTH = 8
+# All bits of an index in an array of blocks; see ``state.COLUMN_BITS``.
+INDEX_BITS = 2**20 - 1
 # A block whose pivots have a smaller ratio than this is near singular, and the solution inaccurate.
 WORST_PIVOTS = 1e-13
 
@@ -68,6 +73,47 @@ def eliminate(D, A, U, R, n, W):
     return sound
 
 
+@inlined
+def packed_width(D):
+    """WIDTH, in a way that the compiler cannot know: it packs no loop whose few steps it can count."""
+    return D.shape[2] + WIDTH - SIZE
+
+
+@inlined
+def find_step(M, F, p):
+    """Fill column p of F and take its step on the columns of M behind p."""
+    F[WIDTH * p + p] = 1 / M[WIDTH * p + p]
+    for c in range(p + 1, SIZE):
+        M[WIDTH * p + c] *= F[WIDTH * p + p]
+    for r in range(SIZE):
+        if r != p:
+            F[WIDTH * r + p] = M[WIDTH * r + p]
+            for c in range(p + 1, SIZE):
+                M[WIDTH * r + c] -= F[WIDTH * r + p] * M[WIDTH * p + c]
+
+
+@inlined
+def take_steps(F, X, width):
+    """Take the steps F on the right-hand sides X; see ``packed_width``."""
+    for c in range(width):
+        for p in range(SIZE):
+            pivot = F[WIDTH * p + p] * X[WIDTH * p + c]
+            for r in range(SIZE):
+                X[WIDTH * r + c] -= F[WIDTH * r + p] * pivot
+            X[WIDTH * p + c] = pivot
+
+
+@inlined
+def subtract_product(M, A, first, X, width):
+    """Subtract from M the product of the block A[first:] (6 × 6) and X."""
+    for c in range(width):
+        for r in range(SIZE):
+            total = M[WIDTH * r + c]
+            for k in range(SIZE):
+                total -= A[first + SIZE * r + k] * X[WIDTH * k + c]
+            M[WIDTH * r + c] = total
+
+
 @entry
 def negative_pivots(D, A, U, n):
     """Number of negative eigenvalues of the symmetric part of the matrix, by the signs of its pivots.
@@ -75,30 +121,25 @@ def negative_pivots(D, A, U, n):
     Sylvester: the pivots of an elimination without exchanges have the signs of the eigenvalues.
     """
     count = 0
-    M = np.empty((SIZE, 2 * SIZE))
-    last = np.zeros((SIZE, SIZE))  # what row j − 1 subtracts from row j: Uᵀ D⁻¹ U
+    M, F, X = np.zeros(SIZE * WIDTH), np.zeros(SIZE * WIDTH), np.zeros(SIZE * WIDTH)
+    upper, width = np.zeros(BLOCK), packed_width(D)
+    D, A, U = D.reshape(-1), A.reshape(-1), U.reshape(-1)
     for j in range(1, n + 1):
+        block = (j * BLOCK) & INDEX_BITS
         for r in range(SIZE):
             for c in range(SIZE):
-                M[r, c] = 0.5 * (D[j, r, c] + D[j, c, r]) - last[r, c]
-                M[r, SIZE + c] = 0.5 * (U[j + 1, r, c] + A[j + 1, c, r]) if j < n else 0.0
-        upper = M[:, SIZE:].copy()
+                M[WIDTH * r + c] = 0.5 * (D[block + SIZE * r + c] + D[block + SIZE * c + r])
+        if j > 1:
+            subtract_product(M, upper, 0, X, width)
+        for r in range(SIZE):
+            for c in range(SIZE):
+                below = block + BLOCK
+                X[WIDTH * r + c] = 0.5 * (U[below + SIZE * r + c] + A[below + SIZE * c + r]) if j < n else 0.0
+                upper[SIZE * c + r] = X[WIDTH * r + c]
         for p in range(SIZE):
-            count += M[p, p] < 0
-            inverse = 1 / M[p, p]
-            for c in range(p + 1, 2 * SIZE):
-                M[p, c] *= inverse
-            for r in range(SIZE):
-                if r != p:
-                    factor = M[r, p]
-                    for c in range(p + 1, 2 * SIZE):
-                        M[r, c] -= factor * M[p, c]
-        for r in range(SIZE):
-            for c in range(SIZE):
-                total = 0.0
-                for k in range(SIZE):
-                    total += upper[k, r] * M[k, SIZE + c]
-                last[r, c] = total
+            count += M[WIDTH * p + p] < 0
+            find_step(M, F, p)
+        take_steps(F, X, width)
     return count
 
 

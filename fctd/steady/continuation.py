@@ -14,7 +14,8 @@ from fctd.mechanics.jit import entry, kernel
 from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import ARM_CONTACT, J_AXIAL, J_TRANSVERSE, K_AXIAL, MASS, TINY, WEIGHT
 from fctd.steady.block_thomas import eliminate
-from fctd.steady.tangent import SPIN, assemble, quaternion
+from fctd.steady.pose import SPIN, quaternion
+from fctd.steady.tangent import assemble
 
 CONVERGED, MAX_ITERATIONS, NOT_FINITE, UNSOUND = range(4)
 # Largest force out of balance at a body, over the weight of the string.

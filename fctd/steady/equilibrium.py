@@ -36,11 +36,11 @@ from fctd.steady.climb import BEYOND, SOUND, Climb, climb, end_of, lock_up
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.laid_string import LaidString
+from fctd.steady.pose import PLACE
 from fctd.steady.post_buckling import is_resolved, resolve
 from fctd.steady.problem import WORK, Allowance, Problem, Workspace
 from fctd.steady.reading import NOTABLE, OUTSIDE, SHAPE, SOLVED, SUM_NORMAL, SUM_R_MU_FN, TOP, Answer
 from fctd.steady.shape import Shape
-from fctd.steady.tangent import PLACE
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -24,7 +24,7 @@ from fctd.mechanics.state import (
     TRIBUTARY,
     WEIGHT,
 )
-from fctd.steady.tangent import SPIN, quaternion
+from fctd.steady.pose import SPIN, quaternion
 
 # Columns of a node, the lower end of a body: tension [N], torque [N m] just above it, offset
 # from the hole axis (global) [m], measured depth [m].

@@ -14,11 +14,11 @@ from fctd.mechanics.query import WALL_COLUMNS, Walls
 from fctd.model.operations import SteadyRates
 from fctd.model.wellbore import Wellbore, hole_frame
 from fctd.results.buckling import buckling_along
-from fctd.steady import tangent
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
 from fctd.steady.continuation import NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, limits, take_step
 from fctd.steady.first_guess import MD, NODE, find_owners, guess, lay_guess
 from fctd.steady.laid_string import LaidString
+from fctd.steady.pose import PLACE, POSE, QUATERNION, in_frame
 from fctd.steady.reading import ANSWER, SHAPE, STEPS, TOP, Answer, read_shape, read_top
 from fctd.steady.relaxation import Creep, relax
 from fctd.steady.tangent import (
@@ -26,9 +26,6 @@ from fctd.steady.tangent import (
     JOINT_COLUMNS,
     JOINT_TENSION,
     NORMAL_FORCE,
-    PLACE,
-    POSE,
-    QUATERNION,
     Steady,
     assemble,
     frictionless_tangent,
@@ -286,6 +283,6 @@ class Problem:
             _, direction = self.hole.at(self.work.G[j - 1 : j, MD])
             (high,), (right,) = hole_frame(direction)
             towards = np.cos(component.toolface) * high + np.sin(component.toolface) * right
-            x, y, _ = tangent.in_frame(*self.work.P[j - 1, QUATERNION], *towards)
+            x, y, _ = in_frame(*self.work.P[j - 1, QUATERNION], *towards)
             half = 0.5 * component.bend
             self.kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0

@@ -23,7 +23,8 @@ from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import ARCS, ARM_BOTTOM, ARM_CONTACT, ARM_TOP, OPEN, RADIUS, TINY
 from fctd.steady.block_thomas import eliminate
 from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS, NOT_FINITE, add_pseudo_mass, imbalance
-from fctd.steady.tangent import SPIN, assemble, quaternion
+from fctd.steady.pose import SPIN, quaternion
+from fctd.steady.tangent import assemble
 
 # Columns of the contact points: offset from the hole's axis [m], global, and radius of the hole less the string's.
 CLEARANCE, PLACES = 3, 4

@@ -10,7 +10,7 @@ from tests.bodies import AXIS, PLACE, TO_WALL, Array, put
 from tests.cases import make_case
 from tests.compiled import kept
 
-arc_direction, cylinder_direction = kept(contact.arc_direction), kept(contact.cylinder_direction)
+arc_direction = kept(contact.arc_direction)
 
 BEND = [[0, 0, 0], [300, 0, 0], [600, 60, 40], [1000, 95, 130]]
 SHOE = [
@@ -97,18 +97,3 @@ def test_the_direction_of_an_arc_is_that_of_the_survey_beside_its_axis_too() -> 
     points, expected = hole.off_axis(md, rng.uniform(0, 2 * np.pi, 50), rng.uniform(0, 0.1, 50)), hole.at(md)[1]
     for i, point, direction in zip(hole.owners(points), points, expected, strict=True):
         np.testing.assert_allclose(arc_direction(hole.pieces, i, *point), direction, atol=1e-10)
-
-
-def test_the_direction_of_cylinders_turns_evenly_in_their_overlap() -> None:
-    """Along a cylinder its own; in the overlap from its own to the next one's, a unit vector throughout."""
-    hole = hole_of(QUARTER, cylinder_length=9.0, overlap=0.2)
-    i = 20
-    here, following = hole.pieces[i : i + 2, contact.DIRECTION : contact.DIRECTION + 3]
-    start, length = hole.pieces[i, contact.START : contact.START + 3], hole.pieces[i, contact.LENGTH]
-    shared = hole.pieces[i, contact.OVERLAP]
-    assert shared == pytest.approx(0.2)
-    for share in (-5.0, -1e-6, 0.25, 0.5, 1.0):
-        x, y, z = start + (length - shared * (1 - share)) * here
-        blend = here + max(share, 0.0) * (following - here)
-        found = cylinder_direction(hole.pieces, i, x, y, z)
-        np.testing.assert_allclose(found, blend / np.linalg.norm(blend), atol=1e-12)

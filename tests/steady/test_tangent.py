@@ -15,7 +15,8 @@ from fctd.mechanics.rotations import turned
 from fctd.mechanics.state import LANES, Laws
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
-from fctd.steady.tangent import QUATERNION, SPIN, Steady, assemble
+from fctd.steady.pose import QUATERNION, SPIN
+from fctd.steady.tangent import Steady, assemble
 from tests.cases import make_case, pipe
 from tests.compiled import kept
 

@@ -17,8 +17,8 @@ from fctd.model.wellbore import hole_frame
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.first_guess import MD, OFFSET, TENSION
+from fctd.steady.pose import PLACE, QUATERNION
 from fctd.steady.relaxation import Creep
-from fctd.steady.tangent import PLACE, QUATERNION
 from references.beams.cosserat import Bit, rest
 from references.buckling.onset import Pipe
 

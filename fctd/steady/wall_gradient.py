@@ -1,0 +1,156 @@
+"""The wall beside a point and its gradient: how it changes as the point moves.
+
+A point that moves by δ moves s = t·δ/ρ along its piece of hole, with t the direction of the hole beside it and ρ its
+distance from the centre of an arc over the arc's radius (1 beside a cylinder).  Then PT changes by δ − s t, the
+direction by s κ m with m the unit vector towards the centre, and hole radius, stiffness and friction by s times their
+gains.  In the overlap of two cylinders all of these are blended, with shares that change along the first one.
+
+A quantity is a tuple of four: its value, and its derivatives by the three components of the point's place.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from fctd.mechanics.contact import (
+    ALONE_TO,
+    DIRECTION,
+    FACTOR,
+    HOLE_RADIUS,
+    OVERLAP,
+    STIFFNESS,
+    arc_direction,
+    arc_offset,
+    arc_wall,
+    axis_offset,
+    read_arc,
+)
+from fctd.mechanics.jit import inlined
+from fctd.mechanics.joints import cross
+from fctd.mechanics.state import ARCS, TINY
+
+
+class Beside(NamedTuple):
+    """The wall beside a point, as quantities: PT [m], its length beyond the hole's radius [m], stiffness, friction
+    factor, direction of the hole."""
+
+    x: Any
+    y: Any
+    z: Any
+    beyond: Any
+    stiffness: Any
+    factor: Any
+    tx: Any
+    ty: Any
+    tz: Any
+
+
+@inlined
+def along_hole(value, slope, tx, ty, tz):
+    """A quantity with a slope along the hole, t."""
+    return value, slope * tx, slope * ty, slope * tz
+
+
+@inlined
+def beside_piece(
+    px, py, pz, hole, stiffness, factor, tx, ty, tz, share, hole_gain, stiffness_gain, factor_gain, mx, my, mz
+):
+    """The wall beside a point of one piece: PT p, direction t and its slope m; share : 1/ρ."""
+    distance = np.sqrt(px * px + py * py + pz * pz)
+    k, loss = 1 / (distance + TINY), share * hole_gain
+    sx, sy, sz = share * tx, share * ty, share * tz
+    return Beside(
+        (px, 1 - sx * tx, -sx * ty, -sx * tz),
+        (py, -sy * tx, 1 - sy * ty, -sy * tz),
+        (pz, -sz * tx, -sz * ty, 1 - sz * tz),
+        (distance - hole, k * px - loss * tx, k * py - loss * ty, k * pz - loss * tz),
+        along_hole(stiffness, share * stiffness_gain, tx, ty, tz),
+        along_hole(factor, share * factor_gain, tx, ty, tz),
+        along_hole(tx, share * mx, tx, ty, tz),
+        along_hole(ty, share * my, tx, ty, tz),
+        along_hole(tz, share * mz, tx, ty, tz),
+    )
+
+
+@inlined
+def beside_arc(C, i, x, y, z):
+    """The wall of arc i beside a point."""
+    px, py, pz, hole, stiffness, factor, md = arc_wall(C, i, x, y, z)
+    arc = read_arc(C, i)
+    tx, ty, tz = arc_direction(C, i, x, y, z)
+    bx, by, bz = cross(arc.tx, arc.ty, arc.tz, arc.nx, arc.ny, arc.nz)
+    mx, my, mz = cross(bx, by, bz, tx, ty, tz)
+    dx, dy, dz = x - arc.x, y - arc.y, z - arc.z
+    u = dx * arc.tx + dy * arc.ty + dz * arc.tz
+    v = dx * arc.nx + dy * arc.ny + dz * arc.nz
+    _, _, _, _, _, rho = arc_offset(
+        u, v, 0.0, arc.curvature, arc.tx, arc.ty, arc.tz, arc.nx, arc.ny, arc.nz, bx, by, bz
+    )
+    changes = 1.0 if arc.md <= md <= arc.md + arc.length else 0.0
+    k = arc.curvature
+    return beside_piece(
+        px, py, pz, hole, stiffness, factor, tx, ty, tz, 1 / rho,
+        changes * arc.hole_gain, changes * arc.stiffness_gain, changes * arc.friction_gain, k * mx, k * my, k * mz,
+    )  # fmt: skip
+
+
+@inlined
+def beside_cylinder(C, i, x, y, z):
+    """The wall of cylinder i beside a point, and the distance along it [m]."""
+    px, py, pz, s = axis_offset(C, i, x, y, z)
+    tx, ty, tz = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
+    return beside_piece(
+        px, py, pz, C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR], tx, ty, tz, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    ), s
+
+
+@inlined
+def blend(a, b, v, vx, vy, vz):
+    """A quantity between a and b at the share v of b, whose gradient is (vx, vy, vz)."""
+    u, change = 1 - v, b[0] - a[0]
+    return (
+        u * a[0] + v * b[0], u * a[1] + v * b[1] + change * vx, u * a[2] + v * b[2] + change * vy,
+        u * a[3] + v * b[3] + change * vz,
+    )  # fmt: skip
+
+
+@inlined
+def unit(tx, ty, tz):
+    """The direction of a vector of three quantities."""
+    k = 1 / np.sqrt(tx[0] * tx[0] + ty[0] * ty[0] + tz[0] * tz[0])
+    x, y, z = k * tx[0], k * ty[0], k * tz[0]
+    ax = x * tx[1] + y * ty[1] + z * tz[1]
+    ay = x * tx[2] + y * ty[2] + z * tz[2]
+    az = x * tx[3] + y * ty[3] + z * tz[3]
+    return (
+        (x, k * (tx[1] - x * ax), k * (tx[2] - x * ay), k * (tx[3] - x * az)),
+        (y, k * (ty[1] - y * ax), k * (ty[2] - y * ay), k * (ty[3] - y * az)),
+        (z, k * (tz[1] - z * ax), k * (tz[2] - z * ay), k * (tz[3] - z * az)),
+    )
+
+
+@inlined
+def beside_cylinders(C, i, x, y, z):
+    """The wall of cylinder i beside a point, blended with that of the next one in their overlap."""
+    a, s = beside_cylinder(C, i, x, y, z)
+    if s <= C[i, ALONE_TO]:
+        return a
+    b, _ = beside_cylinder(C, i + 1, x, y, z)
+    share = 1 / C[i, OVERLAP]
+    v, vx, vy, vz = along_hole(share * (s - C[i, ALONE_TO]), share, a.tx[0], a.ty[0], a.tz[0])
+    tx, ty, tz = unit(
+        blend(a.tx, b.tx, v, vx, vy, vz), blend(a.ty, b.ty, v, vx, vy, vz), blend(a.tz, b.tz, v, vx, vy, vz)
+    )
+    return Beside(
+        blend(a.x, b.x, v, vx, vy, vz), blend(a.y, b.y, v, vx, vy, vz), blend(a.z, b.z, v, vx, vy, vz),
+        blend(a.beyond, b.beyond, v, vx, vy, vz), blend(a.stiffness, b.stiffness, v, vx, vy, vz),
+        blend(a.factor, b.factor, v, vx, vy, vz), tx, ty, tz,
+    )  # fmt: skip
+
+
+@inlined
+def wall_beside(C, i, geometry, x, y, z):
+    """The wall of piece i beside a point, with its gradient."""
+    if geometry == ARCS:
+        return beside_arc(C, i, x, y, z)
+    return beside_cylinders(C, i, x, y, z)

@@ -1,0 +1,95 @@
+"""Loads of the wall on one body and their derivatives, by every law."""
+
+import numpy as np
+import pytest
+
+from fctd.mechanics import state
+from fctd.mechanics.jit import entry
+from fctd.mechanics.laws import CODES, NAMES
+from fctd.mechanics.rotations import turned
+from fctd.model.wellbore import build_wellbore
+from fctd.steady.pose import POSE
+from fctd.steady.tangent import Steady
+from fctd.steady.wall_tangent import DIRECTIONS, UNKNOWNS, add_wall, read_wall
+from tests.cases import make_case, pipe
+
+Array = np.ndarray
+RADIUS, ARM, TRIBUTARY = 0.08, 0.7, 9.0
+HOLE = build_wellbore(make_case([[0, 30, 0], [300, 60, 40]], [pipe(100, 5)], wellbore={"geometry": "arcs"}))
+OWNER = int(HOLE.owners(HOLE.at(np.array([150.0]))[0])[0])
+
+
+@entry
+def add(S, P, C, owner, laws, R, D):
+    """``add_wall`` of body 1."""
+    add_wall(S, 1, P, C, owner, laws, R, D, np.empty(12 * DIRECTIONS))
+
+
+@entry
+def read(S, P, C, owner, laws):
+    """``read_wall`` of body 1."""
+    return read_wall(S, 1, P, C, owner[1], laws)
+
+
+def laws(law: str = "coulomb", speed: float = 0.3, spin: float = 6.0, **more: float) -> Steady:
+    return Steady(HOLE.geometry, CODES[law], 1.0, speed, spin, 0.0, 0.0, 0.0, 0.0, **more)
+
+
+def body(penetration: float) -> tuple[Array, Array]:
+    """A body beside the wall in the middle of the hole, tilted against it; its point is ``penetration`` deep."""
+    S, P = state.new_state(1), np.zeros((2, POSE))
+    S[state.ARM_CONTACT + 1], S[state.RADIUS + 1], S[state.TRIBUTARY + 1] = ARM, RADIUS, TRIBUTARY
+    reach = float(HOLE.walls(HOLE.at(np.array([150.0]))[0], np.array([OWNER])).radius[0]) - RADIUS + penetration
+    (point,) = HOLE.off_axis(np.array([150.0]), np.array([1.0]), np.array([reach]))
+    (axis,) = HOLE.at(np.array([150.0]))[1]
+    P[1, 3:7] = turned(*np.array([np.cos(0.39), -np.sin(0.39) * axis[1], np.sin(0.39) * axis[0], 0.0]), 0.02, -0.01, 0)
+    P[1, 3:7] /= np.linalg.norm(P[1, 3:7])
+    w, x, y, z = P[1, 3:7]
+    P[1, :3] = point - ARM * np.array([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+    return S, P
+
+
+def found(S: Array, P: Array, of: Steady) -> tuple[Array, Array]:
+    R, D = np.zeros((2, 6)), np.zeros((2, 6, 6))
+    add(S, P, HOLE.pieces, np.array([0, OWNER, 0]), of, R, D)
+    return R[1], D[1]
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("more", [{}, {"at_axis": 1}, {"wall_exponent": 1.5}])
+def test_derivatives_are_those_of_central_differences(name: str, more: dict[str, float]) -> None:
+    S, P = body(2e-3)
+    of = laws(name, **more)
+    R, D = found(S, P, of)
+    assert np.linalg.norm(R[:3]) > 100
+    for k in range(UNKNOWNS):
+        sides = []
+        for h in (1e-8, -1e-8):
+            Q = P.copy()
+            if k < 3:
+                Q[1, k] += h
+            else:
+                Q[1, 3:7] = turned(*Q[1, 3:7], *(h * np.eye(3)[k - 3]))
+            sides.append(found(S, Q, of)[0])
+        np.testing.assert_allclose(D[:, k], -(sides[0] - sides[1]) / 2e-8, atol=1e-6 * np.abs(D).max())
+    np.testing.assert_array_equal(D[:, UNKNOWNS:], 0.0)
+
+
+def test_a_body_off_the_wall_has_no_loads() -> None:
+    S, P = body(-1e-3)
+    R, D = found(S, P, laws())
+    assert not R.any()
+    assert not D.any()
+    assert read(S, P, HOLE.pieces, np.array([0, OWNER, 0]), laws()) == (0.0, 0.0, 0.0)
+
+
+def test_what_is_read_are_the_loads_that_were_added() -> None:
+    """Sliding alone: the force across the wall is the normal force, that along it μ times as large."""
+    S, P = body(2e-3)
+    of = laws(spin=0.0)
+    normal, r_ft, r_mu_fn = read(S, P, HOLE.pieces, np.array([0, OWNER, 0]), of)
+    factor = float(HOLE.pieces[OWNER, 9])
+    assert r_mu_fn == pytest.approx(factor * normal * RADIUS)
+    added, _ = found(S, P, of)
+    assert np.linalg.norm(added[:3]) == pytest.approx(normal * np.hypot(1, factor), rel=1e-6)
+    assert added[5] == pytest.approx(-r_ft)
