@@ -111,16 +111,21 @@ class Served:
         return ticks / os.sysconf("SC_CLK_TCK")
 
 
+def case_in(folder: Path, segments: tuple[int, int]) -> None:
+    """Write the paper's well as ``well.toml``; segments : of collars and of pipe."""
+    text = (CASES / "paper_well.toml").read_text("utf-8")
+    for before, after in zip((20, 40), segments, strict=True):
+        text = text.replace(f"segments = {before}\n", f"segments = {after}\n")
+    (folder / "well.toml").write_text(text, "utf-8")
+    (folder / "paper_well.csv").write_bytes((CASES / "paper_well.csv").read_bytes())
+
+
 @contextmanager
 def served(segments: int) -> Iterator[Served]:
     """The page of the paper's well in so many segments."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        text = (CASES / "paper_well.toml").read_text("utf-8")
-        for before, after in zip((20, 40), SEGMENTS[segments], strict=True):
-            text = text.replace(f"segments = {before}\n", f"segments = {after}\n")
-        (folder / "well.toml").write_text(text, "utf-8")
-        (folder / "paper_well.csv").write_bytes((CASES / "paper_well.csv").read_bytes())
+        case_in(folder, SEGMENTS[segments])
         command = [sys.executable, "-P", "-m", "fctd", "app", "well.toml", "--no-browser"]
         environment = os.environ | {"XDG_STATE_HOME": scratch}
         process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.PIPE, text=True)

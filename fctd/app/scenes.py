@@ -24,7 +24,7 @@ from fctd.view.scene import (
 from fctd.view.strings import Strings
 
 HOLE: Final = ("wall", "rings", "shoes")  # traces that friction and loads do not move
-AWAY: Final = 1.1  # of the camera
+AWAY: Final = 1.3  # of the camera
 AXES: Final = ("xaxis2", "xaxis3")
 
 
