@@ -5,6 +5,7 @@ import gc
 import sys
 
 import hypothesis
+import pytest
 import typer.main
 
 # The first call of a compiled function takes seconds, and CI must fail the same way twice.  Tests of text and files
@@ -20,6 +21,11 @@ def pytest_sessionfinish() -> None:
     """The browser of all tests is open until the end."""
     if browsers := sys.modules.get("tests.browsers"):
         browsers.close()
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Long tests begin first: one that began last would run alone, beside idle processors."""
+    items.sort(key=lambda item: -sum(mark.kwargs.get("seconds", 0) for mark in item.iter_markers("slow")))
 
 
 def pytest_collection_finish() -> None:

@@ -136,7 +136,7 @@ for rpm in (30, 60):
 ROTATE = '[[operations]]\nkind = "rotate_off_bottom"\nat_md = 700\nduration = 60\nrpm = 60\nramp_time = 5\n'
 
 
-@pytest.mark.slow
+@pytest.mark.slow(seconds=43)
 def test_a_friction_law_is_one_file_and_one_line(copy: Path) -> None:
     """A case may name it; stepper and steady solver agree on its torque, which is proportional to the rotation."""
     laws = copy / "fctd" / "mechanics" / "laws"

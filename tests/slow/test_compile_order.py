@@ -75,7 +75,7 @@ def bits(file: Path) -> dict[str, bytes]:
     return {name: column.to_numpy().tobytes() for name, column in pd.read_parquet(file).select_dtypes("number").items()}
 
 
-@pytest.mark.slow
+@pytest.mark.slow(seconds=80)
 def test_numbers_do_not_hang_on_what_was_compiled_before(tmp_path: Path) -> None:
     one, other, again = tmp_path / "one", tmp_path / "other", tmp_path / "other-again"
     read = tmp_path / "one-read"
@@ -88,18 +88,22 @@ def test_numbers_do_not_hang_on_what_was_compiled_before(tmp_path: Path) -> None
         equilibrium(other)
         simulate(other)
 
+    def nothing_compiled() -> None:
+        equilibrium(read)
+        simulate(read)
+
+    def large_functions_compiled_anew() -> None:
+        """Beside kept code of those that they call."""
+        for name in ("fctd.mechanics.dynamics.advance-*", "fctd.steady.continuation.converge-*"):
+            (kept,) = (tmp_path / "other-cache").rglob(name)
+            kept.unlink()
+        simulate(again)
+        equilibrium(again)
+
     with ThreadPoolExecutor() as pool:
-        for done in [pool.submit(simulated_first), pool.submit(balanced_first)]:
-            done.result()
-    # Nothing compiled any more.
-    equilibrium(read)
-    simulate(read)
-    # The two large functions compiled anew, beside kept code of those that they call.
-    for name in ("fctd.mechanics.dynamics.advance-*", "fctd.steady.continuation.converge-*"):
-        (kept,) = (tmp_path / "other-cache").rglob(name)
-        kept.unlink()
-    simulate(again)
-    equilibrium(again)
+        for pair in ((simulated_first, balanced_first), (nothing_compiled, large_functions_compiled_anew)):
+            for done in [pool.submit(work) for work in pair]:
+                done.result()
 
     assert pd.read_parquet(one / "history.parquet")["contact_count"].max() > 3
     for folder in (other, again, read):

@@ -8,7 +8,7 @@ from references.beams.cosserat import Bit, rest
 from validation.parts.buckled_pipe import BELOW_SURFACE, HOLE, SECTION, Rig
 
 
-@pytest.mark.slow
+@pytest.mark.slow(seconds=16)  # it compiles what other tests use, too
 def test_pushed_rod_shortens_by_its_axial_stiffness() -> None:
     """Far below the onset of buckling: F L/EA; the bit sags by the reaction of a propped cantilever, 3/8 wL."""
     length, force, wall = 6.0, 20e3, 1e7
