@@ -22,6 +22,8 @@ SPREAD: Final = 1e-5
 # A torque below this share of the hook load, in metres, is what the solver leaves out of balance [N m over N]: each
 # body balances within 1e-7 of the string's weight, and a hundred of them add up.
 OUT_OF_BALANCE: Final = 1e-5
+# A depth may be asked for as a whole number of feet: half a foot [m].
+ROUNDED: Final = 0.1524
 
 
 @dataclass(frozen=True)
@@ -89,6 +91,11 @@ def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) ->
     )
 
 
+def first_operation(rows: pd.DataFrame, wanted: str | None) -> str:
+    """The operation of a picture of one: the one that is wanted, else the sweep's first."""
+    return wanted or str(rows["operation"].dropna().iloc[0])
+
+
 def noise_in(rows: pd.DataFrame, columns: Sequence[str]) -> frozenset[tuple[str, str]]:
     """Operations and columns with a torque that is noise, as of a string that only slides."""
     if "hookload_N" not in rows:
@@ -107,8 +114,8 @@ def _at(rows: pd.DataFrame, bit_depth: float | None) -> tuple[float, pd.DataFram
     if "bit_depth_m" not in rows:
         return float("nan"), rows
     depths = rows["bit_depth_m"].dropna().unique()
-    depth = float(max(depths)) if bit_depth is None else bit_depth
-    if depth not in depths:
-        nearest = min(depths, key=lambda other: abs(other - depth))
-        raise InputError(f"a depth of the sweep, such as {nearest:g} m", key="--bit-depth", value=f"{depth:g} m")
+    wanted = float(max(depths)) if bit_depth is None else bit_depth
+    depth = float(min(depths, key=lambda other: abs(other - wanted)))
+    if abs(depth - wanted) > ROUNDED:
+        raise InputError(f"a depth of the sweep, such as {depth:g} m", key="--bit-depth", value=f"{wanted:g} m")
     return depth, rows[rows["bit_depth_m"] == depth]
