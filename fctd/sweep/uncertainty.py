@@ -77,18 +77,31 @@ def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) ->
                 trouble = str(error)
                 continue
             found += [{"operation": operation, "column": name, **index._asdict()} for index in indices]
+    apart, count = independent(rows, spec, len(dataset.samples))
     return Uncertainty(
         spec,
         rows,
         columns,
-        percentile_table(rows, columns, spec.uncertainty.percentiles),
-        probability_table(rows, spec.uncertainty.limits, len(dataset.samples)),
+        percentile_table(apart, columns, spec.uncertainty.percentiles),
+        probability_table(apart, spec.uncertainty.limits, count),
         pd.DataFrame(found, columns=["operation", "column", "parameter", "measure", "value", "error"]),
-        convergence_table(rows, columns, spec.uncertainty.percentiles),
+        convergence_table(apart, columns, spec.uncertainty.percentiles),
         depth,
         trouble,
         noise,
     )
+
+
+def independent(rows: pd.DataFrame, spec: SweepSpec, samples: int) -> tuple[pd.DataFrame, int]:
+    """Rows of samples that are drawn independently, and the number of those samples.
+
+    Of a block of Saltelli's design only the first and the last sample are; the others share their values with them, and
+    counted as samples of their own they would make error bars too narrow.
+    """
+    if spec.method != "saltelli":
+        return rows, samples
+    length = len(spec.parameters) + 2
+    return rows[(rows["sample"] % length).isin([0, length - 1])], 2 * samples // length
 
 
 def first_operation(rows: pd.DataFrame, wanted: str | None) -> str:
