@@ -1,7 +1,7 @@
 """``fctd uncertainty SWEEP.toml``: percentiles, probabilities and influences from the samples of a sweep."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import typer
@@ -17,12 +17,19 @@ from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import Units, file_option
 from fctd.cli.sweep import SweepFile
 from fctd.results.tables import versions, write_table
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown
 from fctd.sweep.dataset import identity_of, open_dataset
+from fctd.sweep.indices import WITH_UNIT
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import template_of
 from fctd.sweep.uncertainty import Uncertainty, assess
 
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+# Numbers of the tables that have the unit of their row.
+NUMBERS = ("value", "low", "high", "mean", "sd", "error")
 # Measures that the screen leaves to the files.
 IN_FILES = ("SRRC", "R2_rank")
 TABLES = ("percentiles", "probabilities", "indices", "convergence")
@@ -76,41 +83,67 @@ def uncertainty_command(
     if operation is not None and operation not in KINDS:
         raise InputError(f"one of the kinds {', '.join(KINDS)}", key="--operation", value=operation)
     depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth", units)
-    found = assess(dataset, spec, depth)
+    try:
+        found = assess(dataset, spec, depth)
+    except InputError as error:
+        if error.key != "--bit-depth":
+            raise
+        raise InputError(error.expected, key=error.key, value=bit_depth) from None
     keys = [] if map_keys is None else [part.strip() for part in map_keys.split(",")]
     if map_keys is not None and len(keys) not in (2, 3):
         raise InputError("two keys of parameters, and a column", key="--map", value=map_keys)
+    pictures = _figures(found, plot_bands, plot_tornado, plot_map, keys, operation, units)
     written: list[Path] = []
     try:  # written before anything is printed, as the terminal may be closed
         metadata = {"sweep": spec.model_dump(mode="json"), "versions": versions()}
         for name, path in files.items():
-            written += write_table(getattr(found, name), path, metadata)
-        written += _draw(found, plot_bands, plot_tornado, plot_map, keys, operation, units)
+            written += write_table(_in_units(getattr(found, name), units), path, metadata)
+        written += _save(pictures)
     finally:
         if not quiet:
             _print(found, units)
     print_written(written)
 
 
-def _draw(
+def _in_units(table: "pd.DataFrame", units: System) -> "pd.DataFrame":
+    """A table of ``Uncertainty`` in units; limits of events stay as the sweep file has them."""
+    if units == "si" or table.empty:
+        return table
+    if "column" not in table:
+        return in_field_units(table)
+    numbers = [name for name in NUMBERS if name in table]
+    scaled = table["measure"].isin(WITH_UNIT) if "measure" in table else table["column"].notna()
+    return long_in_field_units(table, numbers, scaled)
+
+
+def _figures(
     found: Uncertainty, bands: Path | None, tornado: Path | None, of_map: Path | None, keys: list[str],
     operation: str | None, units: System,
-) -> list[Path]:  # fmt: skip
+) -> dict[Path, "Figure"]:  # fmt: skip
+    """The pictures by their files; raises InputError for those that the samples do not allow."""
     if bands is None and tornado is None and of_map is None:
-        return []
+        return {}
     from fctd import plots
 
-    written: list[Path] = []
+    figures = {}
     if bands is not None:
-        written += plots.save(plots.bands_figure(found, units), bands)
+        figures[bands] = plots.bands_figure(found, units)
     if tornado is not None:
-        written += plots.save(plots.tornado_figure(found, operation), tornado)
+        figures[tornado] = plots.tornado_figure(found, operation, units)
     if of_map is not None:
         column = keys[2] if len(keys) == 3 else found.columns[0]
         if column not in found.rows or found.rows[column].dtype.kind not in "if":
             raise InputError("a column of the results with numbers", key="--map", value=column)
-        written += plots.save(plots.map_figure(found, keys[:2], column, operation, units), of_map)
-    return written
+        figures[of_map] = plots.map_figure(found, keys[:2], column, operation, units)
+    return figures
+
+
+def _save(figures: dict[Path, "Figure"]) -> list[Path]:
+    if not figures:
+        return []
+    from fctd import plots
+
+    return [file for path, figure in figures.items() for file in plots.save(figure, path)]
 
 
 def _print(found: Uncertainty, units: System) -> None:
@@ -131,17 +164,27 @@ def _print(found: Uncertainty, units: System) -> None:
         messages.print(f"no indices: {printable(found.trouble)}", soft_wrap=True)
     if found.indices.empty:
         return
-    at = "" if np.isnan(found.bit_depth) else f" at {found.bit_depth:g} m"
+    metre = shown("bit_depth_m", units)
+    at = "" if np.isnan(found.bit_depth) else f" at {found.bit_depth * metre.factor:.5g} {metre.label}"
     table = Table(box=SIMPLE_HEAD, title=f"Influence{at}", title_justify="left")
     for heading in ("operation", "column", "measure", "parameter"):
         table.add_column(heading, overflow="fold")
     for heading in ("value", "±"):
         table.add_column(heading, justify="right")
     for row in found.indices[~found.indices["measure"].isin(IN_FILES)].to_dict("records"):
-        error = "" if np.isnan(row["error"]) else f"{row['error']:.2g}"
+        factor, unit = _unit(row["column"], units) if row["measure"] in WITH_UNIT else (1.0, "")
+        error = "" if np.isnan(row["error"]) else f"{row['error'] * factor:.2g}"
         names = (row["operation"], row["column"], row["measure"], row["parameter"])
-        table.add_row(*names, f"{row['value']:.3g}", error)
+        table.add_row(*names, f"{row['value'] * factor:.3g} {unit}".rstrip(), error)
     screen.print(table)
+
+
+def _unit(column: str, units: System) -> tuple[float, str]:
+    """Factor and unit with which a column's numbers are shown."""
+    try:
+        return shown(column, units)
+    except ValueError:
+        return 1.0, ""
 
 
 def _print_percentiles(found: Uncertainty, units: System) -> None:
@@ -156,10 +199,7 @@ def _print_percentiles(found: Uncertainty, units: System) -> None:
     for row in rows.to_dict("records"):
         if (row["operation"], row["column"]) in found.noise:
             continue
-        try:
-            factor, unit = shown(row["column"], units)
-        except ValueError:
-            factor, unit = 1.0, ""
+        factor, unit = _unit(row["column"], units)
         low, high = ("–" if np.isnan(row[end]) else f"{row[end] * factor:z.4g}" for end in ("low", "high"))
         value = "–" if np.isnan(row["value"]) else f"{row['value'] * factor:z.4g} {unit}"
         table.add_row(

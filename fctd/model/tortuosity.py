@@ -58,9 +58,11 @@ def shortfall(spec: TortuositySpec | None, longest: float) -> str:
     """What segments of up to ``longest`` [m] lack to follow a winding hole; empty where they can."""
     if spec is None or longest * SEGMENTS_PER_WAVE <= spec.wavelength * (1 + 1e-9):
         return ""
+    most = spec.wavelength / SEGMENTS_PER_WAVE
+    step = 10.0 ** (np.floor(np.log10(most)) - 2)  # so rounded, lengths that differ little are not the same number
     return (
-        f"segments of {longest:.3g} m are too long for tortuosity of {spec.wavelength:g} m: use segments of at most "
-        f"{spec.wavelength / SEGMENTS_PER_WAVE:.3g} m"
+        f"segments of {np.ceil(longest / step - 1e-6) * step:.4g} m are too long for tortuosity of "
+        f"{spec.wavelength:g} m: use segments of at most {np.floor(most / step + 1e-6) * step:.3g} m"
     )
 
 

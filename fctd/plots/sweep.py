@@ -18,7 +18,9 @@ from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import Shown, System, shown
-from fctd.sweep.uncertainty import Uncertainty
+from fctd.sweep.indices import WITH_UNIT
+from fctd.sweep.probabilities import DOUBTED
+from fctd.sweep.uncertainty import Uncertainty, first_operation
 
 WIDTH, PANEL = 9.0, 5.0  # of the sheet, and height of a panel of bands [in]
 BAR, NAMES, LEFT, APART = 0.26, 2.4, 0.9, 0.8  # height of a bar, width of parameters' names, margins [in]
@@ -64,6 +66,10 @@ def bands_figure(found: Uncertainty, units: System = "si") -> Figure:
     if bars.notna().any():  # they are open where they end beyond the samples
         handles.append(Line2D([], [], color=QUIET, linestyle=":", label="its error bars of 95 %"))
     samples = f"{table['samples'].max()} samples, {found.spec.method.replace('_', ' ')}; line: {middle:g} %"
+    status = found.rows["status"]
+    for name in DOUBTED:
+        if count := int((status == name).sum()):
+            samples += f"; {count} of {len(status)} rows {name.replace('_', ' ')}"
     drawn = [name for name in found.columns[:2] if any((kind, name) not in found.noise for kind in operations)]
     columns = drawn or found.columns[:1]
     with mpl.rc_context(RC):
@@ -95,36 +101,43 @@ def _bands(axes: Axes, table: pd.DataFrame, column: str, units: System, of: tupl
     axes.set_ylabel(f"bit depth, {metre.label}")
 
 
-def tornado_figure(found: Uncertainty, operation: str | None = None) -> Figure:
+def tornado_figure(found: Uncertainty, operation: str | None = None, units: System = "si") -> Figure:
     """The influence of every parameter on the loads of one operation, the largest above, with error bars."""
-    table = found.indices
-    if operation is not None:
-        table = table[table["operation"] == operation]
+    kind = first_operation(found.rows, operation)
+    table = found.indices[found.indices["operation"] == kind]
     measure = next((name for name in MEASURES if name in set(table["measure"])), None)
     if measure is None:
         expected = f"a sweep whose samples have indices ({found.trouble or 'this operation has none'})"
         raise InputError(expected, key="--plot-tornado", value=operation or found.spec.name)
-    kind = table["operation"].iloc[0]
-    table = table[(table["measure"] == measure) & (table["operation"] == kind)]
+    table = table[table["measure"] == measure]
     columns = list(dict.fromkeys(table["column"]))
     bars = table["parameter"].nunique()
-    at = "" if np.isnan(found.bit_depth) else f", bit at {found.bit_depth:g} m"
     height = BAR * bars + 0.2
     with mpl.rc_context(RC):
-        line = f"{KINDS[kind].label if kind in KINDS else kind}{at}; error bars of 95 %"
+        line = f"{_place(found, kind, units)}; error bars of 95 %"
         sheet = Sheet(WIDTH, len(columns) * (height + 0.75), found.spec.name, [line], [])
         for k, column in enumerate(columns):
             axes = sheet.axes(NAMES, 0.3 + k * (height + 0.75), WIDTH - NAMES - 0.3, height)
             part = table[table["column"] == column]
+            name, unit = label_of(column, units)
+            factor, ending = (unit.factor, f", {unit.label}") if measure in WITH_UNIT and unit.label else (1.0, "")
             part = part.iloc[np.argsort(part["value"].abs().to_numpy(), kind="stable")]
             places = np.arange(len(part))
-            axes.barh(places, part["value"], color=PALETTE["blue"], height=0.7)
-            axes.errorbar(part["value"], places, xerr=part["error"], fmt="none", ecolor=DARK, elinewidth=1, capsize=2)
+            values, errors = part["value"] * factor, part["error"] * factor
+            axes.barh(places, values, color=PALETTE["blue"], height=0.7)
+            axes.errorbar(values, places, xerr=errors, fmt="none", ecolor=DARK, elinewidth=1, capsize=2)
             axes.set_yticks(places, [in_words(key) for key in part["parameter"]], parse_math=False)
             axes.axvline(0, color=DARK, linewidth=0.8)
             axes.grid(axis="y", visible=False)
-            axes.set_title(f"{label_of(column, 'si')[0].split(',')[0]}: {MEASURES[measure]}")
+            axes.set_title(f"{name.split(',')[0]}: {MEASURES[measure]}{ending}")
     return sheet.figure
+
+
+def _place(found: Uncertainty, kind: str, units: System) -> str:
+    """Operation and bit depth of a picture, in words."""
+    metre = shown("bit_depth_m", units)
+    at = "" if np.isnan(found.bit_depth) else f", bit at {found.bit_depth * metre.factor:.5g} {metre.label}"
+    return f"{KINDS[kind].label if kind in KINDS else kind}{at}"
 
 
 def map_figure(
@@ -134,20 +147,21 @@ def map_figure(
     rows = found.rows
     if not np.isnan(found.bit_depth):
         rows = rows[rows["bit_depth_m"] == found.bit_depth]
-    rows = rows[rows["operation"] == (operation or rows["operation"].dropna().iloc[0])]
+    kind = first_operation(found.rows, operation)
+    rows = rows[rows["operation"] == kind]
+    if rows.empty:
+        raise InputError("an operation of the sweep", key="--operation", value=kind)
     for key in keys:
         numbers = [p.key for p in found.spec.parameters if rows[p.key].dtype.kind in "if"]
         if key not in numbers:
             raise InputError(f"two parameters with numbers, of {', '.join(numbers)}", key="--map", value=",".join(keys))
     text, unit = label_of(column, units)
-    kind = rows["operation"].iloc[0]
-    at = "" if np.isnan(found.bit_depth) else f", bit at {found.bit_depth:g} m"
     x, y = (rows[key].to_numpy(float) for key in keys)
     values = rows[column].to_numpy(float) * unit.factor
     with mpl.rc_context(RC):
         grid = pd.DataFrame({"x": x, "y": y, "v": values}).pivot_table(index="y", columns="x", values="v", dropna=False)
         whole = grid.size == len(values)
-        line = f"{KINDS[kind].label if kind in KINDS else kind}{at}{'; grey: no answer' if whole else ''}"
+        line = f"{_place(found, kind, units)}{'; grey: no answer' if whole else ''}"
         sheet = Sheet(7.0, 4.6, found.spec.name, [line], [])
         axes = sheet.axes(LEFT, 0.1, 4.6, 3.9)
         axes.grid(visible=False)

@@ -12,6 +12,8 @@ from fctd.case.units import conversion
 from fctd.results.columns import COLUMNS
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import pandas as pd
 
 System = Literal["si", "field"]
@@ -92,11 +94,30 @@ def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
         if measure is None:
             columns[name] = table[name].map(_reworded) if name in _SENTENCES else table[name]
         else:
-            renamed = name.removesuffix(_ending(measure.table)) + _ending(measure.field)
             # Division by 0.3048, which is exact, and rounding to 15 digits give 100 ft for 30.48 m.
             values = table[name] / conversion(measure.field, measure.table)
-            columns[renamed] = values.map("{:.15g}".format).astype(float)
+            columns[_in_field(name, measure)] = values.map("{:.15g}".format).astype(float)
     return pd.DataFrame(columns)
+
+
+def long_in_field_units(table: pd.DataFrame, numbers: Sequence[str], scaled: pd.Series[bool]) -> pd.DataFrame:
+    """A long SI table in field units, whose text ``column`` names the quantity of a row.
+
+    numbers : columns with values of that quantity; scaled : rows whose values have its unit, where others have none.
+    """
+    converted = in_field_units(table)
+    for name in table["column"].unique():
+        measure = measure_of(name)
+        if measure is not None:
+            here = table["column"] == name
+            converted.loc[here, "column"] = _in_field(name, measure)
+            converted.loc[here & scaled, list(numbers)] /= conversion(measure.field, measure.table)
+    return converted
+
+
+def _in_field(column: str, measure: Measure) -> str:
+    """The name of an SI column in field units."""
+    return column.removesuffix(_ending(measure.table)) + _ending(measure.field)
 
 
 # Units of messages, which the program writes in SI.

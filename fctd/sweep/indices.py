@@ -25,6 +25,8 @@ Array = NDArray[np.float64]
 RESAMPLES: Final = 200
 # Samples that an index needs for each parameter.
 FEWEST: Final = 4
+# Measures in the unit of the result; the others are shares or coefficients.
+WITH_UNIT: Final = ("mu_star", "sigma")
 
 
 class Index(NamedTuple):

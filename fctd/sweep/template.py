@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from fctd.case.errors import InputError, set_key
+from fctd.case.errors import InputError, set_key, split_key
 from fctd.case.load import Case, apply_override, make_case, read_raw
-from fctd.sweep.design import Value
+from fctd.sweep.design import Value, samples_of
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.survey_errors import erred
 
@@ -52,6 +52,37 @@ class Template:
         return case
 
 
+def _base(spec: SweepSpec, raw: dict[str, Any]) -> Case:
+    """The sweep's case: as it stands, or with the values of the first sample, where a parameter has a key it needs."""
+    folder = spec.case.parent.absolute()
+    try:
+        return make_case(raw, folder)
+    except InputError:
+        first, filled = samples_of(spec).iloc[0], copy.deepcopy(raw)
+        for parameter in spec.parameters:
+            set_value(filled, parameter.key, first[parameter.key], parameter.unit)
+        try:
+            return make_case(filled, folder)
+        except InputError:
+            pass  # the fault is the case's own
+        raise
+
+
+def _check_apart(spec: SweepSpec, raw: Mapping[str, Any]) -> None:
+    """Raise InputError for a parameter that sets a number of the case which another one sets too."""
+    taken: dict[tuple[str | int, ...], str] = {}
+    kinds = [interval.get("kind") for interval in raw["wellbore"]["intervals"]]
+    for i, parameter in enumerate(spec.parameters):
+        name, _, kind = parameter.key.partition(".")
+        places = [tuple(split_key(parameter.key))]
+        if name == "friction":
+            places = [("wellbore", "intervals", k, name) for k, other in enumerate(kinds) if kind in ("", other)]
+        for place in places:
+            if (other := taken.setdefault(place, parameter.key)) != parameter.key:
+                expected = f"a key of other numbers than those of the parameter {other}, which has some of them too"
+                raise InputError(expected, key=f"parameters[{i}].key", value=parameter.key)
+
+
 def set_value(raw: dict[str, Any], key: str, value: Any, unit: str) -> None:
     """Set a key of an unvalidated case; ``friction.cased`` and ``friction.open`` are factors of kinds of interval."""
     written = f"{float(value)!r} {unit}" if unit else value
@@ -68,9 +99,10 @@ def template_of(spec: SweepSpec) -> Template:
         raw = read_raw(spec.case)
         for key, value in spec.set.items():
             set_value(raw, key, value, "")
-        base = make_case(raw, spec.case.parent.absolute()).model_copy(update={"file": spec.case})
+        base = _base(spec, raw).model_copy(update={"file": spec.case})
     except InputError as error:
         raise error.in_file(spec.case) from error.__cause__
+    _check_apart(spec, raw)
     if base.wellbore.survey is not None:
         raw["wellbore"]["survey"] = base.wellbore.survey
     return Template(spec, raw, base, {parameter.key: parameter.unit for parameter in spec.parameters})

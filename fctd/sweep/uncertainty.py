@@ -22,6 +22,8 @@ SPREAD: Final = 1e-5
 # A torque below this share of the hook load, in metres, is what the solver leaves out of balance [N m over N]: each
 # body balances within 1e-7 of the string's weight, and a hundred of them add up.
 OUT_OF_BALANCE: Final = 1e-5
+# A depth may be asked for as a whole number of feet: half a foot [m].
+ROUNDED: Final = 0.1524
 
 
 @dataclass(frozen=True)
@@ -75,18 +77,36 @@ def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) ->
                 trouble = str(error)
                 continue
             found += [{"operation": operation, "column": name, **index._asdict()} for index in indices]
+    apart, count = independent(rows, spec, len(dataset.samples))
     return Uncertainty(
         spec,
         rows,
         columns,
-        percentile_table(rows, columns, spec.uncertainty.percentiles),
-        probability_table(rows, spec.uncertainty.limits, len(dataset.samples)),
+        percentile_table(apart, columns, spec.uncertainty.percentiles),
+        probability_table(apart, spec.uncertainty.limits, count),
         pd.DataFrame(found, columns=["operation", "column", "parameter", "measure", "value", "error"]),
-        convergence_table(rows, columns, spec.uncertainty.percentiles),
+        convergence_table(apart, columns, spec.uncertainty.percentiles),
         depth,
         trouble,
         noise,
     )
+
+
+def independent(rows: pd.DataFrame, spec: SweepSpec, samples: int) -> tuple[pd.DataFrame, int]:
+    """Rows of samples that are drawn independently, and the number of those samples.
+
+    Of a block of Saltelli's design only the first and the last sample are; the others share their values with them, and
+    counted as samples of their own they would make error bars too narrow.
+    """
+    if spec.method != "saltelli":
+        return rows, samples
+    length = len(spec.parameters) + 2
+    return rows[(rows["sample"] % length).isin([0, length - 1])], 2 * samples // length
+
+
+def first_operation(rows: pd.DataFrame, wanted: str | None) -> str:
+    """The operation of a picture of one: the one that is wanted, else the sweep's first."""
+    return wanted or str(rows["operation"].dropna().iloc[0])
 
 
 def noise_in(rows: pd.DataFrame, columns: Sequence[str]) -> frozenset[tuple[str, str]]:
@@ -107,8 +127,8 @@ def _at(rows: pd.DataFrame, bit_depth: float | None) -> tuple[float, pd.DataFram
     if "bit_depth_m" not in rows:
         return float("nan"), rows
     depths = rows["bit_depth_m"].dropna().unique()
-    depth = float(max(depths)) if bit_depth is None else bit_depth
-    if depth not in depths:
-        nearest = min(depths, key=lambda other: abs(other - depth))
-        raise InputError(f"a depth of the sweep, such as {nearest:g} m", key="--bit-depth", value=f"{depth:g} m")
+    wanted = float(max(depths)) if bit_depth is None else bit_depth
+    depth = float(min(depths, key=lambda other: abs(other - wanted)))
+    if abs(depth - wanted) > ROUNDED:
+        raise InputError(f"a depth of the sweep, such as {depth:g} m", key="--bit-depth", value=f"{wanted:g} m")
     return depth, rows[rows["bit_depth_m"] == depth]

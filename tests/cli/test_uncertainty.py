@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
+from fctd.case.errors import InputError
 from fctd.cli.main import app, run
 from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import begin_dataset
@@ -41,6 +42,36 @@ def test_tables_and_pictures_are_written(swept: Path) -> None:
     assert table["value"].iloc[1] == 1e5 + 14.5e3
     assert "114.5 kN" in done.stdout
     assert "Influence at 900 m" in done.stdout
+
+
+def test_field_units_are_those_of_tables_pictures_screen_and_depth(swept: Path) -> None:
+    """The depths of the sweep are 600 and 900 m: 2953 ft is 900.07 m."""
+    pytest.importorskip("matplotlib")
+    pictures = ["--plot-tornado", "tornado.svg", "--plot-map", "map.svg", "--map", "friction.open,mud.density"]
+    units = ["--units", "field", "--bit-depth", "2953"]
+    done = CliRunner().invoke(app, ["uncertainty", str(swept), "--out", "told", *pictures, *units])
+    assert done.exit_code == 0, done.output
+    assert "Influence at 2952.8 ft" in done.stdout
+    for name in ("tornado.svg", "map.svg"):
+        assert "bit at 2952.8 ft" in Path(name).read_text(encoding="utf-8")
+    table = pd.read_csv("told/percentiles.csv")
+    assert (table["bit_depth_ft"].iloc[0], table["column"].iloc[0]) == (pytest.approx(600 / 0.3048), "hookload_klbf")
+    assert table["value"].iloc[1] == pytest.approx(114.5 / 4.4482216152605)
+    indices = pd.read_csv("told/indices.csv")
+    assert set(indices["column"]) == {"hookload_klbf"}
+    assert indices.loc[indices["measure"] == "SRC", "value"].abs().max() > 0.01  # a share, and no load of 100 N
+    refused = CliRunner().invoke(app, ["uncertainty", str(swept), "--units", "field", "--bit-depth", "2900 ft"])
+    assert isinstance(refused.exception, InputError)
+    assert str(refused.exception) == '--bit-depth = "2900 ft": expected a depth of the sweep, such as 2953 ft'
+
+
+def test_pictures_that_cannot_be_drawn_are_refused_before_anything_is_told(swept: Path) -> None:
+    pytest.importorskip("matplotlib")
+    command = ["uncertainty", str(swept), "--out", "told", "--plot-map", "a.png", "--map", "friction.open,mud.mass"]
+    done = CliRunner().invoke(app, command)
+    assert isinstance(done.exception, InputError)
+    assert done.stdout == ""
+    assert not Path("told").exists()
 
 
 @pytest.mark.parametrize(

@@ -68,6 +68,7 @@ def test_segments_of_an_eighth_of_a_wave_follow_it() -> None:
     assert shortfall(spec, 1.25) == shortfall(None, 30.0) == ""
     assert "segments of at most 1.25 m" in shortfall(spec, 1.3)
     assert resolving(spec) == 1.25
+    assert "segments of 1.26 m are too long" in shortfall(spec, 1.2501)  # not: 1.25 m are too long, use 1.25 m
     case = make_case(STATIONS, [pipe(None, None)], wellbore={"tortuosity": WAVES})
     assert DefaultLayout(case, 1400.0).limit.max() <= 1.25
 

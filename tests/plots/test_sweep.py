@@ -1,9 +1,12 @@
 """Pictures of sweeps: bands, tornado and map show the numbers of their tables."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
+from scipy import stats
 
 pytest.importorskip("matplotlib")
 
@@ -73,6 +76,36 @@ def test_a_tornado_has_its_bars_in_order(tmp_path: Path) -> None:
     widths = [bar.get_width() for bar in axes.patches]
     assert abs(widths[0]) < 0.1 < 0.99 < widths[1]
     assert texts_that_overlap(figure) == []
+
+
+def test_effects_of_morris_have_the_unit_of_the_result(tmp_path: Path) -> None:
+    """The hook load is 900 kN (1 + friction): a step of 2/3 is from the eighth to five eighths of its distribution."""
+    pytest.importorskip("SALib")
+    found = made(tmp_path, 'method = "morris"\nsamples = 8\n')
+    (si,), (field,) = (plots.tornado_figure(found, units=units).axes for units in ("si", "field"))
+    assert si.get_title(loc="left") == "hook load: mean absolute effect (Morris), kN"
+    assert field.get_title(loc="left") == "hook load: mean absolute effect (Morris), klbf"
+    low, high = (max(bar.get_width() for bar in axes.patches) for axes in (field, si))
+    assert high == pytest.approx(4.4482216 * low)
+    step = 0.05 * (stats.norm.ppf(0.625) - stats.norm.ppf(0.125))
+    assert high == pytest.approx(900 * step / (2 / 3), rel=1e-3)  # the distribution is truncated at 4 deviations
+
+
+def test_pictures_of_one_operation_show_the_first_of_the_sweep(tmp_path: Path) -> None:
+    found = made(tmp_path)
+    other = pd.concat([found.rows, found.rows.assign(operation="back_ream")], ignore_index=True)
+    indices = pd.concat([found.indices.assign(operation="back_ream"), found.indices], ignore_index=True)
+    both = replace(found, rows=other, indices=indices)
+    for figure in (plots.tornado_figure(both), plots.map_figure(both, ["friction.open", "mud.density"], "hookload_N")):
+        assert figure.texts[-1].get_text().startswith("picking up, bit at 900 m")
+    with pytest.raises(InputError, match="an operation of the sweep"):
+        plots.map_figure(found, ["friction.open", "mud.density"], "hookload_N", "trip_in")
+
+
+def test_bands_say_how_many_rows_are_to_be_doubted(tmp_path: Path) -> None:
+    found = made(tmp_path)
+    doubtful = replace(found, rows=found.rows.assign(status="under_resolved"))
+    assert "80 of 80 rows under resolved" in plots.bands_figure(doubtful).texts[-1].get_text()
 
 
 def test_a_map_has_a_cell_for_every_sample_of_a_grid_and_points_for_others(tmp_path: Path) -> None:

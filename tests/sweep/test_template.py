@@ -1,5 +1,6 @@
 """Cases of samples: keys with their units, friction by kind, erred surveys, and seeds of tortuosity."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -46,6 +47,31 @@ def test_a_survey_file_is_read_once_and_found_from_anywhere(tmp_path: Path, monk
     monkeypatch.chdir(tmp_path)
     case = made.case(0, {"friction.open": 0.4})
     assert case.wellbore.trajectory is made.base.wellbore.trajectory
+
+
+def test_a_parameter_may_have_a_key_that_the_case_needs(tmp_path: Path) -> None:
+    """Waves have an amplitude and a wavelength; here the one is drawn, the other fixed."""
+    drawn = '[[parameters]]\nkey = "wellbore.tortuosity.amplitude"\nvalues = ["1 cm", "2 cm"]\n'
+    made = template(tmp_path, HEAD + 'set = {"wellbore.tortuosity.wavelength" = "100 m"}\n', drawn + WORK)
+    waves = made.case(0, {"wellbore.tortuosity.amplitude": "2 cm"}).wellbore.tortuosity
+    assert waves is not None
+    assert (waves.amplitude, waves.wavelength) == (0.02, 100)
+    wrong = 'set = {"wellbore.tortuosity.wavelength" = "100 m", "mud.density" = "1 m"}\n'
+    with pytest.raises(InputError, match=r"well.toml: mud.density"):
+        template(tmp_path, HEAD + wrong, drawn + WORK)
+
+
+@pytest.mark.parametrize(("key", "other"), [
+    ("friction", "friction.open"), ("friction.open", "wellbore.intervals[1].friction"),
+    ("wellbore.intervals[0].friction", "friction"),
+])  # fmt: skip
+def test_parameters_that_set_the_same_number_are_refused(tmp_path: Path, key: str, other: str) -> None:
+    """The later one would hide the earlier one, whose influence would then be none."""
+    body = "".join(f'[[parameters]]\nkey = "{name}"\nvalues = [0.1, 0.2]\n' for name in (key, other))
+    with pytest.raises(InputError, match=rf"parameters\[1\].key = .*{re.escape(key)}, which has some of them"):
+        template(tmp_path, HEAD, body + WORK)
+    apart = body.replace(key, "friction.cased").replace(other, "friction.open")
+    assert template(tmp_path, HEAD, apart + WORK).base.name == "small"
 
 
 def test_erred_surveys_depend_on_seed_and_sample_alone(tmp_path: Path) -> None:

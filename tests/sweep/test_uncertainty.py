@@ -114,6 +114,20 @@ def test_sobol_indices_of_a_linear_case_are_its_shares_of_the_variance(tmp_path:
             assert table[measure, key] == pytest.approx(share, abs=0.02)
 
 
+def test_error_bars_of_saltelli_are_those_of_its_independent_samples(tmp_path: Path) -> None:
+    """Blocks of four, of which the two in the middle mix the values of the first and the last."""
+    pytest.importorskip("SALib")
+    spec, dataset = swept(tmp_path, 'method = "saltelli"\nsamples = 16')
+    found = assess(dataset, spec)
+    ends = found.rows[found.rows["sample"] % 4 % 3 == 0]
+    table = found.percentiles
+    median = table[(table["column"] == "hookload_N") & (table["percentile"] == 50)]
+    assert median["samples"].tolist() == [32]
+    assert median["value"].tolist() == [np.median(ends["hookload_N"])]
+    assert set(found.probabilities["samples"]) == {32}
+    assert len(found.rows) == 64
+
+
 def test_indices_of_a_result_that_does_not_vary_are_left_out(tmp_path: Path) -> None:
     spec, dataset = swept(tmp_path, 'method = "random"\nsamples = 20')
     both = spec.uncertainty.model_copy(update={"columns": ("hookload_N", "surface_torque_N_m")})
