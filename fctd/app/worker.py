@@ -22,7 +22,7 @@ from fctd.app.sessions import Source
 from fctd.app.warm_up import warm_up
 from fctd.case.errors import InputError
 from fctd.case.text import printable_lines
-from fctd.mechanics.compile_cache import KeptCode
+from fctd.mechanics.compile_cache import WAITING, KeptCode
 from fctd.model.new_case import UnitSystem
 
 MOST_MEMORY: Final = 2**30  # bytes of addresses
@@ -93,13 +93,14 @@ def limit_memory(most: int) -> None:
 
 
 class _Compiling(event.Listener):
-    """Says once that a function is compiled that is kept on disk."""
+    """Says once that a function is compiled that is kept on disk, here or by another process."""
 
     def __init__(self, say: Callable[[dict[str, Any]], None]) -> None:
         self._say, self._said = say, False
 
     def on_start(self, event: event.Event) -> None:
-        if not self._said and isinstance(event.data["dispatcher"]._cache, KeptCode):
+        kept = event.kind == WAITING or isinstance(event.data["dispatcher"]._cache, KeptCode)
+        if kept and not self._said:
             self._said = True
             self._say({"compiling": True})
 
@@ -114,7 +115,8 @@ def serve(folder: Path, asked: BinaryIO, answers: BinaryIO) -> None:
         answers.write(json.dumps(content).encode() + b"\n")
         answers.flush()
 
-    with event.install_listener("numba:compile", _Compiling(say)):
+    compiling = _Compiling(say)
+    with event.install_listener("numba:compile", compiling), event.install_listener(WAITING, compiling):
         warm_up()
     limit_memory(MOST_MEMORY)
     say({"ready": True})

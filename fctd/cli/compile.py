@@ -12,7 +12,7 @@ from rich.console import Console
 
 from fctd.case.load import Case
 from fctd.cli.options import FAILED, Quiet, messages, screen
-from fctd.mechanics.compile_cache import STORE, CompileCacheWarning, KeptCode, Store
+from fctd.mechanics.compile_cache import STORE, WAITING, CompileCacheWarning, KeptCode, Store
 from fctd.simulation.simulate import simulate
 from fctd.steady.equilibrium import equilibrium
 
@@ -88,17 +88,24 @@ def compile_all() -> None:
 
 
 @contextmanager
-def listening(report: Callable[[str], object]) -> Iterator[None]:
-    """Inside, call ``report`` with the name of every cached function whose compilation begins."""
-    with event.install_listener("numba:compile", _Listener(report)):
+def listening(report: Callable[[str], object], wait: Callable[[], object] = lambda: None) -> Iterator[None]:
+    """Inside, call ``report`` with the name of every cached function whose compilation begins.
+
+    wait : called where another process compiles one, for which this one waits.
+    """
+    listener = _Listener(report, wait)
+    with event.install_listener("numba:compile", listener), event.install_listener(WAITING, listener):
         yield
 
 
 class _Listener(event.Listener):
-    def __init__(self, report: Callable[[str], object]) -> None:
-        self._report = report
+    def __init__(self, report: Callable[[str], object], wait: Callable[[], object]) -> None:
+        self._report, self._wait = report, wait
 
     def on_start(self, event: event.Event) -> None:
+        if event.kind == WAITING:
+            self._wait()
+            return
         function = event.data["dispatcher"]
         if isinstance(function._cache, KeptCode):
             self._report(function.py_func.__name__)
@@ -110,12 +117,13 @@ class _Listener(event.Listener):
 @contextmanager
 def announcing(messages: Console = messages) -> Iterator[None]:
     """Inside, print on standard error that functions are compiled, and every warning about the compile cache."""
-    compiled: list[str] = []
+    said = False
 
-    def first(name: str) -> None:
-        if not compiled and messages.is_terminal:
+    def first(_: str = "") -> None:
+        nonlocal said
+        if not said and messages.is_terminal:
             messages.print("compiling, once for this version: about half a minute", highlight=False)
-        compiled.append(name)
+        said = True
 
     others = warnings.showwarning
 
@@ -130,7 +138,7 @@ def announcing(messages: Console = messages) -> Iterator[None]:
 
     warnings.showwarning = show
     try:
-        with listening(first):
+        with listening(first, wait=first):
             yield
     finally:
         warnings.showwarning = others

@@ -3,6 +3,8 @@
 Compiled code that is read is also run.  The folder and its files must therefore belong to this user, and no other user
 may write to them.  Every file begins with a hash of its name and contents: numba's own cache stores no hash, and a
 damaged file crashes the program there.
+
+Processes that begin together compile a function once: the first locks its name, and the others wait for its code.
 """
 
 import atexit
@@ -13,6 +15,7 @@ import shutil
 import stat
 import sys
 import tempfile
+import time
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
@@ -23,6 +26,7 @@ from typing import Any
 import llvmlite
 import numba
 import numpy as np
+from numba.core import event
 from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
 from numba.core.runtime.nrt import rtsys
@@ -31,8 +35,17 @@ from numba.core.sigutils import normalize_signature
 
 from fctd.mechanics.fingerprint import fingerprint
 
+try:
+    import fcntl
+except ImportError:  # Windows, where processes that begin together all compile
+    fcntl = None  # type: ignore[assignment]
+
 CODE = "code"  # the folder, below that of fctd in the user's cache
 HASH_SIZE = hashlib.sha256().digest_size
+# A function takes a few seconds to compile; a process that is stopped meanwhile holds up no other for longer than this
+# [s], and one that has ended not at all.
+LONGEST_WAIT, PAUSE = 120.0, 0.02
+WAITING = "fctd:waiting"  # numba's event of a process that waits for another one's code
 
 
 class CompileCacheWarning(RuntimeWarning):
@@ -46,6 +59,7 @@ class Store:
         self.folder = folder
         self.lasting = not trouble
         self._trouble = trouble  # reported when the first function is compiled
+        self._locks: dict[str, tuple[int, Path]] = {}  # open files and their places
 
     def read(self, name: str) -> bytes | None:
         """The data stored under a name; None where there is none or its file is unusable."""
@@ -94,6 +108,33 @@ class Store:
                 with suppress(OSError):  # it no longer exists once it is renamed to the file
                     os.unlink(scratch)
 
+    def lock(self, name: str) -> bool:
+        """Keep other processes from compiling for a name until ``unlock``; whether one of them has done so meanwhile.
+
+        Nothing is locked without a folder, where the system has no locks, and once another one has taken too long.
+        """
+        if self.folder is None or fcntl is None:
+            return False
+        with suppress(OSError):
+            path = self.folder / f".{name}"
+            file = os.open(path, os.O_WRONLY | os.O_CREAT, 0o600)
+            self._locks[name] = file, path
+            if not _locked(file):
+                with event.trigger_event(WAITING):
+                    return _waited(file)
+        return False
+
+    def unlock(self, name: str) -> None:
+        """Let other processes compile for a name again."""
+        file, path = self._locks.pop(name, (-1, Path()))
+        if file < 0:
+            return
+        with suppress(OSError):  # where there are no locks
+            if _locked(file):  # and not one that was waited for in vain
+                path.unlink()
+            fcntl.flock(file, fcntl.LOCK_UN)  # closing is not enough: processes that were forked have the file too
+        os.close(file)
+
 
 def open_store() -> Store:
     """The user's folder for compiled code, or the one that NUMBA_CACHE_DIR names.
@@ -129,7 +170,7 @@ class KeptCode(_Cache):
         self._store = store
         self._label = f"{function.__module__}.{function.__qualname__}"
         self._function = function
-        self._sources = ""
+        self._sources, self._locked = "", ""
         self._enabled = True
 
     @property
@@ -142,8 +183,20 @@ class KeptCode(_Cache):
         rtsys.initialize(target_context)
         if not self._enabled:
             return None
-        data = self._store.read(self._name(sig, target_context.codegen()))
-        return None if data is None else CompileResult._rebuild(target_context, *pickle.loads(data))
+        name = self._name(sig, target_context.codegen())
+        data = self._store.read(name)
+        if data is None:
+            self._locked = name
+            if self._store.lock(name):
+                data = self._store.read(name)
+        if data is None:
+            return None
+        self.unlock()
+        return CompileResult._rebuild(target_context, *pickle.loads(data))
+
+    def unlock(self) -> None:
+        """Let other processes compile this function, which is compiled and stored, or could not be."""
+        self._store.unlock(self._locked)
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Store a compiled form."""
@@ -181,6 +234,25 @@ def _exposed(info: os.stat_result) -> str:
     if os.name == "posix" and info.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
         return "may be written by other users"
     return ""
+
+
+def _locked(file: int) -> bool:
+    """Lock an open file; False where another process has done so."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def _waited(file: int) -> bool:
+    """Wait for the lock of an open file; whether it came in time."""
+    end = time.monotonic() + LONGEST_WAIT
+    while time.monotonic() < end:
+        time.sleep(PAUSE)
+        if _locked(file):
+            return True
+    return False
 
 
 def _hash(name: str, data: bytes) -> bytes:

@@ -77,5 +77,18 @@ def entry(function: Callable[..., Any], store: Store = STORE) -> Any:
     """
     compiled: Any = njit(**OPTIONS, nogil=True, pipeline_class=EntryCompiler)(function)
     if hasattr(compiled, "_cache"):  # a plain function has none (NUMBA_DISABLE_JIT)
-        compiled._cache = KeptCode(function, store)
+        compiled._cache = kept = KeptCode(function, store)
+        compiled.compile = _unlocking(compiled.compile, kept)
     return compiled
+
+
+def _unlocking(compiling: Callable[..., Any], kept: KeptCode) -> Callable[..., Any]:
+    """``compile`` of a dispatcher, which looks for stored code, compiles and stores; then no other process waits."""
+
+    def compile(signature: Any) -> Any:
+        try:
+            return compiling(signature)
+        finally:
+            kept.unlock()
+
+    return compile

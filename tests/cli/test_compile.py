@@ -8,11 +8,12 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from numba.core import event
 from rich.console import Console
 
 from fctd.cli import compile as command
 from fctd.cli.compile import announcing, compile_into, listening
-from fctd.mechanics.compile_cache import CompileCacheWarning, Store
+from fctd.mechanics.compile_cache import WAITING, CompileCacheWarning, Store
 from tests.compiled import hits, store_of_one, thrice, twice
 
 
@@ -87,6 +88,12 @@ def test_a_first_run_says_once_why_it_waits(store: Store) -> None:
         hits(store, thrice, 4.5)
         hits(store, lambda x: x, 1.5)
     assert seen.getvalue().count("compiling, once for this version") == 1
+
+
+def test_a_run_that_waits_for_the_code_of_another_one_says_the_same() -> None:
+    seen = StringIO()
+    with announcing(Console(file=seen, force_terminal=True)), event.trigger_event(WAITING):
+        assert seen.getvalue().count("compiling, once for this version") == 1
 
 
 def test_a_command_says_plainly_what_is_wrong_with_the_cache(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,16 +1,22 @@
 """Compiled code on disk: damage, full disks, folders of other users."""
 
+import errno
 import os
 import pickle
 import resource
 import shutil
+import signal
+import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from numba.core import event
 from numba.core.cpu import CPUContext
+from numba.core.errors import TypingError
 
 from fctd.mechanics import compile_cache, jit
 from fctd.mechanics.compile_cache import CompileCacheWarning, Store, open_store
@@ -125,6 +131,91 @@ def test_a_folder_removed_meanwhile_gives_a_warning(store: Store, file: Path) ->
     with pytest.warns(CompileCacheWarning, match="cannot be kept in .* \\(No such file or directory\\)"):
         assert hits(store, twice, 3.0) == 0
     assert hits(store, twice, 3.0) == 0
+
+
+@pytest.fixture
+def held(store: Store, file: Path, monkeypatch: pytest.MonkeyPatch) -> Store:
+    """Another process's view of the folder, from which the code was removed; it compiles the same function."""
+    monkeypatch.setattr(compile_cache, "PAUSE", 0.001)
+    file.rename(file.parent.with_name("moved"))
+    other = Store(file.parent)
+    assert not other.lock(file.name)
+    return other
+
+
+def locks(folder: Path) -> list[str]:
+    """Names of the lock files of a folder."""
+    return [path.name for path in folder.glob(".*")]
+
+
+def test_a_function_that_another_process_compiles_is_waited_for(held: Store, store: Store, file: Path) -> None:
+    waits = threading.Event()
+
+    class Finishes(event.Listener):
+        def on_start(self, event: event.Event) -> None:
+            waits.set()
+            file.parent.with_name("moved").rename(file)
+            held.unlock(file.name)
+
+        def on_end(self, event: event.Event) -> None:
+            pass
+
+    with event.install_listener(compile_cache.WAITING, Finishes()):
+        assert hits(store, twice, 3.0) == 1
+    assert waits.is_set()
+    assert locks(file.parent) == []
+
+
+def test_one_that_takes_too_long_is_not_waited_for(
+    held: Store, store: Store, file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compile_cache, "LONGEST_WAIT", 0.05)
+    assert hits(store, twice, 3.0) == 0
+    assert locks(file.parent) == [f".{file.name}"]  # it is still the other's
+    held.unlock(file.name)
+    assert locks(file.parent) == []
+
+
+def test_one_that_was_killed_is_not_waited_for(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The system gives its lock back."""
+    monkeypatch.setattr(compile_cache, "_waited", refuse)
+    ready, tell = os.pipe()
+    if not (child := os.fork()):
+        store.lock("function")
+        os.write(tell, b"x")
+        signal.pause()
+    os.read(ready, 1)
+    with pytest.raises(AssertionError):
+        Store(store.folder).lock("function")
+    os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    assert not Store(store.folder).lock("function")
+
+
+def refuse(_: int) -> bool:
+    raise AssertionError("another process is waited for")
+
+
+def test_code_that_cannot_be_compiled_leaves_no_lock(store: Store, file: Path) -> None:
+    with pytest.raises(TypingError):
+        jit.entry(twice, store)({})
+    assert set(file.parent.iterdir()) == {file}
+
+
+@pytest.mark.parametrize("flock", [None, OSError(errno.ENOLCK, "No locks available"), OSError(errno.EIO, "Input")])
+def test_without_locks_everything_still_runs(
+    flock: OSError | None, store: Store, file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Windows has none, nor have some folders of a network."""
+
+    def fails(*_: int) -> None:
+        assert flock is not None
+        raise flock
+
+    system = None if flock is None else SimpleNamespace(LOCK_EX=0, LOCK_NB=0, LOCK_UN=0, flock=fails)
+    monkeypatch.setattr(compile_cache, "fcntl", system)
+    assert hits(store, thrice, 4.5) == 0
+    assert hits(store, thrice, 4.5) == 1
 
 
 def test_a_new_folder_is_this_users_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
