@@ -30,6 +30,7 @@ STUDIES: dict[str, str] = {
     "drilling": "validation.studies.drilling",
     "spin_up": "validation.studies.spin_up",
     "faults": "validation.studies.faults",
+    "sweep_faults": "validation.studies.sweep_faults",
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
     "johancsik": "validation.studies.johancsik",
@@ -49,5 +50,4 @@ STUDIES: dict[str, str] = {
     "monitoring": "validation.studies.monitoring",
     "monitoring_f4": "validation.studies.monitoring_f4",
     "sweep": "validation.studies.sweep",
-    "sweep_faults": "validation.studies.sweep_faults",
 }

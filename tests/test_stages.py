@@ -1,0 +1,53 @@
+"""Stages of .ci/run: one above its share of the time is named, and one that fails ends all, also beside another."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+STAGES = Path(__file__).parents[1] / ".ci" / "stages"
+HEAD = f"""
+set -euo pipefail
+scratch=.
+. {STAGES}
+late() {{ # as a stage would be that takes a minute
+  SECONDS=$((SECONDS + 60))
+}}
+one() {{ stage 'one' 50 late; stage 'two' 90 late; }}
+other() {{ stage 'three' 55 late; echo 'the other says this'; }}
+broken() {{ stage 'four' 50 false; echo 'not reached'; }}
+"""
+
+
+def said(folder: Path, *commands: str) -> tuple[int, str]:
+    """Exit code and output of commands after the functions above."""
+    done = subprocess.run(
+        ["bash", "-c", HEAD + "\n".join(commands)], cwd=folder, capture_output=True, text=True, check=False
+    )
+    return done.returncode, done.stdout
+
+
+def test_a_stage_above_its_share_is_named(tmp_path: Path) -> None:
+    code, text = said(tmp_path, "one", "summary")
+    assert code == 0
+    assert re.findall(r"^== (\w+): 6\d s$", text, re.MULTILINE) == ["one", "two"]
+    assert re.search(r"^== all: 12\d s\nabove its share: one, 6\d s of 50 s\n\Z", text, re.MULTILINE)
+
+
+def test_two_stages_beside_each_other_are_told_one_after_the_other(tmp_path: Path) -> None:
+    code, text = said(tmp_path, "beside one other", "summary")
+    assert code == 0
+    assert re.findall(r"^== (\w+)$|^(the other says this)$", text, re.MULTILINE) == [
+        ("one", ""), ("two", ""), ("three", ""), ("", "the other says this"),
+    ]  # fmt: skip
+    assert sorted(re.findall(r"^above its share: (\w+), 6\d s of", text, re.MULTILINE)) == ["one", "three"]
+
+
+@pytest.mark.parametrize("pair", ["one broken", "broken one"])
+def test_a_stage_that_fails_ends_all(pair: str, tmp_path: Path) -> None:
+    code, text = said(tmp_path, f"beside {pair}", "summary")
+    assert code == 1
+    assert "== four" in text
+    assert "not reached" not in text
+    assert "== all" not in text
