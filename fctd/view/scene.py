@@ -82,7 +82,7 @@ def scene_traces(look: Look, quantity: Quantity) -> list[Trace]:
         "shoes": {"line": {"width": 6, "color": DARK}, **quiet},
         "string": string,
         "contacts": {
-            "mode": "markers", "marker": {"size": 4, "color": "#000000", "symbol": "circle-open"}, "text": [],
+            "mode": "markers", "marker": {"size": 2.5, "color": "#000000", "symbol": "circle-open"}, "text": [],
             "hovertemplate": "%{text}<extra></extra>",
         },
         "picked": {
