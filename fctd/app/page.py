@@ -56,8 +56,9 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
         ]),
         html.Details([
             html.Summary("Measured rows"),
-            html.P("Paste rows with headers, such as bit_depth_m, operation, hookload_kN, torque_kN_m; or choose a CSV "
-                   "file."),
+            html.P("Paste rows with headers, such as bit_depth_m, operation, hookload_kN, torque_kN_m, from a "
+                   "spreadsheet or a CSV file; or choose a file. A hookload is what the gauge reads, block included; "
+                   "the chart shows that of the string."),
             dcc.Textarea(id="measured", spellCheck=False, rows=5),
             html.Div([
                 html.Button("show", id="show-measured"),

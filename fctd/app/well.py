@@ -22,6 +22,7 @@ from fctd.case.operations import KINDS
 from fctd.model.operations import depth_range, rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.plots.facts import shoes_of
+from fctd.plots.palette import BUCKLED
 from fctd.results.measured import read_measured
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Solver
@@ -172,13 +173,18 @@ class Well:
         return ", ".join(parts)
 
     def _note(self, rows: Sequence[Mapping[str, Any]]) -> str:
-        """How many rows are no plain answers."""
+        """How many rows are no plain answers, and what rings and crosses in the chart are."""
         found: dict[str, int] = {}
         for row in rows:
             if row["status"] != "converged":
                 word = str(row["status"]).replace("_", " ")
                 found[word] = found.get(word, 0) + 1
-        return ", ".join(f"{count} of {len(rows)} {word}" for word, count in found.items())
+        told = ", ".join(f"{count} of {len(rows)} {word}" for word, count in found.items())
+        signs = {
+            "rings: buckled": any(row["buckling"] in BUCKLED for row in rows),
+            "crosses: no loads": any(np.isnan(row["hookload_N"]) for row in rows),
+        }
+        return "; ".join(filter(None, [told, *(sign for sign, drawn in signs.items() if drawn)]))
 
 
 def depths_of(case: Case) -> list[float]:

@@ -90,7 +90,14 @@ def run(commands: typer.Typer) -> None:
             commands()
     except (InputError, OSError) as error:  # OSError: a full disk, a closed terminal
         with suppress(OSError):
-            messages.print(str(error), style="bold", soft_wrap=True)
+            messages.print(_told(error), style="bold", soft_wrap=True)
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
+
+
+def _told(error: InputError | OSError) -> str:
+    """The error as a line; the system does not say that it is the current folder which it cannot find."""
+    if isinstance(error, FileNotFoundError) and error.filename is None:
+        return "the current folder is no longer there: go to another one, and begin again"
+    return str(error)

@@ -83,12 +83,7 @@ def uncertainty_command(
     if operation is not None and operation not in KINDS:
         raise InputError(f"one of the kinds {', '.join(KINDS)}", key="--operation", value=operation)
     depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth", units)
-    try:
-        found = assess(dataset, spec, depth)
-    except InputError as error:
-        if error.key != "--bit-depth":
-            raise
-        raise InputError(error.expected, key=error.key, value=bit_depth) from None
+    found = assess(dataset, spec, depth)
     keys = [] if map_keys is None else [part.strip() for part in map_keys.split(",")]
     if map_keys is not None and len(keys) not in (2, 3):
         raise InputError("two keys of parameters, and a column", key="--map", value=map_keys)

@@ -1,5 +1,6 @@
 """CSV files of measurements: columns whose headers name their units, loads as values or ranges.
 
+Cells are separated by commas, or as a spreadsheet copies and saves them by tabs or semicolons.
 Headers name their units as those of surveys do: ``depth_ft``, ``Hook load (klbf)``, ``torque_low_kN_m``, ``speed_m/s``.
 """
 
@@ -126,7 +127,8 @@ def require(lines: Sequence[Line], what: str, columns: Sequence[str], headers: s
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """Line number and stripped cells of every row that is not blank."""
     try:
-        reader = csv.reader(io.StringIO(read_text(path, LARGEST_FILE)))
+        text = read_text(path, LARGEST_FILE)
+        reader = csv.reader(io.StringIO(text), delimiter=_separator(text))
         return [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader if any(map(str.strip, cells))]
     except OSError as error:
         raise InputError(f"a file of measured rows that can be read ({error.strerror})") from error
@@ -134,6 +136,12 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
         raise
     except (ValueError, csv.Error) as error:
         raise InputError(f"a CSV file of text ({error})") from error
+
+
+def _separator(text: str) -> str:
+    """What separates the cells of a text: a comma, or the tab or the semicolon of a spreadsheet's headers."""
+    headers = next((line for line in text.splitlines() if line.strip()), "")
+    return "\t" if "\t" in headers else ";" if ";" in headers and "," not in headers else ","
 
 
 def _column_of(header: str, fields: Sequence[Field], texts: Sequence[Text], row: str) -> _Column:

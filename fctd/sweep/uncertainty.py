@@ -130,5 +130,5 @@ def _at(rows: pd.DataFrame, bit_depth: float | None) -> tuple[float, pd.DataFram
     wanted = float(max(depths)) if bit_depth is None else bit_depth
     depth = float(min(depths, key=lambda other: abs(other - wanted)))
     if abs(depth - wanted) > ROUNDED:
-        raise InputError(f"a depth of the sweep, such as {depth:g} m", key="--bit-depth", value=f"{wanted:g} m")
+        raise InputError(f"a depth of the sweep, such as {depth:g} m", key="bit_depth", value=f"{wanted:g} m")
     return depth, rows[rows["bit_depth_m"] == depth]

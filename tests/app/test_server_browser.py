@@ -151,6 +151,32 @@ def test_a_survey_that_is_chosen_becomes_a_case_and_a_case_is_run(page: Any) -> 
     page.locator("#run-told", has_text="completed").wait_for()
 
 
+def test_files_that_are_too_large_are_refused_on_the_page(page: Any) -> None:
+    """A request has at most 5 MiB, and the file comes in base64."""
+    page.locator("#upload input").set_input_files(
+        [{"name": "large.csv", "mimeType": "text/csv", "buffer": b"0" * (4 * 2**20)}]
+    )
+    page.locator("#upload-fault", has_text="large.csv: expected files of at most 3.5 MiB").wait_for()
+    assert page.locator("h1").inner_text() == NAME
+
+
+def test_pictures_of_before_are_marked_while_new_ones_are_computed(page: Any) -> None:
+    """The server's answer is held back; in the end the mark is gone."""
+    held: list[Any] = []
+
+    def hold(route: Any) -> None:
+        first = not held and '"id":"wish"' in (route.request.post_data or "")
+        held.append(route) if first else route.continue_()
+
+    page.route(lambda address: "_dash-update-component" in address, hold)
+    page.locator("#sliders [role=slider]").nth(1).focus()
+    page.keyboard.press("ArrowRight")
+    page.locator("#page[aria-busy=true]").wait_for()
+    held[0].continue_()
+    until(page, lambda: page.locator("#page").get_attribute("aria-busy") == "false")
+    page.locator("#reset").click()
+
+
 def test_the_address_of_a_killed_server_shows_the_same_page(chromium: Any, program: Program) -> None:
     settings = program.folder / "state/fctd/app/sessions" / program.address.rstrip("/").rpartition("/")[2]
     with opened(chromium, program.address) as (page, _):

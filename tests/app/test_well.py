@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 import fctd
-from fctd.app.charts import place_of
+from fctd.app.charts import LOST, place_of
 from fctd.app.well import DEPTHS, EVERY, Well, depths_of
 from fctd.case.errors import InputError
 from fctd.view.scene import SCENE
@@ -127,6 +127,9 @@ def test_rows_without_a_plain_answer_are_counted(tmp_path: Path) -> None:
     well = Well(source(text, survey=level), tmp_path, "si")
     found = solved(well, operations=["trip_in"], values={"friction_cased": 0.6}, operation="trip_in")
     assert "of 70 " in found["note"]
+    assert "; rings: buckled" in found["note"]
+    crosses = len(unpacked(of(found["loads"], "data", place_of(LOST, "hookload_N"), "y")))
+    assert ("crosses: no loads" in found["note"]) == (crosses > 0)
 
 
 def test_depths_of_a_long_segment_are_those_that_the_case_moves_it_through() -> None:

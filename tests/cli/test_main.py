@@ -108,6 +108,18 @@ def test_a_missing_case_file(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Cap
     assert "nowhere.toml" in capsys.readouterr().err
 
 
+@pytest.mark.skipif(os.name == "nt", reason="a current folder cannot be removed there")
+def test_a_current_folder_that_is_gone_is_named(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    gone = case_file.parent / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    assert run(monkeypatch, "check", "../small.toml") == 2
+    assert "the current folder is no longer there" in capsys.readouterr().err
+
+
 def test_an_unknown_option_is_exit_code_2(
     case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -35,6 +35,13 @@ def test_products_ranges_bare_units_texts_and_empty_cells(tmp_path: Path) -> Non
     assert "remark" not in row
 
 
+@pytest.mark.parametrize("separator", ["\t", ";", " , "])
+def test_rows_of_a_spreadsheet(separator: str, tmp_path: Path) -> None:
+    name = "a" if separator == " , " else "a, b"
+    text = f"\nname{separator}speed_m_s\n{name}{separator}0.3\n"
+    assert read(tmp_path, text) == [{"name": name, "speed_m_s": 0.3}]
+
+
 def test_no_known_header(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="such as speed_m_s"):
         read(tmp_path, "a,b\n1,2\n")

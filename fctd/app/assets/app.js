@@ -3,10 +3,22 @@
 (() => {
   const REST = 300; // a slider that has rested so long is solved at all depths [ms]
   const LOST = 30000; // an answer that has not come by then will not come [ms]
+<<<<<<< HEAD
   const state = {
     busy: false, since: 0, next: null, rest: null, drawing: false, turn: 0, n: 0, values: {}, own: {}, shown: {}, opened: 0 };
+=======
+  const PATIENCE = 500; // after which the pictures are marked as those of before [ms]
+  // Largest files [bytes]: a request has at most 5 MiB, and files go in base64, which takes a third more.
+  const MOST = 3.5 * 2 ** 20;
+  const state = { busy: false, since: 0, next: null, rest: null, n: 0, values: {}, own: {}, shown: {}, opened: 0 };
+>>>>>>> hatk
   const set = (id, props) => dash_clientside.set_props(id, props);
   const unchanged = () => dash_clientside.no_update;
+
+  // Whether the pictures are those of before.
+  function waiting(late) {
+    document.getElementById("page").setAttribute("aria-busy", String(late));
+  }
 
   function send(wish) {
     const now = performance.now();
@@ -16,6 +28,8 @@
     }
     state.busy = true;
     state.since = now;
+    clearTimeout(state.late);
+    state.late = setTimeout(() => waiting(true), PATIENCE);
     return wish;
   }
 
@@ -115,6 +129,12 @@
 
   function drawn(answered, loads) {
     state.busy = false;
+<<<<<<< HEAD
+=======
+    clearTimeout(state.late);
+    if (!state.next) waiting(false);
+    times.push(performance.now());
+>>>>>>> hatk
     if (state.next) {
       const next = state.next;
       state.next = null;
@@ -137,6 +157,19 @@
   window.dash_clientside = Object.assign(window.dash_clientside || {}, {
     fctd: { moved, drawn, drawnInTurn, empty: (text) => !text },
   });
+
+  // Files that the server would refuse are not sent: the page's framework says nothing of such an answer.
+  const ends = { upload: "upload-fault", "measured-file": "measured-told" };
+  function weigh(event) {
+    const box = event.target.closest?.("#upload, #measured-file");
+    const files = [...((event.type === "drop" ? event.dataTransfer : event.target)?.files ?? [])];
+    if (!box || files.reduce((sum, { size }) => sum + size, 0) <= MOST) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    if (event.type === "change") event.target.value = "";
+    set(ends[box.id], { children: `${files.map(({ name }) => name).join(", ")}: expected files of at most 3.5 MiB` });
+  }
+  for (const type of ["change", "drop"]) document.addEventListener(type, weigh, { capture: true });
 
   // The server ends the run of a page that is closed; one that is loaded again asks at once.
   window.addEventListener("pagehide", () => navigator.sendBeacon(`${location.pathname}closed`));
