@@ -30,6 +30,7 @@ TALLEST = 9_600  # of the first page at 1,280 px, twelve screens
 SOURCES = (".py", ".toml", ".html", ".css", ".js")
 CLICKS = 3  # from the first page to what decides a claim
 PAPER = 698  # width of a page of paper between its margins [px]
+LOW = 100  # height of a window of which only the width matters: less is painted [px]
 
 CLAIM = """
 [[claim]]
@@ -119,9 +120,9 @@ def test_no_page_is_wider_than_its_window(chromium: Any, site: Path) -> None:
             shown.goto(path.resolve().as_uri())
             shown.evaluate("for (const fold of document.querySelectorAll('details')) fold.open = true")
             for width in (400, 1280, 1920):
-                shown.set_viewport_size({"width": width, "height": 800})
+                shown.set_viewport_size({"width": width, "height": LOW})
                 wide[path.name, width] = overflow(shown)
-            shown.set_viewport_size({"width": PAPER, "height": 800})
+            shown.set_viewport_size({"width": PAPER, "height": LOW})
             shown.emulate_media(media="print")
             wide[path.name, "on paper"] = overflow(shown)
             shown.emulate_media(media="screen")
