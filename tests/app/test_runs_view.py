@@ -36,3 +36,23 @@ def test_a_run_is_seen_from_its_first_chunk_to_its_result(tmp_path: Path, monkey
         unpacked(found["curves"]["hookload_N"]), result.history["hookload_N"] / 4448.2216, rtol=1e-6
     )
     assert found["last"].startswith("4 s: hook load")
+
+
+def test_a_run_that_was_stopped_says_so_and_names_its_case(tmp_path: Path) -> None:
+    """What it kept, to go on with, lies beside its result, and another well may be on the page."""
+    target = tmp_path / "run" / "result"
+    target.parent.mkdir()
+    (target.parent / "case.toml").write_text('name = "<b>old"', encoding="utf-8")
+    case = make_case(components=[pipe(None, None, segment_length=100.0)], operations=[rotation(900, 4.0, ramp=1.0)])
+    folder = RunFolder.take(target)
+
+    def until_stopped(now: float, total: float, factor: float) -> None:
+        if now > 2.0:
+            raise KeyboardInterrupt
+
+    simulate(case, progress=until_stopped, keeper=KeptRun(folder, 0.0)).save(target)
+    folder.leave(remove=False)
+    found = records(tmp_path, str(target), "si")
+    assert found["status"].startswith("interrupted")
+    assert found["last"].startswith("<b>old, ")
+    assert "-0.0" not in found["last"]
