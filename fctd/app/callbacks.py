@@ -325,7 +325,7 @@ def time_figure(found: Mapping[str, Any], units: System) -> dict[str, Any]:
     axes = {
         f"yaxis{axis[1:]}": {
             "title": {"text": f"{label}, {shown(name, units).label}", "font": {"size": 12, "color": colour}},
-            "gridcolor": "#e8e8e8", "zeroline": False,
+            "gridcolor": "#e8e8e8", "zeroline": False, "automargin": True,
         }
         for name, (label, colour, axis) in looks.items()
     }  # fmt: skip

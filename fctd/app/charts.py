@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.plots.facts import shoes_of
 from fctd.plots.loads import LOAD_COLUMNS, NAMES, TORQUE, measured_columns, push_of
 from fctd.plots.page import SYMBOLS, plain
 from fctd.plots.palette import BUCKLED, EDGE, LOOKS, MEASURED, QUIET
@@ -162,7 +161,7 @@ def _layout(case: Case, depths: Sequence[float], units: System) -> dict[str, Any
     factor, unit = shown(DEPTH.name, units)
     low, high = depths[0] * factor, depths[-1] * factor
     air = 0.02 * (high - low)
-    shoes = [shoe * factor for shoe in shoes_of(case) if depths[0] <= shoe <= depths[-1]]
+    shoes = [shoe * factor for shoe in case.shoes if depths[0] <= shoe <= depths[-1]]
     axes = {}
     for k, (column, domain) in enumerate(zip(COLUMNS, ([0.0, 0.56], [0.6, 1.0]), strict=True)):
         title = {"text": f"{NAMES[column]}, {shown(column, units).label}", "font": {"size": 12}}

@@ -3,6 +3,8 @@
 This runs in the process of its own that worker.py is.
 """
 
+import tomllib
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, Final
@@ -15,6 +17,7 @@ from fctd.app.charts import packed
 from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case
 from fctd.case.operations import KINDS
+from fctd.case.text import printable
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.run_folder import numbered, run_path
 from fctd.results.tables import open_result
@@ -39,28 +42,29 @@ def records(folder: Path, target: str, shown_units: System, colour: str = "side_
     curves = {name: packed(found[name].to_numpy(float) * shown(name, shown_units).factor) for name in COLUMNS}
     return {
         "time": packed(found["time_s"].to_numpy(float)), "curves": curves, "records": len(history), "status": status,
-        "last": _last(history, shown_units), "string": _string(Path(target), history, segments, shown_units, colour),
+        "last": _told(Path(target), history, shown_units),
+        "string": _string(Path(target), history, segments, shown_units, colour),
     }  # fmt: skip
 
 
 def _kept(target: Path) -> tuple[pd.DataFrame, pd.DataFrame, str]:
-    """Records kept while a run lasts with the segments kept last, or those of its result; and how it ended."""
-    path = run_path(target)
-    try:
+    """Records and segments of a run's result, and how it ended; while it lasts, records kept so far and last segments.
+
+    A run that was stopped has both: what it kept, to go on with, and its result, which is later.
+    """
+    with suppress(InputError):
+        result = open_result(target, pause=0.0)
+        message = f": {result.message}" if result.message else ""
+        return result.history, result.segments, f"{result.status}{message}"
+    path, none = run_path(target), pd.DataFrame()
+    with suppress(OSError, ValueError):  # removed, as the run has just ended
         # A chunk's history is written before its segments: read after them, it has their times.
         last = max(numbered(path, "segments.parquet").items(), default=None)
-        segments = pd.DataFrame() if last is None else _segments(_read(path / last[1], "segments"), _hole(target)[1])
+        segments = none if last is None else _segments(_read(path / last[1], "segments"), _hole(target)[1])
         parts = [_read(path / name, "history").to_pandas() for name in numbered(path, "history.parquet").values()]
         if parts:
             return pd.concat(parts, ignore_index=True), segments, ""
-    except (OSError, ValueError):  # removed, as the run has just ended
-        pass
-    try:
-        result = open_result(target, pause=0.0)
-    except InputError:
-        return pd.DataFrame(columns=["time_s", *COLUMNS]), pd.DataFrame(), ""
-    message = f": {result.message}" if result.message else ""
-    return result.history, result.segments, f"{result.status}{message}"
+    return pd.DataFrame(columns=["time_s", *COLUMNS]), none, ""
 
 
 def _read(file: Path, name: str) -> Any:
@@ -105,11 +109,21 @@ def _string(
     return {"figure": figure, "where": f"{one.at:.0f} s, {KINDS[one.operation].label}", "words": words}
 
 
-def _last(history: pd.DataFrame, units: System) -> str:
+def _name(target: Path) -> str:
+    """The name of the case that runs, which need not be the page's: another may have come since."""
+    try:
+        name = tomllib.loads((target.parent / "case.toml").read_text(encoding="utf-8")).get("name", "")
+    except (OSError, ValueError):
+        return ""
+    return printable(str(name))
+
+
+def _told(target: Path, history: pd.DataFrame, units: System) -> str:
+    """The name of the case that runs, and the last record."""
     if not len(history):
         return ""
     row, words = history.iloc[-1], []
     for name, label in zip(COLUMNS, ("hook load", "torque", "bit at"), strict=True):
         factor, unit = shown(name, units)
-        words.append(f"{label} {row[name] * factor:.1f} {unit}")
-    return f"{row['time_s']:.0f} s: {', '.join(words)}"
+        words.append(f"{label} {row[name] * factor:z.1f} {unit}")
+    return ", ".join(filter(None, [_name(target), f"{row['time_s']:.0f} s: {', '.join(words)}"]))

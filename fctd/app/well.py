@@ -21,7 +21,6 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.model.operations import depth_range, rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
-from fctd.plots.facts import shoes_of
 from fctd.plots.palette import BUCKLED
 from fctd.results.measured import read_measured
 from fctd.results.unit_systems import System, reworded, shown
@@ -197,7 +196,7 @@ def depths_of(case: Case) -> list[float]:
     if last.long_segment and case.operations:
         _, low, high = depth_range(case)
     else:
-        low = next((shoe for shoe in reversed(shoes_of(case)) if top < shoe < bottom), top + 0.5 * (bottom - top))
+        low = next((shoe for shoe in reversed(case.shoes) if top < shoe < bottom), top + 0.5 * (bottom - top))
         high = bottom
     if high - low < 1.0:
         low = top + 0.5 * (high - top)

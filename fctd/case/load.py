@@ -105,6 +105,15 @@ class Case(Table):
         return self.string.top_md, deepest
 
     @property
+    def shoes(self) -> list[float]:
+        """Depths [m] of the casing shoes: the ends of cased intervals (of all, without kinds) above the end of the
+        hole; reads the survey."""
+        bottom, intervals = self.depths[1], self.wellbore.intervals
+        kinds = {interval.kind for interval in intervals}
+        cased = [interval for interval in intervals if kinds == {None} or interval.kind == "cased"]
+        return [interval.to_md for interval in cased if interval.to_md < bottom]
+
+    @property
     def warnings(self) -> tuple[InputWarning, ...]:
         """Probable mistakes of the case and of its operations (`doubts`); reads the survey."""
         return warnings_of(self)

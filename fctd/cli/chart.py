@@ -1,6 +1,6 @@
 """``fctd chart CASE``: steady strings of several operations at many bit depths."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -220,6 +220,8 @@ def _chart(
     points_measured = None if asked.measured is None else _measured(asked.measured, case, plot)
     names = [name.strip() for text in asked.operations for name in text.split(",")]
     kinds = list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name])))
+    if points_measured is not None:
+        _tell_not_drawn(points_measured["operation"], kinds)
     factors = parse_frictions(asked.frictions, "--friction")
     drive = read_drive(asked.speed, asked.rpm, units)
     warnings = warnings_of(case, kinds, **drive, frictions=factors)
@@ -314,6 +316,14 @@ def read_depths(text: str, case: Case, units: System = "si") -> list[float]:
     if steps >= MOST_DEPTHS:
         raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)
     return depths_between(first, last, step)
+
+
+def _tell_not_drawn(measured: "pd.Series[str]", kinds: Sequence[str]) -> None:
+    """Say how many measured rows the picture does not show, as their operation is not asked for."""
+    others = measured[~measured.isin(kinds)]
+    if len(others):
+        told = f"{len(others)} of {len(measured)} measured rows are not drawn"
+        messages.print(f"{told}, of operations that are not asked for: {', '.join(others.unique())}", soft_wrap=True)
 
 
 def _measured(path: Path, case: Case, plot: Path | None) -> "pd.DataFrame":

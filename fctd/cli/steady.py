@@ -16,7 +16,6 @@ from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import segments_in_words
-from fctd.plots.facts import shoes_of
 from fctd.results.tables import versions
 from fctd.results.unit_systems import System, in_field_units, shown
 
@@ -82,7 +81,7 @@ def read_depth(text: str, case: Case, key: str, units: System = "si", *, given: 
     if word == "td":
         return case.depths[1]
     if word == "shoe":
-        shoes = shoes_of(case)
+        shoes = case.shoes
         if not shoes:
             raise InputError("a depth, as the case has one interval and no shoe", key=key, value=given or text)
         return shoes[-1]

@@ -30,7 +30,6 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import check_package
 from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive
-from fctd.plots.facts import shoes_of
 from fctd.results.run_folder import about_of, run_path
 from fctd.results.tables import open_result, result_files
 from fctd.results.unit_systems import System
@@ -155,7 +154,7 @@ def _depths(case: Case, text: str | None, units: System) -> list[float]:
     if text is not None:
         return read_depths(text, case, units)
     top, bottom = case.depths
-    first = next((shoe for shoe in reversed(shoes_of(case)) if top < shoe < bottom), top + 0.5 * (bottom - top))
+    first = next((shoe for shoe in reversed(case.shoes) if top < shoe < bottom), top + 0.5 * (bottom - top))
     return [round(float(depth), 3) for depth in np.linspace(first, bottom, DEPTHS)]
 
 

@@ -28,7 +28,7 @@ from fctd.plots.curves import (
     end_of,
     is_cut,
 )
-from fctd.plots.facts import heading_of_chart, shoes_of
+from fctd.plots.facts import heading_of_chart
 from fctd.plots.loads import (
     LOAD_COLUMNS,
     NAMES,
@@ -121,7 +121,7 @@ class _View:
         self.top, self.bottom = (
             float(end) * self.depth.factor for end in (min(d.min() for d in depths), max(d.max() for d in depths))
         )
-        shoes = [] if case is None else [shoe * self.depth.factor for shoe in shoes_of(case)]
+        shoes = [] if case is None else [shoe * self.depth.factor for shoe in case.shoes]
         self.shoes = [shoe for shoe in shoes if self.top <= shoe <= self.bottom]
         self.ylim, self.point = (self.bottom, self.top), 0.0
 

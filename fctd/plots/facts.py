@@ -45,14 +45,6 @@ def facts_of(
     return facts
 
 
-def shoes_of(case: Case) -> list[float]:
-    """Depths [m] of the casing shoes: the ends of cased intervals (of all, without kinds) above the end of the hole."""
-    bottom, intervals = case.depths[1], case.wellbore.intervals
-    kinds = {interval.kind for interval in intervals}
-    cased = [interval for interval in intervals if kinds == {None} or interval.kind == "cased"]
-    return [interval.to_md for interval in cased if interval.to_md < bottom]
-
-
 def heading_of_chart(
     chart: pd.DataFrame,
     units: System,

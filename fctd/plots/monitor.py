@@ -16,7 +16,6 @@ from fctd.monitoring.alarm import KINDS, Alarm, kind_of
 from fctd.monitoring.chart import FACTORS
 from fctd.monitoring.monitor import Monitored
 from fctd.monitoring.stretches import Mode
-from fctd.plots.facts import shoes_of
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
 from fctd.results.unit_systems import System, reworded, shown
@@ -118,7 +117,7 @@ def _depths(panels: Sequence[Axes], known: pd.DataFrame, alarms: Sequence[Alarm]
         top, bottom = float(known["bit_depth_m"].min()) * metre, float(known["bit_depth_m"].max()) * metre
         air = 0.04 * max(bottom - top, 1.0)
         panels[0].set_ylim(bottom + air, top - air)
-        shoes = [shoe * metre for shoe in shoes_of(case) if top <= shoe * metre <= bottom]
+        shoes = [shoe * metre for shoe in case.shoes if top <= shoe * metre <= bottom]
         for ax in panels:
             for shoe in shoes:
                 ax.axhline(shoe, **SHOE)

@@ -17,7 +17,7 @@ from plotly.subplots import make_subplots
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
-from fctd.plots.facts import heading_of_chart, heading_of_profile, shoes_of
+from fctd.plots.facts import heading_of_chart, heading_of_profile
 from fctd.plots.loads import (
     LOAD_COLUMNS,
     NAMES,
@@ -116,7 +116,7 @@ def chart_page(
                     figure.add_trace(_measured(look, kind, column, units, named), **place)
             label = f"{NAMES[column]}, {shown(column, units).label}"
             figure.update_xaxes(title_text=label, range=[limit.low, limit.high], **place)
-            for shoe in [] if case is None else shoes_of(case):
+            for shoe in [] if case is None else case.shoes:
                 if chart["bit_depth_m"].min() <= shoe <= chart["bit_depth_m"].max():
                     at = shoe * shown(DEPTH.name, units).factor
                     words = {"annotation_text": f"shoe {at:.0f} {shown(DEPTH.name, units).label}"} if col == 2 else {}
@@ -175,7 +175,7 @@ def profile_page(
         figure.update_xaxes(title_text=f"{name},<br>{unit}", title_font_size=11, nticks=4, tickangle=0, **place)
         if answers:
             figure.update_xaxes(range=limits_of_track(answers, column, units, force, near), **place)
-        for shoe in shoes_of(points[0].case):
+        for shoe in points[0].case.shoes:
             if shoe < points[0].bit_depth:
                 figure.add_hline(shoe * shown("md_m", units).factor, line=SHOE, **place)
         figure.update_yaxes(autorange="reversed", exponentformat="none", **place)

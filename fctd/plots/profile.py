@@ -14,7 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from fctd.case.operations import KINDS
-from fctd.plots.facts import heading_of_profile, shoes_of
+from fctd.plots.facts import heading_of_profile
 from fctd.plots.labels import SIZE, width_of
 from fctd.plots.palette import BUCKLED, EDGE, LOOKS, QUIET, SHADE
 from fctd.plots.style import LOST, POINTS, RC, Sheet
@@ -64,7 +64,7 @@ def profile_figure(
         title, lines = heading_of_profile(points, units, warnings)
         near = limits_near(answers, units) if answers else {}
         modes = [mode for mode in BUCKLED if any((point.profile["buckling"] == mode).any() for point in answers)]
-        shoes = [shoe * depth.factor for shoe in shoes_of(case) if shoe < points[0].bit_depth]
+        shoes = [shoe * depth.factor for shoe in case.shoes if shoe < points[0].bit_depth]
         width = LEFT + NARROW + (len(TRACKS) - 1) * (WIDE + BETWEEN) + RIGHT
         handles = _handles(points, near, modes, shoes)
         sheet = Sheet(width, HEIGHT + BELOW + 0.05, title, lines, handles)

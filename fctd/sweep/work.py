@@ -51,16 +51,19 @@ def task_of(spec: WorkSpec, case: Case) -> Task:
 
 
 def read_depths(written: str | Sequence[float], case: Case) -> tuple[float, ...]:
-    """Bit depths [m] of "FROM:TO:STEP", of which TO may be td, or of a list."""
+    """Bit depths [m] of "FROM:TO:STEP", of which shoe is the case's last casing shoe and td its end, or of a list."""
     if not isinstance(written, str):
         return tuple(written)
     parts = [part.strip() for part in written.split(":")]
     key = "work.depths"
     if len(parts) != 3:
-        raise InputError("FROM:TO:STEP, such as '1750:2450:10' or '5000 ft:td:30 ft'", key=key, value=written)
+        raise InputError("FROM:TO:STEP, such as '1750:2450:10' or 'shoe:td:30 ft'", key=key, value=written)
     length = Quantity(dimension=LENGTH, above=0.0)
+    named = {"td": case.depths[1]}
+    if case.shoes:
+        named["shoe"] = case.shoes[-1]
     try:
-        first, last, step = (case.depths[1] if part.lower() == "td" else length.parse(_number(part)) for part in parts)
+        first, last, step = (named.get(part.lower()) or length.parse(_number(part)) for part in parts)
     except InputError as error:
         raise InputError(error.expected, key=key, value=written) from None
     if not (first <= last and (last - first) / step < MOST_DEPTHS):

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from fctd.case.load import Case
 from fctd.model.frames import carried_frame
 from fctd.model.wellbore import Wellbore
-from fctd.plots.facts import shoes_of
 
 Array = NDArray[np.float64]
 
@@ -60,7 +59,7 @@ class DrawnHole:
 
 def drawn_hole(case: Case, hole: Wellbore, top: float) -> DrawnHole:
     """The hole of a case below a measured depth [m]."""
-    shoes = np.array([shoe for shoe in shoes_of(case) if top < shoe < hole.total_depth])
+    shoes = np.array([shoe for shoe in case.shoes if top < shoe < hole.total_depth])
     even = np.linspace(top, hole.total_depth, RINGS * BETWEEN + 1)
     md = np.union1d(even, shoes)
     centre, tangent = hole.at(md)

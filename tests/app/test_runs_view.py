@@ -1,5 +1,6 @@
 """The curves of a run: of its chunks while it lasts, of its result afterwards."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +41,7 @@ def test_a_run_is_seen_from_its_first_chunk_to_its_result(tmp_path: Path, monkey
     np.testing.assert_allclose(
         unpacked(found["curves"]["hookload_N"]), result.history["hookload_N"] / 4448.2216, rtol=1e-6
     )
-    assert found["last"].startswith("2 s: hook load")
+    assert found["last"].startswith(f"{case.name}, 2 s: hook load")
     run = of_run(result)
     assert seen[-1]["string"] is not None
     for shows in (one for one in seen if one["string"]):  # each the string of the last record kept by then
@@ -50,3 +51,25 @@ def test_a_run_is_seen_from_its_first_chunk_to_its_result(tmp_path: Path, monkey
         line = next(trace for trace in shows["string"]["figure"]["data"] if trace["name"] == "string")["line"]
         np.testing.assert_allclose(unpacked(line["color"]), last.columns["effective_tension_N"] / 1e3, rtol=1e-5)
     assert found["string"]["where"] == "2 s, rotating off bottom"
+
+
+def test_a_run_that_was_stopped_says_so_and_names_its_case(tmp_path: Path) -> None:
+    """What it kept, to go on with, lies beside its result, and another well may be on the page."""
+    target = tmp_path / "run" / "result"
+    target.parent.mkdir()
+    (target.parent / "survey.csv").write_bytes(SURVEY)
+    file = target.parent / "case.toml"
+    file.write_text(re.sub('^name = ".*"', 'name = "<b>old"', TEXT, count=1, flags=re.M), encoding="utf-8")
+    case = load_case(file)
+    folder = RunFolder.take(target)
+
+    def until_stopped(now: float, total: float, factor: float) -> None:
+        if now > 1.0:
+            raise KeyboardInterrupt
+
+    simulate(case, progress=until_stopped, keeper=KeptRun(folder, 0.0)).save(target)
+    folder.leave(remove=False)
+    found = records(tmp_path, str(target), "si")
+    assert found["status"].startswith("interrupted")
+    assert found["last"].startswith("<b>old, ")
+    assert "-0.0" not in found["last"]

@@ -499,3 +499,16 @@ def test_a_chart_as_csv_imports_no_package_that_it_does_not_use(tmp_path: Path) 
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
     assert len(pd.read_csv(out)) == 3
+
+
+def test_measured_rows_that_the_picture_does_not_show_are_told(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    monkeypatch.chdir(case_file.parent)
+    rows = "bit_depth_m,operation,hookload_kN\n700,trip_in,90\n700,trip_out,100\n800,rotate_off_bottom,95\n"
+    Path("rows.csv").write_text(rows, encoding="utf-8")
+    options = ["--operation", "trip_out", "--depths", "700:800:100", "--measured", "rows.csv", "--plot", "a.png"]
+    assert run(monkeypatch, "chart", case_file, *options) == 0
+    errors = " ".join(capsys.readouterr().err.split())
+    assert "2 of 3 measured rows are not drawn, of operations that are not asked for: trip_in, rotate" in errors

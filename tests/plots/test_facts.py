@@ -3,7 +3,7 @@
 import numpy as np
 
 from fctd.model.operations import SteadyRates
-from fctd.plots.facts import facts_of, heading_of_chart, heading_of_profile, shoes_of
+from fctd.plots.facts import facts_of, heading_of_chart, heading_of_profile
 from tests.plots.made import chart, points, well
 
 CASE = well(bit={"weight_on_bit": 8e4, "torque": 4e3}, rig={"block_weight": 3e4}, mud={"density": 1200.0})
@@ -27,7 +27,7 @@ def test_loads_at_the_bit_are_those_of_drilling() -> None:
 
 
 def test_shoes_end_intervals_above_the_end_of_the_hole() -> None:
-    assert shoes_of(CASE) == [1500.0]
+    assert CASE.shoes == [1500.0]
 
 
 def test_titles_name_what_all_curves_share() -> None:

@@ -90,6 +90,7 @@ def test_every_work_asks_the_clock(spec: dict[str, object], tmp_path: Path) -> N
 def test_depths_are_those_of_the_chart_command(tmp_path: Path) -> None:
     case = load_case(case_file(tmp_path))
     assert read_depths("600: td :120", case) == (600, 720, 840, 900)
+    assert read_depths("shoe:td:250", case) == (400, 650, 900)
     assert read_depths("2000 ft:2050 ft:50 ft", case) == (609.6, 624.84)
     assert read_depths([700.0], case) == (700.0,)
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -168,6 +169,11 @@ def test_nothing_is_wider_than_the_page_and_names_are_text(page: Any, width: int
     assert overflow(page) <= 0
     assert page.locator("h1").inner_text() == "<a href='https://example.org'>well</a> & $x$"
     assert page.locator("a[href*=example]").count() == 0
+    names = page.locator("#panels :is(.xtitle, .x2title, .x3title)").evaluate_all(
+        "(all) => all.map((one) => one.getBoundingClientRect().toJSON())"
+    )
+    assert all(one["right"] <= other["left"] for one, other in pairwise(sorted(names, key=lambda box: box["left"])))
+    assert len(names) == 3
 
 
 def without_webgl(path: Path) -> str:

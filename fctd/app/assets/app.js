@@ -3,15 +3,11 @@
 (() => {
   const REST = 300; // a slider that has rested so long is solved at all depths [ms]
   const LOST = 30000; // an answer that has not come by then will not come [ms]
-<<<<<<< HEAD
-  const state = {
-    busy: false, since: 0, next: null, rest: null, drawing: false, turn: 0, n: 0, values: {}, own: {}, shown: {}, opened: 0 };
-=======
   const PATIENCE = 500; // after which the pictures are marked as those of before [ms]
   // Largest files [bytes]: a request has at most 5 MiB, and files go in base64, which takes a third more.
   const MOST = 3.5 * 2 ** 20;
-  const state = { busy: false, since: 0, next: null, rest: null, n: 0, values: {}, own: {}, shown: {}, opened: 0 };
->>>>>>> hatk
+  const state = {
+    busy: false, since: 0, next: null, rest: null, drawing: false, turn: 0, n: 0, values: {}, own: {}, shown: {}, opened: 0 };
   const set = (id, props) => dash_clientside.set_props(id, props);
   const unchanged = () => dash_clientside.no_update;
 
@@ -129,12 +125,8 @@
 
   function drawn(answered, loads) {
     state.busy = false;
-<<<<<<< HEAD
-=======
     clearTimeout(state.late);
     if (!state.next) waiting(false);
-    times.push(performance.now());
->>>>>>> hatk
     if (state.next) {
       const next = state.next;
       state.next = null;
