@@ -163,7 +163,7 @@ def _print(found: Uncertainty, units: System) -> None:
     at = "" if np.isnan(found.bit_depth) else f" at {found.bit_depth * metre.factor:.5g} {metre.label}"
     table = Table(box=SIMPLE_HEAD, title=f"Influence{at}", title_justify="left")
     for heading in ("operation", "column", "measure", "parameter"):
-        table.add_column(heading, overflow="fold")
+        table.add_column(heading, overflow="fold", no_wrap=heading == "operation")
     for heading in ("value", "±"):
         table.add_column(heading, justify="right")
     for row in found.indices[~found.indices["measure"].isin(IN_FILES)].to_dict("records"):
@@ -185,7 +185,7 @@ def _unit(column: str, units: System) -> tuple[float, str]:
 def _print_percentiles(found: Uncertainty, units: System) -> None:
     table = Table(box=SIMPLE_HEAD, title="Percentiles at the last depth", title_justify="left")
     for heading in ("operation", "column"):
-        table.add_column(heading, overflow="fold")
+        table.add_column(heading, overflow="fold", no_wrap=heading == "operation")
     for heading in ("%", "value", "95 %", "samples"):
         table.add_column(heading, justify="right")
     rows = found.percentiles

@@ -153,7 +153,7 @@ def map_figure(
         raise InputError("an operation of the sweep", key="--operation", value=kind)
     for key in keys:
         numbers = [p.key for p in found.spec.parameters if rows[p.key].dtype.kind in "if"]
-        if key not in numbers:
+        if key not in numbers or keys[0] == keys[1]:
             raise InputError(f"two parameters with numbers, of {', '.join(numbers)}", key="--map", value=",".join(keys))
     text, unit = label_of(column, units)
     x, y = (rows[key].to_numpy(float) for key in keys)

@@ -125,6 +125,8 @@ def noise_in(rows: pd.DataFrame, columns: Sequence[str]) -> frozenset[tuple[str,
 def _at(rows: pd.DataFrame, bit_depth: float | None) -> tuple[float, pd.DataFrame]:
     """The depth of the indices, and its rows."""
     if "bit_depth_m" not in rows:
+        if bit_depth is not None:
+            raise InputError("no depth, as rows of runs have none", key="bit_depth", value=f"{bit_depth:g} m")
         return float("nan"), rows
     depths = rows["bit_depth_m"].dropna().unique()
     wanted = float(max(depths)) if bit_depth is None else bit_depth

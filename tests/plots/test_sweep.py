@@ -128,6 +128,8 @@ def test_pictures_that_samples_do_not_allow_are_refused(tmp_path: Path) -> None:
         plots.tornado_figure(found)
     with pytest.raises(InputError, match="two parameters with numbers"):
         plots.map_figure(found, ["friction.open", "rig.block_weight"], "hookload_N")
+    with pytest.raises(InputError, match="two parameters with numbers"):
+        plots.map_figure(found, ["mud.density", "mud.density"], "hookload_N")
     one = found.percentiles[found.percentiles["bit_depth_m"] == 900]
     with pytest.raises(InputError, match="several depths"):
         plots.bands_figure(Uncertainty(**{**vars(found), "percentiles": one}))

@@ -147,6 +147,14 @@ def test_the_torque_of_a_string_that_only_slides_is_noise() -> None:
     assert noise_in(rows.drop(columns="hookload_N"), columns[1:]) == set()
 
 
+def test_runs_have_no_depth_to_choose(tmp_path: Path) -> None:
+    spec, dataset = swept(tmp_path, 'method = "random"\nsamples = 5')
+    runs = spec.model_copy(update={"work": spec.work.model_copy(update={"kind": "simulate"})})
+    assert np.isnan(assess(dataset, runs).bit_depth)
+    with pytest.raises(InputError, match="no depth"):
+        assess(dataset, runs, 900.0)
+
+
 def test_too_few_samples_for_indices_are_said_and_the_rest_is_told(tmp_path: Path) -> None:
     spec, dataset = swept(tmp_path, 'method = "random"\nsamples = 5')
     found = assess(dataset, spec)
