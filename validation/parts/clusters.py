@@ -67,11 +67,13 @@ class Cluster:
         next(child for child in below if "spawn_main" in " ".join(child.cmdline())).kill()
 
     def end(self) -> None:
-        """End all processes."""
-        for process in self.processes:
-            process.terminate()
-        for process in self.processes:
-            process.wait(timeout=30)
+        """End all processes, the scheduler last: a worker that has just lost it may not end by itself."""
+        scheduler, *workers = self.processes
+        for processes in (workers, [scheduler]):
+            for process in processes:
+                process.terminate()
+            for process in processes:
+                process.wait(timeout=30)
 
     def _dask(self, role: str, *options: object) -> "subprocess.Popen[bytes]":
         """A scheduler or a worker, without its messages."""
