@@ -117,7 +117,8 @@ def check_samples(template: Template, samples: Any, keys: Sequence[str], task: T
         try:
             case = template.case(number, dict(zip(keys, sample.values, strict=True)))
         except InputError as error:
-            values = ", ".join(f"{key} = {value}" for key, value in zip(keys, sample.values, strict=True))
+            pairs = zip(keys, sample.values, strict=True)
+            values = ", ".join(f"{key} = {value} {template.units[key]}".rstrip() for key, value in pairs)
             expected = "values that a case can have" + ("" if rows else ', or bad_samples = "rows"')
             refusal = InputError(f"{expected}; sample {number} has none: {error}", key="parameters", value=values)
             if not rows:

@@ -55,7 +55,8 @@ def test_samples_that_no_case_can_have_are_refused_or_rows(tmp_path: Path) -> No
     bad = PARAMETERS.replace("low = 0.1\n", "low = -0.1\n").replace("sd = 0.05", "sd = 0.3")
     spec = read_sweep(sweep_file(tmp_path, body=bad + WORK))
     with pytest.raises(
-        InputError, match=r"values that a case can have.*sample \d+ has none.*a friction factor at least 0"
+        InputError,
+        match=r"density = 1\.\d+ sg.*values that a case can have.*sample \d+ has none.*a friction factor at least 0",
     ):
         sweep(spec, tmp_path / "out", ONE)
     assert not (tmp_path / "out").exists()
