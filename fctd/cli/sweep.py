@@ -23,6 +23,7 @@ from fctd.case.errors import InputError
 from fctd.case.text import file_name, printable
 from fctd.cli.options import FAILED, Quiet, messages, screen
 from fctd.results.status import ACCEPTABLE
+from fctd.steady.batch import cores
 from fctd.sweep.chunk import NO_ROWS
 from fctd.sweep.cluster import Where, encrypted
 from fctd.sweep.run import SchedulerLostError, Summary, sweep
@@ -90,6 +91,7 @@ def sweep_command(
         raise typer.Exit(FAILED)
 
 
+MOST_WORKERS = 4  # for each core: each has an interpreter and compiled code of its own
 AGAIN = "The same command goes on with the samples that are missing."
 
 
@@ -102,6 +104,10 @@ def where_of(
     where = Where(workers, scheduler, scheduler_file)
     if workers is not None and not where.local:
         raise InputError("no number of workers beside a scheduler, which has its own", key="--workers", value=workers)
+    most = MOST_WORKERS * cores()
+    if workers is not None and workers > most:
+        expected = f"at most {most}, {MOST_WORKERS} for each core of this machine: one a core is fastest"
+        raise InputError(expected, key="--workers", value=workers)
     names = ("--tls-ca", "--tls-cert", "--tls-key")
     given = {name: path for name, path in zip(names, tls, strict=True) if path is not None}
     if not given:

@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 from fctd.case.errors import InputError
 from fctd.cli.main import app
 from fctd.cli.sweep import where_of
+from fctd.steady.batch import cores
 from fctd.sweep.dataset import open_dataset
 from tests.sweep.made import sweep_file
 
@@ -60,6 +61,7 @@ def test_rows_to_be_doubted_are_said_and_are_exit_code_1_however_often_it_is_ask
     [
         ((None, "tcp://a:1", Path("b"), NOTHING), "not both"),
         ((2, "tcp://a:1", None, NOTHING), "no number of workers"),
+        ((4 * cores() + 1, None, None, NOTHING), "for each core of this machine"),
         ((None, None, None, (Path("ca"), None, None)), "the scheduler of another machine"),
         ((None, "tls://a:1", None, (Path(__file__), None, None)), "--tls-cert is missing"),
         ((None, "tls://a:1", None, (Path("none.pem"), Path("b"), Path("c"))), "a file that is there"),
