@@ -97,7 +97,8 @@ def _table(killed: list[Killed]) -> pd.DataFrame:
 def _shares(folder: Path) -> dict[str, float]:
     """Shares of guards and checkpoints in the time of a trip, whose checkpoints come as often as they may.
 
-    It takes more than ten seconds on a fast machine too: the first checkpoint comes after two, and may take a tenth of one.
+    It takes more than ten seconds on a fast machine too: the first checkpoint comes after two, and may take a tenth of
+    one.
     """
     folder.mkdir()
     (folder / "case.toml").write_text(trip("arcs", 1900.0, speed="0.12 m/s").case)
