@@ -30,8 +30,7 @@ KILLS: list[tuple[Command, int]] = [
 QUICK: list[tuple[Command, int]] = [
     (trip("arcs", 900.0), 2), (drill("cylinders", 1501.0), 2), (chart(10.0), 2), (meshed(0.5), 1),
 ]  # fmt: skip
-# Four seconds of one process: the first checkpoint comes after two.
-LASTING = trip("arcs", 1900.0)
+LASTING = trip("arcs", 1900.0, speed="0.12 m/s")
 # 47 connections of eight minutes, and 1,350 m between them: eight hours.
 LONG, LONG_KILLS, HOURS, RECORDED = trip("arcs", 1950.0, "8 min", "0.22 m/s", "10 s"), 10, 8.0, 10.0
 
@@ -102,7 +101,8 @@ def _table(killed: list[Killed]) -> pd.DataFrame:
 def _shares(folder: Path) -> dict[str, float]:
     """Shares of guards and checkpoints in the time of a trip, whose checkpoints come as often as they may.
 
-    It takes seconds on a fast machine too: the first checkpoint comes after two.
+    It takes more than ten seconds on a fast machine too: the first checkpoint comes after two, and may take a tenth of
+    one.
     """
     folder.mkdir()
     (folder / "case.toml").write_text(LASTING.case)
