@@ -63,7 +63,7 @@ def test_no_home(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("command", [trip("arcs", 604.0), chart(100.0)], ids=lambda command: command.name)
+@pytest.mark.parametrize("command", [trip("arcs", 800.0), chart(10.0)], ids=lambda command: command.name)
 def test_killed_at_random_moments(command: Command, tmp_path: Path) -> None:
     found = kill_again_and_again(command, 2, np.random.default_rng(7), tmp_path / "killed")
     assert (found.kills, found.wrong) == (2, [])

@@ -23,6 +23,8 @@ from fctd.results.run_folder import PROGRESS, about_of, numbered, run_path
 from fctd.results.tables import TABLES, open_result
 from references.__main__ import app as references
 
+# Processes for each kill, after which a command counts as one that ends before it can be killed.
+MOST_PROCESSES = 20
 WELL = """
 name = "killed"
 [wellbore]
@@ -253,6 +255,9 @@ def kill_again_and_again(
     if code:
         found.wrong.append(f"the undisturbed command ended with {code}")
         return found
+    if not found.computing:
+        found.wrong.append(f"the undisturbed command ended in {found.took:.2g} s, before it said how far it was")
+        return found
     wanted = tables_of(whole)
     while found.kills < kills:
         _earlier(whole, result)
@@ -283,6 +288,9 @@ def kill_again_and_again(
                 found.wrong.append("fctd status failed after a kill")
         if code and not cleaning:
             found.wrong.append(f"a process ended with {code}")
+            break
+        if found.processes > MOST_PROCESSES * kills:
+            found.wrong.append(f"{found.processes} processes, of which {found.kills} could be killed before they ended")
             break
         found.wrong += [f"{name} differs" for name, bits in tables_of(result).items() if bits != wanted[name]]
         if run_path(result).exists() and not cleaning:
