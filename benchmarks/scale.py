@@ -28,6 +28,7 @@ WORKERS = (1, 2, 4, 8, 16)
 SHORT, CHUNK = 0.05, 0.4  # shortest and usual work of a chunk [s]
 FITTED = 1, 16  # numbers of workers from which the model's two times are taken
 SPAN = 5.0  # of a measurement with sleeping workers [s]
+MOST_TASKS = 4000  # of one measurement
 ALONE = 60  # samples whose processor time is taken in this process
 
 
@@ -61,8 +62,8 @@ def served(workers: int, work: float) -> float:
     """Tasks a second that sleeping workers end, each task of some work [s], after a first round."""
     with connected(Where(workers=workers)) as client:
         client.gather(client.map(time.sleep, [0.0] * 4 * workers, pure=False))
-        count = max(round(SPAN * workers / work), 4 * workers)
-        count = min(count, 4000)
+        count = max(round(SPAN * workers / work), 4 * workers) if work else MOST_TASKS
+        count = min(count, MOST_TASKS)
         began = time.perf_counter()
         client.gather(client.map(time.sleep, [work] * count, pure=False))
         return count / (time.perf_counter() - began)
