@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 import fctd
 from fctd import plots
+from fctd.results.parquet import read_frame
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import sweep
 from fctd.sweep.spec import read_sweep
@@ -97,7 +98,7 @@ def _swept(name: str) -> Uncertainty:
 
 
 def _tables(*names: str) -> dict[str, pd.DataFrame]:
-    return {name: pd.read_parquet(STUDY / f"{name}.parquet") for name in names}
+    return {name: read_frame(STUDY / f"{name}.parquet") for name in names}
 
 
 PICTURES: dict[str, Callable[[], Figure]] = {

@@ -13,16 +13,15 @@ from fctd.case.errors import InputError
 from fctd.case.xml_file import child, read_xml, tag, text_of
 from fctd.monitoring.quantities import QUANTITIES, check_columns, find_columns
 from fctd.monitoring.rows import to_si
+from fctd.results.parquet import read_frame
 
 Said = Mapping[str, tuple[str, str | None]]
 
 
 def read_parquet(path: Path, said: Said) -> pd.DataFrame:
     """The rows [SI] of a Parquet table, whose columns are named as the headers of a text are."""
-    import pyarrow.parquet as pq  # slow to import
-
     try:
-        table = pq.read_table(path).to_pandas()
+        table = read_frame(path)
     except (OSError, ValueError) as error:
         raise InputError(f"a Parquet table ({error})") from error
     return _convert(table.set_axis(range(table.shape[1]), axis=1), list(map(str, table.columns)), (), said)

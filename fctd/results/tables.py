@@ -25,6 +25,7 @@ from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, as_metadata, from_metadata
+from fctd.results.parquet import read_table
 from fctd.results.status import RunStatus
 from fctd.results.unit_systems import System, in_field_units
 from fctd.results.whole_file import check_file, left_overs, whole_file
@@ -156,8 +157,6 @@ def open_result(folder: str | os.PathLike[str], pause: float = PAUSE) -> Simulat
 
 
 def _read(folder: Path) -> SimulationResult:
-    import pyarrow.parquet as pq  # slow to import, and most commands write CSV
-
     tables, origins = {}, {}
     with ExitStack() as stack:
         try:
@@ -170,8 +169,8 @@ def _read(folder: Path) -> SimulationResult:
             try:
                 check_regular(folder / file)
                 with open(file, "rb", opener=lambda path, flags: os.open(path, flags, dir_fd=place)) as source:
-                    table = pq.read_table(source)
-                tables[name], origins[name] = table.to_pandas(), table.schema.metadata or {}
+                    table = read_table(source)
+                tables[name], origins[name] = table.to_pandas(use_threads=False), table.schema.metadata or {}
             except InputError as error:
                 raise error.in_file(folder / file) from None
             except (OSError, ValueError) as error:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fctd.results.parquet import read_table
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.series import KEPT
 
@@ -58,9 +59,7 @@ def chunk_since(recorder: Recorder, cursor: Cursor) -> dict[str, bytes]:
 
 def read_chunk(chunk: Mapping[str, bytes]) -> dict[str, Any]:
     """The tables of a chunk; raises OSError or ValueError for one that cannot be read."""
-    import pyarrow.parquet as pq
-
-    return {name: pq.read_table(io.BytesIO(data), page_checksum_verification=True) for name, data in chunk.items()}
+    return {name: read_table(io.BytesIO(data), checksums=True) for name, data in chunk.items()}
 
 
 def size_of(chunks: Iterable[Mapping[str, Any]]) -> tuple[int, int, int]:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
+from fctd.results.parquet import read_frame, read_table
 from fctd.results.tables import versions
 from fctd.results.whole_file import left_by_dead, whole_file
 from fctd.sweep.template import Template
@@ -84,13 +85,11 @@ class Dataset:
 
     def _tables(self, columns: list[str] | None = None) -> list[pa.Table]:
         """The rows of every part, of all or of some columns."""
-        import pyarrow.parquet as pq
-
         tables = []
         for path in self.parts:
             try:
                 with path.open("rb") as source:
-                    tables.append(pq.read_table(source, columns=columns).replace_schema_metadata(None))
+                    tables.append(read_table(source, columns).replace_schema_metadata(None))
             except (OSError, ValueError) as error:
                 raise InputError(f"a part that fctd sweep wrote ({error})", value=path) from error
         return tables
@@ -102,7 +101,7 @@ class Dataset:
         tables = self._tables()
         if not tables:
             raise InputError("the rows of at least one sample: fctd sweep makes them", value=self.folder / ROWS)
-        table: pd.DataFrame = pa.concat_tables(tables, promote_options="permissive").to_pandas()
+        table: pd.DataFrame = pa.concat_tables(tables, promote_options="permissive").to_pandas(use_threads=False)
         return table.sort_values("sample", kind="stable", ignore_index=True)
 
     def keep_run(self, run: dict[str, Any]) -> None:
@@ -120,12 +119,10 @@ def identity_of(template: Template) -> str:
 
 def open_dataset(folder: Path) -> Dataset:
     """The dataset of a folder; raises InputError where there is none."""
-    import pandas as pd
-
     try:
         about = json.loads((folder / ABOUT).read_text(encoding="utf-8"))
         with (folder / SAMPLES).open("rb") as source:
-            samples = pd.read_parquet(source)
+            samples = read_frame(source)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"a folder that fctd sweep has written ({reason})", value=folder) from error

@@ -12,6 +12,7 @@ import pytest
 
 from fctd import open_result
 from fctd.case.errors import InputError
+from fctd.results import tables
 from fctd.results import whole_folder as whole_folder_module
 from fctd.results.tables import TABLES, own_files
 from fctd.results.whole_folder import check_folder, repair, whole_folder
@@ -323,16 +324,16 @@ def test_tables_of_two_runs_are_not_read(tmp_path: Path) -> None:
 
 def test_a_result_that_is_replaced_while_it_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The tables read are all of the same run: the old one's are gone by then, and the new one is read."""
-    folder, read = tmp_path / "out", pq.read_table
+    folder, read = tmp_path / "out", tables.read_table
     earlier(folder)
 
     def replaced(source: object) -> object:
-        monkeypatch.setattr(pq, "read_table", read)
+        monkeypatch.setattr(tables, "read_table", read)
         table = read(source)
         result(2.0).save(folder)
         return table
 
-    monkeypatch.setattr(pq, "read_table", replaced)
+    monkeypatch.setattr(tables, "read_table", replaced)
     assert value(folder) == 2.0
 
 

@@ -17,6 +17,7 @@ import pandas as pd
 from pydantic import Field, ValidationError, model_validator
 
 from fctd.case.errors import MISSING, InputError, Table, exclusive, explain, look_up
+from fctd.results.parquet import read_frame
 from validation.harness import store
 from validation.harness.registry import STUDIES
 from validation.harness.store import Record
@@ -319,7 +320,7 @@ class Results:
     def _cell(self, wanted: Number, run: Record) -> tuple[str, float, str]:
         if wanted.table not in run.tables:
             raise InputError(_one_of(f"tables of {run.study}", run.tables), key="table", value=wanted.table)
-        table = pd.read_parquet(self._folder / run.study / f"{wanted.table}.parquet")
+        table = read_frame(self._folder / run.study / f"{wanted.table}.parquet")
         for column in (wanted.column, *wanted.where):
             if column not in table:
                 raise InputError(_one_of(f"columns of {wanted.table}", table.columns), key="column", value=column)

@@ -21,6 +21,7 @@ import pandas as pd
 from pyarrow import parquet
 from pydantic import TypeAdapter
 
+from fctd.results.parquet import read_frame
 from references.timing.stopwatch import cpu_name
 from validation.harness.fingerprint import Inputs
 from validation.harness.study import ROOT, Check
@@ -168,7 +169,7 @@ def unreadable(folder: Path, record: Record) -> str:
 
 def read_tables(folder: Path, record: Record) -> dict[str, pd.DataFrame]:
     """The tables stored beside a record."""
-    return {name: pd.read_parquet(folder / f"{name}.parquet") for name in record.tables}
+    return {name: read_frame(folder / f"{name}.parquet") for name in record.tables}
 
 
 def _write_verdict(record: Record, path: Path) -> None:

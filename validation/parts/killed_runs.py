@@ -19,6 +19,7 @@ import pandas as pd
 from fctd.cli.keeping import has_kept
 from fctd.cli.main import app, run
 from fctd.results import pacing
+from fctd.results.parquet import read_frame
 from fctd.results.run_folder import PROGRESS, about_of, numbered, run_path
 from fctd.results.tables import TABLES, open_result
 from references.__main__ import app as references
@@ -323,7 +324,7 @@ def _chunks(result: Path) -> int:
 def tables_of(result: Path) -> dict[str, bytes]:
     """Every column of a result, bit by bit."""
     if not result.is_dir():
-        return _bits("chart", pd.read_parquet(result))
+        return _bits("chart", read_frame(result))
     found = open_result(result)
     return {key: bits for name in TABLES for key, bits in _bits(name, getattr(found, name)).items()}
 
