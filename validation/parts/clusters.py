@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from fctd.sweep.cluster import Where, connected
 from validation.harness.study import ROOT
 
 # A worker that preloads this hangs or dies in samples of given numbers.
@@ -54,6 +55,11 @@ class Cluster:
         if preload is not None:
             options += ["--preload", preload]
         self.processes += [self._dask("worker", *options) for _ in range(count)]
+
+    def wait_for_workers(self, count: int) -> None:
+        """Return once so many workers have joined; without TLS."""
+        with connected(Where(scheduler_file=self.file)) as client:
+            client.wait_for_workers(count, timeout=60)
 
     def kill(self, role: str) -> None:
         """Kill the scheduler, or a worker process, which its nanny starts again."""

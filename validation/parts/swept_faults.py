@@ -150,6 +150,7 @@ class Sweeps:
             return _ended(self.start(out, before=_small_disk, preload=self.slow), (2,))
         if kind in ("scheduler", "worker of a scheduler"):
             with cluster(folder, 2, self.slow) as dask:
+                dask.wait_for_workers(2)  # one alone would begin with a chunk that lasts to the end
                 process = self.start(out, "--scheduler-file", dask.file)
                 if wrong := _wait_in(process, out, after):
                     return wrong
