@@ -24,8 +24,10 @@ def failing(own):
         time.sleep(PAUSE)
         return own(self, sample)
     return rows_of
+def paused(own):  # so that chunks are as short as for samples that take so long
+    return lambda self: own(self) + PAUSE
 if chunk.Bench.rows_of.__module__ == chunk.__name__:  # a preloaded file is read twice
-    chunk.Bench.rows_of = failing(chunk.Bench.rows_of)
+    chunk.Bench.rows_of, chunk.Bench.warm_up = failing(chunk.Bench.rows_of), paused(chunk.Bench.warm_up)
 """
 
 
