@@ -7,9 +7,10 @@ first attempt (balance.py) is left to the methods in Python.
 
 import os
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from typing import NamedTuple
+from threading import local
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +49,7 @@ from fctd.steady.reading import (
 from fctd.steady.tangent import Steady, frictionless_tangent
 
 Array = NDArray[np.float64]
+Part = TypeVar("Part")
 
 ITERATIONS, TAU, GROWTH, SHRINK, SHIFT = ATTEMPTS[0]
 # Columns of the loads of a row.
@@ -106,6 +108,7 @@ def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
     return Hole(pieces, geometry, with_wall, law, holes[0].bends, *map(float, case.contact.wall_law))
 
 
+NO_ROOM = Workspace(0)
 UNSOLVED = Answer(np.zeros(ANSWER), *(np.zeros((0, k)) for k in SHAPE_COLUMNS))
 
 
@@ -115,28 +118,30 @@ def cores() -> int:
 
 
 def solve_batches(
-    case: Case, holes: Sequence[Wellbore], batches: Iterable[Sequence[Row]], threads: int
+    case: Case, holes: Sequence[Wellbore], parts: Iterable[Part], rows_of: Callable[[Part], Sequence[Row]], threads: int
 ) -> Iterator[list[Answer]]:
-    """``solve_batch`` of each of many batches, in their order, on a number of threads.
+    """``solve_batch`` of the rows of each part, in the order of the parts, on a number of threads.
 
-    A few batches beyond those that the threads work on are solved ahead, so that the answers of a long chart do not
-    fill the memory.
+    rows_of : makes the rows of a part, on the thread that solves them: threads that wait for another one's Python
+    would stand idle.  A few parts beyond those that the threads work on are solved ahead, so that the answers of a long
+    chart do not fill the memory.
     """
-    hole = hole_of(case, holes)
+    hole, own = hole_of(case, holes), local()
+
+    def solve(part: Part) -> list[Answer]:
+        rows = rows_of(part)
+        own.work = getattr(own, "work", NO_ROOM).for_segments(_longest(rows))
+        return solve_batch(case, hole, rows, own.work)
+
     if threads == 1:  # in this thread, whose clock then counts the work
-        work = Workspace(0)
-        for rows in batches:
-            work = work.for_segments(_longest(rows))
-            yield solve_batch(case, hole, rows, work)
+        yield from map(solve, parts)
         return
-    spare, waiting = deque(Workspace(0) for _ in range(2 * threads)), deque[Future[list[Answer]]]()
+    waiting = deque[Future[list[Answer]]]()
     with ThreadPoolExecutor(threads) as pool:
-        for rows in batches:
-            if len(waiting) == len(spare):
+        for part in parts:
+            if len(waiting) == 2 * threads:
                 yield waiting.popleft().result()
-            spare.rotate(-1)  # the oldest, whose batch is done
-            spare[0] = spare[0].for_segments(_longest(rows))
-            waiting.append(pool.submit(solve_batch, case, hole, rows, spare[0]))
+            waiting.append(pool.submit(solve, part))
         while waiting:
             yield waiting.popleft().result()
 

@@ -94,21 +94,19 @@ def chart_rows(
         solvers = _solvers(case, hole, sets)
         loads = [(kind, k) for kind in kinds for k in range(len(solvers))]
         threads = batch.cores() if threads is None else threads
-        size = max(1, min(len(depths) // (4 * threads), ROWS // len(loads)))
-        parts = [depths[k : k + size] for k in range(len(known), len(depths), size)]
+        parts = list(_parts(depths[len(known) :], max(1, ROWS // len(loads)), threads))
         laid: dict[float, LaidString | InputError] = {}
 
-        def batches() -> Iterator[list[batch.Row]]:
-            for part in parts:
-                # The string is laid out once a depth, for all operations and frictions.
-                strings = [laid.setdefault(depth, _lay_out(solvers[0][1], depth)) for depth in part]
-                fit = [string for string in strings if isinstance(string, LaidString)]
-                yield [batch.Row(string, k, kind, rates[kind]) for string in fit for kind, k in loads]
+        def rows_of(part: Sequence[float]) -> list[batch.Row]:
+            # The string is laid out once a depth, for all operations and frictions.
+            strings = [laid.setdefault(depth, _lay_out(solvers[0][1], depth)) for depth in part]
+            fit = [string for string in strings if isinstance(string, LaidString)]
+            return [batch.Row(string, k, kind, rates[kind]) for string in fit for kind, k in loads]
 
         rows = list(known)
         unfit: list[InputError] = []
         misfits = sum(all(row["status"] == SteadyStatus.NOT_POSSIBLE for row in at_depth) for at_depth in known)
-        solved = batch.solve_batches(case, [solver.hole for _, solver in solvers], batches(), threads)
+        solved = batch.solve_batches(case, [solver.hole for _, solver in solvers], parts, rows_of, threads)
         for part, answers in zip(parts, solved, strict=True):
             of = iter(answers)
             for depth in part:
@@ -126,6 +124,16 @@ def chart_rows(
         if unfit and misfits + len(unfit) == len(depths):
             raise unfit[0]
         return [row for series in zip(*rows, strict=True) for row in series]
+
+
+def _parts(depths: Sequence[float], most: int, threads: int) -> Iterator[Sequence[float]]:
+    """The depths in parts, which become smaller where threads share them: then all end at nearly the same time."""
+    done = 0
+    while done < len(depths):
+        left = len(depths) - done
+        size = most if threads == 1 else max(1, min(most, left // (2 * threads)))
+        yield depths[done : done + size]
+        done += size
 
 
 def _solvers(case: Case, hole: Wellbore, sets: Sequence[FrictionSet] | None) -> list[tuple[str, Solver]]:

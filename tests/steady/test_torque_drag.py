@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from fctd import InputError, equilibrium, load_case, torque_drag
 from fctd.model.operations import SteadyRates
@@ -28,6 +30,16 @@ def case_of(**more: Any) -> Any:
         STATIONS, [pipe(None, None, segment_length=20.0)], wellbore={"intervals": intervals},
         rig={"block_weight": 1e5, "sheave_efficiency": 0.9, "torque_offset": 500.0}, **more,
     )  # fmt: skip
+
+
+@settings(max_examples=12, deadline=None)
+@given(
+    depths=st.sets(st.integers(100, 900), min_size=1, max_size=60), threads=st.integers(2, 5), kinds=st.integers(1, 3)
+)
+def test_the_rows_of_a_chart_do_not_depend_on_the_number_of_threads(depths: set[int], threads: int, kinds: int) -> None:
+    asked = ["trip_out", "rotate_off_bottom", "trip_in"][:kinds], sorted(map(float, depths))
+    alone, together = (torque_drag(case_of(), *asked, threads=count) for count in (1, threads))
+    pd.testing.assert_frame_equal(alone, together, check_exact=True)
 
 
 def test_a_row_per_operation_friction_and_depth() -> None:

@@ -10,8 +10,9 @@ import pandas as pd
 from fctd import Case, Equilibrium
 from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
-from fctd.steady.batch import Row, solve_batches
+from fctd.steady.batch import Row, hole_of, solve_batch
 from fctd.steady.equilibrium import Solver
+from fctd.steady.problem import Workspace
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.plausible_rows import LESS, REPEATED, Drawn, drawn
 from validation.parts.stepped_rows import MOVING, step
@@ -41,7 +42,7 @@ def solved(string: Drawn) -> Iterator[tuple[float, float, Equilibrium]]:
     weight = float(laid.string.of("weight") @ laid.string.length)
     wanted = [(0, kind) for kind in rates] + [(1, kind) for kind in REPEATED if kind in rates]
     batch = [Row(laid, k, kind, rates[kind]) for k, kind in wanted]
-    (answers,) = solve_batches(case, [of.hole for of in solvers], [batch], threads=1)
+    answers = solve_batch(case, hole_of(case, [of.hole for of in solvers]), batch, Workspace(laid.string.segments))
     for (k, kind), answer in zip(wanted, answers, strict=True):
         yield (1.0, LESS)[k], weight, solvers[k].finish(kind, rates[kind], laid, answer)
 
