@@ -168,6 +168,9 @@ def test_an_incomplete_dataset_and_a_depth_that_is_not_there_are_refused(tmp_pat
     spec, dataset = swept(tmp_path, 'method = "random"\nsamples = 5')
     with pytest.raises(InputError, match="a depth of the sweep, such as 900 m"):
         assess(dataset, spec, 850.0)
+    with pytest.raises(InputError, match="a depth of the sweep, such as 900 m"):
+        assess(dataset, spec, 900.0 - 0.51 * 0.3048)
+    assert assess(dataset, spec, 900.0 - 0.49 * 0.3048).bit_depth == 900.0  # in whole feet
     dataset.done.discard(3)
     with pytest.raises(InputError, match="1 of 5 are missing"):
         assess(dataset, spec)
