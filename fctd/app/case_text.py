@@ -4,7 +4,6 @@ This runs in the process of its own that worker.py is.
 """
 
 import io
-import tomllib
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -15,6 +14,7 @@ import tomlkit
 
 from fctd.app.sessions import Source
 from fctd.case.errors import InputError, look_up, set_key, split_key
+from fctd.case.input_file import tables_of
 from fctd.case.load import LARGEST_FILE, Case, make_case
 from fctd.case.surveys.workbook import ZIP
 from fctd.model.layouts import segments_in_hole
@@ -37,10 +37,7 @@ class SourceCase:
         self.source, self.folder = source, folder
         if len(source.text) > LARGEST_FILE * 2**20:
             raise InputError(f"a case file of at most {LARGEST_FILE} MiB")
-        try:
-            raw = tomllib.loads(source.text)
-        except (ValueError, RecursionError) as error:
-            raise InputError(f"a case file in TOML ({error})") from None
+        raw = tables_of(source.text, "a case file")
         self._survey = folder / f"survey{_suffix(source.survey_name)}"
         if check_paths(raw, source.survey_name):
             check_survey(source.survey)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -10,7 +9,7 @@ from pydantic import Field, ValidationError, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table, explain
-from fctd.case.input_file import read_text
+from fctd.case.input_file import read_toml
 from fctd.case.load import LARGEST_FILE
 
 PositiveForce = Annotated[float, units.Quantity(dimension=units.FORCE, above=0.0)]
@@ -92,13 +91,9 @@ def read_setup(path: Path) -> Setup:
     """The setup of a TOML file; raises InputError, which names file, key and value."""
     raw: dict[str, Any] = {}
     try:
-        raw = tomllib.loads(read_text(path, LARGEST_FILE))
+        raw = read_toml(path, LARGEST_FILE, "a setup")
         return Setup.model_validate(raw)
     except ValidationError as failure:
         raise explain(failure, raw, branches=("str", "float")).in_file(path) from None
     except InputError as error:
         raise error.in_file(path) from error.__cause__
-    except OSError as error:
-        raise InputError(f"a setup that can be read ({error.strerror})", file=path) from error
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"a setup in TOML ({error})", file=path) from error

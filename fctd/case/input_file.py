@@ -4,7 +4,9 @@ import errno
 import io
 import os
 import stat
+import tomllib
 from pathlib import Path
+from typing import Any
 
 from fctd.case.errors import InputError
 
@@ -15,6 +17,30 @@ def read_text(path: Path, largest: int) -> str:
     Raises as `read_bytes` does, and ValueError for a file that is not UTF-8.
     """
     return io.StringIO(read_bytes(path, largest).decode("utf-8-sig"), newline=None).read()
+
+
+def read_toml(path: Path, largest: int, what: str) -> dict[str, Any]:
+    """The tables of a TOML file of at most ``largest`` MiB.
+
+    what : the file in messages, as "a case file".  Raises InputError, which does not name the path.
+    """
+    try:
+        text = read_text(path, largest)
+    except OSError as error:
+        raise InputError(f"{what} that can be read ({error.strerror})") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{what} in TOML ({error})") from error
+    return tables_of(text, what)
+
+
+def tables_of(text: str, what: str) -> dict[str, Any]:
+    """The tables of a text in TOML; raises InputError as `read_toml` does."""
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise InputError(f"{what} in TOML (too many arrays or tables lie in each other)") from None
+    except ValueError as error:
+        raise InputError(f"{what} in TOML ({error})") from error
 
 
 def read_bytes(path: Path, largest: int) -> bytes:

@@ -16,7 +16,7 @@ from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
 from fctd.case.friction import pick, scaled_static
-from fctd.case.input_file import read_text
+from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
 from fctd.case.specs import (
@@ -208,14 +208,7 @@ def parse_override(text: str) -> tuple[str, Any]:
 
 def read_raw(path: Path) -> dict[str, Any]:
     """The tables of a case file, unvalidated; raises InputError, which names no file."""
-    try:
-        return tomllib.loads(read_text(path, LARGEST_FILE))
-    except OSError as error:
-        raise InputError(f"a case file that can be read ({error.strerror})") from error
-    except InputError:
-        raise
-    except (ValueError, RecursionError) as error:  # not UTF-8, not TOML, or nested too deeply
-        raise InputError(f"a case file in TOML ({error})") from error
+    return read_toml(path, LARGEST_FILE, "a case file")
 
 
 def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:

@@ -129,8 +129,12 @@ class Store:
         file, path = self._locks.pop(name, (-1, Path()))
         if file < 0:
             return
-        with suppress(OSError):  # where there are no locks
-            if _locked(file):  # and not one that was waited for in vain
+        try:
+            alone = _locked(file)  # not where another one was waited for in vain
+        except OSError:  # there are no locks, and the file holds up nobody
+            alone = True
+        with suppress(OSError):
+            if alone:
                 path.unlink()
             fcntl.flock(file, fcntl.LOCK_UN)  # closing is not enough: processes that were forked have the file too
         os.close(file)

@@ -6,7 +6,6 @@ A number is bare or has its unit, as in a case file; all numbers of one paramete
 from __future__ import annotations
 
 import os
-import tomllib
 from collections.abc import Mapping
 from decimal import Decimal
 from itertools import pairwise
@@ -17,7 +16,7 @@ from pydantic import Field, StrictBool, ValidationError, field_validator, model_
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table, explain, split_key
-from fctd.case.input_file import read_text
+from fctd.case.input_file import read_toml
 from fctd.case.load import LARGEST_FILE
 from fctd.case.operations import KINDS
 from fctd.case.spellings import split
@@ -326,7 +325,7 @@ def read_sweep(path: str | os.PathLike[str]) -> SweepSpec:
     path = Path(path)
     raw: Mapping[str, Any] = {}
     try:
-        raw = tomllib.loads(read_text(path, LARGEST_FILE))
+        raw = read_toml(path, LARGEST_FILE, "a sweep file")
         spec = SweepSpec.model_validate(raw)
     except ValidationError as failure:
         raise explain(failure, raw, branches=("str", "float", "int", "bool", "lax-or-strict[bool]")).in_file(
@@ -334,8 +333,4 @@ def read_sweep(path: str | os.PathLike[str]) -> SweepSpec:
         ) from None
     except InputError as error:
         raise error.in_file(path) from error.__cause__
-    except OSError as error:
-        raise InputError(f"a sweep file that can be read ({error.strerror})", value=path) from error
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"a sweep file in TOML ({error})", file=path) from error
     return spec.model_copy(update={"case": path.parent / spec.case})

@@ -78,10 +78,13 @@ def test_a_posterior_that_cannot_be_used(text: str | None, expected: str, tmp_pa
         predict(CASE, [SLIPS])
 
 
-def test_values_drawn_keep_to_the_bounds() -> None:
-    drawn = posterior().sample(1000, 0)
-    assert drawn.shape == (1000, 1)
-    assert drawn.std() == pytest.approx(5e3, rel=0.1)
+def test_values_drawn_have_the_mean_and_deviation_and_keep_to_the_bounds() -> None:
+    """Within three of their standard errors, σ/√n and σ/√2n."""
+    count = 100_000
+    drawn = posterior().sample(count, 0)
+    assert drawn.shape == (count, 1)
+    assert drawn.mean() == pytest.approx(230e3, abs=3 * 5e3 / np.sqrt(count))
+    assert drawn.std() == pytest.approx(5e3, rel=3 / np.sqrt(2 * count))
     unknown = replace(posterior().unknowns[0], low=229e3)
     assert replace(posterior(), unknowns=(unknown,)).sample(1000, 0).min() == 229e3
 

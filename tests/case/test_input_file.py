@@ -8,7 +8,7 @@ import pytest
 
 from fctd import load_case
 from fctd.case.errors import InputError
-from fctd.case.input_file import read_text
+from fctd.case.input_file import read_text, read_toml
 from fctd.case.surveys.reading import read_survey
 
 NO_FILE = "expected a regular file (this is a pipe or a device"
@@ -64,3 +64,26 @@ def test_line_ends_and_byte_order_mark(tmp_path: Path) -> None:
     path = tmp_path / "text"
     path.write_bytes(b"\xef\xbb\xbfa\r\nb\rc\n")
     assert read_text(path, 1) == "a\nb\nc\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        (b"x = " + b"[" * 5000 + b"]" * 5000, r"a setup in TOML \(too many arrays or tables lie in each other\)"),
+        (b"x = ", r"a setup in TOML \(Invalid value"),
+        (b"x = '\xff'", r"a setup in TOML \('utf-8' codec"),
+        (None, r"a setup that can be read \(No such file"),
+    ],
+)
+def test_a_file_that_is_not_toml_says_why(content: bytes | None, expected: str, tmp_path: Path) -> None:
+    path = tmp_path / "setup.toml"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(InputError, match=expected):
+        read_toml(path, 1, "a setup")
+
+
+def test_a_toml_file_is_read_with_its_mark_and_line_ends(tmp_path: Path) -> None:
+    path = tmp_path / "setup.toml"
+    path.write_bytes(b"\xef\xbb\xbfx = 1\r\n[y]\r\nz = [2]\r\n")
+    assert read_toml(path, 1, "a setup") == {"x": 1, "y": {"z": [2]}}

@@ -268,12 +268,23 @@ def test_operations_that_omit_a_start_may_not_follow_a_missing_end(case_file: Pa
         (b"name = ", "a case file in TOML"),
         (b"\xff\xfe\x00", "a case file in TOML"),
         (b"", "a name in quotes"),
-        (b"x = " + b"[" * 5000, "a case file in TOML"),
+        (b"x = " + b"[" * 5000, "a case file in TOML (too many arrays or tables lie in each other)"),
+        (b"x = " + b"{x = " * 5000, "a case file in TOML (too many arrays or tables lie in each other)"),
         (b"[a" + b".a" * 5000 + b"]", "a = a table: expected one of the keys name"),
         (b"x = " + b"9" * 5000, "a case file in TOML"),
         (b"x = 0x" + b"9" * 5000, "one of the keys name"),
     ],
-    ids=["missing", "half", "binary", "empty", "nested", "nested tables", "long integer", "long hexadecimal"],
+    ids=[
+        "missing",
+        "half",
+        "binary",
+        "empty",
+        "nested arrays",
+        "nested inline tables",
+        "nested tables",
+        "long integer",
+        "long hexadecimal",
+    ],
 )
 def test_a_file_that_is_no_case(tmp_path: Path, content: bytes | None, expected: str) -> None:
     path = tmp_path / "well.toml"

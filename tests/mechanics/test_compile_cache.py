@@ -216,6 +216,7 @@ def test_without_locks_everything_still_runs(
     monkeypatch.setattr(compile_cache, "fcntl", system)
     assert hits(store, thrice, 4.5) == 0
     assert hits(store, thrice, 4.5) == 1
+    assert locks(file.parent) == []
 
 
 def test_a_new_folder_is_this_users_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

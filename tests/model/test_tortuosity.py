@@ -32,7 +32,7 @@ def deviation(seed: int) -> np.ndarray:
 def test_each_direction_across_the_hole_has_the_root_mean_square_of_a_sine() -> None:
     way = np.stack([deviation(seed) for seed in range(4)])
     total = np.sqrt((way**2).sum(axis=2).mean())
-    assert total == pytest.approx(WAVES["amplitude"], rel=0.05)  # √2 times that of one direction, amplitude/√2
+    assert total == pytest.approx(WAVES["amplitude"], rel=0.01)  # √2 times that of one direction, amplitude/√2
 
 
 def test_the_waves_have_the_wavelength() -> None:

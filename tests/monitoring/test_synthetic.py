@@ -19,7 +19,8 @@ def test_noise_has_the_sizes_that_are_asked_for() -> None:
     each = [with_noise(rows, np.random.default_rng(seed), 1e3, 0.05) for seed in range(40)]
     hook = np.concatenate([e["weight_indicator_N"] - rows["weight_indicator_N"] for e in each])
     torque = np.concatenate([e["drive_torque_N_m"] / rows["drive_torque_N_m"] - 1 for e in each])
-    assert (hook.std(), torque.std()) == pytest.approx((1e3, 0.05), rel=0.05)
+    # Within two standard errors of a deviation.
+    assert (hook.std(), torque.std()) == pytest.approx((1e3, 0.05), rel=2 / np.sqrt(2 * len(hook)))
 
 
 def test_a_series_over_time_goes_on_by_its_interval_and_never_below_the_hole() -> None:

@@ -37,8 +37,11 @@ def test_rounding_noise_is_drawn_as_zero() -> None:
     table["surface_torque_N_m"] = 2.0 * np.sin(table["bit_depth_m"])
     limits = limits_of_torque(table, "si", None)
     least = LEVER * table["hookload_N"].max() / 1e3
-    assert limits.high - limits.low == pytest.approx(1.1 * least, rel=0.01)
-    assert limits.low == pytest.approx(-0.05 * least, rel=0.1)  # the axis begins at 0
+    noise = -table["surface_torque_N_m"].min() / 1e3
+    assert noise < 0.01 * least
+    # From 0 less the noise to the least torque that is drawn, with a twentieth of that at both ends.
+    assert limits.high - limits.low == pytest.approx(1.1 * (least + noise))
+    assert limits.low == pytest.approx(-noise - 0.05 * (least + noise))
     table["surface_torque_N_m"] += 4000.0  # of a motor: the axis still begins at 0
     limits = limits_of_torque(table, "si", None)
     assert limits.low < 0 < 4 < limits.high

@@ -47,7 +47,7 @@ def test_the_map_has_the_string_at_its_records(map_of: str) -> None:
     if map_of == "effective_tension_N":
         # The uppermost cell of the last record is the tension near the top; the string hangs freely there.
         last = result().segments.groupby("time_s").get_group(result().history["time_s"].iloc[-1])
-        assert cells[0, -1] == pytest.approx(last["effective_tension_N"].iloc[0] / 1e3, rel=2e-2)
+        assert cells[0, -1] == pytest.approx(last["effective_tension_N"].iloc[0] / 1e3, rel=1e-6)
     assert not texts_that_overlap(figure)
 
 

@@ -73,11 +73,30 @@ def test_the_look_at_walls_and_loads_misses_no_note(
     assert looked or not found
 
 
+@pytest.mark.parametrize(("hole", "most"), [(0.108, 0.01), (0.0835, 0.005), (0.065, 0.002)])
+def test_the_look_at_walls_finds_what_is_deeper_than_the_note_allows(hole: float, most: float) -> None:
+    """A quarter of the clearance of pipe of 127 mm, from 2 to 10 mm; without loads."""
+    run, none = Simulation(make_case(BUILD, [pipe(None, 3)], [rotation(100, 2, ramp=1)])).run, np.zeros(3)
+    radius = state.row(run.S, state.RADIUS, 3)
+    assert radius[0] == pytest.approx(0.0635)
+    for depth, expected in ((0.99 * most, False), (1.001 * most, True)):
+        places = [0.0, hole - radius[0] + depth, 0.0]
+        walls = walls_in(np.array([[*place, hole, 1e7, 0.2, 30.0] for place in (np.zeros(3), places, np.zeros(3))]))
+        table, component = run.string.table, run.string.component
+        looked = may_have_notes(run.S, walls.offset, walls.radius, none, none, none, 0.0, 0.0, table, component, 0.0)
+        assert looked == expected
+        assert bool(string_notes(run.string, Loads(none, none, none, none), 0.0, walls, radius)) == expected
+
+
 def test_the_hook_load_is_heard_after_a_while_and_then_anew() -> None:
+    """Half of the pipe at the top is the hoist's; the second body is the slowest on its wall, and muddy."""
     run = run_of(4)
+    run.top[topdrive.TOP_LENGTH] = 12.0
+    state.row(run.S, state.K_WALL, 4)[:] *= 1.0, 0.3, 0.0, 1.0
+    state.row(run.S, state.HELD_BACK, 4)[1] = 0.4 * state.row(run.S, state.INVERSE_MASS, 4)[1]
     weight = float(state.row(run.S, state.WEIGHT, 4).sum()) + 0.5 * 100.0 * float(run.top[topdrive.TOP_LENGTH])
     stiffness, mass = state.row(run.S, state.K_WALL, 4), state.row(run.S, state.INVERSE_MASS, 4)
-    square = (stiffness * (mass - state.row(run.S, state.HELD_BACK, 4))).min()
+    square = stiffness[1] * 0.6 * mass[1]
     run.top[[topdrive.PULL_STEPS, topdrive.CHANGES, topdrive.BENDS]] = 100.0, 2e6, 5e6
     run.top[topdrive.PULL_TIME] = 0.99 * LISTEN
     weighed, on_wall, heard, swing = listen(run.S, run.top, 4, 100.0)
@@ -102,3 +121,18 @@ def test_friction_that_is_spent_around_the_hole_is_missing_along_it() -> None:
     assert missing_drag(run.S, 1e-3, 1e-6, *args) == pytest.approx((0.0 + 0.2 + 1.0) / 3)
     assert missing_drag(run.S, 1e-3, 1e3, *args) == 0.0
     assert missing_drag(run.S, 1e-3, 1e-6, np.zeros(3), np.zeros(3)) == 0.0
+
+
+def test_friction_is_missing_where_a_step_of_it_is_faster_than_the_slide() -> None:
+    """From rest around the hole μF_n h (m⁻¹ + a²/J_t + r²/J_a), mud included, and no slower than the string slides."""
+    run = run_of(1)
+    S, step, full = run.S, 1e-3, 40.0
+    state.row(S, state.HELD_BACK, 1)[:] = 0.4 * state.row(S, state.INVERSE_MASS, 1)
+    state.row(S, state.ARM_CONTACT, 1)[:] = 2.0
+    mass, tilt, spin = (
+        float(state.row(S, at, 1)[0]) for at in (state.INVERSE_MASS, state.INVERSE_JT, state.INVERSE_JA)
+    )
+    radius = float(state.row(S, state.RADIUS, 1)[0])
+    limit = step * full * (0.6 * mass + 4.0 * tilt + radius**2 * spin)
+    for speed, expected in ((0.999 * limit, 1.0), (1.001 * limit, 0.0)):
+        assert missing_drag(S, step, speed, np.array([full * radius]), np.array([full * radius])) == expected

@@ -42,7 +42,7 @@ def test_the_ledger_holds_with_every_drive(drive: str) -> None:
     spent = last["lost_bit_J"]
     history = result.history
     power = history["bit_torque_N_m"] * history["bit_rpm"] * np.pi / 30
-    assert spent == pytest.approx(float((power * np.diff(history["time_s"], prepend=0.0)).sum()), rel=0.05)
+    assert spent == pytest.approx(float((power * np.diff(history["time_s"], prepend=0.0)).sum()), rel=0.02)
 
 
 def test_the_hole_grows_by_what_is_fed_and_stretches() -> None:
@@ -61,16 +61,16 @@ def test_the_hole_grows_by_what_is_fed_and_stretches() -> None:
 
 def test_an_autodriller_holds_the_weight() -> None:
     _, result = run_of(drilling(ROTATING | {"to_md": 900.4}, autodriller=True))
-    assert result.history["weight_on_bit_N"].iloc[-1] == pytest.approx(4e4, rel=0.02)
+    assert result.history["weight_on_bit_N"].iloc[-1] == pytest.approx(4e4, rel=1e-3)
 
 
 def test_a_motor_drills_while_the_string_slides() -> None:
     _, result = run_of(drilling(SLIDING, {"motor": {"flow": "2000 L/min", "revolutions_per_liter": 0.06}}))
     last = result.history.iloc[-1]
-    assert last["bit_rpm"] == pytest.approx(120.0, rel=0.05)
+    assert last["bit_rpm"] == pytest.approx(120.0, rel=1e-4)
     assert last["top_rpm"] == 0.0
     # Reactive: the string takes the torque of the bit, and only the mud holds it.
-    assert last["surface_torque_N_m"] == pytest.approx(last["bit_torque_N_m"], rel=0.05)
+    assert last["surface_torque_N_m"] == pytest.approx(last["bit_torque_N_m"], rel=1e-4)
     assert last["hole_made_m"] > 0.05
 
 

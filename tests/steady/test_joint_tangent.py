@@ -9,7 +9,8 @@ from fctd.mechanics import state
 from fctd.mechanics.jit import entry
 from fctd.mechanics.rotations import turned
 from fctd.steady import joint_tangent
-from fctd.steady.joint_tangent import LOADS, LOWER, UNKNOWNS, UPPER, differentiate_joint
+from fctd.steady.block_thomas import SIZE
+from fctd.steady.joint_tangent import LOADS, LOWER, UNKNOWNS, UPPER, add_joint, differentiate_joint
 from fctd.steady.pose import POSE
 from tests.mechanics.test_dynamics import compiled, operations
 
@@ -22,6 +23,12 @@ SHIFT, LOWER_TILT, SPIN, UPPER_TILT = slice(0, 3), slice(3, 5), 5, slice(6, 8)
 def differentiate(S, P, kinks, L, K):
     """``differentiate_joint`` of joint 1."""
     differentiate_joint(S, 1, P, kinks, L, K)
+
+
+@entry
+def add(S, P, kinks, R, D, A, U, L, K):
+    """``add_joint`` of joint 1."""
+    add_joint(S, 1, P, kinks, R, D, A, U, L, K)
 
 
 def joint(seed: int, bend: float = 0.0) -> tuple[Array, Array, Array]:
@@ -47,6 +54,13 @@ def found(S: Array, P: Array, kinks: Array) -> tuple[Array, Array]:
     L, K = np.empty(LOADS), np.empty(LOADS * UNKNOWNS)
     differentiate(S, P, kinks, L, K)
     return L, K.reshape(LOADS, UNKNOWNS)
+
+
+def added(S: Array, P: Array, kinks: Array) -> tuple[Array, Array, Array, Array]:
+    """Forces out of balance of both bodies, and the blocks of the tangent (2, 6, 6)."""
+    R, (D, A, U) = np.zeros((2, SIZE)), np.zeros((3, 2, SIZE, SIZE))
+    add(S, P, kinks, R, D.ravel(), A.ravel(), U.ravel(), np.empty(LOADS), np.empty(LOADS * UNKNOWNS))
+    return R, D, A, U
 
 
 @pytest.mark.parametrize("bend", [0.0, 0.02])
@@ -80,6 +94,30 @@ def test_second_derivatives_of_the_potential_commute(seed: int) -> None:
     np.testing.assert_allclose(K[FORCE, UPPER_TILT], K[upper, SHIFT].T, atol=1e-8 * size)
     np.testing.assert_allclose(K[FORCE, LOWER_TILT], K[lower, SHIFT].T, atol=1e-8 * size)
     np.testing.assert_allclose(K[upper, LOWER_TILT], K[lower, UPPER_TILT].T, atol=1e-8 * size)
+
+
+def test_the_blocks_of_a_joint_are_those_of_central_differences() -> None:
+    """Of each body on itself, and of each against the other; the loads enter the balance with opposite signs."""
+    S, P, kinks = joint(2, bend=0.02)
+    L, _ = found(S, P, kinks)
+    R, D, A, U = added(S, P, kinks)
+    np.testing.assert_array_equal(R[0], [*-L[FORCE], *L[UPPER : UPPER + 3]])
+    np.testing.assert_array_equal(R[1], [*L[FORCE], *L[LOWER : LOWER + 3]])
+    blocks = {(0, 0): D[0], (1, 1): D[1], (1, 0): A[1], (0, 1): U[1]}
+    for k in range(SIZE):
+        for moved in (0, 1):
+            sides = []
+            for h in (1e-6, -1e-6):
+                Q = P.copy()
+                if k in (3, 4):
+                    Q[moved, 3:7] = turned(*Q[moved, 3:7], *(h * np.eye(3)[k - 3]))
+                else:
+                    Q[moved, k if k < 3 else 7] += h
+                sides.append(added(S, Q, kinks)[0])
+            slope = (sides[0] - sides[1]) / 2e-6
+            for body in (0, 1):
+                block = blocks[body, moved]
+                np.testing.assert_allclose(block[:, k], -slope[body], atol=1e-7 * np.abs(D).max())
 
 
 def test_the_torque_about_both_axes_is_that_of_the_twist() -> None:

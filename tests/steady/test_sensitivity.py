@@ -28,7 +28,8 @@ def test_the_tangent_equals_a_new_solve_to_second_order() -> None:
             exact = np.array([again.hookload - point.hookload, again.surface_torque - point.surface_torque])
             errors.append(np.linalg.norm(change - exact) / np.linalg.norm(exact))
         assert errors[0] < 0.03
-        assert errors[1] == pytest.approx(0.5 * errors[0], rel=0.3)
+        # The next order is a share of that error, of the size of the step over the factor, 5 %.
+        assert errors[1] == pytest.approx(0.5 * errors[0], rel=0.1)
 
 
 def test_a_resolved_string_is_solved_anew() -> None:

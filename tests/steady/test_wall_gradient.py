@@ -76,6 +76,21 @@ def test_gradients_are_those_of_central_differences(geometry: str) -> None:
     assert blended > 10
 
 
+def test_beyond_the_ends_of_an_arc_its_sizes_no_longer_change() -> None:
+    """The hole keeps the sizes of that end, as the stepper has it: without gains beyond, with gains within."""
+    hole = bent("arcs")
+    (i,) = np.flatnonzero(hole.pieces[:, contact.RADIUS_GAIN])
+    md, length = hole.pieces[i, contact.START_MD], hole.pieces[i, contact.LENGTH]
+    for depth, changes in ((md - 0.1, False), (md + 0.5 * length, True), (md + length + 0.1, False)):
+        point = hole.off_axis(np.array([depth]), np.array([0.7]), np.array([0.08]))[0]
+        found = beside(hole, i, point)
+        assert found[FACTOR, 1:].any() == changes
+        h = 1e-6
+        for k, step in enumerate(h * np.eye(3)):
+            slope = (beside(hole, i, point + step)[BEYOND, 0] - beside(hole, i, point - step)[BEYOND, 0]) / (2 * h)
+            assert found[BEYOND, 1 + k] == pytest.approx(slope, abs=1e-8)
+
+
 def test_the_direction_of_cylinders_turns_evenly_in_their_overlap() -> None:
     """Along a cylinder its own; in the overlap from its own to the next one's, a unit vector throughout."""
     hole, i = bent("cylinders"), 20

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fctd.mechanics import state
+from fctd.mechanics.contact import FACTOR, STIFFNESS
 from fctd.mechanics.jit import entry
 from fctd.mechanics.laws import CODES, NAMES
 from fctd.mechanics.rotations import turned
@@ -32,7 +33,8 @@ def read(S, P, C, owner, laws):
 
 
 def laws(law: str = "coulomb", speed: float = 0.3, spin: float = 6.0, **more: float) -> Steady:
-    return Steady(HOLE.geometry, CODES[law], 1.0, speed, spin, 0.0, 0.0, 0.0, 0.0, **more)
+    base = Steady(HOLE.geometry, CODES[law], 1.0, speed, spin, 0.0, 0.0, 0.0, 0.0)
+    return base._replace(**more)
 
 
 def body(penetration: float) -> tuple[Array, Array]:
@@ -83,12 +85,15 @@ def test_a_body_off_the_wall_has_no_loads() -> None:
     assert read(S, P, HOLE.pieces, np.array([0, OWNER, 0]), laws()) == (0.0, 0.0, 0.0)
 
 
-def test_what_is_read_are_the_loads_that_were_added() -> None:
-    """Sliding alone: the force across the wall is the normal force, that along it μ times as large."""
+@pytest.mark.parametrize("scale", [1.0, 0.5])
+@pytest.mark.parametrize("exponent", [1.0, 1.5])
+def test_what_is_read_are_the_loads_that_were_added(scale: float, exponent: float) -> None:
+    """Sliding alone: across the wall K d₀ (d/d₀)^p of the body's length, along it μ times as much."""
     S, P = body(2e-3)
-    of = laws(spin=0.0)
+    of = laws(spin=0.0, friction_scale=scale, wall_exponent=exponent, wall_reference=0.5e-3)
     normal, r_ft, r_mu_fn = read(S, P, HOLE.pieces, np.array([0, OWNER, 0]), of)
-    factor = float(HOLE.pieces[OWNER, 9])
+    stiffness, factor = float(HOLE.pieces[OWNER, STIFFNESS]), scale * float(HOLE.pieces[OWNER, FACTOR])
+    assert normal == pytest.approx(stiffness * TRIBUTARY * 0.5e-3 * 4.0**exponent, rel=1e-9)
     assert r_mu_fn == pytest.approx(factor * normal * RADIUS)
     added, _ = found(S, P, of)
     assert np.linalg.norm(added[:3]) == pytest.approx(normal * np.hypot(1, factor), rel=1e-6)

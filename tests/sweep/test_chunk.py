@@ -2,13 +2,14 @@
 
 import multiprocessing
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from fctd.case.load import Case
-from fctd.sweep import work
+from fctd.sweep import chunk, work
 from fctd.sweep.chunk import FAILED, TIMED_OUT, Bench, Sample, Watch, from_stream
 from fctd.sweep.run import prepare, sample_of
 from fctd.sweep.spec import read_sweep
@@ -85,6 +86,23 @@ def test_a_process_ends_over_a_sample_that_does_not_come_back(holding: bool) -> 
     assert receiver.poll() is not holding
     if not holding:
         assert receiver.recv() == 7
+
+
+@pytest.mark.parametrize(("limit", "expected"), [(0.1, (2.0, 3.0)), (20.0, (40.0, 60.0))])
+def test_a_process_may_take_twice_the_limit_of_a_sample_and_at_least_two_seconds(
+    limit: float, expected: tuple[float, float], bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And three times the limit where no thread of Python can run."""
+    given: list[tuple[float, float]] = []
+
+    class Recorded(Watch):
+        def __init__(self, overrun: float, last: float, too_long: Any) -> None:
+            given.append((overrun, last))
+            super().__init__(overrun, last, too_long)
+
+    monkeypatch.setattr(chunk, "Watch", Recorded)
+    replace(bench, time_limit=limit).run([], lambda number: None)
+    assert given == [expected]
 
 
 def test_a_watch_leaves_samples_alone_that_end_in_time() -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from fctd.case.errors import InputError
-from fctd.sweep.design import drawn, samples_of
+from fctd.sweep.design import drawn, morris_points, samples_of
 from fctd.sweep.spec import ParameterSpec, SweepSpec, read_sweep
 from tests.sweep.made import WORK, sweep_file
 
@@ -81,6 +81,16 @@ def test_correlated_normal_pairs_have_their_coefficient(coefficient: float) -> N
         coefficient, abs=5 * (1 - coefficient**2) / 63 + 1e-9
     )
     assert table["b"].std() == pytest.approx(2, rel=0.06)
+
+
+def test_points_of_morris_are_the_middles_of_four_cells() -> None:
+    """No distribution is asked for its ends; each step of a trajectory goes half-way along one axis."""
+    pytest.importorskip("SALib")
+    spec = spec_of("morris", [UNIFORM, {"key": "friction", "low": 0, "high": 1, "distribution": "uniform"}], 20)
+    points = morris_points(spec)
+    np.testing.assert_allclose(np.unique(points.round(12)), [0.125, 0.375, 0.625, 0.875])
+    steps = np.diff(points.reshape(20, 3, 2), axis=1)
+    np.testing.assert_allclose(np.sort(np.abs(steps), axis=2), np.broadcast_to([0.0, 0.5], steps.shape), atol=1e-12)
 
 
 def test_correlations_that_contradict_each_other_are_refused(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from scipy import stats
 
 pytest.importorskip("SALib")
 
@@ -74,6 +75,16 @@ def test_a_regression_explains_a_linear_result_and_its_ranks_a_monotonic_one() -
     assert bent["R2_rank", ""].value == pytest.approx(1)
     noisy = found(spec, samples, a + np.random.default_rng(1).normal(size=400))
     assert abs(noisy["SRC", "b"].value) < 1.5 * noisy["SRC", "b"].error
+
+
+def test_errors_of_a_regression_on_one_parameter_are_those_of_its_slope() -> None:
+    """1.96 standard errors, as scipy has them of the standardised values."""
+    spec = spec_of("random", PI[:1], 30)
+    samples = samples_of(spec)
+    values = samples["a"].to_numpy(float) + np.random.default_rng(1).normal(size=30)
+    index = found(spec, samples, values)["SRC", "a"]
+    line = stats.linregress(stats.zscore(samples["a"]), stats.zscore(values))
+    assert (index.value, index.error) == pytest.approx((line.slope, 1.96 * line.stderr))
 
 
 @pytest.mark.parametrize(("method", "count"), [("saltelli", 8), ("morris", 6), ("random", 40)])

@@ -48,14 +48,16 @@ def test_a_table_has_a_row_for_every_place_column_and_percentile() -> None:
 
 
 def test_convergence_is_that_of_more_and_more_samples_at_the_last_depth() -> None:
-    values = np.random.default_rng(1).normal(size=800)
+    """Its bar at the median of a normal distribution, of which any 2ᵏ samples have one in every 2ᵏ-th."""
+    values = stats.norm.ppf(stats.qmc.Halton(1, scramble=False).random(1025)[1:, 0])
     table = pd.concat([rows(values.tolist()), rows((values + 9).tolist(), 200.0)], ignore_index=True)
     found = convergence_table(table, ["hookload_N"], (50.0,))
-    assert found["samples"].tolist() == [100, 200, 400, 800]
+    assert found["samples"].tolist() == [128, 256, 512, 1024]
     assert found["bit_depth_m"].tolist() == [200] * 4
     width = (found["high"] - found["low"]).to_numpy()
-    # The bar narrows with the root of the number; four times as many samples halve it.
-    assert width[3] / width[1] == pytest.approx(0.5, rel=0.35)
+    # The number below the median has the deviation √n/2, and two samples are √2π/n apart: to the nearest at both ends.
+    for n, found_width in zip(found["samples"], width, strict=True):
+        assert found_width == pytest.approx(2 * 1.96 * np.sqrt(np.pi / 2 / n), abs=2 * np.sqrt(2 * np.pi) / n)
     assert found["value"].iloc[3] == pytest.approx(np.quantile(values, 0.5) + 9)
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from fctd.model.survey import along_courses, minimum_curvature
+from fctd.model.survey import along_courses, minimum_curvature, tangents
 from fctd.sweep.survey_errors import TOOLS, SurveyErrors, erred
 
 DEPTH, COURSE, INCLINATION = 3000.0, 30.0, 0.9
@@ -70,3 +70,16 @@ def test_drawn_stations_are_those_of_a_hole(angles: list[tuple[float, float]], s
     assert (found[:, 1] <= np.pi).all()
     assert (found[0] == stations[0]).all()
     assert (found[:, 0] == stations[:, 0]).all()
+
+
+@pytest.mark.parametrize("inclination", [0.01, np.pi - 0.01])
+def test_an_inclination_drawn_beyond_an_end_points_the_same_way(inclination: float) -> None:
+    """The direction is that of the angles without the turn; the drawn errors are those of a level well."""
+    level = np.column_stack([30.0 * np.arange(40), np.full(40, 0.5 * np.pi), np.full(40, 0.4)])
+    near = level.copy()
+    near[:, 1] = inclination
+    errors = SurveyErrors.model_validate({"random_inclination": 0.02, "random_azimuth": 0.02})
+    found = erred(near, errors, np.random.default_rng(1))
+    angles = near + erred(level, errors, np.random.default_rng(1)) - level
+    assert ((angles[:, 1] < 0) | (angles[:, 1] > np.pi)).sum() > 5
+    np.testing.assert_allclose(tangents(found), tangents(angles), atol=1e-12)

@@ -87,6 +87,7 @@ def test_the_hook_load_of_a_straight_inclined_string_is_normal_with_its_friction
         true = stats.norm.ppf(share, mean, sd)
         error = np.sqrt(share * (1 - share) / count) / stats.norm.pdf(true, mean, sd)
         assert table.loc[percentile, "value"] == pytest.approx(true, abs=3 * error)
+    # Between the ends lie 34 samples: their distance has a standard deviation of 17 %.
     assert table.loc[50, "high"] - table.loc[50, "low"] == pytest.approx(4 * error_of_median(count, sd), rel=0.3)
     friction, load = (found.rows[name].to_numpy() for name in ("friction", "hookload_N"))
     fitted = np.polyfit(friction, load, 1)
@@ -167,6 +168,9 @@ def test_an_incomplete_dataset_and_a_depth_that_is_not_there_are_refused(tmp_pat
     spec, dataset = swept(tmp_path, 'method = "random"\nsamples = 5')
     with pytest.raises(InputError, match="a depth of the sweep, such as 900 m"):
         assess(dataset, spec, 850.0)
+    with pytest.raises(InputError, match="a depth of the sweep, such as 900 m"):
+        assess(dataset, spec, 900.0 - 0.51 * 0.3048)
+    assert assess(dataset, spec, 900.0 - 0.49 * 0.3048).bit_depth == 900.0  # in whole feet
     dataset.done.discard(3)
     with pytest.raises(InputError, match="1 of 5 are missing"):
         assess(dataset, spec)

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
-from fctd import torque_drag
+from fctd import simulate, torque_drag
 from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case
 from fctd.steady.equilibrium import equilibrium
@@ -58,11 +59,16 @@ def test_a_refinement_is_one_row(tmp_path: Path) -> None:
 
 
 def test_a_run_has_a_row_for_each_operation_with_the_severity_of_its_stick_slip(tmp_path: Path) -> None:
+    """Half of the bit's swing over the mean rotation of the top, in the last half of the operation."""
     case = load_case(case_file(tmp_path, RUN))
     (row,) = rows(case, kind="simulate")
+    late = simulate(case).history.query("time_s > 2.01")
+    assert late["time_s"].tolist() == pytest.approx([2.5, 3.0, 3.5, 4.0])
+    swing = np.ptp(late["bit_rpm"])
+    assert swing > 1
+    assert row["stick_slip_severity"] == pytest.approx(swing / 2 / late["top_rpm"].mean())
     assert row["operation"] == "rotate_off_bottom"
     assert row["status"] == "completed"
-    assert 0 <= row["stick_slip_severity"] < 2
 
 
 def test_a_run_needs_operations(tmp_path: Path) -> None:

@@ -122,7 +122,10 @@ def test_limits_of_the_equation(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_helix_of_a_level_hole_approaches_the_weightless_one() -> None:
-    """Pitch and mean moment as 1/F⁴, the mean wall force faster; all within 0.6 % at twice the onset."""
+    """Pitch and mean moment as 1/F⁴, the mean wall force faster; all within 0.6 % at twice the onset.
+
+    There the next term, 1/F⁸, is 3 % of the first.
+    """
     errors = []
     for ratio in (2.0, 4.0):
         force = ratio * PIPE.onset
@@ -132,4 +135,4 @@ def test_helix_of_a_level_hole_approaches_the_weightless_one() -> None:
         pitch, bending = closed.pitch(PIPE, force), closed.bending_moment(PIPE, force)
         errors.append([abs(shape.length / pitch - 1), abs(moment / bending - 1)])
     assert max(errors[0]) < 6e-3
-    assert np.divide(*errors) == pytest.approx([16.0, 16.0], rel=0.1)
+    assert np.divide(*errors) == pytest.approx([16.0, 16.0], rel=0.03)

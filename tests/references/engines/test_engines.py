@@ -77,13 +77,13 @@ def own() -> EngineRun:
 
 @pytest.mark.parametrize("name", CONTACT)
 def test_the_same_string_gives_the_same_loads(name: str, own: EngineRun) -> None:
-    """The engines agree within 1 % for hook load and 5 % for torque."""
+    """Hook load within 0.5 %, torque within 2 %: Bullet's friction, of two fixed directions, is 1.1 % low."""
     run = engines.build(name).run(turning(), WINDOW)
     assert run.status == "valid", run.message
     assert mean(own, "sum_r_ft_N_m") > 100
-    assert mean(run, "hookload_N") == pytest.approx(mean(own, "hookload_N"), rel=0.01)
-    assert mean(run, "surface_torque_N_m") == pytest.approx(mean(own, "surface_torque_N_m"), rel=0.05)
-    assert mean(run, "total_contact_force_N") == pytest.approx(mean(own, "total_contact_force_N"), rel=0.02)
+    assert mean(run, "hookload_N") == pytest.approx(mean(own, "hookload_N"), rel=0.005)
+    assert mean(run, "surface_torque_N_m") == pytest.approx(mean(own, "surface_torque_N_m"), rel=0.02)
+    assert mean(run, "total_contact_force_N") == pytest.approx(mean(own, "total_contact_force_N"), rel=0.005)
     assert run.history["time_s"].iloc[-1] == pytest.approx(6.0)
     assert len(run.profile) == 17
 
