@@ -20,6 +20,11 @@ def printable_lines(text: str) -> str:
     return "\n".join(map(printable, text.split("\n")))
 
 
+def counted(count: int, noun: str) -> str:
+    """A number of things: "1 sample", "2 samples"."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
 def file_name(text: str, ending: str) -> str:
     """A name for a file or folder of this process's file system: letters, digits and dashes, then the ending.
 

@@ -7,32 +7,38 @@ from typing import Annotated, Any
 import typer
 
 from fctd.case.errors import InputError
-from fctd.case.text import printable
+from fctd.case.text import counted, printable
 from fctd.cli.keeping import has_kept, way_on
 from fctd.cli.manners import Silent
 from fctd.cli.options import screen
 from fctd.cli.pictures import PICTURES
 from fctd.cli.steady import TABLES
 from fctd.results.run_folder import about_of, clock, progress_of, run_path, writer_of
+from fctd.results.run_lock import holder_of
 from fctd.results.tables import open_result, result_files
+from fctd.sweep.chunk import NO_ROWS
+from fctd.sweep.dataset import ABOUT, open_dataset
 
 
 def status_command(
     result: Annotated[
         Path,
-        typer.Argument(metavar="RESULT", help="Folder of a run, or table or picture of a chart.", show_default=False),
+        typer.Argument(
+            metavar="RESULT", help="Folder of a run or sweep, or table or picture of a chart.", show_default=False
+        ),
     ],
     quiet: Silent = False,
 ) -> None:
     """Say how far a run is, also while it lasts, and how to go on with one that has stopped."""
-    lines = _of_the_run(result)
+    lines = _of_the_run(result) + _of_the_sweep(result)
     try:
         lines += _of_the_result(result)
     except InputError:
         if not lines and any((result / name).exists() for name in result_files(csv=False)):
             raise  # it says which table cannot be read
     if not lines:
-        raise InputError("the result of fctd simulate or fctd chart, or the place of an unfinished one", value=result)
+        expected = "the result of fctd simulate, fctd chart or fctd sweep, or the place of an unfinished one"
+        raise InputError(expected, value=result)
     for line in () if quiet else lines:
         screen.print(f"{printable(str(result))}: {line}", soft_wrap=True)
 
@@ -66,6 +72,25 @@ def _stopped(target: Path, about: dict[str, Any]) -> str:
     if not has_kept(target):
         return "stopped before anything was kept"
     return f"stopped; `{way_on(target, about)}` goes on"
+
+
+def _of_the_sweep(folder: Path) -> list[str]:
+    """What there is to say of the dataset of a sweep, whether it is complete or not."""
+    if not (folder / ABOUT).is_file():
+        return []
+    writer, dataset = holder_of(folder), open_dataset(folder)
+    total, done = len(dataset.samples), len(dataset.done)
+    lacking = sum(count for status, count in dataset.statuses().items() if status in NO_ROWS)
+    lines = [] if writer is None else [f"running since {clock(writer.since)}, process {writer.process}"]
+    line = f"a sweep: {done} of {counted(total, 'sample')} done ({100 * done / total:.0f} %)"
+    if lacking:
+        line += f", {lacking} without an answer"
+    if dataset.parts:
+        line += f"; last rows written at {clock(dataset.parts[-1].stat().st_mtime)}"
+    lines.append(line)
+    if writer is None and done < total:
+        lines.append("stopped; the same `fctd sweep` command goes on")
+    return lines
 
 
 def _of_the_result(target: Path) -> list[str]:

@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
+from fctd.case.text import counted
 from fctd.plots.keys import in_words, labelled
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
@@ -54,7 +55,8 @@ def bands_figure(found: Uncertainty, units: System = "si") -> Figure:
     """The broomstick with bands: for every operation the outer percentiles and the middle one over depth."""
     table = found.percentiles
     if "bit_depth_m" not in table or table["bit_depth_m"].nunique() < 2:
-        raise InputError("a sweep of charts with several depths", key="--plot-bands", value=found.spec.work.kind)
+        expected = "a sweep of charts of several depths, over which bands are drawn"
+        raise InputError(expected, key="--plot-bands", value=f"a sweep of kind {found.spec.work.kind}")
     low, high = table["percentile"].min(), table["percentile"].max()
     middle = sorted(table["percentile"].unique(), key=lambda p: abs(p - 50))[0]
     operations = list(dict.fromkeys(table["operation"]))
@@ -65,7 +67,8 @@ def bands_figure(found: Uncertainty, units: System = "si") -> Figure:
     bars = pd.concat([table[table["percentile"] == low]["low"], table[table["percentile"] == high]["high"]])
     if bars.notna().any():  # they are open where they end beyond the samples
         handles.append(Line2D([], [], color=QUIET, linestyle=":", label="its error bars of 95 %"))
-    samples = f"{table['samples'].max()} samples, {found.spec.method.replace('_', ' ')}; line: {middle:g} %"
+    samples, method = counted(int(table["samples"].max()), "sample"), found.spec.method.replace("_", " ")
+    samples += f", {method}; line: {middle:g} %"
     status = found.rows["status"]
     for name in DOUBTED:
         if count := int((status == name).sum()):

@@ -12,11 +12,12 @@ import json
 import os
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
+from fctd.results import run_lock
 from fctd.results.parquet import read_frame, read_table
 from fctd.results.tables import versions
 from fctd.results.whole_file import left_by_dead, whole_file
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
     import pandas as pd
     import pyarrow as pa
 
-ABOUT, SAMPLES, ROWS, LOCK = "sweep.json", "samples.parquet", "rows", ".lock"
-OURS: Final = (ABOUT, SAMPLES, ROWS)
+ABOUT, SAMPLES, ROWS = "sweep.json", "samples.parquet", "rows"
+OURS: Final = (ABOUT, SAMPLES, ROWS, run_lock.NAME)
 # Packages whose versions all rows of a dataset share.
 SAME: Final = ("fctd", "python", "numpy", "numba")
 _PART = "part-{:05d}.parquet"
@@ -112,7 +113,7 @@ class Dataset:
 
 def identity_of(template: Template) -> str:
     """A hash of all that the rows of a sweep depend on: its file without [uncertainty], case and survey."""
-    spec = template.spec.model_dump(mode="json", exclude={"uncertainty", "case"})
+    spec = template.spec.model_dump(mode="json", exclude={"uncertainty", "case", "file"})
     raw = json.dumps([spec, template.raw], sort_keys=True, default=str)
     return hashlib.sha256(raw.encode() + template.base.wellbore.trajectory.tobytes()).hexdigest()
 
@@ -181,18 +182,17 @@ def alone(folder: Path) -> Iterator[None]:
         if folder.exists() and any(name not in OURS and name[0] != "." for name in os.listdir(folder)):
             raise InputError("a folder for a sweep alone (this one has other files)", key="--out", value=folder)
         folder.mkdir(parents=True, exist_ok=True)
-        lock = (folder / LOCK).open("a")
+        lock = run_lock.RunLock.take(folder)
     except OSError as error:
         raise InputError(f"a folder that can be written ({error.strerror})", key="--out", value=folder) from error
-    with lock:
-        with suppress(ImportError):  # where the system has no such locks
-            import fcntl
-
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except OSError:
-                raise InputError("a folder that no other sweep works on", key="--out", value=folder) from None
+    except run_lock.HeldError as held:
+        here = f"a folder that no other sweep works on (process {held.holder.process} does)"
+        raise InputError(here, key="--out", value=folder) from None
+    try:
         yield
+    finally:
+        (folder / run_lock.NAME).unlink(missing_ok=True)
+        lock.release()
 
 
 def ranges(numbers: Sequence[int]) -> list[list[int]]:

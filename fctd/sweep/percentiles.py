@@ -35,15 +35,15 @@ def places_of(rows: pd.DataFrame) -> list[str]:
     return [name for name in ("operation", "bit_depth_m") if name in rows]
 
 
-def columns_of(rows: pd.DataFrame, wanted: Sequence[str]) -> list[str]:
+def columns_of(rows: pd.DataFrame, wanted: Sequence[str], key: str = "uncertainty.columns") -> list[str]:
     """The columns to tell of: those that are wanted, else those of hook load and torque.
 
-    Raises InputError for one that the results do not have, or that has no numbers.
+    Raises InputError, which names the key, for one that the results do not have, or that has no numbers.
     """
     numbers = [name for name in rows.columns if rows[name].dtype.kind in "if" and name != "sample"]
     for name in wanted:
         if name not in numbers:
-            raise InputError(nearest(name, numbers, "column"), key="uncertainty.columns", value=name)
+            raise InputError(nearest(name, numbers, "column"), key=key, value=name)
     return list(wanted) or [name for name in DEFAULTS if name in numbers]
 
 

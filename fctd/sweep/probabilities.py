@@ -12,8 +12,8 @@ import numpy as np
 from scipy import stats
 
 from fctd.results.status import ACCEPTABLE
+from fctd.sweep.limits import LimitSpec
 from fctd.sweep.percentiles import columns_of, places_of
-from fctd.sweep.spec import LimitSpec
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -64,12 +64,10 @@ def _events(rows: pd.DataFrame, limits: Sequence[LimitSpec]) -> Mapping[str, pd.
             BUCKLED: rows["buckling"].isin(["sinusoidal", "helical"]),
             HELICAL: rows["buckling"] == "helical",
         }
-    for limit in limits:
-        columns_of(rows, [limit.column])
-        above = limit.above is not None
-        bound = limit.above if above else limit.below
-        name = f"{limit.column} {'above' if above else 'below'} {bound:g}"
-        events[name] = rows[limit.column] > bound if above else rows[limit.column] < bound
+    for i, limit in enumerate(limits):
+        columns_of(rows, [limit.column], f"uncertainty.limits[{i}].column")
+        values = rows[limit.column]
+        events[limit.event] = values > limit.bound if limit.side == "above" else values < limit.bound
     return events
 
 

@@ -23,7 +23,7 @@ from fctd.sweep.chunk import CRASHED, NO_ROWS, TIMED_OUT, Bench, Done, Sample, a
 from fctd.sweep.cluster import Where, connected, worker_count
 from fctd.sweep.dataset import Dataset, alone, begin_dataset
 from fctd.sweep.design import samples_of
-from fctd.sweep.spec import SweepSpec
+from fctd.sweep.spec import SweepSpec, naming_file
 from fctd.sweep.template import Template, template_of
 from fctd.sweep.work import Task, misfit, task_of
 
@@ -93,11 +93,12 @@ def prepare(spec: SweepSpec) -> tuple[Bench, Any]:
 
     The cases of some samples are made, among them those with the extremes of each parameter.
     """
-    template = template_of(spec)
-    samples = samples_of(spec)
-    keys = tuple(parameter.key for parameter in spec.parameters)
-    task = task_of(spec.work, template.base)
-    check_samples(template, samples, keys, task)
+    with naming_file(spec):
+        template = template_of(spec)
+        samples = samples_of(spec)
+        keys = tuple(parameter.key for parameter in spec.parameters)
+        task = task_of(spec.work, template.base)
+        check_samples(template, samples, keys, task)
     return Bench(template, task, keys, spec.time_limit), samples
 
 

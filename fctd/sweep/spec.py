@@ -6,7 +6,8 @@ A number is bare or has its unit, as in a case file; all numbers of one paramete
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from decimal import Decimal
 from itertools import pairwise
 from pathlib import Path
@@ -20,6 +21,7 @@ from fctd.case.input_file import read_toml
 from fctd.case.load import LARGEST_FILE
 from fctd.case.operations import KINDS
 from fctd.case.spellings import split
+from fctd.sweep.limits import LimitSpec
 from fctd.sweep.survey_errors import SurveyErrors
 
 Written = float | str
@@ -83,6 +85,7 @@ class ParameterSpec(Table):
             for other in ("distribution", "count", "low", "high", "mean", "sd", "median", "log_sd", "mode"):
                 if getattr(self, other) is not None:
                     raise InputError(f"values or {other}, not both", key=other)
+            _ = self.unit  # raises InputError where they differ
             return self
         if self.count is not None:
             self._need(("low", "high"), ("count",), "count")
@@ -125,8 +128,10 @@ class ParameterSpec(Table):
 
     @property
     def choices(self) -> tuple[bool | int | float | str, ...]:
-        """The values, none where the parameter has numbers instead."""
-        return self.values or ()
+        """The values, numbers in the parameter's unit; none where it has ``low`` and ``high`` or a distribution."""
+        if self.values is None or not self.unit:
+            return self.values or ()
+        return tuple(split_number(value, "values")[0] for value in self.values)  # texts, as they have a unit
 
     def number(self, key: str) -> float | None:
         """The number of a key, in the parameter's unit."""
@@ -135,10 +140,13 @@ class ParameterSpec(Table):
 
     @property
     def unit(self) -> str:
-        """The unit of the numbers, "" of bare ones; InputError where they differ."""
+        """The unit of the numbers, "" of bare ones and of other values; InputError where they differ."""
         if self.values is not None:
-            return ""
-        written = {key: getattr(self, key) for key in ("low", "high", "mean", "sd", "median", "mode")}
+            if not all(map(_has_unit, self.values)):
+                return ""
+            written: dict[str, Any] = {f"values[{i}]": value for i, value in enumerate(self.values)}
+        else:
+            written = {key: getattr(self, key) for key in ("low", "high", "mean", "sd", "median", "mode")}
         of = {key: split_number(value, key)[1] for key, value in written.items() if value is not None}
         first = next(iter(of.values()), "")
         for key, unit in of.items():
@@ -146,6 +154,15 @@ class ParameterSpec(Table):
                 expected = f"a number in {first}" if first else "a bare number"
                 raise InputError(f"{expected}, the unit of the parameter's other numbers", key=key)
         return first
+
+
+def _has_unit(value: Written | bool) -> bool:
+    """Whether a value is a number with its unit, and no other text of the case, such as a name."""
+    try:
+        found = split(value) if isinstance(value, str) else None
+    except InputError:
+        return False
+    return found is not None and len(found.unit.split()) == 1
 
 
 def split_number(value: Written, key: str) -> tuple[float, str]:
@@ -205,20 +222,6 @@ class WorkSpec(Table):
         return self
 
 
-class LimitSpec(Table):
-    """A limit of a column of the results, whose probability of being exceeded is asked for."""
-
-    column: str = Field(description="a column of the results, such as drive_torque_N_m")
-    above: units.Bare | None = None
-    below: units.Bare | None = None
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        if (self.above is None) == (self.below is None):
-            raise InputError("above or below, one of them", key="above")
-        return self
-
-
 class UncertaintySpec(Table):
     """What ``fctd uncertainty`` tells: ``percentiles`` of which ``columns``, and ``limits``."""
 
@@ -233,7 +236,7 @@ class SweepSpec(Table):
     ``case`` is relative to it; ``set`` has keys and values for all samples.  ``samples`` is the number of a drawn
     method; of ``saltelli`` it is the base number, a power of 2, and of ``morris`` the number of trajectories.
     ``time_limit`` [s] is for one sample.  With ``bad_samples`` "rows" a sample whose values no case can have is a row
-    with the reason; with "refuse" the sweep does not begin.
+    with the reason; with "refuse" the sweep does not begin.  ``file`` is the file that the sweep was read from.
     """
 
     name: str = Field(description="a name in quotes")
@@ -250,6 +253,7 @@ class SweepSpec(Table):
     tortuosity_seeds: StrictBool = False
     work: WorkSpec = Field(description="a table [work]")
     uncertainty: UncertaintySpec = UncertaintySpec()
+    file: Path | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -317,6 +321,15 @@ class SweepSpec(Table):
             raise InputError("a power of 2, as Sobol's sequence needs", key="samples")
 
 
+@contextmanager
+def naming_file(spec: SweepSpec) -> Iterator[None]:
+    """Add the sweep's file to an InputError that is raised inside and names none."""
+    try:
+        yield
+    except InputError as error:
+        raise (error if spec.file is None else error.in_file(spec.file)) from error.__cause__
+
+
 def read_sweep(path: str | os.PathLike[str]) -> SweepSpec:
     """The sweep of a TOML file, whose case is then a path from the current folder.
 
@@ -326,11 +339,11 @@ def read_sweep(path: str | os.PathLike[str]) -> SweepSpec:
     raw: Mapping[str, Any] = {}
     try:
         raw = read_toml(path, LARGEST_FILE, "a sweep file")
-        spec = SweepSpec.model_validate(raw)
+        spec = SweepSpec.model_validate(raw, context={})
     except ValidationError as failure:
         raise explain(failure, raw, branches=("str", "float", "int", "bool", "lax-or-strict[bool]")).in_file(
             path
         ) from None
     except InputError as error:
         raise error.in_file(path) from error.__cause__
-    return spec.model_copy(update={"case": path.parent / spec.case})
+    return spec.model_copy(update={"case": path.parent / spec.case, "file": path})

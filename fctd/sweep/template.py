@@ -32,12 +32,12 @@ class Template:
     def case(self, sample: int, values: Mapping[str, Value]) -> Case:
         """The case of a sample; raises InputError for values that no case can have.
 
-        Drawn survey errors and seeds depend on the sweep's seed and the sample's number alone.
+        Drawn survey errors and seeds depend on the sweep's seed and the sample's number alone, see ``draw_of``.
         """
         raw = copy.deepcopy(self.raw)
         for key, value in values.items():
             set_value(raw, key, value, self.units.get(key, ""))
-        draw = np.random.default_rng([self.spec.seed, sample])
+        draw = np.random.default_rng([self.spec.seed, draw_of(self.spec, sample)])
         seed = int(draw.integers(2**32))
         if self.spec.tortuosity_seeds:
             set_key(raw, "wellbore.tortuosity.seed", seed)
@@ -50,6 +50,20 @@ class Template:
             raw["wellbore"]["stations"] = stations.tolist()
             case = make_case(raw, None)
         return case
+
+
+def draw_of(spec: SweepSpec, sample: int) -> int:
+    """Number of the draw of survey errors and waves that a sample has: its own, or one that others of its design share.
+
+    Sobol's and Morris's indices compare samples that differ in one parameter; survey and waves must be the same in
+    them, or their spread would count as influence of that parameter.  A block of Saltelli's design has two draws, as
+    it has two of the parameters: the last sample's, and that of all others.
+    """
+    count = len(spec.parameters)
+    if spec.method == "saltelli":
+        block, place = divmod(sample, count + 2)
+        return 2 * block + (place == count + 1)
+    return sample // (count + 1) if spec.method == "morris" else sample
 
 
 def _base(spec: SweepSpec, raw: dict[str, Any]) -> Case:
@@ -85,7 +99,8 @@ def _check_apart(spec: SweepSpec, raw: Mapping[str, Any]) -> None:
 
 def set_value(raw: dict[str, Any], key: str, value: Any, unit: str) -> None:
     """Set a key of an unvalidated case; ``friction.cased`` and ``friction.open`` are factors of kinds of interval."""
-    written = f"{float(value)!r} {unit}" if unit else value
+    # A text has its unit: that of a dataset which an earlier version began.
+    written = f"{float(value)!r} {unit}" if unit and not isinstance(value, str) else value
     name, _, kind = key.partition(".")
     if name == "friction" and kind:
         apply_override(raw, name, {kind: written})

@@ -11,7 +11,7 @@ from fctd.sweep.dataset import Dataset
 from fctd.sweep.indices import indices_of
 from fctd.sweep.percentiles import columns_of, convergence_table, percentile_table
 from fctd.sweep.probabilities import probability_table
-from fctd.sweep.spec import SweepSpec
+from fctd.sweep.spec import SweepSpec, naming_file
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -63,7 +63,10 @@ def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) ->
         rows = rows.drop(columns=["bit_depth_m"], errors="ignore")
     if "operation" not in rows:
         raise InputError("a sweep of which a sample has an answer", value=dataset.folder)
-    columns = columns_of(rows, spec.uncertainty.columns)
+    apart, count = independent(rows, spec, len(dataset.samples))
+    with naming_file(spec):
+        columns = columns_of(rows, spec.uncertainty.columns)
+        probabilities = probability_table(apart, spec.uncertainty.limits, count)
     depth, at = _at(rows, bit_depth)
     found, trouble, noise = [], "", noise_in(rows, columns)
     for operation, group in at.groupby("operation", sort=True):
@@ -77,13 +80,12 @@ def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) ->
                 trouble = str(error)
                 continue
             found += [{"operation": operation, "column": name, **index._asdict()} for index in indices]
-    apart, count = independent(rows, spec, len(dataset.samples))
     return Uncertainty(
         spec,
         rows,
         columns,
         percentile_table(apart, columns, spec.uncertainty.percentiles),
-        probability_table(apart, spec.uncertainty.limits, count),
+        probabilities,
         pd.DataFrame(found, columns=["operation", "column", "parameter", "measure", "value", "error"]),
         convergence_table(apart, columns, spec.uncertainty.percentiles),
         depth,

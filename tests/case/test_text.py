@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fctd.case.text import degrade_output, file_name, printable, printable_lines
+from fctd.case.text import counted, degrade_output, file_name, printable, printable_lines
 
 ANYTHING = st.text(st.characters(categories=["L", "M", "N", "P", "S", "Z", "C"]), max_size=300)  # surrogates as well
 
@@ -29,6 +29,10 @@ ANYTHING = st.text(st.characters(categories=["L", "M", "N", "P", "S", "Z", "C"])
 )
 def test_what_does_not_print_is_shown_as_its_escape(text: str, shown: str) -> None:
     assert printable(text) == shown
+
+
+def test_one_thing_is_no_plural() -> None:
+    assert [counted(k, "sample") for k in (0, 1, 2)] == ["0 samples", "1 sample", "2 samples"]
 
 
 @settings(max_examples=100)

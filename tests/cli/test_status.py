@@ -1,5 +1,6 @@
 """``fctd status``: how far a run is, also while it lasts."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -7,8 +8,13 @@ import pytest
 from fctd.cli import simulate
 from fctd.results import pacing
 from fctd.results.run_folder import RunFolder
+from fctd.sweep.chunk import as_table, without_answer
+from fctd.sweep.dataset import alone, begin_dataset
+from fctd.sweep.run import prepare, sample_of
+from fctd.sweep.spec import read_sweep
 from tests.cli.test_keeping import CHART, RUN, killed
 from tests.cli.test_main import CASE, run
+from tests.sweep.made import sweep_file
 
 
 @pytest.fixture(autouse=True)
@@ -70,7 +76,7 @@ def test_of_a_chart(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixtu
 @pytest.mark.parametrize("name", ["nothing", "small.toml/out", "."])
 def test_of_nothing(name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(monkeypatch, "status", name) == 2
-    assert "expected the result of fctd simulate or fctd chart" in capsys.readouterr().err
+    assert "expected the result of fctd simulate, fctd chart or fctd sweep" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("place", ["small.toml", "/", ".", "nowhere/deep", "small.toml/out"])
@@ -79,7 +85,9 @@ def test_of_a_place_without_a_result(
 ) -> None:
     """A case is no chart, and the root has no name."""
     assert run(monkeypatch, "status", place) == 2
-    assert "expected the result of fctd simulate or fctd chart, or the place of an" in capsys.readouterr().err
+    assert (
+        "expected the result of fctd simulate, fctd chart or fctd sweep, or the place of an" in capsys.readouterr().err
+    )
     assert run(monkeypatch, "simulate", "--resume", place) == 2
     assert "expected a result whose run has not ended" in capsys.readouterr().err
 
@@ -90,3 +98,35 @@ def test_of_a_damaged_result(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Cap
     capsys.readouterr()
     assert run(monkeypatch, "status", "out") == 2
     assert '"out/segments.parquet": expected a table that fctd simulate wrote' in capsys.readouterr().err
+
+
+def test_of_a_sweep_while_it_runs_and_when_it_has_stopped(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bench, samples = prepare(read_sweep(sweep_file(tmp_path)))
+
+    def rows_of(*numbers: int) -> None:
+        sweep.write([as_table([row for k in numbers for row in bench.rows_of(sample_of(samples, bench.keys, k))])])
+
+    def lines() -> list[str]:
+        capsys.readouterr()
+        assert run(monkeypatch, "status", "swept") == 0
+        return capsys.readouterr().out.splitlines()
+
+    with alone(Path("swept")):
+        sweep = begin_dataset(Path("swept"), bench.template, samples)
+        assert lines()[1] == "swept: a sweep: 0 of 12 samples done (0 %)"
+        rows_of(0, 1)
+        sweep.write([as_table([{"sample": 5, **without_answer("timed_out", "more than 1 s")}])])
+        first, second = lines()
+        assert first.startswith("swept: running since 20")
+        assert first.endswith(f", process {os.getpid()}")
+        assert second.startswith(
+            "swept: a sweep: 3 of 12 samples done (25 %), 1 without an answer; last rows written at 20"
+        )
+    assert lines()[1:] == ["swept: stopped; the same `fctd sweep` command goes on"]
+    rows_of(2, 3, 4, 6, 7, 8, 9, 10, 11)
+    (only,) = lines()
+    assert only.startswith(
+        "swept: a sweep: 12 of 12 samples done (100 %), 1 without an answer; last rows written at 20"
+    )

@@ -10,7 +10,7 @@ from fctd.cli.main import app
 from fctd.cli.sweep import where_of
 from fctd.steady.batch import cores
 from fctd.sweep.dataset import open_dataset
-from tests.sweep.made import sweep_file
+from tests.sweep.made import PARAMETERS, WORK, sweep_file
 
 NOTHING = (None, None, None)
 
@@ -40,6 +40,16 @@ def test_samples_without_an_answer_are_exit_code_1(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["sweep", str(path), "--out", str(tmp_path / "out"), "--workers", "1"])
     assert done.exit_code == 1
     assert "2 samples timed_out" in done.stderr
+
+
+def test_one_sample_is_no_plural(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    path = sweep_file(
+        tmp_path, 'method = "random"\nsamples = 1', WORK.replace("600:900:100", "600:600:100") + PARAMETERS
+    )
+    command = ["sweep", str(path), "--out", str(tmp_path / "out"), "--workers", "1"]
+    assert "1 sample; 1 row in" in CliRunner().invoke(app, command).stdout
+    assert "The sample is there" in CliRunner().invoke(app, command).stdout
 
 
 def test_rows_to_be_doubted_are_said_and_are_exit_code_1_however_often_it_is_asked(

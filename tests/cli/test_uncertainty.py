@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from fctd.case.errors import InputError
 from fctd.cli.main import app, run
 from fctd.sweep.chunk import as_table
-from fctd.sweep.dataset import begin_dataset
+from fctd.sweep.dataset import begin_dataset, open_dataset
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from tests.sweep.made import sweep_file
@@ -94,6 +94,26 @@ def test_what_cannot_be_told_is_refused(
         run(app)
     assert stopped.value.code == 2
     assert words in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_limit_of_another_column_names_file_and_key(swept: Path) -> None:
+    limits = '\n[[uncertainty.limits]]\ncolumn = "hooklod_N"\nabove = "120 kN"\n'
+    swept.write_text(swept.read_text(encoding="utf-8") + limits, encoding="utf-8")
+    refused = CliRunner().invoke(app, ["uncertainty", str(swept)])
+    said = f'{swept}: uncertainty.limits[0].column = "hooklod_N": expected the column hookload_N'
+    assert str(refused.exception) == said
+
+
+def test_bands_of_one_depth_are_refused_with_the_kind_of_work(swept: Path) -> None:
+    pytest.importorskip("matplotlib")
+    dataset = open_dataset(Path("swept-sweep"))
+    rows = dataset.rows()[["sample", "operation", "bit_depth_m", "hookload_N", "buckling", "status"]]
+    dataset.parts[0].unlink()
+    deepest = rows[rows["bit_depth_m"] == 900.0].to_dict("records")
+    dataset.write([as_table(deepest)])
+    refused = CliRunner().invoke(app, ["uncertainty", str(swept), "--plot-bands", "bands.png"])
+    said = '--plot-bands = "a sweep of kind chart": expected a sweep of charts of several depths'
+    assert str(refused.exception).startswith(said)
 
 
 def test_the_folder_of_another_sweep_is_refused(

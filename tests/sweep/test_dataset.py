@@ -1,6 +1,7 @@
 """The folder of a sweep: parts with the values of their samples, what is missing, and folders that are refused."""
 
 import json
+import os
 from pathlib import Path
 
 import pandas as pd
@@ -91,11 +92,12 @@ def test_rows_of_another_version_are_not_mixed(tmp_path: Path) -> None:
 
 
 def test_only_one_sweep_works_on_a_folder(tmp_path: Path) -> None:
-    expected = pytest.raises(InputError, match="no other sweep works on")
+    expected = pytest.raises(InputError, match=rf"no other sweep works on \(process {os.getpid()} does\)")
     with alone(tmp_path / "out"), expected, alone(tmp_path / "out"):
         pass
     with alone(tmp_path / "out"):
         pass
+    assert list((tmp_path / "out").iterdir()) == []
 
 
 def test_a_folder_without_a_dataset_and_a_broken_part_are_answered(tmp_path: Path) -> None:

@@ -28,7 +28,7 @@ def test_a_grid_has_all_combinations_and_the_last_key_varies_first() -> None:
                                         {"key": "bit.weight_on_bit", "values": ["10 kN", "20 kN"]}]))  # fmt: skip
     assert table.columns.tolist() == ["sample", "friction", "bit.weight_on_bit"]
     assert table["friction"].tolist() == pytest.approx([0.1, 0.1, 0.2, 0.2, 0.3, 0.3])
-    assert table["bit.weight_on_bit"].tolist() == ["10 kN", "20 kN"] * 3
+    assert table["bit.weight_on_bit"].tolist() == [10, 20] * 3
 
 
 def test_a_list_takes_values_side_by_side() -> None:

@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 
 from fctd.case.errors import InputError
+from fctd.sweep.limits import LimitSpec
 from fctd.sweep.probabilities import interval, probability_table
-from fctd.sweep.spec import LimitSpec
 
 ROWS = pd.DataFrame(
     {
@@ -53,8 +53,15 @@ def test_answers_that_are_to_be_doubted_are_events() -> None:
 
 
 def test_a_limit_of_a_column_that_is_not_there_is_refused() -> None:
-    with pytest.raises(InputError, match="the column hookload_N"):
-        probability_table(ROWS, [LimitSpec(column="hookloads_N", below=1)], 4)
+    limits = [LimitSpec(column="hookload_N", below=1), LimitSpec(column="hookloads_N", below=1)]
+    with pytest.raises(InputError, match=r"uncertainty\.limits\[1\]\.column = .*the column hookload_N"):
+        probability_table(ROWS, limits, 4)
+
+
+def test_a_limit_has_a_unit() -> None:
+    table = probability_table(ROWS, [LimitSpec(column="hookload_N", above="0.0055 kN")], 4)
+    here = table[(table["event"] == "hookload_N above 0.0055 kN") & table["bit_depth_m"].isna()]
+    assert here["count"].tolist() == [2]  # as above 5.5
 
 
 def test_intervals_are_those_of_wilson() -> None:

@@ -82,6 +82,7 @@ def test_samples_that_no_case_can_have_are_refused_or_rows(tmp_path: Path) -> No
 def test_a_bad_sweep_is_answered_before_any_work(body: str, words: list[str], tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         sweep(read_sweep(sweep_file(tmp_path, body=body)), tmp_path / "out", ONE)
+    assert str(caught.value).startswith(f"{tmp_path / 'sweep.toml'}: ")
     for word in words:
         assert word in str(caught.value)
     assert not (tmp_path / "out").exists()

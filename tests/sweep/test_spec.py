@@ -55,6 +55,10 @@ WRONG = {
     "values and distribution": (
         LHS, parameter('values = [1, 2]\ndistribution = "normal"') + WORK, ["values or distribution"],
     ),
+    "values of two units": (
+        'method = "grid"', parameter('values = ["1 sg", "9 ppg"]') + WORK, ["parameters[0].values[1]", "in sg"],
+    ),
+    "the file as a key": (LHS + 'file = "other.toml"', PARAMETERS + WORK, ["file", "expected"]),
     "mixed values": ('method = "grid"', parameter('values = [1, "a"]') + WORK, ["one kind"]),
     "no values": ('method = "grid"', parameter("values = []") + WORK, ["at least one value"]),
     "key twice": (LHS, PARAMETERS + PARAMETERS + WORK, ["one parameter for each key"]),
@@ -109,6 +113,14 @@ def test_a_missing_file_and_one_that_is_no_toml_are_answered(tmp_path: Path) -> 
     (tmp_path / "bad.toml").write_text("name = [", encoding="utf-8")
     with pytest.raises(InputError, match="a sweep file in TOML"):
         read_sweep(tmp_path / "bad.toml")
+
+
+def test_values_with_a_unit_are_numbers_and_other_texts_stay() -> None:
+    made = ParameterSpec.model_validate({"key": "bit.weight_on_bit", "values": ["20 kN", "60.5 kN"]})
+    assert (made.unit, made.choices) == ("kN", (20.0, 60.5))
+    for texts in (("arcs", "cylinders"), ("5 in pipe", "4 in pipe"), ("1,5 m", "2 m"), ("0.2", "0.3")):
+        made = ParameterSpec.model_validate({"key": "a", "values": texts})
+        assert (made.unit, made.choices) == ("", texts)
 
 
 def test_numbers_have_their_units() -> None:

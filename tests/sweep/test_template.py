@@ -84,6 +84,23 @@ def test_erred_surveys_depend_on_seed_and_sample_alone(tmp_path: Path) -> None:
     assert np.degrees(np.abs(one - made.base.wellbore.trajectory)[:, 1]).max() < 5 * 0.3
 
 
+@pytest.mark.parametrize(
+    ("head", "groups"),
+    [
+        ('method = "saltelli"\nsamples = 2\n', [[0, 1, 2], [3], [4, 5, 6], [7]]),
+        ('method = "morris"\nsamples = 2\n', [[0, 1, 2], [3, 4, 5]]),
+        ('method = "random"\nsamples = 3\n', [[0], [1], [2]]),
+    ],
+)
+def test_samples_that_indices_compare_have_the_same_survey(tmp_path: Path, head: str, groups: list[list[int]]) -> None:
+    """The spread of the survey would else be counted as influence of each parameter."""
+    made = template(tmp_path, head, PARAMETERS + '[survey]\ntool = "mwd"\n' + WORK)
+    surveys = {k: made.case(k, {}).wellbore.trajectory for group in groups for k in group}
+    for group in groups:
+        for k, survey in surveys.items():
+            assert (survey == surveys[group[0]]).all() == (k in group)
+
+
 def test_each_sample_has_its_own_waves(tmp_path: Path) -> None:
     waves = 'set = {"wellbore.tortuosity.amplitude" = "5 mm", "wellbore.tortuosity.wavelength" = "40 m"}\n'
     made = template(tmp_path, HEAD + "tortuosity_seeds = true\n" + waves, WORK)
