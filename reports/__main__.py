@@ -29,7 +29,9 @@ def main() -> None:
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
     try:
-        problems = page.render(study.RESULTS, STUDIES, OUT, runner.changes(STUDIES, study.RESULTS, sources))
+        changes = runner.changes(STUDIES, study.RESULTS, sources)
+        questions = {name: runner.question_of(name) for name in STUDIES}
+        problems = page.render(study.RESULTS, STUDIES, OUT, changes, questions=questions)
     except OSError as error:
         message = f"error: {OUT}: expected a folder that can be written ({error})"
         typer.echo(printable_lines(message), err=True)

@@ -17,6 +17,7 @@ from reports.sections import Picture, Section, anchor, draw, section_of
 from validation.claims.ledger import CLAIMS
 
 TEMPLATES = Path(__file__).parent / "templates"
+LONG_CELL = 40  # letters of a text in a table that is broken into lines
 
 
 def render(
@@ -25,11 +26,13 @@ def render(
     out: Path,
     changes: Mapping[str, str] | None = None,
     ledger: Path = CLAIMS,
+    questions: Mapping[str, str] | None = None,
 ) -> list[str]:
     """Write ``out/index.html``, ``claims.html``, ``studies``, ``figures`` and ``results.json``; return what is missing.
 
     Studies stand in the order given; results of studies that are not among them come after.  The claims of ``ledger``
-    are judged by these results.  changes : study -> what has changed since its result was stored.
+    are judged by these results.  changes : study -> what has changed since its result was stored.  questions : study ->
+    its question, for those that have not been run.
     """
     for folder in (out / "figures", out / "studies"):
         shutil.rmtree(folder, ignore_errors=True)
@@ -42,6 +45,7 @@ def render(
     for study in dict.fromkeys([*studies, *found]):
         section, tables = section_of(stored / study, out)
         section.changed = (changes or {}).get(study, "")
+        section.asked = (questions or {}).get(study, "")
         sections[study] = section
         if study in first and tables:
             _draw_leading(section, first[study].figure, tables, out, drawn)
@@ -73,7 +77,13 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    environment.globals |= {"number": words.number, "quantity": words.quantity, "anchor": anchor}
+    environment.globals |= {
+        "number": words.number,
+        "quantity": words.quantity,
+        "anchor": anchor,
+        "long_cell": LONG_CELL,
+    }
+    environment.filters["typeset"] = words.typeset
 
     def write(template: str, name: str, **more: Any) -> None:
         root = "../" * name.count("/")

@@ -89,7 +89,7 @@ def _study(section: Section) -> StudyResult:
     record = section.record
     if record is None:
         return StudyResult(
-            study=section.study, question="", status="unreadable" if section.problems else "not run",
+            study=section.study, question=section.asked, status="unreadable" if section.problems else "not run",
             message="; ".join(section.problems), quick=False, date="", wall_s=0.0, out_of_date=section.changed,
             provenance=None, checks=[], notes=[],
         )  # fmt: skip

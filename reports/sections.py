@@ -57,6 +57,7 @@ class Section:
     """What the pages say of one study; without a record, the study has not been run.
 
     changed : the input that has changed since the result was stored; empty where it is up to date.
+    asked : the question of a study that may not have been run; empty where it is not known.
     """
 
     study: str
@@ -65,11 +66,12 @@ class Section:
     tables: list[Printed] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     changed: str = ""
+    asked: str = ""
 
     @property
     def question(self) -> str:
         """The study's question; its name where the question is not known."""
-        return self.record.question or self.study if self.record else self.study
+        return (self.record.question if self.record else "") or self.asked or self.study
 
     @property
     def summary(self) -> str:

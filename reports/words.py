@@ -1,6 +1,7 @@
 """How numbers, columns and names are printed: units out of column names, sensible digits, plain words."""
 
 import math
+import re
 from typing import Any
 
 import pandas as pd
@@ -10,22 +11,28 @@ from fctd.results.columns import COLUMNS
 
 # Endings of column names, longest first, so that ``_kN_m`` is not taken for metres.
 UNITS = {
+    "percent_of_weight": "% of the weight",
+    "N_per_m_per_m": "N/m per m",
+    "deg_per_100ft": "°/100 ft",
     "N_m_per_rad": "N·m/rad",
     "kg_per_m3": "kg/m³",
     "rad_per_s": "rad/s",
     "m_per_s": "m/s",
     "N_per_m": "N/m",
+    "J_per_m": "J/m",
     "m_per_h": "m/h",
     "percent": "%",
     "per_s": "1/s",
     "kN_m": "kN·m",
     "N_m": "N·m",
+    "Pa_s": "Pa·s",
     "m_s": "m/s",
     "MPa": "MPa",
     "deg": "°",
     "rpm": "rev/min",
     "Hz": "Hz",
     "kN": "kN",
+    "MB": "MB",
     "mm": "mm",
     "ms": "ms",
     "us": "µs",
@@ -36,16 +43,22 @@ UNITS = {
     "s": "s",
 }
 
-# Labels of the engine's own columns that their names do not spell out, and of the studies'.
-SYMBOLS = {
-    COLUMNS[name].stem: COLUMNS[name].label for name in ("md_m", "hookload_N", "sum_r_mu_fn_N_m", "sum_r_ft_N_m")
+# Columns of times whose ending alone misleads.
+TIMES = {
+    "took_per_m_s": ("time per metre", "s"),
+    "ms_per_simulated_s": ("time per simulated second", "ms"),
+    "wall_per_m_ms": ("wall time per metre", "ms"),
+    "wall_s": ("wall time", "s"),
 }
-SYMBOLS |= {
-    "soft_hookload": "soft hook load",
-    "hookload_difference": "hook load difference",
-    "off_percent_of_weight": "off, % of the weight",
-    "largest_off_percent_of_weight": "largest off, % of the weight",
+
+# What the words of a column's name stand for: the engine's own quantities, names and abbreviations.
+SPELT = {
+    COLUMNS[name].stem.replace("_", " "): COLUMNS[name].label
+    for name in ("md_m", "hookload_N", "sum_r_mu_fn_N_m", "sum_r_ft_N_m")
 }
+SPELT |= {each.lower(): each for each in ("FCL", "FCTD", "Mitchell", "Newton", "RMS", "TVD")}
+# Contact methods by the names of the paper and of the libraries.
+METHODS = {"for_loop": "FOR-loop", "fcl": "FCL", "bullet": "Bullet", "mujoco": "MuJoCo"}
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SPACE, NARROW_SPACE = "\u00a0", "\u202f"  # neither breaks a line
@@ -55,6 +68,8 @@ NOTHING = "–"
 
 def heading(column: str) -> tuple[str, str]:
     """A column's name in words and its unit: ``bit_depth_m`` gives ("bit depth", "m")."""
+    if column in TIMES:
+        return TIMES[column]
     for ending, unit in UNITS.items():
         if column.endswith(f"_{ending}"):
             return _label(column.removesuffix(f"_{ending}")), unit
@@ -62,8 +77,26 @@ def heading(column: str) -> tuple[str, str]:
 
 
 def name(identifier: str) -> str:
-    """An operation in the driller's words; other names as they stand."""
-    return KINDS[identifier].label if identifier in KINDS else identifier
+    """An operation in the driller's words, a contact method and a status without underscores; other names as they
+    stand."""
+    if identifier in KINDS:
+        return KINDS[identifier].label
+    first, comma, rest = identifier.partition(",")
+    if first in METHODS:
+        return METHODS[first] + comma + rest
+    return _label(identifier) if re.fullmatch(r"[a-z]+(_[a-z]+)+", identifier) else identifier
+
+
+def typeset(text: str) -> str:
+    """A sentence of a study as print has it: subscripts, powers of ten, no marks of code."""
+    for plain, printed in (("F_n", "Fₙ"), ("F_t", "Fₜ"), ("N*m", "N·m"), ("`", "")):
+        text = text.replace(plain, printed)
+    return re.sub(r"\b(\d+(?:\.\d+)?)e\+?0*(\d+)\b", _power, text)
+
+
+def _power(found: re.Match[str]) -> str:
+    mantissa, exponent = found[1], found[2].translate(SUPERSCRIPT)
+    return f"10{exponent}" if mantissa == "1" else f"{mantissa}{SPACE}×{SPACE}10{exponent}"
 
 
 def number(value: float) -> str:
@@ -105,7 +138,7 @@ def column(values: "pd.Series[Any]") -> list[str]:
 
 
 def _label(identifier: str) -> str:
-    return SYMBOLS.get(identifier, identifier.replace("_", " "))
+    return re.sub(rf"\b({'|'.join(SPELT)})\b", lambda found: SPELT[found[0]], identifier.replace("_", " "))
 
 
 def _fixed(value: float, decimals: int) -> str:

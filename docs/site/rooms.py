@@ -6,6 +6,7 @@ from importlib import import_module
 
 from docutils import nodes
 from sphinx.application import Sphinx
+from sphinx.environment import BuildEnvironment
 from sphinx.util.docutils import SphinxDirective
 from sphinx.util.typing import ExtensionMetadata
 
@@ -54,8 +55,29 @@ class Room(SphinxDirective):
         return self.parse_text_to_nodes("\n".join(parts), allow_section_headings=True)
 
 
+def _lead_back(app: Sphinx, env: BuildEnvironment) -> None:
+    """Links from a source lead to its module's own page, or to the public names of a package above where the module has
+    none: Sphinx mixes the address of the one with the name of the other.  Modules that no page leads to are left out.
+    """
+    sources = env._viewcode_modules  # type: ignore[attr-defined]
+    objects = env.domains.python_domain.objects.items()
+    described = {name: found.docname for name, found in objects if not found.aliased}
+    for module, entry in list(sources.items()):
+        if not entry or not entry[2]:
+            del sources[module]
+            continue
+        code, tags, used, _ = entry
+        parts = module.split(".")
+        for owner in (".".join(parts[:count]) for count in range(len(parts), 0, -1)):
+            if all(f"{owner}.{name}" in described for name in used):
+                pages = {name: described[f"{owner}.{name}"] for name in used}
+                sources[module] = code, tags, pages, owner
+                break
+
+
 def setup(app: Sphinx) -> ExtensionMetadata:
-    """Add the directives."""
+    """Add the directives, and listen to what has been read."""
+    app.connect("env-updated", _lead_back)
     app.add_directive("public", Public)
     app.add_directive("room", Room)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

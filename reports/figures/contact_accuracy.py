@@ -3,6 +3,7 @@
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 
+from reports import words
 from reports.figures import Figure, Tables, style
 
 # Zero has no place on a logarithmic axis; exact answers are drawn on a line below it.
@@ -19,17 +20,20 @@ def error_and_cost(tables: Tables) -> Canvas:
         look = style.dots(index, filled=index < 6) | {"linestyle": "-", "linewidth": 0.8}
         for ax, column in ((depth, "max_penetration_error_mm"), (angle, "max_angle_error_deg")):
             smallest = cost.loc[cost[column] > 1e-5, column].min()
-            ax.plot(chosen["ns_per_point"], chosen[column].clip(lower=FLOOR * smallest), **look, label=method)
+            ax.plot(
+                chosen["ns_per_point"], chosen[column].clip(lower=FLOOR * smallest), **look, label=words.name(method)
+            )
     for ax, label in ((depth, "largest error of penetration, mm"), (angle, "largest error of direction, °")):
         ax.set(xscale="log", yscale="log", xlabel="cost per point, ns", ylabel=label)
         style.plain_log_ticks(ax.yaxis)
     for ax, column in ((depth, "max_penetration_error_mm"), (angle, "max_angle_error_deg")):
-        _exact_line(ax, FLOOR * cost.loc[cost[column] > 1e-5, column].min())
+        exact_line(ax, FLOOR * cost.loc[cost[column] > 1e-5, column].min())
     style.legend_outside(canvas, depth, columns=4)
     return canvas
 
 
-def _exact_line(ax: Axes, height: float) -> None:
+def exact_line(ax: Axes, height: float) -> None:
+    """The line on which exact answers are drawn."""
     ax.axhline(height, color=style.QUIET, linewidth=1, linestyle=(0, (1, 2)))
     ax.annotate("exact", (0.98, height), xycoords=("axes fraction", "data"), ha="right", va="bottom", color=style.QUIET)
 

@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure as Canvas
 
+from reports import words
 from reports.figures import Figure, Tables, style
 
 
@@ -17,7 +18,7 @@ def costs(tables: Tables) -> Canvas:
         height = np.arange(len(loops)) + 0.14 * (2 * index - 1)
         ax.plot(at["ns_per_segment_step"], height, **style.dots(index), markersize=6, label=f"{segments} segments")
     ax.set(xscale="log", xlabel="cost per segment and step, ns")
-    style.rows_downwards(ax, loops)
+    style.rows_downwards(ax, [words.name(loop) for loop in loops])
     style.legend_above(ax)
     return canvas
 
@@ -80,7 +81,7 @@ def torques(tables: Tables) -> Canvas:
     methods = tables["torques"]
     canvas = style.figure(1.2 + 0.28 * len(methods))
     ax = canvas.subplots()
-    ax.plot(methods["sum_difference_percent"], methods["method"], **style.dots(1), markersize=6)
+    ax.plot(methods["sum_difference_percent"], methods["method"].map(words.name), **style.dots(1), markersize=6)
     ax.axvline(0, **style.ZERO)
     ax.set(xlabel="Σ rμFₙ against FCTD, %")
     ax.set_xlim(style.around_zero(methods["sum_difference_percent"]))
@@ -92,7 +93,7 @@ FIGURES = [
     Figure(
         "costs",
         "Cost of one segment and step in the same loop with each contact method, by number of segments. Compiled "
-        "loops need no call from Python; the row with an empty query is the cost of such calls.",
+        "loops need no call from Python; the row “no contact, asked from Python” is the cost of such calls.",
         costs,
     ),
     Figure(

@@ -1,16 +1,19 @@
 """The three pictures at the top of the page, small enough to stand side by side."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 from numpy.typing import NDArray
 
+from reports import words
 from reports.figures import Figure, Tables, style
+from reports.figures.contact_accuracy import FLOOR, exact_line
 
 SIZE_IN = (4.3, 3.3)
-# Zero has no place on a logarithmic axis.
-FLOOR = 0.3
+LETTERS = 8.5  # of legends, in a picture that a page shows smaller than it is [pt]
 WELL = "paper-well"
 KINDS = {"trip_out": "picking up", "rotate_off_bottom": "rotating", "trip_in": "slacking off"}
 
@@ -28,6 +31,11 @@ def _canvas() -> Canvas:
     return Canvas(figsize=SIZE_IN, layout="constrained")
 
 
+def _legend(canvas: Canvas, ax: Axes, **more: Any) -> None:
+    found = ax.get_legend_handles_labels()
+    canvas.legend(*found, loc="outside upper left", ncols=3, fontsize=LETTERS, columnspacing=0.8, **more)
+
+
 def cost_and_error(tables: Tables) -> Canvas:
     """Error of penetration against cost, a line for each contact method."""
     cost = tables["cost"]
@@ -38,10 +46,10 @@ def cost_and_error(tables: Tables) -> Canvas:
     for index, method in enumerate(cost["method"].unique()):
         chosen = cost[cost["method"] == method]
         look = style.dots(index, filled=index < 6) | {"linestyle": "-", "linewidth": 0.8}
-        ax.plot(chosen["ns_per_point"], chosen[column].clip(lower=floor), **look, label=method)
-    ax.axhline(floor, color=style.QUIET, linewidth=1, linestyle=(0, (1, 2)))
+        ax.plot(chosen["ns_per_point"], chosen[column].clip(lower=floor), **look, label=words.name(method))
+    exact_line(ax, floor)
     ax.set(xscale="log", yscale="log", xlabel="cost per point, ns", ylabel="largest error of penetration, mm")
-    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=3, fontsize=7, columnspacing=0.8)
+    _legend(canvas, ax)
     return canvas
 
 
@@ -79,7 +87,8 @@ def where_it_touches(tables: Tables) -> Canvas:
     canvas.colorbar(dots, ax=ax, label="contact force, kN", shrink=0.8)
     first = down[at].min() if at.any() else down[0]
     ax.set(xlabel="departure, m", ylabel="true vertical depth, m", ylim=(down[-1] + 60, first - 120))
-    ax.legend(loc="lower left")
+    scale = f"clearance drawn {words.number(round(times, -1))} times as wide"
+    _legend(canvas, ax, title=scale, title_fontsize=LETTERS, alignment="left")
     return canvas
 
 
@@ -100,7 +109,7 @@ def stiff_and_measured(tables: Tables) -> Canvas:
         ax.errorbar(middle, rows["bit_depth_m"], xerr=half, linewidth=0.8, **look)
     ax.set_xlabel("weight indicator, kN (marks: measured)")
     style.depth_downwards(ax, "bit depth, m")
-    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=3, fontsize=7.5)
+    _legend(canvas, ax)
     return canvas
 
 

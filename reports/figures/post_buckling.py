@@ -28,7 +28,8 @@ def shapes(tables: Tables) -> Canvas:
         space.set(
             xlabel="along the hole, m", ylabel="aside, mm", zlabel="up, mm", ylim=(-wall, wall), zlim=(-wall, wall)
         )
-        space.set(yticks=[-40, 0, 40], zticks=[-40, 0, 40])
+        space.set(yticks=[-40, 40], zticks=[-40, 0, 40])
+        space.xaxis.labelpad = 8  # the labels stand beside the numbers, not on them
         space.set_box_aspect((2.2, 1, 1), zoom=0.85)
     return canvas
 

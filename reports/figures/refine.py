@@ -57,7 +57,7 @@ FIGURES = [
     Figure(
         "layouts",
         "Error of uniform and graded strings of equal counts: torque turning off bottom (above), hook load picking up "
-        "(below).",
+        "(below). johancsik3 is the third example of Johancsik, Friesen and Dawson (1984).",
         layouts,
     ),
     Figure(

@@ -38,7 +38,8 @@ def _map(ax: Axes, rows: DataFrame) -> None:
     ax.imshow(np.abs(cells), cmap="Greys", norm=Normalize(0, LARGEST), aspect="auto", origin="lower")
     for (i, k), value in np.ndenumerate(cells):
         ink = "white" if abs(value) > WHITE_FROM else "black"
-        ax.text(k, i, f"{value:+.0f}" if abs(value) >= 0.5 else "0", ha="center", va="center", color=ink, fontsize=8)
+        text = f"{value:z.0f}".replace("-", words.MINUS)
+        ax.text(k, i, text, ha="center", va="center", color=ink, fontsize=8.5)
     ax.set_xticks(range(len(values.columns)), [f"{severity:g}" for severity in values.columns])
     ax.set_yticks(range(len(values.index)), [f"{clearance:g}" for clearance in values.index])
     ax.grid(visible=False)

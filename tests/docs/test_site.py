@@ -3,7 +3,9 @@
 import re
 import subprocess
 import sys
+from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import pytest
 
@@ -27,6 +29,7 @@ INDEX = """# A site
 ```{toctree}
 room
 public
+view
 ```
 
 The law `fctd.mechanics.laws.paper.impulse`, its force $F_n$ and
@@ -43,13 +46,14 @@ a,b
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A site of three pages with the settings of the real one."""
+    """A site of four pages with the settings of the real one."""
     folder = tmp_path_factory.mktemp("site")
     source, out = folder / "source", folder / "out"
     source.mkdir()
     (source / "index.md").write_text(INDEX)
     (source / "room.rst").write_text("Room\n====\n\n.. room:: fctd.mechanics.laws\n")
     (source / "public.rst").write_text("Public\n======\n\n.. public:: fctd.view\n")
+    (source / "view.rst").write_text("View\n====\n\n.. room:: fctd.view\n")
     command = [sys.executable, "-m", "sphinx", "-W", "-q", "-c", str(DOCS), "-b", "html", str(source), str(out)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
@@ -66,6 +70,53 @@ def test_equations_are_mathml_and_names_lead_to_their_functions(site: Path) -> N
     assert "Axial drag and a couple about the axis" in described
     assert '_modules/fctd/mechanics/laws/paper.html#impulse"' in described
     assert 'id="fctd.view.save_view"' in (site / "public.html").read_text(encoding="utf-8")
+
+
+def test_every_link_leads_somewhere(site: Path) -> None:
+    assert dead(site) == []
+    sources = {path.relative_to(site / "_modules").parts[0] for path in (site / "_modules").rglob("*.html")}
+    assert sources == {"fctd", "index.html"}
+
+
+class Links(HTMLParser):
+    """The links of a page and the parts that they can lead to."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.parts: set[str] = set()
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = dict(attrs)
+        self.parts.add(given.get("id") or "")
+        if tag == "a" and given.get("href"):
+            self.links.append(given["href"] or "")
+
+
+def dead(site: Path) -> list[str]:
+    """Links within a site that lead to no page or to no part of one, as PAGE -> LINK."""
+    pages = {page.resolve(): Links(page.read_text(encoding="utf-8")) for page in site.rglob("*.html")}
+    found = []
+    for page, content in pages.items():
+        for link in content.links:
+            address = urlsplit(link)
+            target = (page.parent / unquote(address.path)).resolve() if address.path else page
+            missing = not target.exists() or (
+                address.fragment and target in pages and unquote(address.fragment) not in pages[target].parts
+            )
+            if not address.scheme and missing:
+                found.append(f"{page.name} -> {link}")
+    return found
+
+
+def test_a_link_that_leads_nowhere_is_found(tmp_path: Path) -> None:
+    (tmp_path / "page.html").write_text(
+        '<a href="#here">1</a><a href="other.html">2</a><a href="page.html#there">3</a>'
+    )
+    assert dead(tmp_path) == ["page.html -> #here", "page.html -> other.html", "page.html -> page.html#there"]
+    (tmp_path / "page.html").write_text('<p id="here"></p><a href="#here">1</a><a href="https://example.org/x#y">2</a>')
+    assert dead(tmp_path) == []
 
 
 def test_it_can_be_searched_and_asks_for_nothing_from_elsewhere(site: Path) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from tests.browsers import browser, needs_browser, opened, overflow
 
-from .test_site import outside
+from .test_site import dead, outside
 
 pytestmark = needs_browser
 SITE = Path(__file__).parents[2] / "docs" / "out"
@@ -28,6 +28,7 @@ def test_every_page_opens_and_fits(page: Any) -> None:
     pages = [path for path in sorted(SITE.rglob("*.html")) if "_modules" not in path.parts]
     assert len(pages) > 35
     assert outside(SITE) == []
+    assert dead(SITE) == []
     wide = {}
     for path in pages:
         page.goto(path.resolve().as_uri())

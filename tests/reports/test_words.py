@@ -19,6 +19,17 @@ from reports import words
         ("max_angle_error_deg", ("max angle error", "°")),
         ("max_penetration_error_mm", ("max penetration error", "mm")),
         ("md_m", ("measured depth", "m")),
+        ("soft_hookload_paper_kN", ("soft hook load paper", "kN")),
+        ("fcl_sum_r_mu_fn_kN_m", ("FCL Σ rμFₙ", "kN·m")),
+        ("viscosity_Pa_s", ("viscosity", "Pa·s")),
+        ("stiffness_N_per_m_per_m", ("stiffness", "N/m per m")),
+        ("severity_deg_per_100ft", ("severity", "°/100 ft")),
+        ("helix_over_snaking_J_per_m", ("helix over snaking", "J/m")),
+        ("off_percent_of_weight", ("off", "% of the weight")),
+        ("memory_MB", ("memory", "MB")),
+        ("took_per_m_s", ("time per metre", "s")),
+        ("ms_per_simulated_s", ("time per simulated second", "ms")),
+        ("wall_s", ("wall time", "s")),
         ("steps", ("steps", "")),
         ("operation", ("operation", "")),
     ],
@@ -58,10 +69,24 @@ def test_number(value, text):
         ([1, 1000], ["1", "1\u202f000"]),
         ([True, False], ["yes", "no"]),
         (["trip_in", "arcs", None], ["slacking off", "arcs", "–"]),
+        (["under_resolved", "for_loop, 2 m", "mujoco"], ["under resolved", "FOR-loop, 2 m", "MuJoCo"]),
+        (["cases/a_b.toml", "not finite: x_y"], ["cases/a_b.toml", "not finite: x_y"]),
     ],
 )
 def test_column(values, texts):
     assert words.column(pd.Series(values)) == texts
+
+
+@pytest.mark.parametrize(
+    ("plain", "printed"),
+    [
+        ("Σ rμF_n below 5 N*m (study `sticking`)", "Σ rμFₙ below 5 N·m (study sticking)"),
+        ("1e6 to 1e10 N/m, 2.5e+07", "10⁶ to 10¹⁰ N/m, 2.5 × 10⁷"),
+        ("case1e6 and 8e are no powers", "case1e6 and 8e are no powers"),
+    ],
+)
+def test_sentences_are_set_as_in_print(plain, printed):
+    assert words.typeset(plain).replace(words.SPACE, " ") == printed
 
 
 def test_quantity_of_nothing_has_no_unit():

@@ -68,6 +68,14 @@ def load(name: str) -> Study:
     return study
 
 
+def question_of(name: str) -> str:
+    """The study's question; empty where the study cannot be loaded, which its run records."""
+    try:
+        return load(name).question
+    except Exception:
+        return ""
+
+
 def is_reproduced(name: str) -> bool:
     """Whether ``--reproduce`` runs the study."""
     try:

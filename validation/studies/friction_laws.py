@@ -175,7 +175,7 @@ def run(context: Context) -> Outcome:
             "the weight along the hole. On the paper's well it is the hook load less that of rotating off bottom, "
             "torque excludes the bit's 3 kN·m. The soft string's columns are a second route to the same numbers.",
             "Karnopp's law, which §4.5 names for dynamics, differs from these two only where a point sticks (study "
-            "`sticking`).",
+            "sticking).",
         ],
         display={"as_done": "The paper's well, bit at 2450 m, under both laws"},
     )  # fmt: skip

@@ -236,7 +236,7 @@ def notes(tables: Mapping[str, pd.DataFrame], fits: Mapping[str, Frozen]) -> lis
         "Not in the model, and not tried: the lift of running pumps (the reports record no pressure), drag of scraper "
         "springs, cuttings, friction that depends on the sliding speed.",
         "The frozen values are those of a loss that is linear beyond one standard deviation; the tool's is now linear "
-        "beyond three, and a repeated fit differs (table `repeated`).",
+        "beyond three, and a repeated fit differs (table repeated).",
         "The author of the split had seen the series and the torques of F4-06 and F4-10 before the first commit, and "
         "no weight of a daily report.",
         "Data: Volve data village, Equinor and partners: surveys, daily drilling reports, and a 4-second series by way "
