@@ -38,13 +38,13 @@ class Served:
         parts = str(pathname).removeprefix(self.prefix).split("/")
         found = self.sessions.get(parts[1]) if parts[0] == "s" and len(parts) > 1 else None
         if found is None:
-            raise InputError("the address of a session: open the page anew", key="session")
+            raise InputError("the address of a session: open the page anew")
         return found
 
     def ask(self, session: Session, do: str, **given: Any) -> Any:
         """An answer about the case of a session.  Raises InputError, also where it has none."""
         if session.source is None:
-            raise InputError("a case: drop a survey or a case", key="case")
+            raise InputError("a case: drop a survey or a case")
         return self.pool.ask(do, session.source, self.units, **given)
 
     def asked(self, session: Session) -> dict[str, Any]:
@@ -142,7 +142,7 @@ def content_of(text: str) -> bytes:
     try:
         return base64.b64decode(text.partition(",")[2], validate=True)
     except (binascii.Error, ValueError):
-        raise InputError("a file", key="upload") from None
+        raise InputError("a file that can be read") from None
 
 
 def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, units: System) -> Source:

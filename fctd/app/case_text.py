@@ -4,9 +4,11 @@ This runs in the process of its own that worker.py is.
 """
 
 import io
+import re
 import zipfile
 import zlib
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -15,6 +17,7 @@ import tomlkit
 from fctd.app.sessions import Source
 from fctd.case.errors import InputError, look_up, set_key, split_key
 from fctd.case.input_file import tables_of
+from fctd.case.input_warnings import InputWarning
 from fctd.case.load import LARGEST_FILE, Case, make_case
 from fctd.case.surveys.workbook import ZIP
 from fctd.model.layouts import segments_in_hole
@@ -40,7 +43,7 @@ class SourceCase:
         raw = tables_of(source.text, "a case file")
         self._survey = folder / f"survey{_suffix(source.survey_name)}"
         if check_paths(raw, source.survey_name):
-            check_survey(source.survey)
+            check_survey(source.survey, self._written)
             self._survey.write_bytes(source.survey)
             raw["wellbore"]["survey"] = str(self._survey)
         self.raw = raw
@@ -60,12 +63,21 @@ class SourceCase:
 
     def named(self, error: InputError) -> InputError:
         """An error with the survey's own name in place of that of the copy, and without the case's."""
-        written = Path(self.source.survey_name).name or "survey"
         of_survey = error.file is not None and Path(error.file) == self._survey
-        value = written if error.value == str(self._survey) else error.value
+        value = self._written if error.value == str(self._survey) else error.value
         more = [self.named(other) for other in error.more]
-        file = written if of_survey else None
+        file = self._written if of_survey else None
         return InputError(error.expected, key=error.key, value=value, file=file, more=more)
+
+    @property
+    def warnings(self) -> list[InputWarning]:
+        """Probable mistakes in the case, with the survey's own name in place of that of the copy."""
+        copy = re.compile(rf"{re.escape(self._survey.name)}(?=$|, )")
+        return [replace(one, key=copy.sub(lambda _: self._written, one.key, count=1)) for one in self.case.warnings]
+
+    @property
+    def _written(self) -> str:
+        return Path(self.source.survey_name).name or "survey"
 
     def text(self, overrides: Mapping[str, Any]) -> str:
         """The text with other values, which keeps its comments."""
@@ -87,13 +99,24 @@ def check_paths(raw: Mapping[str, Any], survey_name: str) -> bool:
     if named is None:
         return False
     if not survey_name or named != survey_name:
-        expected = "the name of a survey file that is uploaded with the case, without folders"
+        came = f'the file that came is "{survey_name}"' if survey_name else "no survey came"
+        expected = f"the name of a survey file that is uploaded with the case, without folders; {came}"
         raise InputError(expected, key="wellbore.survey", value=named)
     return True
 
 
-def check_survey(content: bytes) -> None:
-    """Raise InputError for a packed file that is too large when unpacked, and for XML with a document type."""
+def check_survey(content: bytes, name: str) -> None:
+    """Raise InputError for a packed file that is too large when unpacked, and for XML with a document type.
+
+    name : of the file, for messages.
+    """
+    try:
+        _check_content(content)
+    except InputError as error:
+        raise error.in_file(name) from error.__cause__
+
+
+def _check_content(content: bytes) -> None:
     if not content.startswith(ZIP):
         if _has_doctype(content):
             raise InputError("a survey without a document type (DOCTYPE)")
@@ -120,16 +143,15 @@ def check_size(case: Case) -> None:
     """Raise InputError for more stations or segments than the page takes."""
     stations = len(case.wellbore.trajectory)
     if stations > MOST_STATIONS:
-        raise InputError(f"at most {MOST_STATIONS} stations", key="wellbore", value=stations)
+        raise InputError(f"at most {MOST_STATIONS} stations, here {stations}")
     segments = segments_in_hole(case, case.depths[1])
     if segments > MOST_SEGMENTS:
-        expected = f"a string of at most {MOST_SEGMENTS} segments in the hole, here about {segments}"
-        raise InputError(expected, key="string.components")
+        raise InputError(f"a string of at most {MOST_SEGMENTS} segments in the hole, here about {segments}")
 
 
 def from_upload(name: str, survey: bytes, units: UnitSystem, folder: Path) -> Source:
     """A case of an uploaded survey, as ``fctd init`` makes it.  Raises InputError for a file that is no survey."""
-    check_survey(survey)
+    check_survey(survey, name)
     path = folder / f"new{_suffix(name)}"
     path.write_bytes(survey)
     try:
@@ -137,7 +159,7 @@ def from_upload(name: str, survey: bytes, units: UnitSystem, folder: Path) -> So
     except InputError as error:
         raise InputError(error.expected, key=error.key, value=error.value, file=name, more=error.more) from None
     if len(stations) > MOST_STATIONS:
-        raise InputError(f"at most {MOST_STATIONS} stations", value=len(stations), file=name)
+        raise InputError(f"at most {MOST_STATIONS} stations, here {len(stations)}", file=name)
     plan = from_survey(None, Path(name).stem or "my well", units, name, columns, stations)
     return Source(plan.text(), name, survey)
 

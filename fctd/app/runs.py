@@ -66,9 +66,9 @@ class Runs:
         with self._lock:
             running = {key for key, run in self._runs.items() if run.number is not None}
             if session.key in running:
-                raise InputError("a page without a run: stop it first", key="run")
+                raise InputError("a page without a run: stop it first, or wait for its end")
             if len(running) >= MOST_RUNS:
-                raise InputError(f"at most {MOST_RUNS} runs at a time: stop another one", key="run")
+                raise InputError(f"at most {MOST_RUNS} runs at a time: stop one on another page")
             folder = session.folder / "run"
             shutil.rmtree(folder, ignore_errors=True)
             private_folder(folder)

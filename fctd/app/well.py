@@ -84,7 +84,7 @@ class Well:
                 "name": case.name, "sliders": [asdict(slider) for slider in self.sliders], "operations": usual,
                 "depth": {"low": self.depths[0] * factor, "high": self.depths[-1] * factor, "unit": unit},
                 "loads": charts.skeleton(case, self.depths, self.units), "scene": scene, "panels": panels,
-                "warnings": [reworded(str(warning), self.units) for warning in case.warnings],
+                "warnings": [reworded(str(warning), self.units) for warning in self.read.warnings],
                 "facts": self._facts(), "runs": bool(case.operations), "exaggeration": self._exaggeration,
             }  # fmt: skip
         return self._opened
@@ -128,11 +128,11 @@ class Well:
         return {"rows": 0 if found is None else len(found)}
 
     def measured(self, text: str) -> "pd.DataFrame | None":
-        """Measured rows of a text in columns, apart by commas or tabs; None without any."""
+        """Measured rows of a text in columns, as in a file of them; None without any."""
         if not text.strip():
             return None
         path = self.read.folder / "measured.csv"
-        path.write_bytes(text.replace("\t", ",").encode("utf-8", "replace"))
+        path.write_bytes(text.encode("utf-8", "replace"))
         try:
             found = read_measured(path, self.case)
         except InputError as error:

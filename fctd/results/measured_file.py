@@ -22,6 +22,8 @@ LARGEST_FILE: Final = 8  # MiB
 ENDS: Final = ("", "_low", "_high")
 # A unit in brackets, or after an underscore as in the columns of tables.
 _UNIT: Final = r"(?:[ _]*[(\[]\s*(?P<inside>[^)\]]+?)\s*[)\]]|_(?P<after>[\w/]+))?"
+# Before three digits a comma may also part thousands: such a cell is refused.
+_DECIMAL_COMMA: Final = re.compile(r"([+-]?\d+),(\d{1,2}|\d{4,})")
 
 
 class Field(NamedTuple):
@@ -84,7 +86,7 @@ def read_lines(path: Path, fields: Sequence[Field], texts: Sequence[Text], heade
     """The rows of a CSV file that are not blank.  headers : an example of them, for messages.
 
     Numbers are SI, and NaN where a cell is empty.  Raises InputError, which names row and column, for headers without a
-    unit, cells that cannot be read, and ranges whose ends do not rise.
+    unit, cells that cannot be read, rows with more cells than headers, and ranges whose ends do not rise.
     """
     rows = _rows(path)
     if len(rows) < 2:
@@ -101,6 +103,8 @@ def read_lines(path: Path, fields: Sequence[Field], texts: Sequence[Text], heade
         raise InputError(f"headers {headers}", key=f"row {first}", value=", ".join(names))
     lines = []
     for number, cells in body:
+        if any(cells[len(columns) :]):
+            raise InputError(f"{len(columns)} cells, as many as headers", key=f"row {number}", value=", ".join(cells))
         padded = [*cells, *[""] * len(columns)]
         written = {column.name: cell for column, cell in zip(columns, padded, strict=False) if column.name}
         line = Line(number, by_name, {}, written)
@@ -180,11 +184,13 @@ def _number(cell: str, quantity: Quantity, unit: str) -> float:
     """The value of a cell [SI]; NaN for an empty one."""
     if not cell:
         return float("nan")
+    comma = _DECIMAL_COMMA.fullmatch(cell)
+    number = f"{comma[1]}.{comma[2]}" if comma else cell
     try:
-        float(cell)
+        float(number)
     except ValueError as error:
         raise InputError("a number") from error
-    return quantity.parse(f"{cell} {unit}")
+    return quantity.parse(f"{number} {unit}")
 
 
 def _check_range(line: Line, field: Field) -> None:

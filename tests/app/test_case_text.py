@@ -105,34 +105,50 @@ def test_a_case_keeps_its_text_and_says_nothing_of_its_copy(tmp_path: Path) -> N
     ],
 )  # fmt: skip
 def test_a_document_type_is_refused(content: bytes, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="DOCTYPE"):
-        check_survey(content)
-    with pytest.raises(InputError, match="DOCTYPE"):
+    with pytest.raises(InputError, match=r"^survey\.xml: .*DOCTYPE"):
+        check_survey(content, "survey.xml")
+    with pytest.raises(InputError, match=r"^survey\.xml: .*DOCTYPE"):
         from_upload("survey.xml", content, "metric", tmp_path)
 
 
 def test_a_packed_file_is_not_unpacked_beyond_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     bomb = zipped({f"xl/{k}.xml": bytes(9 * 2**20) for k in range(6)})
     assert len(bomb) < 2**17
-    with pytest.raises(InputError, match="at most 50 MiB when unpacked"):
-        check_survey(bomb)
-    check_survey(zipped({"xl/workbook.xml": b"<a/>"}))
+    with pytest.raises(InputError, match=r"^bomb\.xlsx: expected a workbook of at most 50 MiB when unpacked"):
+        check_survey(bomb, "bomb.xlsx")
+    check_survey(zipped({"xl/workbook.xml": b"<a/>"}), "a.xlsx")
     monkeypatch.setattr(case_text, "MOST_UNPACKED", 10)
     with pytest.raises(InputError, match="when unpacked"):
-        check_survey(zipped({"a.bin": bytes(11)}))
+        check_survey(zipped({"a.bin": bytes(11)}), "a.xlsx")
     with pytest.raises(InputError, match="xlsx"):
-        check_survey(b"PK\x03\x04" + bytes(99))
+        check_survey(b"PK\x03\x04" + bytes(99), "a.xlsx")
 
 
 def test_too_many_stations_and_segments_are_refused(tmp_path: Path) -> None:
     rows = "".join(f"{k * 0.01:.2f},0,30\n" for k in range(MOST_STATIONS + 1))
     survey = ("md_m,inc_deg,azi_deg\n" + rows).encode()
-    with pytest.raises(InputError, match=f"at most {MOST_STATIONS} stations"):
+    with pytest.raises(
+        InputError, match=rf"^survey\.csv: expected at most {MOST_STATIONS} stations, here {MOST_STATIONS + 1}$"
+    ):
         from_upload("survey.csv", survey, "metric", tmp_path)
     with pytest.raises(InputError, match=f"at most {MOST_STATIONS} stations"):
         SourceCase(source(TEXT.replace('"900 m"', '"500 m"').replace('"880 m"', '"400 m"'), survey=survey), tmp_path)
-    with pytest.raises(InputError, match="at most 2000 segments"):
+    with pytest.raises(InputError, match=r"^expected a string of at most 2000 segments in the hole, here about \d+$"):
         SourceCase(source(TEXT.replace('"25 m"', '"0.4 m"')), tmp_path)
+
+
+def test_a_refusal_says_which_survey_came(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r'the file that came is "other\.csv"'):
+        SourceCase(source(name="other.csv"), tmp_path)
+    with pytest.raises(InputError, match="no survey came"):
+        SourceCase(Source(TEXT), tmp_path)
+
+
+def test_a_warning_names_the_survey_as_its_user_does(tmp_path: Path) -> None:
+    found = SourceCase(source(TEXT.replace("survey.csv", "Smith 3.csv"), "Smith 3.csv"), tmp_path)
+    keys = [str(one.key) for one in found.case.warnings]
+    assert any(key.startswith("survey.csv, row") for key in keys)  # the copy
+    assert [one.key for one in found.warnings] == [key.replace("survey.csv", "Smith 3.csv") for key in keys]
 
 
 def test_a_survey_becomes_a_case(tmp_path: Path) -> None:

@@ -101,6 +101,9 @@ def test_measured_rows_are_points(well: Well) -> None:
         k = place_of("measured", "hookload_N", "trip_out")
         assert unpacked(of(found, "data", k, "x")).tolist() == [150.0]
         assert unpacked(of(found, "data", k, "y")).tolist() == [500.0]
+    commas = ROWS.replace(",", "\t").replace("150", "150,5")
+    found = solved(well, measured=commas)["loads"]
+    assert unpacked(of(found, "data", place_of("measured", "hookload_N", "trip_out"), "x")).tolist() == [150.5]
     for wrong in ("depth,operation\n1,trip_out\n", "x", ROWS.replace("trip_out", "<b>up</b>"), "\0,\n\0,\0\n"):
         with pytest.raises(InputError, match="measured rows: ") as refused:
             well.check_measured(wrong)

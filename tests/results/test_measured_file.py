@@ -42,6 +42,16 @@ def test_rows_of_a_spreadsheet(separator: str, tmp_path: Path) -> None:
     assert read(tmp_path, text) == [{"name": name, "speed_m_s": 0.3}]
 
 
+def test_a_decimal_comma_is_read_and_never_drops_digits(tmp_path: Path) -> None:
+    for separator in ("\t", ";"):
+        assert read(tmp_path, f"speed_m_s{separator}name\n0,35{separator}a\n") == [{"name": "a", "speed_m_s": 0.35}]
+        with pytest.raises(InputError, match="a number"):  # 1.234 or 1234
+            read(tmp_path, f"speed_m_s{separator}name\n1,234{separator}a\n")
+    with pytest.raises(InputError, match=r'^row 2 = "a, 0, 35": expected 2 cells, as many as headers'):
+        read(tmp_path, "name,speed_m_s\na,0,35\n")
+    assert read(tmp_path, "name,speed_m_s\na,0.35,,\n") == [{"name": "a", "speed_m_s": 0.35}]
+
+
 def test_no_known_header(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="such as speed_m_s"):
         read(tmp_path, "a,b\n1,2\n")
