@@ -36,7 +36,6 @@ FORCE, AXIAL_MOMENT = slice(0, 3), 5
 # Columns of the loads of joints: tension [N], torque, bending moment [N m].
 JOINT_TENSION, JOINT_TORQUE, JOINT_BENDING, JOINT_COLUMNS = 0, 1, 2, 3
 # Columns of the loads of contact points, after their place [m], global: normal force [N], r F_t and r μ F_n [N m].
-# Columns of the loads of contact points, after their place [m], global: normal force [N], r F_t and r μ F_n [N m].
 NORMAL_FORCE, R_FT, R_MU_FN, CONTACT_COLUMNS = 3, 4, 5, 6
 
 

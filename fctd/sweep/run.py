@@ -64,7 +64,6 @@ class Summary:
     samples: int
     done_before: int
     workers: int = 0
-    dashboard: str = ""
     start: float = 0.0
     wall: float = 0.0
     solving: float = 0.0
@@ -162,7 +161,6 @@ def sweep(
             if told is not None:
                 told(client)
             running = _Running(client, bench, dataset, progress)
-            running.summary.dashboard = str(client.dashboard_link)
             try:
                 running.warm_up()
                 running.summary.start = time.perf_counter() - began

@@ -303,7 +303,7 @@ def test_johancsiks_third_example_is_a_case_for_the_stiff_engine() -> None:
     """The string fits its hole, in segments of about 10 m, and has the published weight."""
     case = load("johancsik3")
     string = lay_out(case, 3718.0)
-    check_fit(case, string, build_wellbore(case), 3718.0)
+    check_fit(string, build_wellbore(case), 3718.0)
     assert 5 < string.length.min() <= string.length.max() < 15
     pounds = float(np.sum(string.of("mass") * string.length)) / 0.45359237
     pipe_feet = 3718 / 0.3048 - 372 - 840
