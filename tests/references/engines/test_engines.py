@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fctd.mechanics import state
 from fctd.mechanics.energy import energy_of
 from fctd.results import ledger
 from references import engines
@@ -100,12 +101,26 @@ def test_weight_of_pipe_that_is_being_fed_in_an_engine_without_feed() -> None:
     assert ledger.error(run.energy, motion=True) < 0.001
 
 
+ENDS = ((1, state.ARM_BOTTOM), (-1, state.ARM_TOP))
+
+
 def test_a_rod_begins_pressed_into_the_wall_as_deep_as_the_segments_were() -> None:
-    """Within what standing in the middle of open joints moves them by."""
+    """Its nodes stand in the middle of the open joints, the last one at the bit."""
     run = begun(turning(), WINDOW)
-    pressed = energy_of(run.S, run.segments).contact
-    assert pressed > 1
-    assert engines.build("elastica").begin(run).energy().contact == pytest.approx(pressed, rel=0.5)
+    S, n = run.S, run.segments
+    centre, axis = (
+        np.stack([state.row(S, row, n) for row in rows], axis=1)
+        for rows in ((state.X, state.Y, state.Z), (state.AX, state.AY, state.AZ))
+    )
+    lower, upper = (centre + sign * state.row(S, row, n)[:, None] * axis for sign, row in ENDS)
+    pressed = []
+    for places in (lower, np.vstack([0.5 * (lower[:-1] + upper[1:]), lower[-1:]])):
+        walls = run.hole.walls(places, run.owner[1 : n + 1])
+        depth = np.maximum(np.linalg.norm(walls.offset, axis=1) - walls.radius + state.row(S, state.RADIUS, n), 0.0)
+        pressed.append(0.5 * float((walls.stiffness * state.row(S, state.TRIBUTARY, n) * depth**2).sum()))
+    assert energy_of(S, n).contact == pytest.approx(pressed[0])
+    assert pressed[0] > 1
+    assert engines.build("elastica").begin(run).energy().contact == pytest.approx(pressed[1])
 
 
 @pytest.mark.parametrize(("name", "least"), [("fctd", 0.9999), ("bullet", 0.98), ("mujoco", 0.995)])
