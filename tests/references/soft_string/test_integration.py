@@ -70,7 +70,7 @@ def test_the_recursion_converges_to_the_differential_form_at_second_order(operat
     for column in errors.T:
         if column.max() > 0:
             order = np.polyfit(np.log(elements), np.log(column), 1)[0]
-            assert order == pytest.approx(2.0, abs=0.15)
+            assert order == pytest.approx(2.0, abs=0.05)
             assert column[-1] < column[0] / 150
 
 
