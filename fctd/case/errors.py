@@ -86,11 +86,8 @@ def show(value: object) -> str:
         return json.dumps(str(value), ensure_ascii=False)
     try:
         text = repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False, default=str)
-    except (
-        ValueError,
-        TypeError,
-        RecursionError,
-    ):  # thousands of digits, keys that are no strings, thousands of tables
+    # Thousands of digits, keys that are no strings, thousands of tables.
+    except (ValueError, TypeError, RecursionError):
         text = {dict: "a table", int: "a long number"}.get(type(value), f"a {type(value).__name__}")
     return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
 

@@ -293,7 +293,7 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
     return [nominal] * (count - 1) + [take - nominal * (count - 1)]
 
 
-def check_fit(case: Case, string: String, hole: Wellbore, deepest: float) -> None:
+def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
     """Raise InputError for a string that is wider than its hole.
 
     Also for a long segment outside vertical hole, and for a segment that is too short to compute with.

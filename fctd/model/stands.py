@@ -68,7 +68,7 @@ class Tally:
         )
 
 
-def check_stands(case: Case, tally: Tally, hole: Wellbore, shallowest: float) -> None:
+def check_stands(tally: Tally, hole: Wellbore, shallowest: float) -> None:
     """Raise InputError for a string that is wider than its hole, or a hole too steep at the table for a derrick.
 
     shallowest : smallest bit depth of the run [m].

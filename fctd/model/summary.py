@@ -90,7 +90,7 @@ class Summary:
 
     def _string_at(self, bit_depth: float) -> String:
         string = lay_out(self.case, bit_depth)
-        check_fit(self.case, string, build_wellbore(self.case), bit_depth)
+        check_fit(string, build_wellbore(self.case), bit_depth)
         return string
 
 

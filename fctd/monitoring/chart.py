@@ -144,7 +144,10 @@ class Chart:
         return _cubic(loads, factors)
 
     def by_held(self, mode: Mode, depth: float) -> float:
-        """Derivative of the string's load by the factor of the other kind of interval [N or N m]; 0 without one."""
+        """Derivative of the string's load by the factor of the other kind of interval [N or N m]; 0 without one.
+
+        It is taken at the factor ``FACTORS[HELD]`` of the intervals whose factor is inferred.
+        """
         if self.fit == "all":
             return 0.0
         kind = KIND_OF[mode]

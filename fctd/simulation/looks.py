@@ -11,10 +11,8 @@ from fctd.mechanics.jit import entry
 from fctd.mechanics.readings import drain_swing
 from fctd.mechanics.state import (
     ARM_CONTACT,
-    HELD_BACK,
     INVERSE_JA,
     INVERSE_JT,
-    INVERSE_MASS,
     K_WALL,
     RADIUS,
     WEIGHT,
@@ -94,7 +92,7 @@ def missing_drag(S, step, speed, torque, full):
     for j in range(1, len(full) + 1):
         most, radius, arm = full[j - 1], S[RADIUS + j], S[ARM_CONTACT + j]
         total += most
-        moved = S[INVERSE_MASS + j] - S[HELD_BACK + j] + arm**2 * S[INVERSE_JT + j] + radius**2 * S[INVERSE_JA + j]
+        moved = lateral_inverse_mass(S, j) + arm**2 * S[INVERSE_JT + j] + radius**2 * S[INVERSE_JA + j]
         if step * most * moved > speed * radius:
             around = min(abs(torque[j - 1]) / most, 1.0)
             missing += most * (1 - math.sqrt(1 - around**2))

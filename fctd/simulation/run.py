@@ -142,7 +142,7 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     if case.rig.feed != "stands":
         try:
             string = lay_out(case, shallowest, deepest)
-            check_fit(case, string, hole, deepest)
+            check_fit(string, hole, deepest)
             return _fed(case, hole, string.lengthened(first - shallowest), first - shallowest)
         except LongSegmentError:
             if case.rig.feed == "long_segment" or shallowest == deepest or case.string.components[-1].long_segment:
@@ -173,7 +173,7 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     """A run whose string hangs from a block that moves; bit depths [m]."""
     tally = lay_out_stands(case, shallowest, deepest)
     hole = with_derrick(hole, case.rig.derrick_height)
-    check_stands(case, tally, hole, shallowest)
+    check_stands(tally, hole, shallowest)
     whole = tally.whole
     phases, strokes = stand_schedule(case.operations, tally, case.rig, pace_of(case, whole))
     buffer, S, top = state.new_state(whole.segments), state.new_state(whole.segments), np.zeros(topdrive.TOP_SIZE)

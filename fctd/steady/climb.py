@@ -173,9 +173,7 @@ def _begin(problem: Problem) -> Climb:
     return path
 
 
-def _rise(
-    problem: Problem, path: Climb, end: float, prepare: Callable[[Share], object] | None, most: float
-) -> bool:  # fmt: skip
+def _rise(problem: Problem, path: Climb, end: float, prepare: Callable[[Share], object] | None, most: float) -> bool:
     """Raise the weight on bit to its end, then the friction to a share of it; returns whether the string gets there."""
     step, share = FIRST, path.balances[-1].share
     while share.weight < 1 or share.friction < end * (1 - 1e-12):

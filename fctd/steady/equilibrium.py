@@ -168,7 +168,7 @@ class Solver:
         """The string with the bit at a depth [m]; raises InputError when string and hole do not fit there."""
         check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
         string = lay_out(self.case, bit_depth)
-        check_fit(self.case, string, self.hole, bit_depth)
+        check_fit(string, self.hole, bit_depth)
         return LaidString(self.case, self.hole, string)
 
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:

@@ -247,11 +247,8 @@ class Problem:
     def compressed(self, share: Share = FULL) -> Compressed:
         """The string in its pose against the buckling limits."""
         string, found = self.string, self.reactions(share)
-        walls, tension, bit_tension = (
-            self.walls(found.contacts),
-            found.joints[:, JOINT_TENSION],
-            self.bit_tension(share),
-        )
+        walls, tension = self.walls(found.contacts), found.joints[:, JOINT_TENSION]
+        bit_tension = self.bit_tension(share)
         rows, _ = buckling_along(self.hole, self.laid.pipe, string.top_md, walls.md, walls.radius, tension, bit_tension)
         md, EI = np.append(string.top_md, walls.md), string.of("EI")
         return Compressed(md, -np.append(tension, bit_tension), np.append(EI[0], EI), rows)

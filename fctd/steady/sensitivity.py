@@ -44,9 +44,8 @@ def solve_with_changes(
     point = solver.solve_problem(problem)
     if not changes or not point.answered:
         return point, np.full((len(changes), 2), np.nan)
-    pose = None if problem.added.any() or point.shape != "none" else problem.copy_pose()
-    at_rest = _loads_after_step(problem)
-    if pose is None or not abs(at_rest[0] - point.hookload) <= _SAME * problem.weight:
+    elsewhere = problem.added.any() or point.shape != "none"
+    if elsewhere or not abs(_loads_after_step(problem)[0] - point.hookload) <= _SAME * problem.weight:
         answers = [c.solver.solve_string(operation, rates, c.laid) for c in changes]
         found = [[p.hookload, p.surface_torque] if p.answered else [np.nan, np.nan] for p in answers]
         return point, np.array(found) - [point.hookload, point.surface_torque]

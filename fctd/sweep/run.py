@@ -53,12 +53,12 @@ class SchedulerLostError(RuntimeError):
 
 @dataclass
 class Summary:
-    """What a run of a sweep did, times in seconds.
+    """What a run of a sweep did, times in seconds; it is kept in ``sweep.json``.
 
-    start : of cluster and workers; wall : from the first chunk to the last file; solving, elapsed : sums over the
-    chunks, of their samples and of all that a worker does; writing : of files; shortest : least time of a chunk with as
-    many samples as were planned; without_answer : statuses of samples of this run that have none, with their numbers;
-    statuses : of all rows of the dataset, with their numbers.
+    dashboard : address of the cluster's page; start : of cluster and workers; wall : from the first chunk to the last
+    file; solving, elapsed : sums over the chunks, of their samples and of all that a worker does; writing : of files;
+    shortest : least time of a chunk with as many samples as were planned; without_answer : statuses of samples of this
+    run that have none, with their numbers; statuses : of all rows of the dataset, with their numbers.
     """
 
     samples: int

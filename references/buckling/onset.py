@@ -36,9 +36,6 @@ class Pipe(NamedTuple):
         return float((self.EI * self.weight**2) ** (1 / 3))
 
 
-# Onset of buckling of a long vertical pipe, compression at its lower end over (EI w²)^⅓: sinusoidal (Lubinski 1950,
-# corrected by Wu, Juvkam-Wold & Lu 1993) and helical (the latter).
-VERTICAL_SNAKING, VERTICAL_HELIX = 1.94, 5.55
 # A pipe with a free lower end is a half-infinite beam on a foundation: it buckles at half the force (Hetényi 1946).
 FREE_END = 0.5
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.strategies import CASE
+from tests.rules import CASE
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 from fctd.case.errors import MISSING
 from fctd.case.load import load_case
 from tests.case.test_load import refusal
-from tests.strategies import COMBINED, RULES
+from tests.rules import COMBINED, RULES
 
 
 def test_defaults(case_file: Path) -> None:

@@ -106,3 +106,4 @@ def test_output_shows_what_its_encoding_lacks_as_escapes(
 def test_output_that_is_closed_stays_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stdout", None)
     degrade_output()
+    assert sys.stdout is None

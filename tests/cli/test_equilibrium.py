@@ -10,15 +10,8 @@ import pytest
 
 import fctd
 from fctd.cli.equilibrium import stretches
-from tests.cli.test_chart import CASE, FOOT, LBF, LEVEL, SOFT_BELOW, settings
 from tests.cli.test_main import run
-
-
-@pytest.fixture
-def case_file(tmp_path: Path) -> Path:
-    path = tmp_path / "tiny.toml"
-    path.write_text(CASE)
-    return path
+from tests.cli.tiny import FOOT, LBF, LEVEL, SOFT_BELOW, settings
 
 
 def test_equilibrium_prints_the_loads_and_writes_the_profile(

@@ -5,17 +5,9 @@ from pathlib import Path
 import pytest
 
 from fctd.cli.pictures import PICTURES
-from tests.cli.test_chart import CASE
 from tests.cli.test_main import run
 
 START = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF", ".html": b"<!doctype html>"}
-
-
-@pytest.fixture
-def case_file(tmp_path: Path) -> Path:
-    path = tmp_path / "tiny.toml"
-    path.write_text(CASE)
-    return path
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import fctd
-from tests.cli.test_chart import LEVEL
 from tests.cli.test_main import run
+from tests.cli.tiny import LEVEL
 
 CASE = """
 name = "tiny"  # mine

@@ -7,15 +7,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from tests.cli.test_chart import CASE, CHART, POINT, settings
 from tests.cli.test_main import run
-
-
-@pytest.fixture
-def case_file(tmp_path: Path) -> Path:
-    path = tmp_path / "tiny.toml"
-    path.write_text(CASE)
-    return path
+from tests.cli.tiny import CHART, POINT, settings
 
 
 def test_a_file_that_fails_to_be_written_is_one_message(

@@ -14,7 +14,8 @@ from fctd.case.errors import InputError
 from fctd.case.load import apply_override
 from fctd.cli import main
 from fctd.cli.options import BAD_INPUT, FAILED
-from tests.cli.wrong_inputs import CASE, DOUBTED, DOUBTED_TOGETHER, OPTIONS, REFUSED, REFUSED_TOGETHER
+from tests.cli.doubted_inputs import DOUBTED, DOUBTED_TOGETHER
+from tests.cli.wrong_inputs import CASE, OPTIONS, REFUSED, REFUSED_TOGETHER
 from tests.strategies import write_case
 
 COMMANDS = typer.main.get_command(main.app)  # making it takes as long as a refusal

@@ -11,7 +11,8 @@ from typing import Any
 
 from fctd.case.errors import InputError, set_key
 from tests.fuzz.items import Item
-from tests.strategies import CASE, COMBINED, RULES, WRONG_VALUES, places, toml, write_case
+from tests.rules import CASE, COMBINED, RULES
+from tests.strategies import WRONG_VALUES, places, toml, write_case
 
 CASES = Path(__file__).parents[2] / "validation" / "cases"
 SURVEYS = {path.name: path.read_bytes() for path in sorted(CASES.glob("*.csv"))}

@@ -11,7 +11,7 @@ pytest.importorskip("matplotlib")
 from reports import chapters, figures
 from reports.chapters import Sentence
 from reports.figures.leading import LEADING
-from tests.reports.test_page import BLANK, judged
+from tests.reports.pages import BLANK, judged
 from validation.harness.registry import STUDIES
 
 from . import synthetic

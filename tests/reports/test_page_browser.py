@@ -16,7 +16,7 @@ pytest.importorskip("matplotlib")
 from reports import chapters, figures, page
 from reports.__main__ import OUT
 from tests.browsers import browser, needs_browser, opened, overflow
-from tests.reports.test_page import BLANK, judged
+from tests.reports.pages import BLANK, judged
 from validation.claims.ledger import CLAIMS, read_ledger
 from validation.harness import store
 from validation.harness.registry import STUDIES

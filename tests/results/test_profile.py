@@ -132,7 +132,7 @@ def test_mud_drags_against_the_motion(kind: str, sign: int, segments: int) -> No
     case = make_case([[0, 0, 0], [1000, 0, 0]], [pipe(None, segments)], mud={"axial_damping": 30.0})
     weight = 1000 * 9.80665 * 7850 * math.pi / 4 * (0.127**2 - 0.07**2)
     point = equilibrium(case, kind, 1000.0, speed=0.5)
-    assert point.hookload == pytest.approx(weight + sign * 30.0 * 1000 * 0.5, abs=10.0)
+    assert point.hookload == pytest.approx(weight + sign * 30.0 * 1000 * 0.5, rel=1e-8)
 
 
 def test_contact_angle_and_offset_of_a_string_on_the_low_side() -> None:

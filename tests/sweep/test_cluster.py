@@ -8,6 +8,8 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -83,6 +85,28 @@ def test_a_scheduler_that_is_not_there_is_answered(monkeypatch: pytest.MonkeyPat
         pass
 
 
+@pytest.mark.parametrize(
+    ("address", "expected"),
+    [
+        ("tls://10.0.0.5:8786", True),
+        ("tcp://127.0.0.1:8786", True),
+        ("tcp://[::1]:8786", True),
+        ("inproc://10.0.0.5/1/1", True),
+        ("tcp://10.0.0.5:8786", False),
+        ("tcp://127.0.0.1.example.org:8786", False),
+        ("ws://10.0.0.5:8786", False),
+    ],
+)
+def test_only_tls_and_this_machine_itself_need_no_warning(address: str, expected: bool) -> None:
+    client: Any = SimpleNamespace(scheduler=SimpleNamespace(address=address))
+    assert encrypted(client) == expected
+
+
+def test_without_a_scheduler_nothing_is_encrypted() -> None:
+    client: Any = SimpleNamespace(scheduler=None)
+    assert not encrypted(client)
+
+
 FILES = (Path("ca.pem"), Path("me.pem"), Path("key.pem"))
 
 
@@ -91,7 +115,8 @@ FILES = (Path("ca.pem"), Path("me.pem"), Path("key.pem"))
     [
         ("nonsense://127.0.0.1:9", None, "a scheduler's address such as tcp://host:8786"),
         ("tcp://127.0.0.1", None, "a scheduler's address"),
-        ("tcp://127.0.0.1:99999", None, "a scheduler's address"),
+        ("tcp://127.0.0.1:0", None, "a scheduler's address"),
+        ("tcp://127.0.0.1:65536", None, "a scheduler's address"),
         ("", None, "a scheduler's address"),
         ("tls://127.0.0.1:9", None, "--tls-ca, --tls-cert and --tls-key beside"),
         ("tcp://127.0.0.1:9", FILES, "an address that begins with tls://"),

@@ -9,7 +9,7 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.sweep.chunk import as_table
-from fctd.sweep.dataset import Dataset, alone, begin_dataset, open_dataset, ranges
+from fctd.sweep.dataset import Dataset, alone, begin_dataset, identity_of, open_dataset, ranges
 from fctd.sweep.design import samples_of
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import template_of
@@ -47,6 +47,17 @@ def test_a_part_of_a_later_run_takes_a_new_name(tmp_path: Path) -> None:
     assert [path.name for path in later.parts] == ["part-00000.parquet", "part-00001.parquet"]
 
 
+def test_a_part_that_is_lost_gives_its_name_to_no_other(tmp_path: Path) -> None:
+    found = dataset(tmp_path)
+    for k in range(2):
+        found.write([as_table(rows(k))])
+    found.parts[0].unlink()
+    later = dataset(tmp_path)
+    assert later.missing[0] == 0
+    later.write([as_table(rows(0))])
+    assert [path.name for path in later.parts] == ["part-00001.parquet", "part-00002.parquet"]
+
+
 def test_what_a_killed_sweep_left_beside_a_part_is_removed(tmp_path: Path) -> None:
     found = dataset(tmp_path)
     left = found.folder / "rows" / ".part-00000-4194304.parquet"  # above the largest id of a process
@@ -66,6 +77,19 @@ def test_a_folder_of_another_sweep_is_refused(other: dict[str, str], tmp_path: P
     dataset(tmp_path)
     with pytest.raises(InputError, match="another sweep file, case or survey"):
         dataset(tmp_path, **other)
+
+
+def test_another_survey_in_the_same_file_is_another_sweep(tmp_path: Path) -> None:
+    path, survey = sweep_file(tmp_path), tmp_path / "hole.csv"
+    well = tmp_path / "well.toml"
+    stations = "stations = [[0, 0, 0], [200, 0, 0], [500, 45, 30], [900, 45, 30]]"
+    assert stations in well.read_text()
+    well.write_text(well.read_text().replace(stations, 'survey = "hole.csv"'))
+    found = []
+    for last in (45, 45, 46):
+        survey.write_text(f"md_m,inc_deg,azi_deg\n0,0,0\n200,0,0\n500,45,30\n900,{last},30\n")
+        found.append(identity_of(template_of(read_sweep(path))))
+    assert found[0] == found[1] != found[2]
 
 
 def test_what_uncertainty_asks_for_does_not_change_a_sweep(tmp_path: Path) -> None:

@@ -1,12 +1,16 @@
 """Whole sweeps on local workers: rows, resumption, failures, and sweeps that are refused before any work."""
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pandas as pd
 import pytest
 
 from fctd.case.errors import InputError
+from fctd.case.load import Case
 from fctd.sweep import run
 from fctd.sweep.cluster import Where
 from fctd.sweep.dataset import open_dataset
@@ -102,6 +106,51 @@ def test_chunks_are_larger_for_more_workers_and_smaller_at_the_end(tmp_path: Pat
         while len(running.waiting) > left:
             running.waiting.pop()
         assert running._size() == size
+
+
+def test_a_chunk_whose_worker_died_is_halved_and_a_sample_is_given_up_after_three_deaths(tmp_path: Path) -> None:
+    """While samples are suspected no chunk waits at a worker, which another one's sample would take with it."""
+    bench, samples = prepare(read_sweep(sweep_file(tmp_path)))
+    dataset = run.begin_dataset(tmp_path / "out", bench.template, samples)
+    running = run._Running(None, bench, dataset, None)  # type: ignore[arg-type]
+    running.workers = 2
+    assert running._room == 4
+    running._halve((3, 4, 5))
+    assert list(running.again) == [(3,), (4, 5)]
+    assert running._room == 2
+    running.again.clear()
+    future: Any = object()
+    running.flying[future] = (5, 6)
+    assert running._room == 2
+    running.flying[future] = (6, 7)
+    assert running._room == 4
+    for death in range(2):
+        running._halve((4,))
+        assert list(running.again) == [(4,)] * (death + 1)
+    assert running.taken == set()
+    running._halve((4,))
+    (row,) = running.tables[0].to_pylist()
+    assert (row["sample"], row["status"]) == (4, "crashed")
+    assert "ended its worker 3 times" in row["reason"]
+    assert running.taken == {4}
+
+
+@pytest.mark.parametrize("extreme", ["idxmin", "idxmax"])
+def test_the_extremes_of_each_parameter_are_tried_before_the_work(extreme: str, tmp_path: Path) -> None:
+    """Of a thousand samples some 64 are tried, and these."""
+    bench, samples = prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 1000')))
+    for key in bench.keys:
+        bad = int(getattr(samples[key], extreme)())
+        assert bad % (1000 // run.TRIED)
+
+        def case(number: int, values: Mapping[str, object], bad: int = bad) -> Case:
+            if number == bad:
+                raise InputError("another value")
+            return bench.template.base
+
+        template: Any = SimpleNamespace(spec=bench.template.spec, units=bench.template.units, case=case)
+        with pytest.raises(InputError, match=f"sample {bad} has none"):
+            run.check_samples(template, samples, bench.keys, bench.task)
 
 
 def test_a_sweep_that_ends_before_its_workers_are_there_has_no_share() -> None:

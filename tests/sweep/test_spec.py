@@ -68,6 +68,11 @@ WRONG = {
         LHS, PARAMETERS + '[[correlations]]\nkeys = ["friction.open", "friction.cased"]\ncoefficient = 0.5\n' + WORK,
         ["correlations[0].keys", "two parameters"],
     ),
+    "correlation with itself": (
+        LHS, PARAMETERS + '[[correlations]]\nkeys = ["mud.density", "mud.density"]\ncoefficient = 0.5\n' + WORK,
+        ["correlations[0].keys", "two parameters"],
+    ),
+    "deviation of 0": (LHS, PARAMETERS.replace("sd = 0.05", "sd = 0") + WORK, ["sd", "a standard deviation above 0"]),
     "correlation above 1": (
         LHS, PARAMETERS + '[[correlations]]\nkeys = ["friction.open", "mud.density"]\ncoefficient = 2\n' + WORK,
         ["correlations[0].coefficient", "at most 1"],

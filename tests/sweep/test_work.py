@@ -1,5 +1,6 @@
 """The work of a sample: rows of charts, equilibria, refinements and runs, and their depths."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case
 from fctd.steady.equilibrium import equilibrium
 from fctd.sweep.spec import WorkSpec
-from fctd.sweep.work import WORK, Row, Task, TooLongError, read_depths, task_of
+from fctd.sweep.work import WORK, Row, Task, TooLongError, misfit, read_depths, task_of
 from tests.sweep.made import case_file
 
 RUN = """
@@ -69,6 +70,13 @@ def test_a_run_has_a_row_for_each_operation_with_the_severity_of_its_stick_slip(
     assert row["stick_slip_severity"] == pytest.approx(swing / 2 / late["top_rpm"].mean())
     assert row["operation"] == "rotate_off_bottom"
     assert row["status"] == "completed"
+
+
+def test_a_string_that_fits_at_no_depth_is_told_of_the_first(tmp_path: Path) -> None:
+    case = load_case(case_file(tmp_path))
+    unfit = Task(WorkSpec(operations=("trip_in",), depths=(1000.0, 1100.0)), (1000.0, 1100.0))
+    assert "1000 m" in str(misfit(case, unfit))
+    assert misfit(case, replace(unfit, depths=(1000.0, 800.0))) is None
 
 
 def test_a_run_needs_operations(tmp_path: Path) -> None:

@@ -197,12 +197,11 @@ class Rig:
 
 
 class Wave(NamedTuple):
-    """Snaking: amplitude [deg], half wave [m], mean wall force [N/m], share of points that leave the wall."""
+    """Snaking: amplitude [deg], half wave [m], mean wall force [N/m]."""
 
     amplitude: float
     half_wave: float
     wall_force: float
-    off_wall: float
 
 
 class Turns(NamedTuple):
@@ -234,8 +233,8 @@ def wave_of(profile: pd.DataFrame) -> Wave | None:
     if len(k) < 3 or len(peaks) < 2:
         return None
     crossings = md[k] - angle[k] * (md[k + 1] - md[k]) / (angle[k + 1] - angle[k])
-    force, off = _between(part, crossings[0], crossings[-1])
-    return Wave(float(peaks.mean()), float(np.diff(crossings).mean()), force, off)
+    force = _wall_force(part, crossings[0], crossings[-1])
+    return Wave(float(peaks.mean()), float(np.diff(crossings).mean()), force)
 
 
 def turns_of(profile: pd.DataFrame) -> Turns | None:
@@ -247,7 +246,7 @@ def turns_of(profile: pd.DataFrame) -> Turns | None:
     if len(whole) < 3 or (np.diff(angle) <= 0).any():
         return None
     low = np.interp(whole, angle, md)
-    force, _ = _between(part, low[0], low[-1])
+    force = _wall_force(part, low[0], low[-1])
     inside = (md > low[0]) & (md <= low[-1])
     moment = float(part["bending_moment_N_m"].to_numpy()[inside].mean())
     return Turns(float((low[-1] - low[0]) / (len(whole) - 1)), force, moment)
@@ -264,8 +263,7 @@ def energy(rig: Rig, point: Equilibrium) -> float:
     return float(bending + axial + wall + lifted + force * profile["md_m"].iloc[-1])
 
 
-def _between(part: pd.DataFrame, start: float, end: float) -> tuple[float, float]:
-    """Mean wall force [N/m] between two depths [m], and the share of points there without contact."""
-    inside = part[part["md_m"].between(start, end, inclusive="right")]
-    forces = inside["contact_force_N"].to_numpy()
-    return float(forces.sum() / (end - start)), float((forces <= 0).mean())
+def _wall_force(part: pd.DataFrame, start: float, end: float) -> float:
+    """Mean wall force [N/m] between two depths [m]."""
+    inside = part["md_m"].between(start, end, inclusive="right")
+    return float(part.loc[inside, "contact_force_N"].sum() / (end - start))
