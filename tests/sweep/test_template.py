@@ -10,7 +10,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import load_case
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import Template, template_of
-from tests.sweep.made import PARAMETERS, WORK, sweep_file
+from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
 
 HEAD = 'method = "random"\nsamples = 5\n'
 

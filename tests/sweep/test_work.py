@@ -11,7 +11,7 @@ from fctd.case.load import Case, load_case
 from fctd.steady.equilibrium import equilibrium
 from fctd.sweep.spec import WorkSpec
 from fctd.sweep.work import WORK, Row, Task, TooLongError, read_depths, task_of
-from tests.sweep.made import case_file
+from validation.parts.small_sweep import case_file
 
 RUN = """
 [record]
