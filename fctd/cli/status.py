@@ -16,8 +16,8 @@ from fctd.cli.steady import TABLES
 from fctd.results.run_folder import about_of, clock, progress_of, run_path, writer_of
 from fctd.results.run_lock import holder_of
 from fctd.results.tables import open_result, result_files
-from fctd.sweep.chunk import NO_ROWS
-from fctd.sweep.dataset import ABOUT, open_dataset
+
+SWEEP = "sweep.json"  # of the folder of a sweep
 
 
 def status_command(
@@ -76,8 +76,12 @@ def _stopped(target: Path, about: dict[str, Any]) -> str:
 
 def _of_the_sweep(folder: Path) -> list[str]:
     """What there is to say of the dataset of a sweep, whether it is complete or not."""
-    if not (folder / ABOUT).is_file():
+    if not (folder / SWEEP).is_file():
         return []
+    # Here, as scipy's statistics take most of a second, which other results need not wait for.
+    from fctd.sweep.chunk import NO_ROWS
+    from fctd.sweep.dataset import open_dataset
+
     writer, dataset = holder_of(folder), open_dataset(folder)
     total, done = len(dataset.samples), len(dataset.done)
     lacking = sum(count for status, count in dataset.statuses().items() if status in NO_ROWS)

@@ -109,13 +109,20 @@ def set_value(raw: dict[str, Any], key: str, value: Any, unit: str) -> None:
 
 
 def template_of(spec: SweepSpec) -> Template:
-    """The template of a sweep; raises InputError for a case file or fixed keys that cannot be used."""
+    """The template of a sweep; raises InputError, which names the case's file where the fault is there, for a case file
+    or fixed keys that cannot be used.
+    """
     try:
         raw = read_raw(spec.case)
         for key, value in spec.set.items():
             set_value(raw, key, value, "")
         base = _base(spec, raw).model_copy(update={"file": spec.case})
     except InputError as error:
+        for fault in (error, *error.more):
+            if fault.key in spec.set:
+                raise InputError(fault.expected, key=f"set.{fault.key}", value=fault.value) from error.__cause__
+        if isinstance(error.__cause__, OSError):
+            raise InputError(error.expected, key="case", value=spec.case) from error.__cause__
         raise error.in_file(spec.case) from error.__cause__
     _check_apart(spec, raw)
     if base.wellbore.survey is not None:

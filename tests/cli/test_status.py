@@ -14,7 +14,7 @@ from fctd.sweep.run import prepare, sample_of
 from fctd.sweep.spec import read_sweep
 from tests.cli.test_keeping import CHART, RUN, killed
 from tests.cli.test_main import CASE, run
-from tests.sweep.made import sweep_file
+from validation.parts.small_sweep import sweep_file
 
 
 @pytest.fixture(autouse=True)

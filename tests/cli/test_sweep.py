@@ -10,7 +10,7 @@ from fctd.cli.main import app
 from fctd.cli.sweep import where_of
 from fctd.steady.batch import cores
 from fctd.sweep.dataset import open_dataset
-from tests.sweep.made import PARAMETERS, WORK, sweep_file
+from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
 
 NOTHING = (None, None, None)
 

@@ -12,7 +12,7 @@ from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import begin_dataset, open_dataset
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
-from tests.sweep.made import sweep_file
+from validation.parts.small_sweep import sweep_file
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.uncertainty import Uncertainty, assess
 from tests.plots.made import texts_that_overlap
-from tests.sweep.made import PARAMETERS, WORK, sweep_file
+from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
 
 GRID = """
 [[parameters]]

@@ -14,7 +14,7 @@ from fctd.sweep.chunk import FAILED, TIMED_OUT, Bench, Sample, Watch, from_strea
 from fctd.sweep.run import prepare, sample_of
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.work import Row, Task, Tick
-from tests.sweep.made import sweep_file
+from validation.parts.small_sweep import sweep_file
 
 
 @pytest.fixture

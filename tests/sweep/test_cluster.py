@@ -19,8 +19,8 @@ from fctd.sweep.cluster import Where, address_of, connected, encrypted, worker_c
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import sweep
 from fctd.sweep.spec import read_sweep
-from tests.sweep.made import sweep_file
 from validation.parts import clusters
+from validation.parts.small_sweep import sweep_file
 
 pytest.importorskip("distributed")
 

@@ -13,7 +13,7 @@ from fctd.sweep.dataset import Dataset, alone, begin_dataset, identity_of, open_
 from fctd.sweep.design import samples_of
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import template_of
-from tests.sweep.made import PARAMETERS, WORK, sweep_file
+from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
 
 
 def dataset(folder: Path, **given: str) -> Dataset:

@@ -12,7 +12,7 @@ from scipy import stats
 from fctd.case.errors import InputError
 from fctd.sweep.design import drawn, morris_points, samples_of
 from fctd.sweep.spec import ParameterSpec, SweepSpec, read_sweep
-from tests.sweep.made import WORK, sweep_file
+from validation.parts.small_sweep import WORK, sweep_file
 
 UNIFORM = {"key": "mud.density", "distribution": "uniform", "low": 1000, "high": 1200}
 

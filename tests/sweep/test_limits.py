@@ -8,7 +8,7 @@ from pydantic import ValidationError
 from fctd.case.errors import InputError
 from fctd.sweep.limits import LimitSpec
 from fctd.sweep.spec import read_sweep
-from tests.sweep.made import PARAMETERS, WORK, sweep_file
+from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from fctd.sweep.cluster import Where, connected
 from fctd.sweep.plugin import Carrier, run_chunk, warm_up
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
-from tests.sweep.made import sweep_file
+from validation.parts.small_sweep import sweep_file
 
 
 @pytest.mark.slow

@@ -16,8 +16,8 @@ from fctd.sweep.cluster import Where
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import prepare, sweep
 from fctd.sweep.spec import read_sweep
-from tests.sweep.made import PARAMETERS, WORK, about, sweep_file
 from validation.parts.clusters import failing
+from validation.parts.small_sweep import PARAMETERS, WORK, about, sweep_file
 
 pytest.importorskip("distributed")
 ONE = Where(workers=1)

@@ -6,7 +6,7 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.sweep.spec import ParameterSpec, read_sweep, split_number
-from tests.sweep.made import PARAMETERS, WORK, sweep_file
+from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
 
 LHS = 'method = "latin_hypercube"\nsamples = 12\n'
 GRID = '[[parameters]]\nkey = "friction"\nvalues = [0.1, 0.2]\n'

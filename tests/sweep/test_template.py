@@ -10,7 +10,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import load_case
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import Template, template_of
-from tests.sweep.made import PARAMETERS, WORK, sweep_file
+from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
 
 HEAD = 'method = "random"\nsamples = 5\n'
 
@@ -57,7 +57,7 @@ def test_a_parameter_may_have_a_key_that_the_case_needs(tmp_path: Path) -> None:
     assert waves is not None
     assert (waves.amplitude, waves.wavelength) == (0.02, 100)
     wrong = 'set = {"wellbore.tortuosity.wavelength" = "100 m", "mud.density" = "1 m"}\n'
-    with pytest.raises(InputError, match=r"well.toml: mud.density"):
+    with pytest.raises(InputError, match=r"^set.mud.density = .1 m.: expected a density"):
         template(tmp_path, HEAD + wrong, drawn + WORK)
 
 
@@ -126,8 +126,13 @@ def test_values_that_no_case_can_have_name_the_key(key: str, value: float, words
         assert word in str(caught.value)
 
 
+def test_a_fault_of_the_case_file_names_that_file(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"well\.toml: bit\.weight_on_bitt = 1: expected the key weight_on_bit"):
+        template(tmp_path, case="[bit]\nweight_on_bitt = 1\n")
+
+
 def test_a_case_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     path = sweep_file(tmp_path)
     (tmp_path / "well.toml").unlink()
-    with pytest.raises(InputError, match=r"well\.toml: expected a case file that can be read"):
+    with pytest.raises(InputError, match=r"^case = .*well\.toml.: expected a case file that can be read"):
         template_of(read_sweep(path))

@@ -13,7 +13,7 @@ from fctd.case.load import Case, load_case
 from fctd.steady.equilibrium import equilibrium
 from fctd.sweep.spec import WorkSpec
 from fctd.sweep.work import WORK, Row, Task, TooLongError, misfit, read_depths, task_of
-from tests.sweep.made import case_file
+from validation.parts.small_sweep import case_file
 
 RUN = """
 [record]

@@ -21,47 +21,16 @@ from fctd.cli.sweep import sweep_command  # noqa: F401 (the command that the pro
 from fctd.sweep.dataset import open_dataset
 from validation.harness.study import ROOT
 from validation.parts.clusters import cluster, failing
+from validation.parts.small_sweep import sweep_file
 
 KINDS = ("worker", "client", "scheduler", "disk", "worker of a scheduler", "hang", "crash", "interrupt")
 # Pause before each sample [s]: two workers take six seconds, the first part is written after two, and a fault comes
 # at most two seconds later, before the sweep ends.
 SAMPLES, PAUSE, LATER = 60, 0.2, 2.0
 LONGEST = 300.0  # of a sweep [s]
-# No file may grow beyond this, of a process whose disk is full [B].
-DISK = 9_000
-CASE = """
-name = "disturbed"
-[wellbore]
-stations = [[0, 0, 0], [200, 0, 0], [500, 45, 30], [900, 45, 30]]
-intervals = [{to_md = "900 m", diameter = "8.5 in", friction = 0.3}]
-[string]
-components = [{name = "pipe", outer_diameter = "5 in", inner_diameter = "4.276 in", segment_length = "50 m"}]
-[mud]
-density = "1100 kg/m^3"
-"""
-SWEEP = f"""
-name = "disturbed"
-case = "well.toml"
-method = "sobol"
-samples = {SAMPLES}
-seed = 7
-time_limit = "3 s"
-[[parameters]]
-key = "friction"
-distribution = "normal"
-mean = 0.3
-sd = 0.05
-low = 0.1
-high = 0.5
-[[parameters]]
-key = "mud.density"
-distribution = "uniform"
-low = "1.0 sg"
-high = "1.3 sg"
-[work]
-operations = ["trip_out"]
-depths = "600:900:100"
-"""
+# No file may grow beyond this, of a process whose disk is full [B]: sweep.json has 4.8 kB, a part at least 7.4 kB.
+DISK = 7_000
+HEAD = f'method = "sobol"\nsamples = {SAMPLES}\ntime_limit = "3 s"\n'
 
 
 @dataclass(frozen=True)
@@ -82,9 +51,7 @@ class Sweeps:
 
     def __init__(self, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
-        self.folder, self.file = folder, folder / "sweep.toml"
-        (folder / "well.toml").write_text(CASE, encoding="utf-8")
-        self.file.write_text(SWEEP, encoding="utf-8")
+        self.folder, self.file = folder, sweep_file(folder, HEAD)
         # Workers that are to be disturbed are slow, so that a fault finds them at work.
         self.slow = failing(folder, pause=PAUSE)
         if code := self.start(folder / "whole").wait(timeout=LONGEST):
