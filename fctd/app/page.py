@@ -48,6 +48,7 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             ),
             html.P(id="upload-fault", className="fault", role="alert", hidden=True),
             html.Div(id="warnings"),
+            html.A("a page for another well", href="../../new", target="_blank", className="another"),
         ]),
         _group("Operations", [dcc.Checklist(id="operations", options=list(kinds), value=[])]),
         _group("Loads", [
