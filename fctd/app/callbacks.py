@@ -18,7 +18,7 @@ from fctd.app.runs import Runs, target_of
 from fctd.app.sessions import Session, Sessions, Source
 from fctd.app.sliders import Slider
 from fctd.case.errors import InputError
-from fctd.case.text import printable
+from fctd.case.text import counted, printable
 from fctd.plots.palette import PALETTE
 from fctd.results.unit_systems import System, shown
 
@@ -278,7 +278,7 @@ def _measuring(app: Dash, served: Served) -> None:
         session = served.session(pathname)
         count = served.ask(session, "measured", text=text or "")["rows"]
         session.keep(measured=text or "")
-        return f"{count} rows" if count else "", {**(opened or {}), "again": time.time()}
+        return counted(count, "row") if count else "", {**(opened or {}), "again": time.time()}
 
     @app.callback(
         Output("measured", "value", allow_duplicate=True), Output("measured-told", "children", allow_duplicate=True),

@@ -7,6 +7,7 @@ from dash import dcc, html
 
 from fctd.app.downloads import FILES
 from fctd.case.operations import KINDS
+from fctd.case.text import counted
 from fctd.view.quantities import QUANTITIES
 
 TITLE: Final = "fctd"
@@ -140,8 +141,7 @@ def warned(texts: Sequence[str]) -> Any:
     """What is probably not meant in the case."""
     if not texts:
         return []
-    count = f"{len(texts)} warning{'s' * (len(texts) > 1)}"
-    return html.Details([html.Summary(count), html.Ul([html.Li(text) for text in texts])])
+    return html.Details([html.Summary(counted(len(texts), "warning")), html.Ul([html.Li(text) for text in texts])])
 
 
 def _group(title: str, children: Sequence[Any]) -> Any:

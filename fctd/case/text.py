@@ -20,6 +20,12 @@ def printable_lines(text: str) -> str:
     return "\n".join(map(printable, text.split("\n")))
 
 
+def counted(count: int, noun: str) -> str:
+    """A count with its noun: "1 row", "2 rows", "0 stretches"; noun : in the singular, of a regular plural."""
+    ending = "" if count == 1 else "es" if noun.endswith("ch") else "s"
+    return f"{count} {noun}{ending}"
+
+
 def file_name(text: str, ending: str) -> str:
     """A name for a file or folder of this process's file system: letters, digits and dashes, then the ending.
 

@@ -20,7 +20,7 @@ from rich.progress import (
 from rich.text import Text
 
 from fctd.case.errors import InputError
-from fctd.case.text import file_name, printable
+from fctd.case.text import counted, file_name, printable
 from fctd.cli.options import FAILED, Quiet, messages, screen
 from fctd.results.status import ACCEPTABLE
 from fctd.steady.batch import cores
@@ -161,12 +161,14 @@ def _print(found: Summary, folder: Path) -> None:
     if new:
         before = f", {found.done_before} were there" if found.done_before else ""
         screen.print(
-            f"{new} samples{before}; {found.rows} rows in {found.wall:.1f} s on {found.workers} workers "
+            f"{counted(new, 'sample')}{before}; {counted(found.rows, 'row')} in {found.wall:.1f} s "
+            f"on {counted(found.workers, 'worker')} "
             f"({100 * found.share:.0f} % solving and writing), start {found.start:.1f} s",
             soft_wrap=True,
         )
     for status, count in found.statuses.items():
         if status not in ACCEPTABLE:
-            what = "samples" if status in NO_ROWS else f"of {sum(found.statuses.values())} rows"
-            messages.print(f"{count} {what} {status}: see the column reason", soft_wrap=True)
+            rows = f"{count} of {counted(sum(found.statuses.values()), 'row')}"
+            what = counted(count, "sample") if status in NO_ROWS else rows
+            messages.print(f"{what} {status}: see the column reason", soft_wrap=True)
     screen.print(f"Written: {name}" if new else f"All {found.samples} samples are there: {name}", soft_wrap=True)

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
-from fctd.case.text import file_name, printable
+from fctd.case.text import counted, file_name, printable
 from fctd.case.units import LENGTH
 from fctd.cli.options import Quiet, check_target, messages, print_written, read_quantity, screen
 from fctd.cli.pictures import DRAWN, check_pictures
@@ -143,7 +143,7 @@ def _save(figures: dict[Path, "Figure"]) -> list[Path]:
 
 def _print(found: Uncertainty, units: System) -> None:
     """Print percentiles at the last depth, the probabilities of events anywhere, and the influences."""
-    screen.print(f"{printable(found.spec.name)}: {found.rows['sample'].nunique()} samples", style="bold")
+    screen.print(f"{printable(found.spec.name)}: {counted(found.rows['sample'].nunique(), 'sample')}", style="bold")
     _print_percentiles(found, units)
     table = Table(box=SIMPLE_HEAD, title="Probability at any depth", title_justify="left")
     for heading in ("operation", "event", "probability", "95 %"):

@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
+from fctd.case.text import counted
 from fctd.plots.keys import in_words, labelled
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
@@ -65,7 +66,7 @@ def bands_figure(found: Uncertainty, units: System = "si") -> Figure:
     bars = pd.concat([table[table["percentile"] == low]["low"], table[table["percentile"] == high]["high"]])
     if bars.notna().any():  # they are open where they end beyond the samples
         handles.append(Line2D([], [], color=QUIET, linestyle=":", label="its error bars of 95 %"))
-    samples = f"{table['samples'].max()} samples, {found.spec.method.replace('_', ' ')}; line: {middle:g} %"
+    samples = f"{counted(table['samples'].max(), 'sample')}, {found.spec.method.replace('_', ' ')}; line: {middle:g} %"
     status = found.rows["status"]
     for name in DOUBTED:
         if count := int((status == name).sum()):
