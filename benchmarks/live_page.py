@@ -48,6 +48,7 @@ class Served:
         self.port, self.path = host.partition(":")[2], f"/{'/'.join(parts)}"
         self.prefix = f"/{self.path.split('/')[1]}/"
         self._callbacks = json.loads(self.ask("GET", f"{self.prefix}_dash-dependencies"))
+        self._wells: dict[str, str] = {}
 
     def ask(self, method: str, path: str, body: bytes | None = None) -> bytes:
         """The body of an answer, or where it leads."""
@@ -61,15 +62,23 @@ class Served:
 
     def move(self, friction: float, *, coarse: bool, session: str = "") -> float:
         """Seconds until the answer to a move of a slider."""
+        path = session or self.path
         wish = {
-            "values": {"friction_None": friction}, "operations": OPERATIONS, "operation": "trip_out", "depth": 2450,
-            "colour": "side_force", "coarse": coarse, "hole": False, "n": 1,
+            "of": self.well_at(path), "values": {"friction_None": friction}, "operations": OPERATIONS,
+            "operation": "trip_out", "depth": 2450, "colour": "side_force", "coarse": coarse, "hole": False, "n": 1,
         }  # fmt: skip
         began = time.perf_counter()
-        found = self.call("answered.data", {"wish.data": wish}, session or self.path)
+        found = self.call("answered.data", {"wish.data": wish}, path)
         took = time.perf_counter() - began
         assert "loads" in found["answered"]["data"], found["fault"]
         return took
+
+    def well_at(self, path: str) -> str:
+        """The name of the well of a page, which it is told when it is opened."""
+        if path not in self._wells:
+            found = self.call("opened.data", {"changed.data": None, "reset.n_clicks": None}, path)
+            self._wells[path] = found["opened"]["data"]["of"]
+        return self._wells[path]
 
     def begin(self, case: bytes, survey: bytes) -> str:
         """The path of a new session with a case."""
@@ -82,7 +91,11 @@ class Served:
     def call(self, output: str, given: dict[str, Any], path: str) -> dict[str, Any]:
         """What a callback of the page of a session answers; given : values by part and property."""
         given = given | {"where.pathname": path}
-        one = next(each for each in self._callbacks if output in each["output"] and len(each["inputs"]) == 1)
+        one = next(
+            each
+            for each in self._callbacks
+            if output in each["output"] and all(f"{of['id']}.{of['property']}" in given for of in each["inputs"])
+        )
         outputs = [text.rpartition(".")[::2] for text in one["output"].strip(".").split("...")]
 
         def filled(wanted: list[dict[str, Any]]) -> list[dict[str, Any]]:

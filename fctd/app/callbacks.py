@@ -9,6 +9,7 @@ from pathlib import PurePath
 from typing import Any, Final
 
 from dash import ALL, ClientsideFunction, Dash, Input, Output, State, no_update
+from dash.exceptions import PreventUpdate
 
 from fctd.app import page
 from fctd.app.charts import FONT
@@ -17,13 +18,14 @@ from fctd.app.runs import Runs, target_of
 from fctd.app.sessions import Session, Sessions, Source
 from fctd.app.sliders import Slider
 from fctd.case.errors import InputError
-from fctd.case.text import printable
+from fctd.case.text import counted, printable
 from fctd.plots.palette import PALETTE
 from fctd.results.unit_systems import System, shown
 
 CASE: Final = ".toml"
 # What a page asks of a string; see ``Well.solved``.
 ASKED: Final = ("values", "operations", "operation", "depth", "colour")
+SAID: Final = ("at", "words", "rows-note")  # what is said of the pictures
 LATER: Final = ("panels", "scene")  # figures that wait until the chart is painted
 
 
@@ -83,6 +85,24 @@ def _refusing(outputs: int, at: int) -> Callable[[Callable[..., Any]], Callable[
     return decorate
 
 
+def _clearing(at: int) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Of a callback that takes files: the output at an index drops them, or the same files would be no change when they
+    come again."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(function)
+        def call(contents: object, *given: Any) -> Any:
+            if not contents:
+                raise PreventUpdate
+            found = list(function(contents, *given))
+            found[at] = None
+            return tuple(found)
+
+        return call
+
+    return decorate
+
+
 def _opening(app: Dash, served: Served) -> None:
     """A page is opened, or its session gets another case."""
     graphs = [Output(name, "figure") for name in page.GRAPHS]
@@ -92,40 +112,47 @@ def _opening(app: Dash, served: Served) -> None:
         Output("operations", "value"), Output("operation", "value"), Output("colour", "value"),
         Output("depth", "min"), Output("depth", "max"), Output("depth", "value"), Output("depth-unit", "children"),
         Output("name", "children"), Output("facts", "children"), Output("warnings", "children"),
-        Output("files", "children"), Output("measured", "value"), *graphs,
+        Output("files", "children"), Output("measured", "value"), *(Output(name, "children") for name in SAID), *graphs,
         Input("where", "pathname"), Input("changed", "data"), Input("reset", "n_clicks"),
     )  # fmt: skip
-    @_refusing(18, 0)
+    @_refusing(21, 0)
     def opened(pathname: str, changed: object, resets: object) -> tuple[Any, ...]:
         from dash import ctx
 
         session = served.session(pathname)
         if ctx.triggered_id == "reset":
             session.keep(values={})
+        of = well_of(session)
         found, asked = served.ask(session, "open"), served.asked(session)
         values, depth = asked["values"], found["depth"]
         sliders = [page.slider(one, _at(one, values)) for one in found["sliders"]]
         own = {one["name"]: one["value"] for one in found["sliders"]}
         at = min(max(asked["depth"], depth["low"]), depth["high"])
         return (
-            "", {"own": own, "values": values, "n": time.time()}, sliders, asked["operations"], asked["operation"],
-            asked["colour"], depth["low"], depth["high"], at, depth["unit"], printable(found["name"]),
-            found["facts"], page.warned(found["warnings"]), page.links(str(pathname)), session.measured,
-            *(found[name] for name in page.GRAPHS),
+            "", {"own": own, "values": values, "n": time.time(), "of": of}, sliders, asked["operations"],
+            asked["operation"], asked["colour"], depth["low"], depth["high"], at, depth["unit"],
+            printable(found["name"]), found["facts"], page.warned(found["warnings"]), page.links(str(pathname)),
+            session.measured, *[""] * len(SAID), *(found[name] for name in page.GRAPHS),
         )  # fmt: skip
 
     @app.callback(
-        Output("upload-fault", "children"), Output("changed", "data"),
+        Output("upload-fault", "children"), Output("changed", "data"), Output("upload", "contents"),
         Input("upload", "contents"), State("upload", "filename"), State("where", "pathname"),
         prevent_initial_call=True,
     )  # fmt: skip
-    @_refusing(2, 0)
+    @_clearing(2)
+    @_refusing(3, 0)
     def upload(contents: Sequence[str] | None, names: Sequence[str] | None, pathname: str) -> tuple[Any, ...]:
         session = served.session(pathname)
         files = {name: content_of(text) for name, text in zip(names or (), contents or (), strict=True)}
         source = source_of(files, session.source, served.pool, served.units)
         session.put(source)
-        return "", time.time()
+        return "", time.time(), None
+
+
+def well_of(session: Session) -> str:
+    """A name for the well of a session: another page at the same address may have put another one in its place."""
+    return session.source.digest if session.source is not None else ""
 
 
 def _at(one: Mapping[str, Any], values: Mapping[str, Any]) -> float:
@@ -143,6 +170,17 @@ def content_of(text: str) -> bytes:
         return base64.b64decode(text.partition(",")[2], validate=True)
     except (binascii.Error, ValueError):
         raise InputError("a file that can be read") from None
+
+
+def text_of(content: bytes) -> str:
+    """The text of a file.  Raises InputError for one that is no text."""
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = "\0"
+    if "\0" in text:
+        raise InputError("measured rows as a text in UTF-8, such as a CSV file")
+    return text
 
 
 def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, units: System) -> Source:
@@ -203,15 +241,18 @@ def _moving(app: Dash, served: Served) -> None:
 
     @app.callback(
         Output("fault", "children", allow_duplicate=True), Output("answered", "data"),
-        Output("at", "children"), Output("words", "children"), Output("rows-note", "children"),
+        *(Output(name, "children", allow_duplicate=True) for name in SAID),
+        Output("changed", "data", allow_duplicate=True),
         Input("wish", "data"), State("where", "pathname"), prevent_initial_call=True,
     )  # fmt: skip
     def solve(wish: Mapping[str, Any] | None, pathname: str) -> tuple[Any, ...]:
         wish = wish or {}
-        same = [no_update] * 3
+        same = [no_update] * (len(SAID) + 1)
         try:
             session = served.session(pathname)
             asked = {name: wish[name] for name in ASKED}
+            if wish["of"] != well_of(session):
+                return "", {"n": wish["n"]}, *same[1:], time.time()
             given = {"coarse": bool(wish["coarse"]), "hole": bool(wish["hole"])}
             found = served.ask(session, "solve", measured=session.measured, **asked, **given)
             if not wish["coarse"] and any(session.settings.get(name) != asked[name] for name in ASKED):
@@ -221,7 +262,7 @@ def _moving(app: Dash, served: Served) -> None:
         except InputError as error:
             return str(error), {"n": wish.get("n", 0)}, *same
         answered = {"n": wish.get("n", 0)} | {name: found[name] for name in page.GRAPHS}
-        return "", answered, found["where"], found["words"], found["note"]
+        return "", answered, found["where"], found["words"], found["note"], no_update
 
 
 def _measuring(app: Dash, served: Served) -> None:
@@ -237,15 +278,16 @@ def _measuring(app: Dash, served: Served) -> None:
         session = served.session(pathname)
         count = served.ask(session, "measured", text=text or "")["rows"]
         session.keep(measured=text or "")
-        return f"{count} rows" if count else "", {**(opened or {}), "again": time.time()}
+        return counted(count, "row") if count else "", {**(opened or {}), "again": time.time()}
 
     @app.callback(
         Output("measured", "value", allow_duplicate=True), Output("measured-told", "children", allow_duplicate=True),
-        Input("measured-file", "contents"), prevent_initial_call=True,
+        Output("measured-file", "contents"), Input("measured-file", "contents"), prevent_initial_call=True,
     )  # fmt: skip
-    @_refusing(2, 1)
-    def take(contents: str | None) -> tuple[Any, ...]:
-        return content_of(contents or "").decode("utf-8-sig", "replace"), "press show"
+    @_clearing(2)
+    @_refusing(3, 1)
+    def take(contents: str) -> tuple[Any, ...]:
+        return text_of(content_of(contents)), "press show", None
 
 
 def _running(app: Dash, served: Served) -> None:
@@ -254,14 +296,16 @@ def _running(app: Dash, served: Served) -> None:
     @app.callback(
         Output("note", "children"), Output("share", "value"), Output("run", "disabled"), Output("stop", "disabled"),
         Output("run-kept", "data"), Output("run-told", "children"), Output("tick", "interval"),
-        Input("tick", "n_intervals"), State("where", "pathname"), State("run-kept", "data"),
+        Output("changed", "data", allow_duplicate=True),
+        Input("tick", "n_intervals"), State("where", "pathname"), State("run-kept", "data"), State("opened", "data"),
+        prevent_initial_call="initial_duplicate",
     )  # fmt: skip
-    def tick(count: object, pathname: str, before: object) -> tuple[Any, ...]:
+    def tick(count: object, pathname: str, before: object, opened: Mapping[str, Any] | None) -> tuple[Any, ...]:
         note = served.pool.note
         try:
             session = served.session(pathname)
         except InputError as error:
-            return str(error), *[no_update] * 5, 60 * page.TICK
+            return str(error), *[no_update] * 5, 60 * page.TICK, no_update
         state = served.runs.state(session)
         going, kept = state["running"], [state["kept"], state["running"]]
         told = no_update if state["kept"] or not state["log"] else state["log"]
@@ -269,19 +313,26 @@ def _running(app: Dash, served: Served) -> None:
         return (
             note, f"{state['share']:.3f}", going, not going, no_update if kept == before else kept, told,
             page.TICK * (5 if quiet else 1),
+            time.time() if opened and opened["of"] != well_of(session) else no_update,
         )  # fmt: skip
 
     @app.callback(
         Output("run-told", "children", allow_duplicate=True), Output("tick", "interval", allow_duplicate=True),
-        Input("run", "n_clicks"), State("where", "pathname"), prevent_initial_call=True,
+        Input("run", "n_clicks"), State("where", "pathname"), State({"slider": ALL}, "value"), State("opened", "data"),
+        prevent_initial_call=True,
     )  # fmt: skip
     @_refusing(2, 0)
-    def start(clicks: object, pathname: str) -> tuple[Any, ...]:
+    def start(
+        clicks: object, pathname: str, sliders: Sequence[float], opened: Mapping[str, Any] | None
+    ) -> tuple[Any, ...]:
         session = served.session(pathname)
+        # Where the sliders stand: their last move may not be solved yet.
+        own = (opened or {"own": {}})["own"]
+        values = {name: at for (name, usual), at in zip(own.items(), sliders, strict=True) if at != usual}
         source, name = session.source, ""
         if source is not None and source.survey_name:
             name = "survey" + PurePath(source.survey_name).suffix.lower()
-        text = served.ask(session, "text", values=served.asked(session)["values"], survey=name)["text"]
+        text = served.ask(session, "text", values=values, survey=name)["text"]
         served.runs.start(session, text, name, b"" if source is None else source.survey)
         return "the string comes to rest first; nothing is recorded yet", page.TICK
 

@@ -7,6 +7,7 @@ from dash import dcc, html
 
 from fctd.app.downloads import FILES
 from fctd.case.operations import KINDS
+from fctd.case.text import counted
 from fctd.view.quantities import QUANTITIES
 
 TITLE: Final = "fctd"
@@ -48,6 +49,7 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             ),
             html.P(id="upload-fault", className="fault", role="alert", hidden=True),
             html.Div(id="warnings"),
+            html.A("a page for another well", href="../../new", target="_blank", className="another"),
         ]),
         _group("Operations", [dcc.Checklist(id="operations", options=list(kinds), value=[])]),
         _group("Loads", [
@@ -139,8 +141,7 @@ def warned(texts: Sequence[str]) -> Any:
     """What is probably not meant in the case."""
     if not texts:
         return []
-    count = f"{len(texts)} warning{'s' * (len(texts) > 1)}"
-    return html.Details([html.Summary(count), html.Ul([html.Li(text) for text in texts])])
+    return html.Details([html.Summary(counted(len(texts), "warning")), html.Ul([html.Li(text) for text in texts])])
 
 
 def _group(title: str, children: Sequence[Any]) -> Any:

@@ -25,6 +25,7 @@ KEPT_EVERY: Final = "1 s"
 # A page that is loaded again asks within this time [s]; one that is hidden asks once a minute.
 CLOSED_FOR, SILENT_FOR = 5.0, 180.0
 LOG_LINES: Final = 4
+NOTHING: Final = "the run ended before anything was recorded"
 
 
 class Run:
@@ -91,10 +92,11 @@ class Runs:
         target = target_of(session.folder)
         going = run is not None and run.number is not None
         progress = progress_of(target) if going else None
+        began, kept = (session.folder / "run").is_dir(), _kept(target)
+        log = "" if going or not began else _tail(session.folder / "run" / "log") or NOTHING
         share = 0.0 if progress is None or not progress.total > 0 else progress.done / progress.total
         return {
-            "running": going, "share": share, "began": (session.folder / "run").is_dir(),
-            "kept": _kept(target), "log": "" if going else _tail(session.folder / "run" / "log"),
+            "running": going, "share": share, "began": began, "kept": kept, "log": log,
         }  # fmt: skip
 
     def stop(self, session: Session) -> None:

@@ -19,6 +19,7 @@ from fctd.app.sliders import RPM, changes, sliders_of, turning_at
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
+from fctd.case.text import counted
 from fctd.model.operations import depth_range, rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.plots.palette import BUCKLED
@@ -168,7 +169,7 @@ class Well:
         steepest = float(np.degrees(stations[:, 1].max()))
         segments = len(self._strings(case, "trip_out", self.depths[-1]).snapshots[0].offset)
         parts = [f"{case.depths[1] * factor:.0f} {unit} deep", f"up to {steepest:.0f}°"]
-        parts += [f"{len(stations)} stations", f"{segments} contact points"]
+        parts += [counted(len(stations), "station"), counted(segments, "contact point")]
         return ", ".join(parts)
 
     def _note(self, rows: Sequence[Mapping[str, Any]]) -> str:

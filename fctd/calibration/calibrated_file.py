@@ -11,6 +11,7 @@ from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import keys_of
 from fctd.case import spellings
 from fctd.case.errors import InputError, look_up, set_key, split_key
+from fctd.case.text import counted
 from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension
 from fctd.results.whole_file import whole_file
 from fctd.steady.refined_file import changed_document, survey_from
@@ -61,6 +62,6 @@ def _written(value: float, old: object, dimension: Dimension | None) -> object:
 def _heading(found: Calibration, beside: Path) -> str:
     """The comment at the head of the file: how it was made."""
     return (
-        f"# Calibrated by fctd calibrate on {len(found.fit.used)} rows: {', '.join(found.values)}.\n"
+        f"# Calibrated by fctd calibrate on {counted(len(found.fit.used), 'row')}: {', '.join(found.values)}.\n"
         f"# Intervals and covariance are in {beside.name}, which fctd predict reads.\n"
     )

@@ -14,6 +14,7 @@ from fctd.calibration.intervals import Intervals, find_intervals, leave_one_out
 from fctd.calibration.predict import Posterior
 from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.load import Case
+from fctd.case.text import counted
 
 
 @dataclass(frozen=True, repr=False)
@@ -55,7 +56,7 @@ class Calibration:
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name} {value:.4g}" for name, value in self.values.items())
-        return f"Calibration({self.base.name!r}, {len(self.fit.used)} rows: {values})"
+        return f"Calibration({self.base.name!r}, {counted(len(self.fit.used), 'row')}: {values})"
 
     @cached_property
     def residuals(self) -> pd.DataFrame:

@@ -21,8 +21,9 @@ def printable_lines(text: str) -> str:
 
 
 def counted(count: int, noun: str) -> str:
-    """A number of things: "1 sample", "2 samples"."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+    """A count with its noun: "1 row", "2 rows", "0 stretches"; noun : in the singular, of a regular plural."""
+    ending = "" if count == 1 else "es" if noun.endswith("ch") else "s"
+    return f"{count} {noun}{ending}"
 
 
 def file_name(text: str, ending: str) -> str:

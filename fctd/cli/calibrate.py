@@ -16,7 +16,7 @@ from fctd.calibration.predict import coverage, posterior_file
 from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import NAMES
 from fctd.case.doubts import warnings_of
-from fctd.case.text import printable
+from fctd.case.text import counted, printable
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -118,7 +118,9 @@ def calibrate_command(
 
 def print_calibration(found: Calibration, units: System) -> None:
     """Print unknowns, strong correlations, residuals, rows left out, and predictions of deeper sections."""
-    screen.print(printable(f"{found.base.name}: {len(found.fit.used)} rows fitted"), style="bold", soft_wrap=True)
+    screen.print(
+        printable(f"{found.base.name}: {counted(len(found.fit.used), 'row')} fitted"), style="bold", soft_wrap=True
+    )
     unknowns = _table(["unknown", ""], ["value", "95 %", "interval"], ["interval from"])
     for row in found.table.to_dict("records"):
         factor, label = shown_unit(str(row["unit"]), units)

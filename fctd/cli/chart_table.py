@@ -9,7 +9,7 @@ import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from fctd.case.text import printable
+from fctd.case.text import counted, printable
 from fctd.cli.options import messages, screen
 from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
 from fctd.results.notes import MEANINGS
@@ -59,7 +59,7 @@ def print_chart(rows: list[Row], name: str, units: System) -> None:
     screen.print(table)
     counts = ", ".join(f"{count} {status}" for status, count in Counter(row["status"] for row in rows).most_common())
     left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""
-    screen.print(f"{len(rows)} rows: {counts}{left_out}", soft_wrap=True)
+    screen.print(f"{counted(len(rows), 'row')}: {counts}{left_out}", soft_wrap=True)
     depth = units_of["bit_depth_m"]
     for (operation, friction), of in series.items():
         name = f"{operation}, friction {friction}" if fan else operation

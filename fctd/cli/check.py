@@ -7,7 +7,7 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
 from fctd.case.load import Case, naming_file
-from fctd.case.text import printable
+from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, Quantity
 from fctd.cli.manners import Silent
 from fctd.cli.options import (
@@ -63,7 +63,11 @@ def _path(summary: Summary, units: System, metre: Shown) -> list[Row]:
     per, course = (30.0, "°/30 m") if units == "si" else (30.48, "°/100 ft")
     turns = f"{course} from {path.dogleg_from * metre.factor:.0f} to {path.dogleg_to * metre.factor:.0f} {metre.label}"
     return [
-        ("total depth, measured", f"{path.depth * metre.factor:.1f}", f"{metre.label} ({path.stations} stations)"),
+        (
+            "total depth, measured",
+            f"{path.depth * metre.factor:.1f}",
+            f"{metre.label} ({counted(path.stations, 'station')})",
+        ),
         ("true vertical depth", f"{path.vertical_depth * metre.factor:.1f}", metre.label),
         ("departure", f"{path.departure * metre.factor:.1f}", metre.label),
         (

@@ -11,6 +11,7 @@ from numba.core import event
 from rich.console import Console
 
 from fctd.case.load import Case
+from fctd.case.text import counted
 from fctd.cli.options import FAILED, Quiet, messages, screen
 from fctd.mechanics.compile_cache import STORE, WAITING, CompileCacheWarning, KeptCode, Store
 from fctd.simulation.simulate import simulate
@@ -71,7 +72,7 @@ def compile_into(store: Store, compiling: Callable[[], object], quiet: bool = Fa
         advice = "set NUMBA_CACHE_DIR to a folder that can be written"
         messages.print(f"compiled code could not be kept: {advice}", style="bold")
         raise typer.Exit(FAILED)
-    taken = f"{len(names)} functions in {time.perf_counter() - began:.0f} s" if names else "nothing to do"
+    taken = f"{counted(len(names), 'function')} in {time.perf_counter() - began:.0f} s" if names else "nothing to do"
     screen.print(f"Compiled: {taken}, kept in {store.folder}", soft_wrap=True, highlight=False, markup=False)
 
 

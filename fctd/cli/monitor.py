@@ -12,7 +12,7 @@ from rich.table import Table
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
-from fctd.case.text import printable
+from fctd.case.text import counted, printable
 from fctd.cli.options import (
     CaseFile,
     Overrides,
@@ -193,9 +193,10 @@ def _print(found: Monitored, case: Case, units: System) -> None:
     screen.print(table)
     left = stretches.loc[stretches["friction"].isna(), "left_out"].value_counts()
     reasons = "".join(f"; {count}: {why}" for why, count in left.items())
-    alarms = f"{len(found.alarms)} alarm{'s' if len(found.alarms) != 1 else ''}"
+    alarms = counted(len(found.alarms), "alarm")
     screen.print(
-        f"{len(stretches)} stretches, {len(inferred)} with a friction factor{reasons}; {alarms}", soft_wrap=True
+        f"{counted(len(stretches), 'stretch')}, {len(inferred)} with a friction factor{reasons}; {alarms}",
+        soft_wrap=True,
     )
 
 

@@ -13,7 +13,7 @@ from rich.table import Table
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.text import file_name, printable
+from fctd.case.text import counted, file_name, printable
 from fctd.cli.interrupts import deferred
 from fctd.cli.keeping import (
     EVERY_RUN,
@@ -249,7 +249,7 @@ def _summarise(result: SimulationResult, units: System) -> None:
     _print_operations(result, units)
     run = result.run
     parts = [
-        f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms, {run['steps']} steps",
+        f"{counted(run['segments'], 'segment')}, step {1e3 * run['step_s']:.3g} ms, {counted(run['steps'], 'step')}",
         f"{run['simulated_s']:.0f} s simulated in {run['wall_s']:.2f} s",
     ]
     # A run that did not settle has no speed, and one that ended before any work was done no energy error.

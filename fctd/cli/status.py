@@ -106,7 +106,7 @@ def _of_the_result(target: Path) -> list[str]:
     if not target.is_dir():
         return []
     found = open_result(target, pause=0.0)
-    line = f"a result: {found.status}, {len(found.history)} records"
+    line = f"a result: {found.status}, {counted(len(found.history), 'record')}"
     if len(found.history):
         last = found.history.iloc[-1]
         line += f", {last['operation']} at {last['bit_depth_m']:.1f} m"

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.text import counted
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model import survey
 from fctd.model.drillstring import String, check_fit, lay_out, section_of
@@ -108,7 +109,8 @@ def segments_in_words(case: Case, string: String, metre: float = 1.0, label: str
     span = f"{longest:.3g}" if np.isclose(shortest, longest, rtol=1e-3) else f"{shortest:.3g} to {longest:.3g}"
     chosen = any(part.cut_by_default for part in case.string.components)
     why = ", by default short in bends and near the bit" if chosen else ""
-    return f"{string.segments} segments of {span} {label} with the bit at {metre * string.bit_depth:.1f} {label}{why}"
+    segments = counted(string.segments, "segment")
+    return f"{segments} of {span} {label} with the bit at {metre * string.bit_depth:.1f} {label}{why}"
 
 
 def _path(case: Case, depth: float) -> Path:

@@ -12,6 +12,7 @@ import pandas as pd
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
+from fctd.case.text import counted
 from fctd.monitoring.alarm import Alarm, Detector, kind_of
 from fctd.monitoring.chart import Chart, Fit
 from fctd.monitoring.friction import Apparent, Uncertainty, apparent
@@ -135,6 +136,6 @@ def result_of(watch: Monitor) -> Monitored:
     """What a monitor has found so far."""
     told = [
         *watch.cleaner.told(),
-        *(f"{count} stretches left out: {why}" for why, count in watch.finder.counts.items()),
+        *(f"{counted(count, 'stretch')} left out: {why}" for why, count in watch.finder.counts.items()),
     ]
     return Monitored(watch.table(), tuple(watch.alarms), tuple(told), watch.chart)

@@ -14,6 +14,7 @@ from matplotlib.patches import Patch
 from fctd.calibration.predict import BANDS, coverage, predict_rows
 from fctd.calibration.result import Calibration
 from fctd.case.operations import KINDS
+from fctd.case.text import counted
 from fctd.plots.palette import DARK, LOOKS, MEASURED, QUIET, SHADE
 from fctd.plots.style import RC, Sheet
 from fctd.results.unit_systems import System, shown_unit
@@ -31,7 +32,7 @@ def calibration_figure(found: Calibration, units: System = "si") -> Figure:
     table = predict_rows(found.posterior, found.forward.rows, found.forward.strings)
     values = ", ".join(_in_words(row, units) for row in found.table.to_dict("records"))
     lines = [values, "Bands of 50 and 95 %: unknowns, noise and ranges of the source, declared error of the model."]
-    title = f"{found.base.name}: calibrated on {len(found.fit.used)} rows"
+    title = f"{found.base.name}: calibrated on {counted(len(found.fit.used), 'row')}"
     with mpl.rc_context(RC):
         sheet = Sheet(WIDTH, 2 * (PANEL + LABELS) + 0.3, title, lines, _handles(table))
         half = (WIDTH - 2 * LEFT - APART) / 2

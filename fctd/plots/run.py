@@ -14,6 +14,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from fctd.case.operations import KINDS
+from fctd.case.text import counted
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET, SHADE
 from fctd.plots.style import RC, Sheet
 from fctd.plots.tracks import side_force, side_force_unit
@@ -93,7 +94,7 @@ def run_figure(result: SimulationResult, units: System = "si", map_of: MapOf = "
 def _lines(result: SimulationResult, units: System) -> list[str]:
     """Lines of the heading: segments and step, then the notes."""
     run = result.run
-    first = f"{run['segments']} segments, step {1e3 * run['step_s']:.3g} ms"
+    first = f"{counted(run['segments'], 'segment')}, step {1e3 * run['step_s']:.3g} ms"
     if np.isfinite(run["energy_error"]):
         first += f", energy error {run['energy_error']:.1e}"
     return [first, *(reworded(f"note {note.code}: {note}", units) for note in result.notes)]

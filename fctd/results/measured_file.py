@@ -16,6 +16,7 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.input_file import read_text
+from fctd.case.text import counted
 from fctd.case.units import Dimension, Quantity
 
 LARGEST_FILE: Final = 8  # MiB
@@ -104,7 +105,9 @@ def read_lines(path: Path, fields: Sequence[Field], texts: Sequence[Text], heade
     lines = []
     for number, cells in body:
         if any(cells[len(columns) :]):
-            raise InputError(f"{len(columns)} cells, as many as headers", key=f"row {number}", value=", ".join(cells))
+            raise InputError(
+                f"{counted(len(columns), 'cell')}, as many as headers", key=f"row {number}", value=", ".join(cells)
+            )
         padded = [*cells, *[""] * len(columns)]
         written = {column.name: cell for column, cell in zip(columns, padded, strict=False) if column.name}
         line = Line(number, by_name, {}, written)

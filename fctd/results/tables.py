@@ -23,6 +23,7 @@ from fctd.case.errors import InputError
 from fctd.case.input_file import check_regular
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
+from fctd.case.text import counted
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, as_metadata, from_metadata
 from fctd.results.parquet import read_table
@@ -72,7 +73,7 @@ class SimulationResult:
     identity: str = field(default_factory=lambda: uuid4().hex)
 
     def __repr__(self) -> str:
-        return f"SimulationResult({self.case.name!r}: {self.status}, {len(self.history)} records{self._end})"
+        return f"SimulationResult({self.case.name!r}: {self.status}, {counted(len(self.history), 'record')}{self._end})"
 
     def _repr_html_(self) -> str:
         loads = {load.name: float(self.history[load.name].iloc[-1]) for load in MAIN} if len(self.history) else {}

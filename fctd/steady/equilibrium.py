@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.operations import KINDS
+from fctd.case.text import counted
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
 from fctd.model.drillstring import check_fit, lay_out
@@ -377,8 +378,7 @@ class Solver:
         if lacks := shortfall(self.case.wellbore.tortuosity, shape.laid.string.longest):
             return SteadyStatus.UNDER_RESOLVED, lacks
         if negative:
-            modes = f"{negative} mode{'s' * (negative > 1)}"
-            return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {modes}"
+            return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {counted(negative, 'mode')}"
         return SteadyStatus.CONVERGED, ""
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from fctd.app.callbacks import content_of, source_of, time_figure
+from fctd.app.callbacks import content_of, source_of, text_of, time_figure
 from fctd.app.runs_view import records
 from fctd.case.errors import InputError
 from tests.app.made import SURVEY, TEXT, InProcess, source
@@ -37,6 +37,13 @@ def test_contents_of_files() -> None:
     for text in ("data:text/csv;base64,?", "data:;base64,a", "data:;base64,é"):
         with pytest.raises(InputError, match="a file"):
             content_of(text)
+
+
+def test_measured_rows_come_as_text() -> None:
+    assert text_of(b"\xef\xbb\xbfa,b") == "a,b"
+    for content in (b"PK\x03\x04\x00", "a,b".encode("utf-16"), b"\xff"):
+        with pytest.raises(InputError, match="UTF-8"):
+            text_of(content)
 
 
 def test_a_run_without_records_is_an_empty_figure(tmp_path: Path) -> None:

@@ -84,6 +84,15 @@ def test_the_run_of_a_closed_page_ends_and_that_of_a_page_that_asks_again_does_n
     until(lambda: "interrupted" in (session.folder / "run" / "log").read_text())
 
 
+def test_a_run_that_recorded_nothing_says_so(runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = Sessions(tmp_path).new()
+    assert runs.state(session)["log"] == ""
+    monkeypatch.setattr(module, "command", lambda: [sys.executable, "-c", ""])
+    runs.start(session, TEXT, "survey.csv", SURVEY)
+    until(lambda: not runs.state(session)["running"])
+    assert runs.state(session)["log"] == "the run ended before anything was recorded"
+
+
 def test_the_run_of_a_silent_page_ends(runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     session = Sessions(tmp_path).new()
     begin(runs, session)

@@ -4,6 +4,7 @@ import base64
 import http.client
 import json
 import threading
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,10 +13,12 @@ from typing import Any, NamedTuple
 import pytest
 from waitress import wasyncore
 
+from fctd.app.callbacks import well_of
 from fctd.app.downloads import FILES
 from fctd.app.home import Home
 from fctd.app.page import GRAPHS
 from fctd.app.server import MOST_RECEIVED, AppServer, listening
+from fctd.app.sessions import Session
 from fctd.case.errors import InputError
 from tests.app.made import NAME, SURVEY, TEXT, InProcess, source
 
@@ -66,7 +69,11 @@ def call(server: AppServer, key: str, output: str, inputs: list[Any], state: lis
     """What a callback of the page of a session answers; inputs, state : (id, property, value)."""
     prefix = server.home.prefix
     dependencies = json.loads(ask(server, f"{prefix}_dash-dependencies").body)
-    (one,) = [each for each in dependencies if output in each["output"] and inputs[0][0] in json.dumps(each["inputs"])]
+    (one,) = [
+        each
+        for each in dependencies
+        if output in each["output"] and inputs[0][0] in [given["id"] for given in each["inputs"]]
+    ]
     outputs = []
     for text in one["output"].strip(".").split("..."):
         name, _, prop = text.rpartition(".")
@@ -181,8 +188,10 @@ def opened(server: AppServer, key: str) -> Any:
     return call(server, key, "opened.data", where, [])
 
 
-def wish(**given: Any) -> dict[str, Any]:
+def wish(of: Session | None, **given: Any) -> dict[str, Any]:
+    """What a page asks whose session it has opened."""
     usual = {
+        "of": "" if of is None else well_of(of),
         "values": {"mud": 1300}, "operations": ["trip_out"], "operation": "trip_out", "depth": 800, "coarse": False,
         "colour": "tension", "hole": False, "n": 7,
     }  # fmt: skip
@@ -195,7 +204,7 @@ def test_a_killed_server_goes_on_at_its_address(tmp_path: Path) -> None:
         key = address.rstrip("/").rpartition("/")[2]
         before = opened(server, key)
         assert before["name"]["children"] == NAME
-        found = call(server, key, "answered.data", [("wish", "data", wish())], [])
+        found = call(server, key, "answered.data", [("wish", "data", wish(server.sessions.get(key)))], [])
         answered = found["answered"]["data"]
         assert answered["n"] == 7
         assert all(way[0] in ("data", "layout") for name in GRAPHS for way, _ in answered[name])
@@ -216,13 +225,56 @@ def test_a_killed_server_goes_on_at_its_address(tmp_path: Path) -> None:
 def test_what_the_page_never_asks_is_answered_in_words(server: AppServer) -> None:
     session = server.sessions.new()
     session.put(source())
-    for wrong in ({}, wish(values={"mud": 1e9}), wish(operation="<b>"), wish(colour=3), wish(operations=5)):
+    for wrong in (
+        {},
+        *(
+            wish(session, **given)
+            for given in (
+                {"values": {"mud": 1e9}},
+                {"operation": "<b>"},
+                {"colour": 3},
+                {"operations": 5},
+            )
+        ),
+    ):
         found = call(server, session.key, "answered.data", [("wish", "data", wrong)], [])
         assert found["fault"]["children"], wrong
         assert found["answered"]["data"].keys() == {"n"}
     assert session.settings == {"survey": "survey.csv"}
-    found = call(server, "x" * 12, "answered.data", [("wish", "data", wish())], [])
+    found = call(server, "x" * 12, "answered.data", [("wish", "data", wish(None))], [])
     assert "open the page anew" in found["fault"]["children"]
+
+
+def test_a_page_follows_another_one_at_its_address(server: AppServer) -> None:
+    """It would show the answers of one well under the name of another."""
+    session = server.sessions.new()
+    session.put(source())
+    before, page = wish(session), opened(server, session.key)
+    seen = [("tick", "n_intervals", 1)], [("opened", "data", page["opened"]["data"])]
+    assert "changed" not in call(server, session.key, "run-kept.data", *seen)
+    session.put(source(TEXT.replace(NAME, "another")))  # by the other page
+    found = call(server, session.key, "answered.data", [("wish", "data", before)], [])
+    assert found["changed"]["data"]
+    assert found["answered"]["data"].keys() == {"n"}
+    assert "words" not in found
+    assert session.settings == {"survey": "survey.csv"}
+    assert call(server, session.key, "run-kept.data", *seen)["changed"]["data"]
+    page = opened(server, session.key)
+    assert (page["name"]["children"], page["words"]["children"]) == ("another", "")
+
+
+def test_a_run_begins_where_the_sliders_stand(server: AppServer, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Their last move may not have been solved yet, and is not among the settings."""
+    session, begun = server.sessions.new(), list[str]()
+    session.put(source())
+    monkeypatch.setattr(server.runs, "start", lambda session, text, name, survey: begun.append(text))
+    page = opened(server, session.key)["opened"]["data"]
+    places = [1300 if name == "mud" else at for name, at in page["own"].items()]
+    # Dash gives the values of parts that belong together in one list.
+    call(server, session.key, "run-told.children", [("run", "n_clicks", 1)], [
+        ("opened", "data", page), ('{"slider":["ALL"]}', "value", places),
+    ])  # fmt: skip
+    assert [tomllib.loads(text)["mud"]["density"] for text in begun] == [1300.0]
 
 
 def test_requests_that_no_page_makes_are_told_in_a_line(server: AppServer, capfd: pytest.CaptureFixture[str]) -> None:

@@ -151,6 +151,50 @@ def test_a_survey_that_is_chosen_becomes_a_case_and_a_case_is_run(page: Any) -> 
     page.locator("#run-told", has_text="completed").wait_for()
 
 
+def test_the_same_files_are_taken_again(page: Any) -> None:
+    """After a refusal a file is renamed, and its content is the same; after moves of sliders a case begins anew."""
+    case = {"name": "well.toml", "mimeType": "text/plain", "buffer": TEXT.encode()}
+    survey = {"name": "survey.csv", "mimeType": "text/csv", "buffer": SURVEY}
+    page.locator("#upload input").set_input_files([case, survey | {"name": "Survey.csv"}])
+    page.locator("#upload-fault", has_text='the file that came is "Survey.csv"').wait_for()
+    page.locator("#sliders [role=slider]").nth(2).focus()
+    page.keyboard.press("End")
+    mud = page.locator("#sliders output").nth(2)
+    until(page, lambda: mud.inner_text() != "1200")
+    page.locator("#upload input").set_input_files([case, survey])
+    until(page, lambda: page.locator("#upload-fault").is_hidden() and mud.inner_text() == "1200")
+    page.locator("#sliders [role=slider]").nth(2).focus()
+    page.keyboard.press("End")
+    until(page, lambda: mud.inner_text() != "1200")
+    page.locator("#upload input").set_input_files([case, survey])
+    until(page, lambda: mud.inner_text() == "1200")
+
+
+def test_two_pages_of_an_address_show_one_well_and_a_new_page_another(
+    page: Any, chromium: Any, program: Program
+) -> None:
+    with opened(chromium, program.address) as (other, _):
+        drawn(other)
+        other.locator("#upload input").set_input_files(
+            [{"name": "deeper.csv", "mimeType": "text/csv", "buffer": SURVEY.replace(b"900", b"950")}]
+        )
+        page.locator("h1", has_text="deeper").wait_for()
+        drawn(page)
+        with other.expect_popup() as popup:
+            other.locator("a.another").click()
+        new = popup.value
+        new.locator("h1", has_text="a first well").wait_for()
+        assert new.url != other.url
+        new.close()
+    page.locator("#upload input").set_input_files(
+        [
+            {"name": "well.toml", "mimeType": "text/plain", "buffer": TEXT.encode()},
+            {"name": "survey.csv", "mimeType": "text/csv", "buffer": SURVEY},
+        ]
+    )
+    page.locator("h1", has_text=NAME).wait_for()
+
+
 def test_files_that_are_too_large_are_refused_on_the_page(page: Any) -> None:
     """A request has at most 5 MiB, and the file comes in base64."""
     page.locator("#upload input").set_input_files(

@@ -13,6 +13,11 @@ from fctd.case.text import counted, degrade_output, file_name, printable, printa
 ANYTHING = st.text(st.characters(categories=["L", "M", "N", "P", "S", "Z", "C"]), max_size=300)  # surrogates as well
 
 
+def test_a_count_with_its_noun() -> None:
+    assert [counted(count, "row") for count in (0, 1, 2)] == ["0 rows", "1 row", "2 rows"]
+    assert [counted(count, "stretch") for count in (0, 1, 2)] == ["0 stretches", "1 stretch", "2 stretches"]
+
+
 @pytest.mark.parametrize(
     ("text", "shown"),
     [

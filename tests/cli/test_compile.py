@@ -67,7 +67,7 @@ def test_the_command_says_what_it_compiled_and_where(
         compile_into(store, compile_one)
     seen = capsys.readouterr()
     assert "thrice" in seen.err
-    assert "Compiled: 1 functions in 3 s, kept in" in seen.out
+    assert "Compiled: 1 function in 3 s, kept in" in seen.out
     compile_into(store, compile_one)
     assert "Compiled: nothing to do, kept in" in capsys.readouterr().out
 

@@ -7,7 +7,7 @@
   // Largest files [bytes]: a request has at most 5 MiB, and files go in base64, which takes a third more.
   const MOST = 3.5 * 2 ** 20;
   const state = {
-    busy: false, since: 0, next: null, rest: null, drawing: false, turn: 0, n: 0, values: {}, own: {}, shown: {}, opened: 0 };
+    busy: false, since: 0, next: null, rest: null, drawing: false, turn: 0, n: 0, values: {}, own: {}, shown: {}, opened: 0, of: "" };
   const set = (id, props) => dash_clientside.set_props(id, props);
   const unchanged = () => dash_clientside.no_update;
 
@@ -32,7 +32,7 @@
   function wish(coarse, hole) {
     // Those that stand where the case has them are left to the case.
     const moved = Object.entries(state.values).filter(([name, value]) => value !== state.own[name]);
-    return { ...state.shown, values: Object.fromEntries(moved), coarse, hole, n: ++state.n };
+    return { ...state.shown, values: Object.fromEntries(moved), coarse, hole, of: state.of, n: ++state.n };
   }
 
   function later() {
@@ -62,6 +62,7 @@
     const fresh = opened.n !== state.opened;
     if (fresh) {
       state.opened = opened.n;
+      state.of = opened.of;
       state.own = opened.own;
       state.values = { ...opened.own, ...opened.values };
       for (const key of Object.keys(told)) delete told[key];
@@ -127,6 +128,7 @@
     state.busy = false;
     clearTimeout(state.late);
     if (!state.next) waiting(false);
+    document.getElementById("page").toggleAttribute("data-before", !answered.loads);  // refused
     if (state.next) {
       const next = state.next;
       state.next = null;
