@@ -36,10 +36,6 @@ def test_what_does_not_print_is_shown_as_its_escape(text: str, shown: str) -> No
     assert printable(text) == shown
 
 
-def test_one_thing_is_no_plural() -> None:
-    assert [counted(k, "sample") for k in (0, 1, 2)] == ["0 samples", "1 sample", "2 samples"]
-
-
 @settings(max_examples=100)
 @given(ANYTHING)
 def test_only_characters_that_print_are_left_and_those_stay(text: str) -> None:
