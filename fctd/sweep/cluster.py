@@ -5,6 +5,7 @@ The workers of this machine and their scheduler listen on 127.0.0.1 alone.
 
 from __future__ import annotations
 
+import asyncio
 import json
 import logging
 import re
@@ -94,9 +95,10 @@ def _joined(where: Where) -> Iterator[Client]:
 
     key = "--scheduler" if where.scheduler is not None else "--scheduler-file"
     value: Any = where.scheduler or where.scheduler_file
-    address = address_of(where)
+    address, security = address_of(where), _security(where)
     try:
-        client = Client(address, timeout=CONNECT, security=_security(where), set_as_default=False)
+        asyncio.run(_greet(address, security))
+        client = Client(address, timeout=CONNECT, security=security, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InputError(f"a scheduler that answers within {CONNECT:g} s ({reason})", key=key, value=value) from None
@@ -107,6 +109,19 @@ def _joined(where: Where) -> Iterator[Client]:
             expected = f"a scheduler with workers (none came within {WORKERS:g} s)"
             raise InputError(expected, key=key, value=value) from None
         yield client
+
+
+async def _greet(address: str, security: Any) -> None:
+    """Raise OSError where no scheduler greets: Dask's client waits for ever at a port of another program."""
+    from distributed.comm.core import connect
+    from distributed.security import Security
+
+    options = (security or Security()).get_connection_args("client")
+    try:
+        comm = await asyncio.wait_for(connect(address, timeout=CONNECT, **options), CONNECT + 1.0)
+    except (TimeoutError, MemoryError):  # no answer, or one whose first bytes are no length
+        raise OSError("another program answers there, or none") from None
+    comm.abort()
 
 
 def address_of(where: Where) -> str:

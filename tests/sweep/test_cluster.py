@@ -5,8 +5,11 @@ import json
 import os
 import re
 import shutil
+import socket
 import subprocess
 import sys
+import threading
+from contextlib import suppress
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -105,6 +108,28 @@ def test_only_tls_and_this_machine_itself_need_no_warning(address: str, expected
 def test_without_a_scheduler_nothing_is_encrypted() -> None:
     client: Any = SimpleNamespace(scheduler=None)
     assert not encrypted(client)
+
+
+@pytest.mark.parametrize("answer", [b"", b"HTTP/1.0 400 Bad Request\r\n\r\n"])
+def test_a_port_of_another_program_is_answered(answer: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dask's own client waits for ever there."""
+    monkeypatch.setattr(cluster, "CONNECT", 1.0)
+    with socket.create_server((cluster.LOOPBACK, 0)) as server:
+
+        def accept() -> None:
+            with suppress(OSError):
+                while True:
+                    held.append(server.accept()[0])
+                    held[-1].sendall(answer)
+
+        held: list[socket.socket] = []
+        threading.Thread(target=accept, daemon=True).start()
+        where = Where(scheduler=f"tcp://{cluster.LOOPBACK}:{server.getsockname()[1]}")
+        with pytest.raises(InputError, match=r"answers within 1 s .another program answers"), connected(where):
+            pass
+        server.shutdown(socket.SHUT_RDWR)
+    for one in held:
+        one.close()
 
 
 FILES = (Path("ca.pem"), Path("me.pem"), Path("key.pem"))
