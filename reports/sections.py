@@ -2,6 +2,7 @@
 
 import base64
 import io
+import math
 import re
 import sys
 import traceback
@@ -11,6 +12,7 @@ from pathlib import Path
 import matplotlib as mpl
 import pandas as pd
 from matplotlib.figure import Figure as Canvas
+from matplotlib.text import Text
 
 from fctd.case.text import printable_lines
 from reports import figures, words
@@ -21,13 +23,15 @@ from validation.harness.store import Record
 
 LONG = 14  # rows of a table that is folded
 THUMBNAIL = 46  # dots per inch of a small copy
+LETTERS = 10  # height of the smallest letters that a reader of a phone can read [px]
+FRAME = 18  # of a figure on a page, both sides: padding and border [px]
 
 
 @dataclass(frozen=True)
 class Picture:
     """A drawn figure: embedded in a page (``source``), and as files beside it for download.
 
-    small : a small copy, where the first page has one.
+    small : a small copy, where the first page has one.  least : width at which all letters can be read [px].
     """
 
     name: str
@@ -36,6 +40,7 @@ class Picture:
     small: str
     svg: str
     png: str
+    least: int
 
 
 @dataclass(frozen=True)
@@ -125,7 +130,14 @@ def draw(study: str, figure: figures.Figure, tables: figures.Tables, out: Path) 
         small = _small(canvas) if study in {each.ours.partition("/")[0] for each in contents().paper} else ""
     # As a data address, the identifiers of a drawing stay separate and the page is one file.
     source = "data:image/svg+xml;base64," + base64.b64encode((out / svg).read_bytes()).decode()
-    return Picture(figure.name, figure.caption, source, small, svg, png)
+    return Picture(figure.name, figure.caption, source, small, svg, png, readable_width(canvas))
+
+
+def readable_width(canvas: Canvas) -> int:
+    """The width of a figure on a page at which its smallest letters can be read [px], its frame included."""
+    texts = (each for each in canvas.findobj(Text) if isinstance(each, Text) and each.get_text())
+    smallest_in = min((float(text.get_fontsize()) for text in texts), default=10.0) / 72
+    return math.ceil(LETTERS * canvas.get_figwidth() / smallest_in) + FRAME
 
 
 def _small(canvas: Canvas) -> str:

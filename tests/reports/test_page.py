@@ -13,6 +13,7 @@ import pytest
 pytest.importorskip("jinja2")
 pytest.importorskip("matplotlib")
 
+from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
 from reports import __main__ as command_line
@@ -226,6 +227,40 @@ def test_results_for_programs_fit_their_schema(render, tmp_path, claims):
     schema = json.loads((tmp_path / "out" / "results.schema.json").read_text())
     assert schema == results.Results.model_json_schema()
     assert set(schema["properties"]) == set(found)
+
+
+def test_texts_are_set_as_in_print(render, tmp_path):
+    run, _ = finished("ownership", display={"owners": "Σ rμF_n"}, notes=("As in `sticking`.",))
+    tables = {"owners": pd.DataFrame({"reason": ["word " * 20], "status": ["under_resolved"]})}
+    check = replace(judged(1.0, "varies: 2 to 3").check, name="Σ rμF_n at 1e7 N/m", source="30 N*m")
+    render((replace(run, tables=("owners",), checks=(Judged(check, "varies: 2 to 3"),)), tables))
+    html = study_page(tmp_path, "ownership").read_text()
+    text = words_of(html)
+    assert "Σ rμFₙ at 10⁷ N/m" in text
+    assert "30 N·m" in text
+    assert "Recorded as varying: 2 to 3" in text
+    assert "As in sticking." in text
+    assert "Σ rμFₙ 1 row " in text
+    assert '<td class="long">word' in html
+    assert "<td>under resolved</td>" in html
+
+
+def test_a_study_that_was_not_run_shows_its_question(tmp_path):
+    (tmp_path / "claims.toml").write_text("claim = []")
+    asked = {"absent": "Does it hold?"}
+    page.render(tmp_path, ["absent", "other"], tmp_path / "out", None, tmp_path / "claims.toml", asked)
+    index = (tmp_path / "out" / "index.html").read_text()
+    assert '<a href="studies/absent.html">Does it hold?</a>' in index
+    assert '<a href="studies/other.html">other</a>' in index
+    assert "<h1>Does it hold?</h1>" in study_page(tmp_path, "absent").read_text()
+
+
+def test_a_figure_is_as_wide_as_its_smallest_letters_need():
+    canvas = Figure(figsize=(5, 2))
+    canvas.text(0.5, 0.5, "large", fontsize=12)
+    canvas.text(0.5, 0.2, "small", fontsize=8)
+    canvas.text(0.5, 0.2, "", fontsize=1)
+    assert sections.readable_width(canvas) == 450 + sections.FRAME
 
 
 def test_a_long_table_is_folded_and_a_short_one_open(render, tmp_path):

@@ -15,6 +15,8 @@ pytest.importorskip("matplotlib")
 
 from reports import chapters, figures, page
 from reports.__main__ import OUT
+from reports.figures.leading import LEADING
+from reports.sections import FRAME, LETTERS
 from tests.browsers import browser, needs_browser, opened, overflow
 from tests.reports.pages import BLANK, judged
 from validation.claims.ledger import CLAIMS, read_ledger
@@ -70,13 +72,15 @@ def made(folder: Path) -> tuple[Path, Path]:
 
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    """The report of the stored results and its claims, as CI has it; where there is none since the report's code was
-    changed, a made-up one."""
+    """The report of the stored results and its claims, as CI has it; where there is none with all pictures of the first
+    screen since the report's code was changed, a made-up one."""
     written = OUT / "results.json"
     sources = [
         path for path in Path(page.__file__).parent.rglob("*") if path.suffix in SOURCES and OUT not in path.parents
     ]
-    if written.exists() and written.stat().st_mtime > max(path.stat().st_mtime for path in sources):
+    drawn = [OUT / "figures" / f"{each.study}-{each.figure.name}.svg" for each in LEADING]
+    latest = max(path.stat().st_mtime for path in sources)
+    if written.exists() and written.stat().st_mtime > latest and all(path.exists() for path in drawn):
         return OUT, CLAIMS
     return made(tmp_path_factory.mktemp("report"))
 
@@ -127,6 +131,29 @@ def test_no_page_is_wider_than_its_window(chromium: Any, site: Path) -> None:
             wide[path.name, "on paper"] = overflow(shown)
             shown.emulate_media(media="screen")
     assert {at: by for at, by in wide.items() if by > 0} == {}
+
+
+def test_letters_of_figures_can_be_read_at_every_width(chromium: Any, site: Path) -> None:
+    """Ten pixels are the height of the smallest, whatever the window; a wide figure scrolls in its frame."""
+    small, seen = {}, 0
+    with opened(chromium, site / "index.html") as (shown, _):
+        for path in [site / "index.html", *sorted((site / "studies").glob("*.html"))]:
+            shown.goto(path.resolve().as_uri())
+            for width in (400, 1280):
+                shown.set_viewport_size({"width": width, "height": LOW})
+                found = shown.evaluate("""() => [...document.querySelectorAll("figure.main")].map((figure) => [
+                  figure.querySelector(".files a").getAttribute("href"), figure.querySelector("img").offsetWidth])""")
+                for drawn, shown_width in found:
+                    text = (path.parent / drawn).read_text(encoding="utf-8")
+                    own = re.search(r'<svg [^>]*width="([\d.]+)pt"', text)
+                    letters = [100 * float(size) for size in re.findall(r"scale\(([\d.]+) -\1\)", text) if size != "1"]
+                    assert own, drawn
+                    height = min(letters) * (shown_width - FRAME) / float(own[1])
+                    seen += 1
+                    if height < LETTERS - 0.1:
+                        small[path.name, width, drawn] = height
+    assert seen > 10
+    assert small == {}
 
 
 class Parts(HTMLParser):
