@@ -127,7 +127,7 @@ def drawn(parameter: ParameterSpec, points: Array) -> list[Any] | Array:
         low, high = parameter.number("low"), parameter.number("high")
         ends = [0.0 if low is None else law.cdf(low), 1.0 if high is None else law.cdf(high)]
         if not ends[0] < ends[1]:
-            expected = f"bounds with a share of {parameter.distribution} between them"
+            expected = f"low and high between which the {parameter.distribution} distribution has numbers"
             raise InputError(expected, key="parameters", value=parameter.key)
         points = ends[0] + points * (ends[1] - ends[0])
     return np.asarray(law.ppf(points), float)

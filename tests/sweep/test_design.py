@@ -104,7 +104,7 @@ def test_correlations_that_contradict_each_other_are_refused(tmp_path: Path) -> 
 
 
 def test_bounds_without_a_share_of_the_distribution_are_refused() -> None:
-    with pytest.raises(InputError, match='parameters = "a": expected bounds with a share of normal'):
+    with pytest.raises(InputError, match='parameters = "a": expected low and high between which the normal'):
         drawn(
             ParameterSpec.model_validate({"key": "a", "distribution": "normal", "mean": 0, "sd": 1, "low": 90}),
             np.zeros(1),
