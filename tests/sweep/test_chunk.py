@@ -1,6 +1,7 @@
 """Chunks: rows of samples, rows in place of failures, and the end of a process whose sample does not come back."""
 
 import multiprocessing
+import threading
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +11,7 @@ import pytest
 
 from fctd.case.load import Case
 from fctd.sweep import chunk, work
-from fctd.sweep.chunk import FAILED, TIMED_OUT, Bench, Sample, Watch, from_stream
+from fctd.sweep.chunk import FAILED, LEAVE, TIMED_OUT, Bench, Sample, Watch, from_stream
 from fctd.sweep.run import prepare, sample_of
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.work import Row, Task, Tick
@@ -86,6 +87,23 @@ def test_a_process_ends_over_a_sample_that_does_not_come_back(holding: bool) -> 
     assert receiver.poll() is not holding
     if not holding:
         assert receiver.recv() == 7
+
+
+def come_back_late() -> None:
+    """A sample that comes back just after the news of it has left, and another one that is short."""
+    told = threading.Event()
+    with Watch(0.8, 20.0, lambda sample: told.set()).watching() as watch:
+        watch.begin(7)
+        told.wait()
+        watch.begin(8)
+        time.sleep(0.3 + LEAVE / 2)
+
+
+def test_a_process_goes_on_where_the_sample_comes_back_meanwhile() -> None:
+    process = multiprocessing.get_context("spawn").Process(target=come_back_late)
+    process.start()
+    process.join(timeout=15)
+    assert process.exitcode == 0
 
 
 @pytest.mark.parametrize(("limit", "expected"), [(0.1, (2.0, 3.0)), (20.0, (40.0, 60.0))])
