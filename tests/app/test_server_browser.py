@@ -221,6 +221,23 @@ def test_pictures_of_before_are_marked_while_new_ones_are_computed(page: Any) ->
     page.locator("#reset").click()
 
 
+def test_pictures_stay_marked_where_the_server_refuses(page: Any) -> None:
+    """The sliders stand where no picture is of."""
+
+    def spoil(route: Any) -> None:
+        asked = route.request.post_data or ""
+        route.continue_(post_data=asked.replace('"operation":"trip_out"', '"operation":"none"'))
+
+    page.route(lambda address: "_dash-update-component" in address, spoil)
+    page.locator("#sliders [role=slider]").nth(1).focus()
+    page.keyboard.press("ArrowRight")
+    page.locator("#fault", has_text="a kind of operation").wait_for()
+    page.locator("#page[data-before]").wait_for()
+    page.unroute_all()
+    page.locator("#reset").click()
+    until(page, lambda: page.locator("#page[data-before]").count() == 0 and page.locator("#fault").is_hidden())
+
+
 def test_the_address_of_a_killed_server_shows_the_same_page(chromium: Any, program: Program) -> None:
     settings = program.folder / "state/fctd/app/sessions" / program.address.rstrip("/").rpartition("/")[2]
     with opened(chromium, program.address) as (page, _):
