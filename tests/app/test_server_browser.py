@@ -20,10 +20,10 @@ from tests.browsers import LONGEST, browser, needs_browser, opened, overflow, pi
 
 pytestmark = needs_browser
 
-# Values of a curve as they are painted.
-CURVE = """(k) => Array.from(document.querySelector("#loads .js-plotly-plot")._fullData[k]?.x ?? [])"""
-STRING = """() => Array.from(document.querySelector("#scene .js-plotly-plot")._fullData
-  .find((trace) => trace.name === "string")?.line?.color ?? [])"""
+# Values of a curve as they are painted, none before its picture is there: words may come first.
+CURVE = """(k) => Array.from(document.querySelector("#loads .js-plotly-plot")?._fullData?.[k]?.x ?? [])"""
+STRING = """() => Array.from(document.querySelector("#scene .js-plotly-plot")?._fullData
+  ?.find((trace) => trace.name === "string")?.line?.color ?? [])"""
 # The pictures in the order in which they are drawn from now on.
 WATCH = """() => {
   window.drawn = [];
