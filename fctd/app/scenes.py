@@ -13,11 +13,9 @@ from fctd.view.scene import (
     SCENE,
     Look,
     caption_of,
-    hover_texts,
-    panel_data,
+    drawn_of,
     panel_layout,
     panel_traces,
-    scene_data,
     scene_layout,
     scene_traces,
 )
@@ -50,26 +48,24 @@ def changes_of(
     """New data of scene and panels, and what is to be said of the string; hole : whether it is drawn anew."""
     (one,) = strings.snapshots
     look = Look(strings, units, exaggeration)
-    places, values = scene_data(look, one, hole=hole), panel_data(look, one)
-    colour = one.columns[quantity.column] * quantity.shown(units).factor
-    texts = hover_texts(look, one)
+    drawn = drawn_of(look, one, quantity, hole=hole)
     scene: list[Change] = []
     for name in (*(HOLE if hole else ()), "string", "contacts"):
         k = SCENE.index(name)
-        scene += [(["data", k, axis], packed(part)) for axis, part in zip("xyz", places[name].T, strict=True)]
+        scene += [(["data", k, axis], packed(part)) for axis, part in zip("xyz", drawn.places[name].T, strict=True)]
     k = SCENE.index("string")
     traces = {trace["name"]: trace for trace in scene_traces(look, quantity)}
     scene += [
-        (["data", k, "line"], traces["string"]["line"] | {"color": packed(colour)}),
-        (["data", k, "text"], texts),
-        (["data", SCENE.index("contacts"), "text"], [t for t, at in zip(texts, one.touching, strict=True) if at]),
+        (["data", k, "line"], traces["string"]["line"] | {"color": packed(drawn.values)}),
+        (["data", k, "text"], drawn.texts),
+        (["data", SCENE.index("contacts"), "text"], drawn.texts_touching),
     ]
     panels: list[Change] = []
-    for name, (value, depth) in values.items():
+    for name, (value, depth) in drawn.panels.items():
         k = PANELS.index(name)
         panels += [(["data", k, "x"], packed(value)), (["data", k, "y"], packed(depth))]
     marker = next(trace for trace in panel_traces(look, quantity) if trace["name"] == "angle")["marker"]
-    panels.append((["data", PANELS.index("angle"), "marker"], marker | {"color": packed(colour[one.touching])}))
+    panels.append((["data", PANELS.index("angle"), "marker"], marker | {"color": packed(drawn.values_touching)}))
     layout = panel_layout(look)
     panels += [(["layout", axis, "range"], layout[axis]["range"]) for axis in AXES]
     return scene, panels, _words(look, strings)

@@ -12,11 +12,9 @@ from fctd.view.scene import (
     SCENE,
     Look,
     caption_of,
-    hover_texts,
-    panel_data,
+    drawn_of,
     panel_layout,
     panel_traces,
-    scene_data,
     scene_layout,
     scene_traces,
 )
@@ -38,23 +36,21 @@ def view_figure(
     looks = scene_traces(look, quantity) + panel_traces(look, quantity)
 
     def filled(one: Snapshot) -> list[dict[str, object]]:
-        places, panels, texts = scene_data(look, one), panel_data(look, one), hover_texts(look, one)
-        values = one.columns[quantity.column] * quantity.shown(units).factor
-        found = []
+        drawn, found = drawn_of(look, one, quantity), []
         for trace in looks:
             name = trace["name"]
             if name in SCENE:
-                x, y, z = np.asarray(places[name], np.float32).T
+                x, y, z = np.asarray(drawn.places[name], np.float32).T
                 new = {**trace, "x": x, "y": y, "z": z}
             else:
-                x, y = (np.asarray(part, np.float32) for part in panels[name])
+                x, y = (np.asarray(part, np.float32) for part in drawn.panels[name])
                 new = {**trace, "x": x, "y": y}
             if name == "string":
-                new |= {"text": texts, "line": {**trace["line"], "color": np.asarray(values, np.float32)}}
+                new |= {"text": drawn.texts, "line": {**trace["line"], "color": np.asarray(drawn.values, np.float32)}}
             elif name == "contacts":
-                new["text"] = [text for text, at in zip(texts, one.touching, strict=True) if at]
+                new["text"] = drawn.texts_touching
             elif name == "angle":
-                new["marker"] = {**trace["marker"], "color": np.asarray(values[one.touching], np.float32)}
+                new["marker"] = {**trace["marker"], "color": np.asarray(drawn.values_touching, np.float32)}
             found.append(new)
         return found
 

@@ -4,7 +4,7 @@ Each trace has its look here, and the data of one string from ``scene_data`` and
 alone.
 """
 
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -261,6 +261,26 @@ def hover_texts(look: Look, one: Snapshot) -> list[str]:
             parts.append(f"{quantity.label} {text}")
         lines.append("<br>".join(parts))
     return lines
+
+
+class Drawn(NamedTuple):
+    """The data of one string: points of the traces of scene and panels, and of each contact point what the pointer
+    shows and what colours it [shown unit]; of those that touch apart."""
+
+    places: dict[str, Array]
+    panels: dict[str, tuple[Array, Array]]
+    texts: list[str]
+    values: Array
+    texts_touching: list[str]
+    values_touching: Array
+
+
+def drawn_of(look: Look, one: Snapshot, quantity: Quantity, *, hole: bool = True) -> Drawn:
+    """All data of one string; hole : whether those of the hole are among them."""
+    texts, values = hover_texts(look, one), one.columns[quantity.column] * quantity.shown(look.units).factor
+    touching = [text for text, at in zip(texts, one.touching, strict=True) if at]
+    places, panels = scene_data(look, one, hole=hole), panel_data(look, one)
+    return Drawn(places, panels, texts, values, touching, values[one.touching])
 
 
 def caption_of(look: Look, one: Snapshot) -> str:

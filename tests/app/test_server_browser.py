@@ -20,10 +20,10 @@ from tests.browsers import LONGEST, browser, needs_browser, opened, overflow, pi
 
 pytestmark = needs_browser
 
-# Values of a curve as they are painted.
-CURVE = """(k) => Array.from(document.querySelector("#loads .js-plotly-plot")._fullData[k]?.x ?? [])"""
-STRING = """() => Array.from(document.querySelector("#scene .js-plotly-plot")._fullData
-  .find((trace) => trace.name === "string")?.line?.color ?? [])"""
+# Values of a curve as they are painted, none before its picture is there: words may come first.
+CURVE = """(k) => Array.from(document.querySelector("#loads .js-plotly-plot")?._fullData?.[k]?.x ?? [])"""
+STRING = """() => Array.from(document.querySelector("#scene .js-plotly-plot")?._fullData
+  ?.find((trace) => trace.name === "string")?.line?.color ?? [])"""
 # The pictures in the order in which they are drawn from now on.
 WATCH = """() => {
   window.drawn = [];
@@ -219,6 +219,23 @@ def test_pictures_of_before_are_marked_while_new_ones_are_computed(page: Any) ->
     held[0].continue_()
     until(page, lambda: page.locator("#page").get_attribute("aria-busy") == "false")
     page.locator("#reset").click()
+
+
+def test_pictures_stay_marked_where_the_server_refuses(page: Any) -> None:
+    """The sliders stand where no picture is of."""
+
+    def spoil(route: Any) -> None:
+        asked = route.request.post_data or ""
+        route.continue_(post_data=asked.replace('"operation":"trip_out"', '"operation":"none"'))
+
+    page.route(lambda address: "_dash-update-component" in address, spoil)
+    page.locator("#sliders [role=slider]").nth(1).focus()
+    page.keyboard.press("ArrowRight")
+    page.locator("#fault", has_text="a kind of operation").wait_for()
+    page.locator("#page[data-before]").wait_for()
+    page.unroute_all()
+    page.locator("#reset").click()
+    until(page, lambda: page.locator("#page[data-before]").count() == 0 and page.locator("#fault").is_hidden())
 
 
 def test_the_address_of_a_killed_server_shows_the_same_page(chromium: Any, program: Program) -> None:
