@@ -17,9 +17,10 @@ from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
 from reports import __main__ as command_line
-from reports import results, sections
+from reports import page, results, sections
 from tests.reports.pages import BLANK, finished, judged, study_page, words_of
 from validation.harness import store, study
+from validation.harness.store import Judged
 
 
 def test_finished_study_has_question_checks_figure_notes_and_origin(render, tmp_path):
