@@ -50,6 +50,7 @@ from fctd.steady.tangent import Steady, frictionless_tangent
 
 Array = NDArray[np.float64]
 Part = TypeVar("Part")
+Found = TypeVar("Found")
 
 ITERATIONS, TAU, GROWTH, SHRINK, SHIFT = ATTEMPTS[0]
 # Columns of the loads of a row.
@@ -117,26 +118,16 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def solve_batches(
-    case: Case, holes: Sequence[Wellbore], parts: Iterable[Part], rows_of: Callable[[Part], Sequence[Row]], threads: int
-) -> Iterator[list[Answer]]:
-    """``solve_batch`` of the rows of each part, in the order of the parts, on a number of threads.
+def on_threads(solve: Callable[[Part], Found], parts: Iterable[Part], threads: int) -> Iterator[Found]:
+    """``solve(part)`` of each part, in their order, on a number of threads.
 
-    rows_of : makes the rows of a part, on the thread that solves them: threads that wait for another one's Python
-    would stand idle.  A few parts beyond those that the threads work on are solved ahead, so that the answers of a long
-    chart do not fill the memory.
+    A thread does all of a part, its Python too: threads that wait for another one's stand idle.  A few parts beyond
+    those that the threads work on are solved ahead, so that the answers of a long chart do not fill the memory.
     """
-    hole, own = hole_of(case, holes), local()
-
-    def solve(part: Part) -> list[Answer]:
-        rows = rows_of(part)
-        own.work = getattr(own, "work", NO_ROOM).for_segments(_longest(rows))
-        return solve_batch(case, hole, rows, own.work)
-
     if threads == 1:  # in this thread, whose clock then counts the work
         yield from map(solve, parts)
         return
-    waiting = deque[Future[list[Answer]]]()
+    waiting = deque[Future[Found]]()
     with ThreadPoolExecutor(threads) as pool:
         for part in parts:
             if len(waiting) == 2 * threads:
@@ -146,8 +137,20 @@ def solve_batches(
             yield waiting.popleft().result()
 
 
-def _longest(rows: Sequence[Row]) -> int:
-    return max((row.laid.string.segments for row in rows), default=0)
+class Batches:
+    """``solve_batch`` of one batch after the other, on any number of threads, each of which has arrays of its own.
+
+    holes : the case's, with each set of friction factors.
+    """
+
+    def __init__(self, case: Case, holes: Sequence[Wellbore]) -> None:
+        self._case, self._hole, self._own = case, hole_of(case, holes), local()
+
+    def solve(self, rows: Sequence[Row]) -> list[Answer]:
+        """What the first attempt finds of rows."""
+        longest = max((row.laid.string.segments for row in rows), default=0)
+        self._own.work = getattr(self._own, "work", NO_ROOM).for_segments(longest)
+        return solve_batch(self._case, self._hole, rows, self._own.work)
 
 
 def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) -> list[Answer]:

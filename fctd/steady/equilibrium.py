@@ -124,10 +124,7 @@ class Equilibrium:
 
     @property
     def offsets(self) -> Array:
-        """Offsets of the profile's rows to the high side and to the right (n + 1, 2) [m], for pictures.
-
-        They do not jump where the hole begins to build: see ``steady_offsets``.
-        """
+        """``steady_offsets`` of the profile's rows to the high side and to the right (n + 1, 2) [m], for pictures."""
         profile = self.profile
         md, high, right = (profile[name].to_numpy(float) for name in ("md_m", "offset_high_m", "offset_right_m"))
         return steady_offsets(md, self._shape.hole.at(md)[1], high, right)
@@ -190,12 +187,16 @@ class Solver:
 
         Raises InputError when a resolved string has too many segments.
         """
-        if answer.numbers[SOLVED]:
-            point = self.point(operation, rates, laid, answer, CONVERGED, 0)
-            as_cut = self.case.solver.buckling != "resolve" and self.case.contact.helical_force != "analytic"
-            if as_cut or point.buckling.mode == NOT_BUCKLED.mode:
-                return point
-        return self.solve_problem(self.problem(operation, rates, laid))
+        point = self.first(operation, rates, laid, answer)
+        return point if point is not None else self.solve_problem(self.problem(operation, rates, laid))
+
+    def first(self, operation: str, rates: SteadyRates, laid: LaidString, answer: Answer) -> Equilibrium | None:
+        """The same where no other method is needed, else None; several threads may call it."""
+        if not answer.numbers[SOLVED]:
+            return None
+        point = self.point(operation, rates, laid, answer, CONVERGED, 0)
+        as_cut = self.case.solver.buckling != "resolve" and self.case.contact.helical_force != "analytic"
+        return point if as_cut or point.buckling.mode == NOT_BUCKLED.mode else None
 
     @cached_property
     def _hole(self) -> Hole:
@@ -327,10 +328,7 @@ class Solver:
         return Problem(case, self.hole, self.work, laid, operation, rates, Allowance(self.allowance))
 
     def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
-        """The steady string of a problem in its pose.
-
-        code, iterations : of the iteration; negative : number of unstable modes.
-        """
+        """The steady string of a problem in its pose; code, negative : see ``point``."""
         answer = problem.answer(iterations)
         return self.point(problem.operation, problem.rates, problem.laid, answer, code, negative)
 

@@ -18,7 +18,7 @@ from fctd.results.columns import IN_CHART, SHAPES, SHARES
 from fctd.results.notes import codes_of
 from fctd.results.status import SteadyStatus
 from fctd.steady import batch
-from fctd.steady.equilibrium import Solver
+from fctd.steady.equilibrium import Equilibrium, Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.reading import Answer
 
@@ -90,40 +90,73 @@ def chart_rows(
             raise InputError("at least one kind of operation", key="operation", value=[])
         rates = rates_of_all(case, kinds, speed, rpm)
         sets = None if friction is None else friction_sets(friction)
-        hole = build_wellbore(case)
-        solvers = _solvers(case, hole, sets)
-        loads = [(kind, k) for kind in kinds for k in range(len(solvers))]
+        chart = _Chart(_solvers(case, build_wellbore(case), sets), kinds, rates)
         threads = batch.cores() if threads is None else threads
-        parts = list(_parts(depths[len(known) :], max(1, ROWS // len(loads)), threads))
-        laid: dict[float, LaidString | InputError] = {}
-
-        def rows_of(part: Sequence[float]) -> list[batch.Row]:
-            # The string is laid out once a depth, for all operations and frictions.
-            strings = [laid.setdefault(depth, _lay_out(solvers[0][1], depth)) for depth in part]
-            fit = [string for string in strings if isinstance(string, LaidString)]
-            return [batch.Row(string, k, kind, rates[kind]) for string in fit for kind, k in loads]
-
+        parts = list(_parts(depths[len(known) :], max(1, ROWS // len(chart.loads)), threads))
+        total = len(depths) * len(chart.loads)
         rows = list(known)
         unfit: list[InputError] = []
         misfits = sum(all(row["status"] == SteadyStatus.NOT_POSSIBLE for row in at_depth) for at_depth in known)
-        solved = batch.solve_batches(case, [solver.hole for _, solver in solvers], parts, rows_of, threads)
-        for part, answers in zip(parts, solved, strict=True):
-            of = iter(answers)
-            for depth in part:
+        for found in batch.on_threads(chart.attempt, parts, threads):
+            for string, at_depth in found:
                 rows.append([])
-                string = laid.pop(depth)
                 if isinstance(string, InputError):
                     unfit.append(string)
-                for kind, k in loads:
-                    attempt = string if isinstance(string, InputError) else (string, next(of))
-                    rows[-1].append(_row(*solvers[k], kind, rates[kind], depth, attempt))
+                for row in at_depth:
+                    rows[-1].append(row if isinstance(row, dict) else row())
                     if progress is not None:
-                        progress((len(rows) - 1) * len(loads) + len(rows[-1]), len(depths) * len(loads))
+                        progress((len(rows) - 1) * len(chart.loads) + len(rows[-1]), total)
                 if keep is not None:
                     keep(rows[-1])
         if unfit and misfits + len(unfit) == len(depths):
             raise unfit[0]
         return [row for series in zip(*rows, strict=True) for row in series]
+
+
+# The string at a depth, or why it does not fit, and its rows; for one that needs more than an attempt, how to find it.
+AtDepth = tuple[LaidString | InputError, list[Row | Callable[[], Row]]]
+
+
+class _Chart:
+    """Operations and friction factors of a chart; solvers : with their labels, one for each set of factors."""
+
+    def __init__(
+        self, solvers: Sequence[tuple[str, Solver]], kinds: Sequence[str], rates: Mapping[str, SteadyRates]
+    ) -> None:
+        self.solvers, self.rates = solvers, rates
+        self.loads = [(kind, k) for kind in kinds for k in range(len(solvers))]
+        self._batches = batch.Batches(solvers[0][1].case, [solver.hole for _, solver in solvers])
+
+    def attempt(self, depths: Sequence[float]) -> list[AtDepth]:
+        """What one attempt finds at some bit depths [m]; several threads may call it."""
+        # The string is laid out once a depth, for all operations and frictions.
+        strings = [_lay_out(self.solvers[0][1], depth) for depth in depths]
+        fit = [string for string in strings if isinstance(string, LaidString)]
+        asked = [batch.Row(string, k, kind, self.rates[kind]) for string in fit for kind, k in self.loads]
+        answers = iter(self._batches.solve(asked))
+        return [
+            (string, [self._row(kind, k, depth, string, answers) for kind, k in self.loads])
+            for depth, string in zip(depths, strings, strict=True)
+        ]
+
+    def _row(
+        self, kind: str, k: int, depth: float, string: LaidString | InputError, answers: Iterator[Answer]
+    ) -> Row | Callable[[], Row]:
+        label, solver = self.solvers[k]
+        if isinstance(string, InputError):
+            return _row(label, solver, kind, depth, None, str(string))
+        rates = self.rates[kind]
+        point = solver.first(kind, rates, string, next(answers))
+        if point is not None:
+            return _row(label, solver, kind, depth, point)
+
+        def by_other_methods() -> Row:
+            try:
+                return _row(label, solver, kind, depth, solver.solve_problem(solver.problem(kind, rates, string)))
+            except InputError as error:  # as of a resolved string with too many segments
+                return _row(label, solver, kind, depth, None, str(error))
+
+        return by_other_methods
 
 
 def _parts(depths: Sequence[float], most: int, threads: int) -> Iterator[Sequence[float]]:
@@ -175,19 +208,8 @@ def _lay_out(solver: Solver, depth: float) -> LaidString | InputError:
         return error
 
 
-def _row(
-    label: str, solver: Solver, kind: str, rates: SteadyRates, depth: float,
-    attempt: tuple[LaidString, Answer] | InputError,
-) -> Row:  # fmt: skip
+def _row(label: str, solver: Solver, kind: str, depth: float, point: Equilibrium | None, misfit: str = "") -> Row:
     """A chart row, of a string in balance or of a depth where string and hole do not fit."""
-    point, misfit = None, ""
-    if isinstance(attempt, InputError):
-        misfit = str(attempt)
-    else:
-        try:
-            point = solver.finish(kind, rates, *attempt)
-        except InputError as error:  # as of a resolved string with too many segments
-            misfit = str(error)
     answer = point if point is not None and point.answered else None
     # The values of an unfinished iteration are not loads.
     loads = {load.name: float("nan") if answer is None else load.value(answer) for load in IN_CHART}

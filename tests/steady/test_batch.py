@@ -5,7 +5,7 @@ import pytest
 
 from fctd.case.load import Case
 from fctd.model.operations import steady_rates
-from fctd.steady.batch import Row, cores, hole_of, solve_batch, solve_batches
+from fctd.steady.batch import Batches, Row, cores, hole_of, on_threads, solve_batch
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Workspace
@@ -40,7 +40,8 @@ def test_a_row_is_the_same_in_any_batch_on_any_number_of_threads(threads: int) -
     whole = solve_batch(solver.case, hole_of(solver.case, holes), rows, Workspace(60))
     assert all(answer.numbers[SOLVED] for answer in whole)
     parts = [range(k, min(k + 5, len(rows))) for k in range(0, len(rows), 5)]
-    found = solve_batches(solver.case, holes, parts, lambda part: [rows[k] for k in part], threads)
+    batches = Batches(solver.case, holes)
+    found = on_threads(lambda part: batches.solve([rows[k] for k in part]), parts, threads)
     found = [answer for some in found for answer in some]
     assert all(map(same, whole, found))
     backwards = solve_batch(solver.case, hole_of(solver.case, holes), rows[::-1], Workspace(60))

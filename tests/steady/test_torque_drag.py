@@ -12,6 +12,7 @@ from fctd import InputError, equilibrium, load_case, torque_drag
 from fctd.model.operations import SteadyRates
 from fctd.steady.equilibrium import Equilibrium, Solver
 from fctd.steady.laid_string import LaidString
+from fctd.steady.problem import Problem
 from fctd.steady.reading import Answer
 from tests.cases import level_case, make_case, pipe
 
@@ -39,6 +40,14 @@ def case_of(**more: Any) -> Any:
 def test_the_rows_of_a_chart_do_not_depend_on_the_number_of_threads(depths: set[int], threads: int, kinds: int) -> None:
     asked = ["trip_out", "rotate_off_bottom", "trip_in"][:kinds], sorted(map(float, depths))
     alone, together = (torque_drag(case_of(), *asked, threads=count) for count in (1, threads))
+    pd.testing.assert_frame_equal(alone, together, check_exact=True)
+
+
+def test_rows_that_need_other_methods_are_the_same_on_several_threads() -> None:
+    asked = level_case(), ["drill_sliding", "trip_in"], [float(depth) for depth in range(0, 151, 10)], [0.2, 0.5]
+    alone, together = (torque_drag(*asked, threads=count) for count in (1, 3))
+    assert set(alone["status"]) == {"converged", "not_possible"}
+    assert (alone["shape"] == "helix").any()
     pd.testing.assert_frame_equal(alone, together, check_exact=True)
 
 
@@ -156,14 +165,16 @@ def test_a_depth_that_does_not_fit_is_a_row_with_its_reason() -> None:
 
 def test_a_row_that_cannot_be_laid_out_does_not_end_the_chart(monkeypatch: pytest.MonkeyPatch) -> None:
     """As a resolved string may be, of which only the solver finds out."""
-    finish = Solver.finish
+    first = Solver.first
 
-    def fails_at_800(solver: Solver, kind: str, rates: SteadyRates, laid: LaidString, answer: Answer) -> Equilibrium:
-        if laid.string.bit_depth == 800:
-            raise InputError("at most 10 segments", key="string.components")
-        return finish(solver, kind, rates, laid, answer)
+    def none_at_800(solver: Solver, kind: str, rates: SteadyRates, laid: LaidString, answer: Answer) -> Any:
+        return None if laid.string.bit_depth == 800 else first(solver, kind, rates, laid, answer)
 
-    monkeypatch.setattr(Solver, "finish", fails_at_800)
+    def refuse(solver: Solver, problem: Problem) -> Equilibrium:
+        raise InputError("at most 10 segments", key="string.components")
+
+    monkeypatch.setattr(Solver, "first", none_at_800)
+    monkeypatch.setattr(Solver, "solve_problem", refuse)
     chart = torque_drag(case_of(), "trip_out", [700.0, 800.0, 850.0])
     assert chart["status"].tolist() == ["converged", "not_possible", "converged"]
     assert chart["reason"][1] == "string.components is missing: expected at most 10 segments"
