@@ -7,7 +7,7 @@ mud, and adds Δp b to the wall's force per metre, with the cake's own friction 
 import math
 
 from fctd.mechanics.contact import OVERBALANCE
-from fctd.mechanics.friction import along_wall, wall_normal
+from fctd.mechanics.friction import ON_AXIS, along_wall, wall_normal
 from fctd.mechanics.jit import inlined, kernel
 from fctd.mechanics.joints import cross
 from fctd.mechanics.rotations import rotation_columns
@@ -115,7 +115,7 @@ def press_into_cake(S, owner, n, C, laws, dt):
             S[CAKE_AGE + j] = 0.0
             continue
         length = length_of(S, j)
-        k = 1 / distance
+        k = 1 / (distance + ON_AXIS)
         nx, ny, nz = k * px, k * py, k * pz
         if S[STUCK + j] > 0:
             S[CAKE_AGE + j] += dt

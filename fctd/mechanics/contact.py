@@ -41,13 +41,16 @@ from fctd.mechanics.state import (
     PX,
     PY,
     PZ,
+    RADIUS,
     SLACK,
+    TINY,
     TRIBUTARY,
     TX,
     TY,
     TZ,
     axis,
     position,
+    radial,
 )
 
 # Columns of both tables.  Start point A [m], unit axis (arcs: tangent) at A, length including the overlap
@@ -134,6 +137,30 @@ def cylinder_wall(C, i, x, y, z):
         friction = u * friction + v * C[i + 1, FACTOR]
         md = u * md + v * (C[i + 1, START_MD] + along)
     return px, py, pz, hole, stiffness, friction, md
+
+
+@inlined
+def rise_in_overlap(C, i, x, y, z, radius):
+    """How the wall's energy ½K d² rises with the place of T in the overlap of cylinders i and i + 1, over K d.
+
+    Eq. 24 blends penetration d and stiffness K by the distance along cylinder i, so both change along it too: the
+    gradient (3) of d, to which ½ d ∇K/K is added; for a wall of another power the latter is not exact.
+    """
+    px, py, pz, s = axis_offset(C, i, x, y, z)
+    qx, qy, qz, _ = axis_offset(C, i + 1, x, y, z)
+    p, q = root(px * px + py * py + pz * pz), root(qx * qx + qy * qy + qz * qz)
+    first, second = p - C[i, HOLE_RADIUS], q - C[i + 1, HOLE_RADIUS]
+    share = 1 / C[i, OVERLAP]
+    v = share * (s - C[i, ALONE_TO])
+    u, gain = 1 - v, C[i + 1, STIFFNESS] - C[i, STIFFNESS]
+    stiffer = gain * (u * first + v * second + radius) / (2 * (C[i, STIFFNESS] + v * gain))
+    along = share * (second - first + stiffer)
+    a, b = u / (p + TINY), v / (q + TINY)
+    return (
+        a * px + b * qx + along * C[i, DIRECTION],
+        a * py + b * qy + along * C[i, DIRECTION + 1],
+        a * pz + b * qz + along * C[i, DIRECTION + 2],
+    )
 
 
 @inlined
@@ -240,6 +267,33 @@ def store_sticking(S, j, excess, decay):
 
 
 @inlined
+def lean_wall(S, j, gx, gy, gz):
+    """Turn the wall stored beside point j so that its force is −K d g where it presses, and its energy ½K d² still.
+
+    PT keeps its length and takes the direction of g.  The wall is d/|g| deep across itself, with the stiffness K|g|².
+    """
+    px, py, pz = radial(S, j)
+    distance, square = root(px * px + py * py + pz * pz), gx * gx + gy * gy + gz * gz
+    depth = distance - S[HOLE + j] + S[RADIUS + j]
+    if depth > 0 and square > 0:
+        k = 1 / root(square)
+        S[PX + j], S[PY + j], S[PZ + j] = k * distance * gx, k * distance * gy, k * distance * gz
+        S[HOLE + j] = distance + S[RADIUS + j] - k * depth
+        S[K_WALL + j] *= square
+
+
+@inlined
+def store_cylinder(S, j, C, i, x, y, z):
+    """Write the wall of cylinder i beside contact point j at T, and whether no other one has a part in it."""
+    px, py, pz, hole, stiffness, friction, _ = cylinder_wall(C, i, x, y, z)
+    store_wall(S, j, px, py, pz, hole, stiffness, friction)
+    alone = distance_along(C, i, x, y, z) <= C[i, ALONE_TO]
+    if not alone:
+        lean_wall(S, j, *rise_in_overlap(C, i, x, y, z, S[RADIUS + j]))
+    return alone
+
+
+@inlined
 def contact_point(S, j):
     """T (§4.1): the contact point on the axis of body j [m], global."""
     x, y, z = position(S, j)
@@ -276,14 +330,13 @@ def refresh_cylinders(S, owner, n, C):
         x, y, z = contact_point(S, j)
         i = cylinder_owner(C, owner[j], x, y, z)
         owner[j] = i
-        px, py, pz, hole, stiffness, friction, _ = cylinder_wall(C, i, x, y, z)
-        store_wall(S, j, px, py, pz, hole, stiffness, friction)
+        alone = store_cylinder(S, j, C, i, x, y, z)
         store_sticking(S, j, C[i, STATIC_EXCESS], C[i, DECAY_SPEED])
         S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
         S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
         S[MARGIN_TOP + j] = C[i, ALONE_FROM]
         # A blended wall is valid for this step only; an empty interval makes the next step look it up again.
-        S[MARGIN_END + j] = C[i, ALONE_TO] if distance_along(C, i, x, y, z) < C[i, ALONE_TO] else -np.inf
+        S[MARGIN_END + j] = C[i, ALONE_TO] if alone else -np.inf
 
 
 @kernel

@@ -54,12 +54,13 @@ BY_SPEED = Driller(False, 0.0, 0.0, 0.0)
 TARING = BY_SPEED._replace(taring=True)
 
 
-def least_inertia(spring: float, integral: float, step: float) -> float:
-    """The inertia [kg m^2] that an explicit step [s] needs on top of a spring [N m/rad] with an integral part [N m].
+def least_inertia(spring: float, damper: float, integral: float, step: float) -> float:
+    """The inertia [kg m^2] that an explicit step [s] needs on top of a spring and damper with an integral part.
 
-    The motor alone would stand half of it, ω²h² < 4; the other half is for the motion of the string below.
+    spring [N m/rad], damper [N m s/rad] : of the uppermost joint; integral [N m].  The motor alone would stand half of
+    it, ω²h² + 2ch < 4; the other half is for the motion of the string below.
     """
-    return 0.5 * (spring + integral) * step * step
+    return (0.5 * (spring + integral) * step + damper) * step
 
 
 @inlined

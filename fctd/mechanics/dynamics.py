@@ -39,6 +39,8 @@ from fctd.mechanics.state import (
     J_AXIAL,
     J_TRANSVERSE,
     LANES,
+    LAYER_DRAG,
+    LAYER_SPEED,
     LOST_CONTACT,
     LOST_FRICTION,
     LOST_MUD,
@@ -138,15 +140,16 @@ def free_motion(S, j, dt):
 
 
 @inlined
-def mud_factors(S, j, settling, dt):
+def mud_factors(S, j, settling, layer, dt):
     """Factors by which mud and artificial settling damping multiply lateral, axial and spin velocity.
 
-    The lateral one is that of the spin across the axis too: the mud acts all along a segment of length L, with the
-    moment c L³/12 about its centre, and its inertia there is (m + a) L²/12.
+    layer : drag of the boundary layers over the mass of the body, times the step.  The lateral one is that of the spin
+    across the axis too: the mud acts all along a segment of length L, with the moment c L³/12 about its centre, and its
+    inertia there is (m + a) L²/12.
     """
     slow = 1 + dt * settling
     lateral = slow + dt * lateral_inverse_mass(S, j) * S[MUD_LATERAL + j]
-    axial = slow + dt * S[INVERSE_MASS + j] * S[MUD_AXIAL + j]
+    axial = slow + dt * S[INVERSE_MASS + j] * S[MUD_AXIAL + j] + layer
     rotational = slow + dt * S[INVERSE_JA + j] * S[MUD_SPIN + j]
     # One division in place of three: division is the slowest packed operation.
     k = 1 / (lateral * axial * rotational)
@@ -154,16 +157,24 @@ def mud_factors(S, j, settling, dt):
 
 
 @inlined
-def brake(S, j, u, v, w, a, b, c, settling, dt):
-    """Apply mud and settling damping to body j; returns its velocity and spin."""
-    lateral, axial, rotational = mud_factors(S, j, settling, dt)
+def brake(S, j, u, v, w, a, b, c, laws, dt):
+    """Apply mud and settling damping to body j; returns its velocity and spin.
+
+    The boundary layers follow the body, ẏ = ω (w − y), and drag it by their lag c (w − y): at the frequency ω this is
+    the drag of mud on a wall that swings along itself, in size and phase (Stokes 1851), and none on a wall that slides
+    steadily.  The energy that they take, and may give back, counts as lost to the mud.
+    """
+    layer = dt * S[INVERSE_MASS + j] * S[LAYER_DRAG + j]
+    lateral, axial, rotational = mud_factors(S, j, laws.settling, layer, dt)
     share = lateral * (1 - lateral)
     sideways = (u * u + v * v) * share
-    lost = S[MASS + j] * (sideways + w * w * axial * (1 - axial)) + S[ADDED_MASS + j] * sideways
+    along = (w + layer * S[LAYER_SPEED + j]) * axial
+    S[LAYER_SPEED + j] += dt * laws.layer_rate * (along - S[LAYER_SPEED + j])
+    lost = S[MASS + j] * (sideways + (w - along) * along) + S[ADDED_MASS + j] * sideways
     lost += S[J_TRANSVERSE + j] * (a * a + b * b) * share
     S[LOST_MUD + j] += lost + S[J_AXIAL + j] * c * c * rotational * (1 - rotational)
     S[SUM_MUD_TORQUE + j] += S[J_AXIAL + j] * c * (1 - rotational)
-    return u * lateral, v * lateral, w * axial, a * lateral, b * lateral, c * rotational
+    return u * lateral, v * lateral, along, a * lateral, b * lateral, c * rotational
 
 
 @inlined
@@ -176,7 +187,7 @@ def touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt):
     u, v, w, a, b = u - h * nx, v - h * ny, w - k * nz, a + q * ny, b - q * nx
     limit = laws.friction_scale * S[FRICTION + j] * normal
     du, dv, dw, da, db, dc = friction_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit)
-    u, v, w, a, b, c = brake(S, j, u + du, v + dv, w + dw, a + da, b + db, c + dc, laws.settling, dt)
+    u, v, w, a, b, c = brake(S, j, u + du, v + dv, w + dw, a + da, b + db, c + dc, laws, dt)
     m, jt, ja = S[MASS + j], S[J_TRANSVERSE + j], S[J_AXIAL + j]
     S[SUM_NORMAL + j] += normal
     S[SUM_R_MU_N + j] += S[RADIUS + j] * limit
@@ -229,7 +240,7 @@ def push_in_hole(S, n, friction_impulse, laws, dt):
             for lane in range(LANES):
                 j = first + lane
                 u, v, w, a, b, c = free_motion(S, j, dt)
-                u, v, w, a, b, c = brake(S, j, u, v, w, a, b, c, laws.settling, dt)
+                u, v, w, a, b, c = brake(S, j, u, v, w, a, b, c, laws, dt)
                 store_motion(S, j, u, v, w, a, b, c)
 
 
@@ -254,7 +265,7 @@ def push_freely(S, n, laws, dt):
     """Update velocity and spin of every body where there is no wall."""
     for j in range(1, n + 1):
         u, v, w, a, b, c = free_motion(S, j, dt)
-        u, v, w, a, b, c = brake(S, j, u, v, w, a, b, c, laws.settling, dt)
+        u, v, w, a, b, c = brake(S, j, u, v, w, a, b, c, laws, dt)
         store_motion(S, j, u, v, w, a, b, c)
 
 
@@ -310,11 +321,11 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
     """
     packed = padded_columns(n)
     # 1: loads of the joints and of the top drive at the present positions.
-    update_joint_loads(S, packed, laws.joint_damping, dt, laws.torsion_damping)
+    update_joint_loads(S, packed, laws.joint_damping, dt, laws.torsion_damping, laws.shape_damping, laws.wall_exponent)
     if laws.bent:
         bend_housings(S, n, dt)
     hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
-    feed, rate = drive_top(S, top, motion, pipe, dt)
+    feed, rate = drive_top(S, top, motion, pipe, dt, laws.settling)
     read_step(S, top, n, hookload, torque, rate, laws.rock.motor, dt)
     if top[IN_DERRICK] > 0:
         immerse(S, n)

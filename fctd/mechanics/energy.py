@@ -24,6 +24,7 @@ from fctd.mechanics.state import (
     spin,
     velocity,
 )
+from fctd.mechanics.waves import energy_of_waves
 
 
 class Energy(NamedTuple):
@@ -57,6 +58,8 @@ def _energies(S, n, exponent):
         pressed = math.sqrt(px * px + py * py + pz * pz) - S[HOLE + j] + S[RADIUS + j]
         if S[HOLE + j] > 0 and pressed > 0:
             contact += share * S[K_WALL + j] * pressed * pressed
+    moving, strained = energy_of_waves(S)
+    kinetic, strain = kinetic + moving, strain + strained
     return kinetic, gravity, strain, contact
 
 

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fctd.mechanics.jit import inlined
+from fctd.mechanics.joints import cross
 from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.state import (
     ARM_CONTACT,
@@ -15,12 +16,16 @@ from fctd.mechanics.state import (
     INVERSE_MASS,
     K_WALL,
     RADIUS,
+    TINY,
     lateral_inverse_mass,
     quaternion,
     radial,
 )
 
 ON_AXIS = 1e-150  # far above the root of the smallest float, far below any offset that matters [m]
+# Newton's method for the direction of friction: number of iterations, and how many times smaller than the impulse that
+# stops the sliding one may be whose direction it looks for: that of a smaller one is the same.
+ITERATIONS, SMALLER = 2, 1e9
 
 
 @inlined
@@ -104,13 +109,70 @@ def response(S, j, sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz):
 
 
 @inlined
-def against(S, j, f, sx, sy, sz, mx, my, mz):
-    """Change of velocity and spin (6) of body j by an impulse −f·s at the wall; m : moment of s about its centre."""
+def yielding(S, j, nx, ny, nz, sx, sy, sz, mx, my, mz, square):
+    """How the sliding s of body j's surface at the wall yields to impulses along s and across it, in the wall.
+
+    m : moment of s about the body's centre; square : |s|².  Returns t = n × s and its moment o, and the elements
+    along, mixed and across of the symmetric matrix A: impulses −f·s − g·t change the sliding by −A (f, g) along s and
+    t (nine scalars).
+    """
+    tx, ty, tz = cross(nx, ny, nz, sx, sy, sz)
+    ox, oy, oz = cross(*lever(S, j, nx, ny, nz), tx, ty, tz)
+    share = 1 / (square + TINY)
+    along = share * response(S, j, sx, sy, sz, mx, my, mz, sx, sy, sz, mx, my, mz)
+    mixed = share * response(S, j, sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz)
+    across = share * response(S, j, tx, ty, tz, ox, oy, oz, tx, ty, tz, ox, oy, oz)
+    return tx, ty, tz, ox, oy, oz, along, mixed, across
+
+
+@inlined
+def opposing(along, mixed, across, inverse):
+    """The sliding that an impulse −f·s − g·t of the size 1/``inverse`` leaves, opposite to it, over the impulse.
+
+    along, mixed, across : see ``yielding``.  With this ratio ν the impulse solves (A + ν)(f, g) = (1, 0), so that it is
+    parallel to (across + ν, −mixed) (Moré & Sorensen 1983).  Newton's method for 1/|(f, g)| begins at a lower bound of
+    ν and stays below it.
+    """
+    shift = inverse - along - across
+    shift = shift if shift > 0 else 0.0
+    for _ in range(ITERATIONS):
+        first, second, square = along + shift, across + shift, mixed * mixed
+        size = second * second + square
+        slope = size / (second * size + square * (first + second) + TINY)
+        shift += slope * (inverse * np.sqrt(size) - first * second + square)
+    return shift
+
+
+@inlined
+def resisting(along, mixed, across, square, holding, moving):
+    """Friction by Coulomb's law, implicit in the sliding that it leaves: multiples (f, g) of s and t, and if it sticks.
+
+    along, mixed, across : see ``yielding``; square : |s|²; holding, moving : limits of the impulse of a point that may
+    stick and of one that slides [N s].  A body yields more in one direction than in another: the impulse −f·s − g·t
+    that stops its point solves A (f, g) = (1, 0), is parallel to (across, −mixed), and 1/det A times as large.  Within
+    the limit it is applied in full, so that the point rests and does not creep.  Beyond it friction opposes the sliding
+    that it leaves, not the one before it: a point that swings across the string's axis would lose its friction along it
+    by overshooting from step to step.
+    """
+    determinant = along * across - mixed * mixed
+    sticks = (across * across + mixed * mixed) * square <= holding * holding * determinant * determinant
+    speed = np.sqrt(square)
+    inverse = speed / (moving + TINY)
+    inverse = inverse if inverse < SMALLER * along else SMALLER * along
+    f = across + (0.0 if sticks else opposing(along, mixed, across, inverse))
+    size = speed * np.sqrt(f * f + mixed * mixed)
+    share = (1.0 if sticks else moving) / ((determinant if sticks else size) + TINY)
+    return share * f, -share * mixed, sticks
+
+
+@inlined
+def against(S, j, f, g, sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz):
+    """Change of velocity and spin (6) of body j by an impulse −f·s − g·t at the wall; m, o : moments of s and of t."""
     im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
     il = lateral_inverse_mass(S, j)
     return (
-        -f * il * sx, -f * il * sy, -f * im * sz,
-        -f * it * mx, -f * it * my, -f * ia * mz,
+        -il * (f * sx + g * tx), -il * (f * sy + g * ty), -im * (f * sz + g * tz),
+        -it * (f * mx + g * ox), -it * (f * my + g * oy), -ia * (f * mz + g * oz),
     )  # fmt: skip
 
 

@@ -19,14 +19,17 @@ from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.rotations import angle_over_sine, rotation_columns, twist_angle
 from fctd.mechanics.state import (
     ARM_BOTTOM,
+    ARM_CONTACT,
     ARM_TOP,
     FX,
     FY,
     FZ,
+    INVERSE_JT,
     K_AXIAL,
     K_BEND,
     K_SHEAR,
     K_TWIST,
+    K_WALL,
     KINK_X,
     KINK_Y,
     LOST_JOINT,
@@ -42,6 +45,7 @@ from fctd.mechanics.state import (
     UZ,
     axis,
     global_spin,
+    lateral_inverse_mass,
     position,
     quaternion,
     velocity,
@@ -118,6 +122,58 @@ def joint_damping(ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz, ca, cs, cb, ct
 
 
 @inlined
+def shape_dampers(S, j, time, own_time, wall_exponent, dt):
+    """Dampers of shear [N s/m] and bending [N m s/rad] of joint j for ``shape_damping``, in proportion to stiffness.
+
+    With half of each body for either of its joints a motion is stable for ω²h² + 2E ≤ 4, E the share of it that all
+    dampers take in a step.  Where the joint with its own damping of ``own_time`` [s], and the wall at the lower body,
+    leave less room than these dampers want, they are weaker, so that they neither shorten the step nor reverse a
+    motion, however short the segments are.
+    """
+    bottom, top, arm = S[ARM_BOTTOM + j - 1], S[ARM_TOP + j], S[ARM_CONTACT + j]
+    upper, lower = S[INVERSE_JT + j - 1], S[INVERSE_JT + j]
+    mass = lateral_inverse_mass(S, j)
+    cs, cb = time * S[K_SHEAR + j], time * S[K_BEND + j]
+    in_shear = lateral_inverse_mass(S, j - 1) + mass + bottom * bottom * upper + top * top * lower
+    on_wall = wall_exponent * S[K_WALL + j] * (mass + arm * arm * lower)
+    springs = 2 * dt * (S[K_SHEAR + j] * in_shear + S[K_BEND + j] * (upper + lower))
+    taken = time * springs
+    room = 2 - (0.5 * dt + own_time) * springs - dt * dt * on_wall
+    room = room if room > 0 else 0.0
+    room = room if room < 1 else 1.0
+    k = room / ((taken if taken > room else room) + TINY)
+    return k * cs, k * cb
+
+
+@inlined
+def shape_damping(S, j, ax, ay, az, bx, by, bz, dx, dy, dz, time, own_time, wall_exponent, dt):
+    """Damping of the change of shape in space at joint j, zero for a bent string that turns steadily.
+
+    a, b : unit axes of the upper and lower body; d : gap [m]; time [s] : of the damping in proportion to stiffness;
+    own_time [s] : of the joint's own damping.
+    With the rates of the axes ȧ = ω × a and of the gap ḋ in space, ḋ_s across the half-way direction, the power is
+    −c_b |ḃ − ȧ|² − c_s |ḋ_s|², and the loads are its gradient: couples c_b a × (ḃ − ȧ) and −c_b b × (ḃ − ȧ), forces
+    ∓c_s ḋ_s at the hinge points.  In rotor dynamics this is a non-rotating damping.  Returns force on the lower body
+    at its hinge point, moments about the centres of the upper and the lower body, and the power lost: ten scalars.
+    """
+    bottom, top = S[ARM_BOTTOM + j - 1], S[ARM_TOP + j]
+    cs, cb = shape_dampers(S, j, time, own_time, wall_exponent, dt)
+    u0, v0, w0 = velocity(S, j - 1)
+    u1, v1, w1 = velocity(S, j)
+    ex, ey, ez = cross(*global_spin(S, j - 1), ax, ay, az)
+    hx, hy, hz = cross(*global_spin(S, j), bx, by, bz)
+    rx, ry, rz = u1 - u0 - top * hx - bottom * ex, v1 - v0 - top * hy - bottom * ey, w1 - w0 - top * hz - bottom * ez
+    sx, sy, sz, share = halfway(ax, ay, az, bx, by, bz)
+    along = share * (sx * rx + sy * ry + sz * rz)
+    fx, fy, fz = -cs * (rx - along * sx), -cs * (ry - along * sy), -cs * (rz - along * sz)
+    hx, hy, hz = cb * (hx - ex), cb * (hy - ey), cb * (hz - ez)
+    ux, uy, uz = cross(ax, ay, az, hx - bottom * fx, hy - bottom * fy, hz - bottom * fz)
+    lx, ly, lz = cross(bx, by, bz, -hx - top * fx, -hy - top * fy, -hz - top * fz)
+    power = (hx * hx + hy * hy + hz * hz) / (cb + TINY) - (fx * rx + fy * ry + fz * rz)
+    return fx, fy, fz, ux, uy, uz, lx, ly, lz, power
+
+
+@inlined
 def gap(ex, ey, ez, ax, ay, az, bx, by, bz, bottom, top):
     """Gap from the hinge point of the upper body to that of the lower [m].
 
@@ -173,10 +229,11 @@ def relative_motion(S, j, px, py, pz, qx, qy, qz):
 
 
 @inlined
-def update_joint_loads(S, n, damping_time, dt, torsion_time=0.0):
+def update_joint_loads(S, n, damping_time, dt, torsion_time=0.0, shape_time=0.0, wall_exponent=1.0):
     """Update joint loads, their sums and the energy lost, given positions, orientations and velocities.
 
-    damping_time : stiffness-proportional damping [s]; torsion_time : more of it for torsion [s].
+    damping_time : stiffness-proportional damping [s]; torsion_time : more of it for torsion [s]; shape_time : of
+    ``shape_damping`` [s]; wall_exponent : of the wall's law, whose stiffness it multiplies.
     """
     for j in range(1, n + 1):
         ax, ay, az = axis(S, j - 1)
@@ -195,9 +252,13 @@ def update_joint_loads(S, n, damping_time, dt, torsion_time=0.0):
         cx, cy, cz = cx + mx, cy + my, cz + mz
         ux, uy, uz = cross(fx, fy, fz, px, py, pz)
         lx, ly, lz = cross(qx, qy, qz, fx, fy, fz)
-        S[FX + j], S[FY + j], S[FZ + j] = fx, fy, fz
-        S[UX + j], S[UY + j], S[UZ + j] = ux - cx, uy - cy, uz - cz
-        S[LX + j], S[LY + j], S[LZ + j] = lx + cx, ly + cy, lz + cz
+        hx, hy, hz, ox, oy, oz, ix, iy, iz, shaped = shape_damping(
+            S, j, ax, ay, az, bx, by, bz, dx, dy, dz, shape_time, damping_time, wall_exponent, dt
+        )
+        S[FX + j], S[FY + j], S[FZ + j] = fx + hx, fy + hy, fz + hz
+        S[UX + j], S[UY + j], S[UZ + j] = ux - cx + ox, uy - cy + oy, uz - cz + oz
+        S[LX + j], S[LY + j], S[LZ + j] = lx + cx + ix, ly + cy + iy, lz + cz + iz
+        power += shaped
         S[SUM_TENSION + j] += dt * tension
         S[SUM_TORQUE + j] += -dt * kt * twist
         S[LOST_JOINT + j] += dt * power

@@ -97,8 +97,13 @@ IN_MUD_AXIAL, IN_MUD_LATERAL, IN_MUD_SPIN = 89 * STRIDE, 90 * STRIDE, 91 * STRID
 # Bent housing above joint j (joints.py): x and y of the quaternion by which the end of body j - 1 is tilted, in its
 # frame.
 KINK_X, KINK_Y = 92 * STRIDE, 93 * STRIDE
+# Boundary layers of mud on a body whose axial velocity changes (dynamics.py): their drag on the body [N s/m] by the
+# difference of both velocities, and their own axial velocity [m/s].
+LAYER_DRAG, LAYER_SPEED = 94 * STRIDE, 95 * STRIDE
+# Numbers of the waves within the long segment, one after the other (waves.py).
+WAVES = 96 * STRIDE
 
-ROWS = 94
+ROWS = 97
 
 
 class Laws(NamedTuple):
@@ -112,6 +117,8 @@ class Laws(NamedTuple):
     cake_thickness [m], cake_time [s] : final thickness of mud cake and the time in which it grows so thick;
     cake_friction : its factor.  0 thickness: no cake.  rock : under the bit.
     torsion_damping : damping time of torsion in addition to that of the joints [s].
+    shape_damping : damping time of bending and shear in space [s].
+    layer_rate : rate at which the mud's boundary layers follow the string along itself [1/s].
     unbalanced : whether any body has an unbalance; bent : whether any joint has a bent housing.
     """
 
@@ -128,6 +135,8 @@ class Laws(NamedTuple):
     cake_friction: float = 0.0
     rock: Rock = NOTHING
     torsion_damping: float = 0.0
+    shape_damping: float = 0.0
+    layer_rate: float = 0.0
     unbalanced: bool = False
     bent: bool = False
 

@@ -53,6 +53,15 @@ from fctd.mechanics.state import (
     spin,
     velocity,
 )
+from fctd.mechanics.waves import (
+    TORSION,
+    carried,
+    energy_of_waves,
+    loads_of_waves,
+    move_waves,
+    put_waves,
+    swing_waves,
+)
 
 GRAVITY = 9.80665
 
@@ -81,7 +90,9 @@ class PerMetre(NamedTuple):
     """Properties per metre of the pipe fed in at the top, from which the long segment's follow by its length.
 
     mass [kg/m], weight (buoyed) [N/m], axial_inertia [kg m], EA [N], GJ, EI [N m^2], shear (κGA) [N],
-    mud damping axial, lateral [N s/m^2], rotational [N s]; added_mass of the mud that moves sideways with it [kg/m].
+    mud damping axial, lateral [N s/m^2], rotational [N s]; added_mass of the mud that moves sideways with it [kg/m];
+    squeeze : by which share the pressure of the mud shortens it; beside : length of the longest segment below the long
+    one [m], which tells what waves it may have; 0 : none.
     """
 
     mass: float
@@ -95,6 +106,8 @@ class PerMetre(NamedTuple):
     mud_lateral: float
     mud_spin: float
     added_mass: float = 0.0
+    squeeze: float = 0.0
+    beside: float = 0.0
 
 
 # Top drive's own numbers, shape (TOP_SIZE,): length of the long segment [m] (0: none), simulated time [s];
@@ -132,17 +145,21 @@ def ramp(at, start, duration, first, last):
 def set_long_segment(S, length, pipe):
     """Update the long segment (body 1 and joint 1) to its length [m].
 
-    A massless arm with springs EA/L and GJ/L, half its mass lumped at the lower end (§6.2, §5.1): its
-    stretch by its load and by its own weight is exact.
+    A massless arm with springs EA/L and GJ/L, half its weight lumped at the lower end (§6.2, §5.1): its
+    stretch by its load and by its own weight is exact.  So is half its mass there, as long as it is short; where it is
+    long against the segments below, the end moves along and turns with less, and waves within it have the rest.
     """
     half = 0.5 * length
-    S[ARM_TOP + 1] = length
-    S[MASS + 1] = pipe.mass * half
+    own = carried(length, pipe.beside)
+    put_waves(S, length, pipe.beside, pipe.mass, pipe.axial_inertia, pipe.EA, pipe.GJ)
+    S[ARM_TOP + 1] = length * (1 - pipe.squeeze)
+    S[MASS + 1] = pipe.mass * own
     S[WEIGHT + 1] = pipe.weight * half
-    S[J_AXIAL + 1] = pipe.axial_inertia * half
+    S[J_AXIAL + 1] = pipe.axial_inertia * own
     S[J_TRANSVERSE + 1] = (pipe.mass + pipe.added_mass) * half * length * length / 3
     S[INVERSE_MASS + 1] = 1 / S[MASS + 1]
-    S[ADDED_MASS + 1] = pipe.added_mass * half
+    # Sideways the end takes along what the waves have, as it does mud.
+    S[ADDED_MASS + 1] = pipe.added_mass * half + pipe.mass * (half - own)
     S[HELD_BACK + 1] = S[INVERSE_MASS + 1] - 1 / (S[MASS + 1] + S[ADDED_MASS + 1])
     S[INVERSE_JA + 1] = 1 / S[J_AXIAL + 1]
     S[INVERSE_JT + 1] = 1 / S[J_TRANSVERSE + 1]
@@ -171,7 +188,8 @@ def long_segment_energy(S):
     kinetic = 0.5 * S[MASS + 1] * (vx * vx + vy * vy + vz * vz)
     kinetic += 0.5 * S[ADDED_MASS + 1] * (vx * vx + vy * vy + vz * vz - along * along)
     kinetic += 0.5 * (S[J_TRANSVERSE + 1] * (wx * wx + wy * wy) + S[J_AXIAL + 1] * wz * wz)
-    return kinetic - S[WEIGHT + 1] * S[Z + 1] + strain_energy(S, 1)
+    moving, strained = energy_of_waves(S)
+    return kinetic + moving - S[WEIGHT + 1] * S[Z + 1] + strain_energy(S, 1) + strained
 
 
 @inlined
@@ -195,17 +213,23 @@ def planned_speeds(top, motion, dt):
 
 @inlined
 def top_torque(S):
-    """Torque with which the top turns joint 1 [N m]."""
+    """Torque with which the top turns joint 1 and the waves within the long segment [N m]."""
     ax, ay, az = axis(S, 0)
-    return -(S[UX + 1] * ax + S[UY + 1] * ay + S[UZ + 1] * az)
+    return -(S[UX + 1] * ax + S[UY + 1] * ay + S[UZ + 1] * az) - loads_of_waves(S, TORSION)[0]
+
+
+@inlined
+def joint_pull(S):
+    """Pull of joint 1 along the top drive's axis [N], without the waves."""
+    ax, ay, az = axis(S, 0)
+    fx, fy, fz = joint_force(S, 1)
+    return loads_of_waves(S, 0)[1] - (fx * ax + fy * ay + fz * az)
 
 
 @inlined
 def hanging_load(S, top, pipe):
     """Pull of the string on the top drive [N], with the half of a long segment that hangs on it."""
-    ax, ay, az = axis(S, 0)
-    fx, fy, fz = joint_force(S, 1)
-    return 0.5 * pipe.weight * top[TOP_LENGTH] - (fx * ax + fy * ay + fz * az)
+    return 0.5 * pipe.weight * top[TOP_LENGTH] + joint_pull(S) + loads_of_waves(S, 0)[0]
 
 
 @entry
@@ -247,13 +271,11 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
 
     fed [m], turned_by [rad] : feed and rotation of the top drive in this step.
     """
-    ax, ay, az = axis(S, 0)
-    fx, fy, fz = joint_force(S, 1)
-    # Half of the long segment is lumped at its lower end.  The other half hangs on the top drive and moves with it;
-    # it contributes impulses of the mud's drag [N s] and torque [N m s].
-    tension = -(fx * ax + fy * ay + fz * az)
+    # Half of the long segment's weight is lumped at its lower end.  The other half hangs on the top drive and moves
+    # with it; it contributes impulses of the mud's drag [N s] and torque [N m s].
+    tension, waves = joint_pull(S), loads_of_waves(S, 0)[0]
     half = 0.5 * top[TOP_LENGTH]
-    hanging = tension + pipe.weight * half
+    hanging = tension + waves + pipe.weight * half
     drag, mud_torque = pipe.mud_axial * half * fed, pipe.mud_spin * half * turned_by
     torque = top_torque(S)
     top[SUM_HOOKLOAD] += dt * hanging - drag
@@ -266,12 +288,12 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
         top[TOP_WORK] -= tension * fed
     elif fed != 0:
         # The pipe passes the clamp stretched, (1 + T/EA) times its unstretched length.
-        raised = hanging * fed * (1 + tension / pipe.EA)
+        raised = hanging * fed * (1 + (tension + waves) / pipe.EA)
         top[TOP_WORK] -= raised
         # Energy of the longer pipe by a central difference about the length at which the loads were taken: a
         # one-sided difference would leave an error of ½k dL² per step in the ledger.  The joint's damper pulls on
         # the pipe that passes the clamp, and stores no energy.
-        damped = (tension - spring_tension(S)) * fed
+        damped = (tension - spring_tension(S)) * fed + waves * fed
         set_long_segment(S, top[TOP_LENGTH] - 0.5 * fed, pipe)
         before = long_segment_energy(S)
         set_long_segment(S, top[TOP_LENGTH] + 0.5 * fed, pipe)
@@ -287,8 +309,13 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
 
 
 @inlined
-def drive_top(S, top, motion, pipe, dt):
-    """Update the top drive's readings over this step, given joint loads; returns feed [m/s] and rotation [rad/s]."""
+def drive_top(S, top, motion, pipe, dt, settling=0.0):
+    """Update the top drive's readings over this step, given joint loads; returns feed [m/s] and rotation [rad/s].
+
+    It also updates the waves within the long segment; settling : their artificial damping [1/s].
+    """
+    if pipe.beside > 0:
+        swing_waves(S, pipe.mud_axial / pipe.mass, pipe.mud_spin / pipe.axial_inertia, settling, dt)
     feed, rate = planned_speeds(top, motion, dt)
     if motion.driller.by_weight:
         feed = feed_by_weight(S, top, motion, pipe, dt)
@@ -318,3 +345,5 @@ def move_top_drive(S, top, pipe, feed, rate, dt):
     S[QW], S[QX], S[QY], S[QZ] = turned(w, x, y, z, 0.0, 0.0, dt * rate)
     S[VX], S[VY], S[VZ] = feed * ax, feed * ay, feed * az
     S[GX], S[GY], S[GZ] = rate * ax, rate * ay, rate * az
+    if pipe.beside > 0:
+        move_waves(S, dt)

@@ -22,11 +22,11 @@ def torsional_impedance(section: Section) -> float:
     return float(np.sqrt(section.GJ * section.axial_inertia))
 
 
-def drive_of(case: Case, string: String, spring: float, step: float) -> Drive:
+def drive_of(case: Case, string: String, spring: float, damper: float, step: float) -> Drive:
     """The drive of a case on top of a laid-out string.
 
-    spring : torsional stiffness of the uppermost joint [N m/rad]; step [s].  Inertia, and what the controller leaves of
-    it, are no less than ``least_inertia``.
+    spring [N m/rad], damper [N m s/rad] : of the uppermost joint in torsion; step [s].  Inertia, and what the
+    controller leaves of it, are no less than ``least_inertia``.
     """
     if case.rig.drive == "stiff":
         return STIFF
@@ -36,7 +36,7 @@ def drive_of(case: Case, string: String, spring: float, step: float) -> Drive:
     proportional = of_pipe * impedance if control.proportional is None else control.proportional
     integral = of_proportional * proportional if control.integral is None else control.integral
     share = hidden if control.compensation is None else control.compensation
-    least = least_inertia(spring, integral, step)
+    least = least_inertia(spring, damper, integral, step)
     inertia = max(control.inertia, least)
     limit = np.inf if control.torque_limit is None else control.torque_limit
     return Drive(False, inertia, max((1 - share) * inertia, least), proportional, integral, limit)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case.errors import InputError
+from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
@@ -39,7 +39,8 @@ class Section(NamedTuple):
     """Properties of a component per metre of its length.
 
     mass [kg/m], weight (buoyed) [N/m], axial_inertia and tilt_inertia [kg m], EA [N], GJ, EI [N m^2],
-    shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa], eccentricity of the mass [m].
+    shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa], eccentricity of the mass [m]; point : 1 for
+    a component that touches at a point, 0 for a sleeve; compressibility : strain along by pressure on all sides [1/Pa].
     """
 
     mass: float
@@ -55,6 +56,8 @@ class Section(NamedTuple):
     contact_radius: float
     yield_strength: float
     eccentricity: float = 0.0
+    point: float = 0.0
+    compressibility: float = 0.0
 
 
 def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
@@ -95,6 +98,8 @@ def section_of(component: ComponentSpec, mud_density: float) -> Section:
         contact_radius=0.5 * component.contact_diameter,
         yield_strength=component.yield_strength,
         eccentricity=component.eccentricity,
+        point=float(component.contact == "point"),
+        compressibility=(1 - 2 * component.poisson_ratio) / modulus,
     )
 
 
@@ -152,11 +157,11 @@ class String:
         return middle, radius, tributary
 
     def mid_contact(self) -> NDArray[np.bool_]:
-        """Which segments (n,) touch at their middle: short components, but for the bit, which touches at its end."""
+        """Which segments (n,) touch at their middle, as the middle ones of points do, but for the bit."""
         return self._contacts[0]
 
     def contact_radius(self) -> Array:
-        """Radii (n,) at contact points [m]: the larger one of unlike neighbours; a short component has its own."""
+        """Radii (n,) at contact points [m]: the larger one of unlike neighbours; see ``contact_point``."""
         return self._contacts[1]
 
     @property
@@ -210,6 +215,8 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
             pieces = by_default.lengths(start, start + take)
         else:
             pieces = _divide(part, take)
+        if part.contact == "point":
+            pieces = [take / len(pieces)] * len(pieces)  # its middle is that of a segment, or a joint
         lengths += pieces
         owner += [k] * len(pieces)
         taken.append(take)
@@ -220,7 +227,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         raise InputError(
             f"enough to reach from the bit at {bit_depth:g} m to string.top_md",
             key="string.components",
-            value=f"{sum(c.length or 0 for c in components):g} m of string",
+            value=Computed(f"{sum(c.length or 0 for c in components):g} m of string"),
         )
     while fed and lengths[-1] < SHORTEST_LONG_SEGMENT and owner[-2:] == owner[-1:] * 2:
         top = lengths.pop()  # before the line below indexes the list: `a[-2] += a.pop()` reads one item, writes another
@@ -336,13 +343,13 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
         if tight.any():
             k = int(np.argmax(tight))
             raise InputError(
-                f"at most the hole's {2e3 * wall:.4g} mm",
+                f"at most the hole's {2e3 * wall:.6g} mm",
                 key=f"string.components[{int(string.component[k])}].contact_diameter",
-                value=f"{2e3 * radius[k]:.4g} mm",
+                value=f"{2e3 * radius[k]:.6g} mm",
             )
 
 
-def fill(S: Array, string: String, case: Case) -> PerMetre:
+def fill(S: Array, string: String, case: Case, hole: Wellbore) -> PerMetre:
     """Write the string into a fresh buffer; returns the pipe fed at the top.
 
     Mud that moves sideways with the string is left out; ``fctd.simulation.carried_mud.take_along`` adds it.
@@ -350,9 +357,16 @@ def fill(S: Array, string: String, case: Case) -> PerMetre:
     # Absurd masses and stiffnesses overflow; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
     pipe: PerMetre = fill_rows(
         S, string.length, string.component, string.table, string.long_segment, damping_of(case, string),
-        case.wellbore.stiffness_per_length is not None,
+        pressure_of(case, string, hole), case.wellbore.stiffness_per_length is not None,
     )  # fmt: skip
     return pipe
+
+
+def pressure_of(case: Case, string: String, hole: Wellbore) -> Array:
+    """Pressure of the mud [Pa] at the middle of every segment (n,), inside and outside alike; 0 above the table."""
+    middle = string.top_md + np.cumsum(string.length) - 0.5 * string.length
+    depth = np.interp(middle, hole.md, hole.points[:, 2])
+    return np.asarray(case.mud.density * GRAVITY * np.maximum(depth, 0.0))
 
 
 def damping_of(case: Case, string: String) -> Array:

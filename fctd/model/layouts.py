@@ -11,21 +11,28 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.model import survey
-from fctd.model.default_layout import DefaultLayout
+from fctd.model.default_layout import AT_MOVING_BIT, DefaultLayout
 from fctd.model.drillstring import section_of
 
 Array = NDArray[np.float64]
 Components = tuple[ComponentSpec, ...]
-# A case, a bit depth [m] and the length of the shortest segments [m] to components.
-Layout = Callable[[Case, float, float], Components]
+# A case, a bit depth [m], the length of the shortest segments [m] and the least number of segments of a component to
+# components.
+Layout = Callable[[Case, float, float, int], Components]
 
 # Largest ratio of a segment to the shortest one; lengths differ by factors of two.
 LONGEST = 8.0
 # A hole whose curvature is nowhere larger counts as straight [1/m].
 STRAIGHT = np.radians(0.5) / 30
+# What components up to this length [m], and bent ones, do to the string beside them fades within its wave, of some
+# 20 m: it shows on segments of at most that length [m].
+SHORT, BESIDE_SHORT = 30.0, 10.0
+# Components are cut into a least number of segments down to this length [m].
+SHORTEST = 0.5
 SAMPLES = 4000
 
 
@@ -34,13 +41,16 @@ def with_components(case: Case, components: Components) -> Case:
     return case.model_copy(update={"string": case.string.model_copy(update={"components": components})})
 
 
-def uniform(case: Case, bit_depth: float, length: float) -> Components:
-    """Every component in equal segments of about ``length`` [m]; a shorter one is one segment, a long segment stays."""
-    return tuple(_cut(part, length) for part in case.string.components)
+def uniform(case: Case, bit_depth: float, length: float, least: int = 1) -> Components:
+    """Every component in equal segments of about ``length`` [m], a shorter one in ``least``; a long segment stays."""
+    return tuple(_cut(part, length, least) for part in case.string.components)
 
 
-def graded(case: Case, bit_depth: float, length: float) -> Components:
-    """Segments of about ``length`` [m] at the bit and in the sharpest bend, longer where ``coarseness`` is larger."""
+def graded(case: Case, bit_depth: float, length: float, least: int = 1) -> Components:
+    """Segments of about ``length`` [m] at the bit and in the sharpest bend, longer where ``coarseness`` is larger.
+
+    A component of fewer than ``least`` segments is cut into these.
+    """
     above_bit, factor = coarseness(case, bit_depth)
     pieces: list[ComponentSpec] = []
     start, total = 0.0, bit_depth - case.string.top_md
@@ -48,8 +58,12 @@ def graded(case: Case, bit_depth: float, length: float) -> Components:
         end = total if part.length is None else min(start + part.length, total)
         if start >= total - 1e-9 or is_long(part):
             pieces.append(part)
+        elif part.contact == "point":
+            pieces.append(_cut(part, length, least))
         else:
-            pieces += _grade(part, _walk(start, end, length, above_bit, factor))
+            runs = _walk(start, end, length, above_bit, factor)
+            enough = sum(count for _, count in runs) >= _at_least(part, least)
+            pieces += _grade(part, runs) if enough else (_cut(part, np.inf, least),)
         start = end
     return tuple(pieces)
 
@@ -69,11 +83,17 @@ def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Componen
         inside = (above_bit >= start) & (above_bit <= end)
         if start >= total or is_long(part) or (shortest[inside] >= own[inside]).all():
             pieces.append(part)
+        elif part.contact == "point":
+            pieces.append(_cut(part, float(np.minimum(shortest, own)[inside].min())))
         else:
             longest = float(own[inside].max())
-            unit = longest / np.ceil(longest / float(np.minimum(shortest, own)[inside].min()) - 1e-9)
-            factor = np.minimum(np.minimum(shortest, own) / unit, LONGEST)
-            pieces += _grade(part, _walk(start, end, unit, above_bit, factor))
+            wanted = np.minimum(shortest, own)
+            least = float(wanted[inside].min())
+            unit = longest / np.ceil(longest / least - 1e-9)
+            # The few short segments at the bit do not keep the others from being longer.
+            at_most = LONGEST * max(float(np.minimum(shortest, AT_MOVING_BIT)[inside].min()) / least, 1.0)
+            factor = np.minimum(wanted / unit, at_most)
+            pieces += _grade(part, _walk(start, end, unit, above_bit, factor, at_most))
         start = end
     return tuple(pieces)
 
@@ -133,6 +153,26 @@ def segments_in_hole(case: Case, bit_depth: float) -> int:
     return round(count)
 
 
+def divided_length(case: Case, bit_depth: float) -> float:
+    """Length of the part of the string in the hole that is cut, without the paper's long segment [m].
+
+    Raises InputError where that is all of the string.
+    """
+    in_hole = bit_depth - case.string.top_md
+    last = case.string.components[-1]
+    if not is_long(last):
+        return in_hole
+    cut = sum(part.length or 0.0 for part in case.string.components)
+    if cut == 0:
+        raise InputError("a component that can be cut, beside the long segment", key="string.components")
+    return min(in_hole, cut)
+
+
+def has_short(case: Case) -> bool:
+    """Whether a component is bent or short."""
+    return any(part.bend or (part.length or np.inf) <= SHORT for part in case.string.components)
+
+
 def _nominal(part: ComponentSpec, in_hole: float) -> float:
     """Length of a component's segments [m]."""
     if part.segment_length is not None:
@@ -146,19 +186,22 @@ def is_long(part: ComponentSpec) -> bool:
     return part.length is None and part.segments == 1
 
 
-def _cut(part: ComponentSpec, length: float) -> ComponentSpec:
+def _at_least(part: ComponentSpec, least: int) -> int:
+    """The least number of segments of a component, in which none is shorter than ``SHORTEST``."""
+    return 1 if part.length is None else max(min(least, int(part.length / SHORTEST)), 1)
+
+
+def _cut(part: ComponentSpec, length: float, least: int = 1) -> ComponentSpec:
     if is_long(part):
         return part
     if part.length is None:
         return part.model_copy(update={"segments": None, "segment_length": length})
-    count = max(round(part.length / length), 1)
+    count = max(round(part.length / length), _at_least(part, least))
     return part.model_copy(update={"segments": count, "segment_length": None})
 
 
 def _grade(part: ComponentSpec, runs: list[tuple[float, int]]) -> Components:
     """A component as runs of equal segments, from the lower end upwards; a bend stays at its upper end."""
-    # A single segment between longer ones would count as a stabiliser, which touches at its middle.
-    runs = [(length, max(count, 2) if len(runs) > 1 else count) for length, count in runs]
     pieces = [
         part.model_copy(update={"length": length, "segments": count, "segment_length": None, "bend": 0.0})
         for length, count in runs
@@ -172,14 +215,19 @@ def _grade(part: ComponentSpec, runs: list[tuple[float, int]]) -> Components:
     return (*pieces[:-1], pieces[-1].model_copy(update=top))
 
 
-def _walk(start: float, end: float, length: float, above_bit: Array, factor: Array) -> list[tuple[float, int]]:
-    """Runs of equal segments from ``start`` to ``end`` above the bit [m]: length of a run, segments in it."""
+def _walk(
+    start: float, end: float, length: float, above_bit: Array, factor: Array, at_most: float = LONGEST
+) -> list[tuple[float, int]]:
+    """Runs of equal segments from ``start`` to ``end`` above the bit [m]: length of a run, segments in it.
+
+    at_most : times ``length`` is the longest segment.
+    """
     lengths: list[float] = []
     at = start
     while at < end:
         step = length
         # Twice as long while the string allows it all along the segment.
-        while step < LONGEST * length and _least(at, at + 2 * step, above_bit, factor) > 1.999 * step / length:
+        while step < at_most * length and _least(at, at + 2 * step, above_bit, factor) > 1.999 * step / length:
             step *= 2
         lengths.append(min(step, end - at))
         at += step

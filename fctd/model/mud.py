@@ -1,4 +1,4 @@
-"""Viscous mud around a string: damping along, around and sideways, and the mud that moves sideways with it.
+"""Viscous mud around a string: damping along, around and sideways, and the mud that moves with it.
 
 Flow is laminar, the annulus concentric and at rest but for the string; eccentricity, tool joints and flow would add to
 the coefficients.
@@ -47,6 +47,16 @@ def resistance(radius: ArrayLike, hole: ArrayLike, viscosity: float) -> tuple[Ar
     k = filled(radius, hole, FULL)
     outside = np.asarray(radius, float) ** 2
     return np.asarray(-2 * np.pi * viscosity / np.log(k)), np.asarray(4 * np.pi * viscosity * outside / (1 - k**2))
+
+
+def layer_drag(radius: ArrayLike, inner: ArrayLike, density: float, viscosity: float, rate: float) -> Array:
+    """Drag per metre [N s/m²] of the mud's boundary layers by their lag, on pipes of outer and inner radius [m].
+
+    rate [1/s] : angular frequency at which both parts of it, drag and mass, are those of a plane wall that swings along
+    itself, (1 + i) √(ρμω/2) on a unit of area (Stokes 1851).  The layers, √(2ν/ω) thick, are thin beside the pipe.
+    """
+    perimeter = 2 * np.pi * (np.asarray(radius, float) + np.asarray(inner, float))
+    return np.asarray(perimeter * np.sqrt(2 * density * viscosity * rate))
 
 
 def filled(radius: ArrayLike, hole: ArrayLike, most: float = FULLEST) -> Array:

@@ -1,16 +1,18 @@
 """A case file to start from, as text: a template's string in its own well or in that of a survey."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case.errors import InputError
-from fctd.case.specs import ComponentSpec, WellboreSpec
+from fctd.case.specs import ComponentSpec
+from fctd.case.surveys import reading as surveys
+from fctd.case.surveys.headers import NoUnitError, Wanted
+from fctd.case.surveys.stations import StationKey
 from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import mean_curvature
@@ -244,7 +246,7 @@ def from_survey(
 ) -> Plan:
     """A template's string in the well of a survey; without a name of one, that which suits the inclination.
 
-    path : as the case writes it; columns, stations : of ``read_survey``.
+    path : as the case writes it; columns, stations : of `ReadSurvey`.
     """
     if name_of_template is None:
         steep = float(stations[:, 1].max()) > NEARLY_HORIZONTAL
@@ -257,31 +259,51 @@ def from_survey(
     return Plan(name, title, template, units, hole, shoe, depth, comment, stiff_wall(template, stations, shoe))
 
 
-def read_survey(path: Path, units: UnitSystem) -> tuple[tuple[str, ...], Array]:
-    """Lines of TOML that a case needs beside the name of its survey, and the stations (n, 3) [m, rad, rad].
+class ReadSurvey(NamedTuple):
+    """A survey for a new case.
 
-    A file that names no unit of depth is read in that of ``units``, and a line says so.  Raises InputError for a file
-    that cannot be used.
+    keys : lines of TOML that the case needs beside its name; stations : (n, 3) [m, rad, rad]; note : what is to be
+    said of the unit of its depths, or "".
     """
+
+    keys: tuple[str, ...]
+    stations: Array
+    note: str
+
+
+def read_survey(
+    path: Path, units: UnitSystem, columns: Mapping[StationKey, Wanted] | None = None, sheet: str | None = None
+) -> ReadSurvey:
+    """A survey, with what is told of its columns and its sheet.
+
+    A file that names no unit of depth is read in that of ``units``.  Raises InputError for a file that cannot be used.
+    """
+    said, assumed = dict(columns or {}), ""
+    unit = UNITS[units][LENGTH][0]
     try:
-        return (), _hole(path).trajectory
-    except InputError as error:
-        unit = UNITS[units][LENGTH][0]
-        try:
-            stations = _hole(path, columns={"md": {"unit": unit}}).trajectory
-        except InputError:
-            raise error from None  # of the file as it is
-    return (aligned(f'columns = {{md = {{unit = "{unit}"}}}}', assumed(units)),), stations
+        survey = surveys.read_survey(path, said, sheet)
+    except NoUnitError:
+        said["md"] = Wanted(said.get("md", Wanted()).header, unit)
+        survey = surveys.read_survey(path, said, sheet)
+        assumed = f"the file names no unit of depth: {unit} is assumed"
+    written = survey.written.units[0]
+    note = f"{assumed}, as in the key wellbore.columns" if assumed else ""
+    if written != unit and "md" not in said:
+        note = f"its depths are in {written}, as the file says, those of the case in {unit}"
+    of_sheet = () if sheet is None else (entry("sheet", sheet),)
+    return ReadSurvey((*of_sheet, *_lines_of(said, assumed)), survey.stations, note)
 
 
-def assumed(units: UnitSystem) -> str:
-    """What is said of a survey whose file names no unit of depth."""
-    return f"the file names no unit of depth: {UNITS[units][LENGTH][0]} is assumed"
-
-
-def _hole(path: Path, **keys: Any) -> WellboreSpec:
-    some = {"to_md": 1.0, "diameter": 0.2, "friction": 0.2}
-    return WellboreSpec.model_validate({"survey": path.absolute(), "intervals": [some], **keys})
+def _lines_of(said: Mapping[StationKey, Wanted], comment: str) -> tuple[str, ...]:
+    """``columns`` of a case, as a line of TOML."""
+    if not said:
+        return ()
+    tables = []
+    for key, wanted in said.items():
+        pairs = [("header", wanted.header), ("unit", wanted.unit)]
+        inner = ", ".join(f"{name} = {json.dumps(text, ensure_ascii=False)}" for name, text in pairs if text)
+        tables.append(f"{key} = {{{inner}}}")
+    return (aligned(f"columns = {{{', '.join(tables)}}}", comment),)
 
 
 def sensible_shoe(stations: Array, units: UnitSystem) -> float:

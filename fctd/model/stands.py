@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case.errors import InputError
+from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
@@ -101,7 +101,7 @@ def lay_out_stands(case: Case, shallowest: float, deepest: float) -> Tally:
         raise InputError(
             f"enough to reach a bit depth of {deepest:g} m",
             key="string.components",
-            value=f"{ends[-1]:g} m of string",
+            value=Computed(f"{ends[-1]:g} m of string"),
         )
     if ends[-1] < rig.stand_length:
         raise InputError(f"at most the string, {ends[-1]:g} m", key="rig.stand_length", value=f"{rig.stand_length:g} m")
@@ -131,6 +131,8 @@ def lay_out_stands(case: Case, shallowest: float, deepest: float) -> Tally:
             shares = (end - start) / _nominal(part)
             check_segments(len(lengths) + shares)
             pieces = [(end - start) / max(round(shares), 1)] * max(round(shares), 1)
+        if part.contact == "point":
+            pieces = [(end - start) / len(pieces)] * len(pieces)
         lengths += pieces
         owner += [k] * len(pieces)
         if np.abs(reach - end).min() < 1e-9:
@@ -164,9 +166,10 @@ def _stand_ends(components: tuple[ComponentSpec, ...], ends: Array, stand: float
         end = found[-1] + stand
         part = components[min(int(np.searchsorted(ends, end)), len(components) - 1)]
         nominal = stand if part.cut_by_default else _nominal(part)
-        near = float(ends[np.argmin(np.abs(ends - end))])
-        if abs(near - end) <= min(0.5 * nominal, UNEVEN * stand):
-            end = near
+        above = ends[ends > found[-1] + 1e-9]
+        near = float(above[np.argmin(np.abs(above - end))])
+        if part.contact == "point" or abs(near - end) <= min(0.5 * nominal, UNEVEN * stand):
+            end = near  # a component that touches at a point is in the hole or not
         found.append(min(end, float(ends[-1])))
     return np.array(found)
 

@@ -10,33 +10,51 @@ from fctd.mechanics.topdrive import PerMetre, set_long_segment
 
 # Columns of a table of sections: the fields of ``drillstring.Section``.
 MASS, WEIGHT, AXIAL_INERTIA, TILT_INERTIA, EA, GJ, EI, SHEAR, OUTER, INNER, CONTACT_RADIUS, YIELD_STRENGTH = range(12)
-ECCENTRICITY = 12
+ECCENTRICITY, POINT, COMPRESSIBILITY = 12, 13, 14
 
 
 @rounded
-def is_short(length, component, j):
-    """Whether a component is one segment that is shorter than its neighbours: a stabiliser, a bit."""
-    last = len(length) - 1
-    alone = (j == 0 or component[j - 1] != component[j]) and (j == last or component[j + 1] != component[j])
-    longer_above = j > 0 and length[j] < length[j - 1] - 1e-9
-    longer_below = j == last or length[j] < length[j + 1] - 1e-9
-    return alone and longer_above and longer_below
+def radius_along(component, sections, k):
+    """Contact radius [m] of component k along its length: a point, but where it touches, is as wide as its sleeves.
+
+    These are the next components above and below that are no points; the point is never wider than itself.
+    """
+    radius = sections[k, CONTACT_RADIUS]
+    if sections[k, POINT] == 0:
+        return radius
+    for direction in (1, -1):
+        i = k + direction
+        while 0 <= i <= component[0] and sections[i, POINT] != 0:
+            i += direction
+        if 0 <= i <= component[0]:
+            radius = min(radius, sections[i, CONTACT_RADIUS])
+    return radius
 
 
 @rounded
 def contact_point(length, component, sections, long_segment, j):
     """Whether segment j touches at its middle, radius of its contact point, length whose wall force it bears [m].
 
-    A short component touches at its middle, but for the bit, which touches at its end.  The radius is the larger one of
-    unlike neighbours; a short component has its own.  The length is half of each neighbouring segment, none of a long
-    one; a contact in the middle has the length of its segment.
+    It touches at its lower end, with the larger radius of unlike neighbours, and bears half of each neighbouring
+    segment, none of a long one.  A component that is a point touches with its own radius, and bears all of its wall
+    force, at its middle: within a segment, or at the joint of two; the bit at its end.
     """
-    last = len(length) - 1
-    radius = sections[component[j], CONTACT_RADIUS]
-    if j < last and is_short(length, component, j):
-        return True, radius, length[j]
-    if j < last and not is_short(length, component, j + 1):
-        radius = max(radius, sections[component[j + 1], CONTACT_RADIUS])
+    last, k = len(length) - 1, component[j]
+    if sections[k, POINT] != 0 and not (long_segment and j == 0):
+        first, end, whole = j, j, length[j]
+        while first > 0 and component[first - 1] == k:
+            first -= 1
+            whole += length[first]
+        while end < last and component[end + 1] == k:
+            end += 1
+            whole += length[end]
+        count = end - first + 1
+        in_middle = k != 0 and count % 2 == 1
+        if j == (last if k == 0 else first + (count - 1) // 2):
+            return in_middle, sections[k, CONTACT_RADIUS], whole
+    radius = radius_along(component, sections, k)
+    if j < last:
+        radius = max(radius, radius_along(component, sections, component[j + 1]))
     above = 0.0 if long_segment and j == 0 else length[j]
     return False, radius, 0.5 * (above + (length[j + 1] if j < last else 0.0))
 
@@ -70,16 +88,21 @@ def find_stiffness(length, component, sections, long_segment, column, stiffness)
 
 
 @rounded
-def fill_segment(S, length, component, sections, long_segment, damping, per_metre, j):
-    """Write segment j, counted from 0, into the buffer."""
+def fill_segment(S, length, component, sections, long_segment, damping, pressure, per_metre, j):
+    """Write segment j, counted from 0, into the buffer.
+
+    Its springs carry the effective tension T.  The steel has T − pA, and the pressure p on all sides keeps it from
+    contracting sideways: its strain is T/EA − (1 − 2ν) p/E, of which the second part shortens the unloaded segment.
+    """
     k, h, at = component[j], length[j], j + 1
     middle, radius, tributary = contact_point(length, component, sections, long_segment, j)
     S[state.MASS + at] = sections[k, MASS] * h
     S[state.WEIGHT + at] = sections[k, WEIGHT] * h
     S[state.J_AXIAL + at] = sections[k, AXIAL_INERTIA] * h
     S[state.J_TRANSVERSE + at] = sections[k, MASS] * h**3.0 / 12 + sections[k, TILT_INERTIA] * h
-    S[state.ARM_TOP + at] = S[state.ARM_BOTTOM + at] = 0.5 * h
-    S[state.ARM_CONTACT + at] = 0.0 if middle else 0.5 * h
+    arm = 0.5 * h * (1.0 - sections[k, COMPRESSIBILITY] * pressure[j])
+    S[state.ARM_TOP + at] = S[state.ARM_BOTTOM + at] = arm
+    S[state.ARM_CONTACT + at] = 0.0 if middle else arm
     S[state.RADIUS + at] = radius
     S[state.TRIBUTARY + at] = tributary if per_metre else 1.0
     S[state.MUD_AXIAL + at] = damping[j, 0] * h
@@ -92,18 +115,20 @@ def fill_segment(S, length, component, sections, long_segment, damping, per_metr
 
 
 @entry
-def fill_rows(S, length, component, sections, long_segment, damping, per_metre):
+def fill_rows(S, length, component, sections, long_segment, damping, pressure, per_metre):
     """Write a string into a fresh buffer; returns the pipe fed at the top, ``topdrive.PerMetre``.
 
-    damping (n, 3) : by mud along, across and about the axis, per metre; per_metre : whether the wall's stiffness is one
-    per length.
+    damping (n, 3) : by mud along, across and about the axis, per metre; pressure (n,) : of the mud [Pa]; per_metre :
+    whether the wall's stiffness is one per length.
     """
     for j in range(len(length)):
-        fill_segment(S, length, component, sections, long_segment, damping, per_metre, j)
+        fill_segment(S, length, component, sections, long_segment, damping, pressure, per_metre, j)
     k = component[0]
     pipe = PerMetre(
         sections[k, MASS], sections[k, WEIGHT] if long_segment else 0.0, sections[k, AXIAL_INERTIA], sections[k, EA],
         sections[k, GJ], sections[k, EI], sections[k, SHEAR], damping[0, 0], damping[0, 1], damping[0, 2], 0.0,
+        sections[k, COMPRESSIBILITY] * pressure[0],
+        length[1:].max() if long_segment and len(length) > 1 else 0.0,
     )  # fmt: skip
     if long_segment:
         S[state.ARM_BOTTOM + 1] = S[state.ARM_CONTACT + 1] = 0.0

@@ -97,10 +97,7 @@ class Summary:
 
 def summarise(case: Case) -> Summary:
     """The summary of a case; raises InputError for a survey or a hole that cannot be used."""
-    top, depth = case.depths
-    reach = top + sum(part.length if part.length is not None else np.inf for part in case.string.components)
-    bit_depth = min(depth, reach)
-    return Summary(case, _path(case, depth), bit_depth, tuple(_parts(case, bit_depth)))
+    return Summary(case, _path(case, case.depths[1]), case.deepest, tuple(_parts(case, case.deepest)))
 
 
 def segments_in_words(case: Case, string: String, metre: float = 1.0, label: str = "m") -> str:

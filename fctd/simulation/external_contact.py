@@ -77,9 +77,11 @@ def _store(S, n, radii, penetration, normal, md, wall):
 @entry
 def _before(S, top, n, laws, motion, pipe, dt, points):
     """Stage 1 of ``dynamics.step``, and the points (n, 3) to query; returns feed [m/s] and rotation [rad/s]."""
-    update_joint_loads(S, padded_columns(n), laws.joint_damping, dt, laws.torsion_damping)
+    update_joint_loads(
+        S, padded_columns(n), laws.joint_damping, dt, laws.torsion_damping, laws.shape_damping, laws.wall_exponent
+    )
     hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
-    feed, rate = drive_top(S, top, motion, pipe, dt)
+    feed, rate = drive_top(S, top, motion, pipe, dt, laws.settling)
     read_step(S, top, n, hookload, torque, rate, laws.rock.motor, dt)
     if laws.rock.law != NO_ROCK:
         press_bit(S, top, n, laws.rock, motion, dt)

@@ -6,7 +6,7 @@
   as the buckled string does (``notes.under_resolved``).
 - Joints beyond the range of their law (``notes.beyond_joints``).
 - The hook load: a string that is pushed down (``run_notes.pushes``), and one that flutters (``run_notes.flutters``).
-- Sliding that is too slow for the step (``run_notes.slides_slowly``).
+- The torque that the joints' own damping takes of a turning string (``run_notes.brakes_turning``).
 - The energy ledger so far, by which a run that ends early is judged.
 """
 
@@ -14,39 +14,26 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from operator import itemgetter
 from time import process_time
-from typing import NamedTuple, ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fctd.mechanics import state
-from fctd.mechanics.laws import CODES
 from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
 from fctd.results.notes import Note, beyond_joints, could_have_notes, ledger_off, string_notes, under_resolved
 from fctd.results.profile import Loads
-from fctd.results.run_notes import OF_THE_WALL, SMALL_FLUTTER, flutters, pushes, slides_slowly
-from fctd.simulation.looks import LISTEN, is_sound, listen, may_have_notes, missing_drag
+from fctd.results.run_notes import OF_THE_WALL, SMALL_FLUTTER, brakes_turning, flutters, pushes
+from fctd.simulation.looks import LISTEN, is_sound, listen, may_have_notes
 from fctd.simulation.run import Run
 
-COULOMB = CODES["coulomb"]
 lost_of = itemgetter(*LOSSES, "lost_bit_J")
 Array = NDArray[np.float64]
 P = ParamSpec("P")
 R = TypeVar("R")
-
-
-class Slid(NamedTuple):
-    """A record in which the string slid along its hole and did not turn, its speed [m/s], and means over the record.
-
-    torque (n,) : r F_t of friction around the hole; full (n,) : r μ F_n [N m].
-    """
-
-    speed: float
-    torque: Array
-    full: Array
 
 
 class Guards:
@@ -70,7 +57,6 @@ class Guards:
         may_have_notes(run.S, walls.offset, walls.radius, none, none, none, 0.0, 0.0, self._table(), component, 0.0)
         could_have_notes(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, self._table(), 0, 0.0)
         listen(run.S, run.top.copy(), n, run.pipe.weight)
-        missing_drag(run.S, run.step, 0.0, none, none)
 
     def timed(self, check: Callable[P, R], *given: P.args, **more: P.kwargs) -> R:
         """Call one of the checks below, and add its time."""
@@ -88,11 +74,12 @@ class Guards:
 
     def check_record(
         self, bit_depth: float, pull: tuple[float, float], loads: Loads, walls: Walls, buckling: Buckling,
-        row: Mapping[str, float], slid: Slid | None = None,
+        row: Mapping[str, float], turning: tuple[float, float] = (0.0, 0.0),
     ) -> None:  # fmt: skip
         """Keep the notes of a record; loads are means over its interval, row is its row of the ledger.
 
-        pull : mean hook load of the record, and the least of its steps [N].
+        pull : mean hook load of the record, and the least of its steps [N]; turning : rotation at the top [rad/s] and
+        mean torque [N m].
         """
         run, string, in_hole = self.run, self.run.string, self._in_hole
         if not in_hole or may_have_notes(
@@ -104,9 +91,10 @@ class Guards:
                 self._keep(note, bit_depth)
         self._keep(under_resolved(buckling), bit_depth)
         self._check_hookload(bit_depth, *pull)
-        if slid is not None and run.laws.friction == COULOMB:
-            missing = missing_drag(run.S, run.step, *slid)
-            self._keep(slides_slowly(slid.speed, missing, run.step), bit_depth)
+        spin, torque = turning
+        if spin > 0 and run.laws.joint_damping > 0:
+            taken = run.laws.joint_damping * spin * (loads.bending**2 / state.row(run.S, state.K_BEND, run.segments))
+            self._keep(brakes_turning(float(taken.sum()), torque), bit_depth)
         lost = abs(sum(lost_of(row)))
         beyond = abs(row["top_drive_work_J"] - row["gravity_J"])
         self.work = max(self.work, lost, beyond)

@@ -9,15 +9,7 @@ import math
 from fctd.mechanics.faults import worst_of
 from fctd.mechanics.jit import entry
 from fctd.mechanics.readings import drain_swing
-from fctd.mechanics.state import (
-    ARM_CONTACT,
-    INVERSE_JA,
-    INVERSE_JT,
-    K_WALL,
-    RADIUS,
-    WEIGHT,
-    lateral_inverse_mass,
-)
+from fctd.mechanics.state import K_WALL, RADIUS, WEIGHT, lateral_inverse_mass
 from fctd.mechanics.topdrive import PULL_TIME, TOP_LENGTH
 from fctd.results.notes import (
     LEAST_PENETRATION,
@@ -76,24 +68,3 @@ def listen(S, top, n, fed):
     if heard < LISTEN:
         return weight, on_wall, 0.0, (0.0, 0.0)
     return weight, on_wall, heard, drain_swing(top)
-
-
-@entry
-def missing_drag(S, step, speed, torque, full):
-    """Share of the drag that a string lacks which slides along its hole and does not turn, by means over a record.
-
-    step [s]; speed [m/s]; torque (n,) : r F_t of friction around the hole; full (n,) : r μ F_n [N m].
-
-    Law ``coulomb`` sets friction against the sliding before the step.  Where that of a step h from rest around the
-    hole, μF_n h (m⁻¹ + a²/J_t + r²/J_a), exceeds the speed along it, friction can hold a force around the hole
-    without any sliding there, and spends itself on that; no force is held across the sliding of real friction.
-    """
-    total, missing = 0.0, 0.0
-    for j in range(1, len(full) + 1):
-        most, radius, arm = full[j - 1], S[RADIUS + j], S[ARM_CONTACT + j]
-        total += most
-        moved = lateral_inverse_mass(S, j) + arm**2 * S[INVERSE_JT + j] + radius**2 * S[INVERSE_JA + j]
-        if step * most * moved > speed * radius:
-            around = min(abs(torque[j - 1]) / most, 1.0)
-            missing += most * (1 - math.sqrt(1 - around**2))
-    return missing / total if total > 0 else 0.0

@@ -16,6 +16,7 @@ from fctd.mechanics.moving_string import Sums
 from fctd.mechanics.query import Walls
 from fctd.mechanics.readings import Readings
 from fctd.mechanics.rock import NO_ROCK
+from fctd.model.drillstring import pressure_of
 from fctd.model.operations import drive_torque, weight_indicator
 from fctd.results import ledger
 from fctd.results.buckling import (
@@ -31,7 +32,7 @@ from fctd.results.buckling import (
 from fctd.results.profile import Loads, at_contacts, profile_table, von_mises
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
-from fctd.simulation.guards import Guards, Slid
+from fctd.simulation.guards import Guards
 from fctd.simulation.run import Run, contact_points
 from fctd.simulation.series import SegmentSeries
 
@@ -123,12 +124,8 @@ class Recorder:
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
-        move, speed = case.operations[operation], abs(self.bit_depth - before) / span
-        in_a_ramp = not case.rig.autodriller and (speed < 0.5 * move.speed or move.speed == 0)
-        slides = spin == 0 and speed > 0 and not in_a_ramp
-        slid = Slid(speed, mean.friction_torque, mean.r_mu_normal) if slides else None
-        pull = hookload, self.history[-1]["hookload_min_N"]
-        self.guards.timed(self.guards.check_record, self.bit_depth, pull, loads, walls, buckling, row, slid)
+        pull, turning = (hookload, self.history[-1]["hookload_min_N"]), (spin, torque)
+        self.guards.timed(self.guards.check_record, self.bit_depth, pull, loads, walls, buckling, row, turning)
         self._keep_segments(loads, walls, limits)
         low, high = sorted((before, self.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]
@@ -137,11 +134,15 @@ class Recorder:
             self.profiles[self.last_time] = self._profile()
 
     def result(self, status: RunStatus, message: str, wall: float, residual: float) -> SimulationResult:
-        """All records, with a profile at the end and the numbers of the run."""
+        """All records, with a profile at the end, unless the state there is not finite, and the numbers of the run."""
         import pandas as pd
 
         run = self.run
-        profiles = self.profiles | ({self.last_time: self._profile()} if self.history else {})
+        profiles = dict(self.profiles)
+        if self.history:
+            sound = bool(np.isfinite(self._walls()[0]).all())
+            if sound or not profiles:  # of a state that is not finite, the columns
+                profiles[self.last_time] = self._profile() if sound else self._profile().iloc[:0]
         energy = pd.DataFrame(self.ledger)
         numbers = {
             "segments": run.segments,
@@ -175,11 +176,15 @@ class Recorder:
         }
 
     def _bit_md(self) -> float:
-        """Measured depth of the bit [m]."""
+        """Measured depth of the bit [m]; segments keep the length that the mud's pressure left them where laid out."""
         run, n = self.run, self.run.segments
+        string = run.laid_out
+        laid = state.row(run.S, state.ARM_TOP, n).sum() + state.row(run.S, state.ARM_BOTTOM, n).sum()
+        squeeze = string.of("compressibility") * pressure_of(run.case, string, run.hole)
+        shorter = float((string.length * (1 - squeeze)).sum() - laid)
         place, arm = run.S[[state.X + n, state.Y + n, state.Z + n]], run.S[state.ARM_CONTACT + n]
         bit = place + arm * run.S[[state.AX + n, state.AY + n, state.AZ + n]]
-        return float(run.hole.walls(bit, run.owner[n : n + 1]).md[0])
+        return float(run.hole.walls(bit, run.owner[n : n + 1]).md[0]) + shorter
 
     def _lateral_speeds(self) -> Array:
         """Speeds of the segments (n,) across their own axes [m/s]."""

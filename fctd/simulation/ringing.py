@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.mechanics import contact, state, topdrive
+from fctd.mechanics import contact, state, topdrive, waves
 from fctd.model.drillstring import String
 from fctd.model.operations import Phase
 from fctd.model.wellbore import Wellbore
@@ -94,7 +94,7 @@ def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
                 string = _string_at(run, middle, probe)
                 if string.segments <= MODES:
                     continue
-                modes = _modes(string, probe, run.laws.joint_damping)
+                modes = _modes(string, probe, run.laws)
                 force, span = _forces(run, string, probe, tilt, modes, fed / strides, motion.feed_to)
                 rate = 1j * modes.frequency - modes.damping
                 left = span * np.arange(len(force), -1, -1)[:, None]
@@ -109,18 +109,23 @@ def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
 
 
 def cylinder_tilt(hole: Wellbore) -> Tilt:
-    """Tilt of a hole of cylinders, whose own direction is linear between their middles; overlaps blend (Eq. 24)."""
+    """Tilt of a hole of cylinders, whose own direction is linear between their middles.
+
+    In an overlap Eq. 24 blends the walls, which lie a kink times v·ℓ apart at the share v of the lower one: the blend
+    is v²·ℓ further, so that its direction turns by twice the share, and jumps back at the end.
+    """
     ends, chords = hole.md, hole.directions[:-1]
     overlap = np.maximum(hole.pieces[:, contact.OVERLAP], 1e-3)
-    step = 0.25 * max(float(overlap[:-1].min(initial=1.0)), 0.1)
-    md = np.arange(ends[0], ends[-1], step)
+    step = 0.1 * max(float(overlap[:-1].min(initial=1.0)), 0.1)
+    md = np.arange(ends[0] + 0.5 * step, ends[-1], step)
     i = np.clip(np.searchsorted(ends, md, side="right") - 1, 0, len(chords) - 1)
     above = np.maximum(i - 1, 0)
-    share = np.minimum((md - ends[i]) / overlap[above], 1.0)[:, None]
+    lower = (md - ends[i]) / overlap[above]
+    share = np.where(lower < 1, 2 * lower, 1.0)[:, None]
     middle = 0.5 * (ends[1:] + ends[:-1])
     tilt = (1 - share) * chords[above] + share * chords[i]
     tilt -= np.stack([np.interp(md, middle, part) for part in chords.T], axis=1)
-    return Tilt(float(ends[0]), step, np.vstack([np.zeros(3), np.cumsum(0.5 * step * (tilt[1:] + tilt[:-1]), axis=0)]))
+    return Tilt(float(ends[0]), step, np.vstack([np.zeros(3), np.cumsum(step * tilt, axis=0)]))
 
 
 def _string_at(run: Run, bit_depth: float, probe: Array) -> String:
@@ -135,20 +140,33 @@ def _string_at(run: Run, bit_depth: float, probe: Array) -> String:
     return string
 
 
-def _modes(string: String, probe: Array, joint_damping: float) -> Modes:
+def _modes(string: String, probe: Array, laws: state.Laws) -> Modes:
     """Modes of a string hanging from the top drive, whose constants are in a state buffer."""
-    from scipy.linalg import eigh_tridiagonal  # slow to import, and a steady string needs none
+    from scipy.linalg import eig_banded  # slow to import, and a steady string needs none
 
     n = string.segments
     k, mass, mud = (state.row(probe, offset, n) for offset in (state.K_AXIAL, state.MASS, state.MUD_AXIAL))
-    square, vectors = eigh_tridiagonal(
-        (k + np.append(k[1:], 0.0)) / mass, -k[1:] / np.sqrt(mass[1:] * mass[:-1]),
-        select="i", select_range=(0, MODES - 1),
-    )  # fmt: skip
-    shape: Array = vectors / np.sqrt(mass)[:, None]
-    frequency = np.sqrt(square)
-    damping = 0.5 * (mud @ shape**2 + joint_damping * square)
-    return Modes(shape, frequency, damping, k[0] * np.abs(shape[0]) / frequency)
+    # The waves within a long segment come first: their springs reach from them to its lower end, and to the top.
+    signs, masses, springs = np.reshape(waves.hung(probe, 0), (-1, 3)).T
+    first = len(signs)
+    mass = np.concatenate([masses, mass])
+    bands = np.zeros((max(first, 1) + 1, first + n))
+    bands[0] = np.concatenate([springs, k + np.append(k[1:], 0.0)])
+    bands[0, first] += springs.sum()
+    bands[1, first:-1] = -k[1:]
+    for wave in range(first):
+        bands[first - wave, wave] = -signs[wave] * springs[wave]
+    for apart, band in enumerate(bands):
+        band[: len(mass) - apart] /= np.sqrt(mass[apart:] * mass[: len(mass) - apart])
+    square, vectors = eig_banded(bands, lower=True, select="i", select_range=(0, MODES - 1))
+    # The bit moves the same way in every stride, from which the oscillation goes on to the next.
+    moved: Array = vectors * np.sign(vectors[-1]) / np.sqrt(mass)[:, None]
+    shape, frequency = moved[first:], np.sqrt(square)
+    # The mud's boundary layers follow slow modes, and brake quick ones.
+    layers = (state.row(probe, state.LAYER_DRAG, n) @ shape**2) * square / (square + laws.layer_rate**2)
+    damping = 0.5 * (mud @ shape**2 + layers + laws.joint_damping * square)
+    pull = k[0] * shape[0] + springs @ (moved[:first] - signs[:, None] * shape[0])
+    return Modes(shape, frequency, damping, np.abs(pull) / frequency)
 
 
 def _forces(

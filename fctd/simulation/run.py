@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.operations import Operation
-from fctd.mechanics import dynamics, state, topdrive
+from fctd.mechanics import dynamics, state, topdrive, waves
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
 from fctd.mechanics.rotations import quaternion_from_axis
@@ -22,7 +22,7 @@ from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, la
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
 from fctd.model.strokes import stand_schedule
-from fctd.model.torsion import period_of
+from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.simulation.bent_housings import put_bends
 from fctd.simulation.carried_mud import take_along
@@ -44,7 +44,7 @@ class Run(MovingString):
     """The string of a case in motion, with the case, the hole and the string it was built from.
 
     hoist : where it hangs from a block that moves.  mud_at : bit depth [m], segments and rotation [rev/min] to
-    which the mud sideways belongs.
+    which the mud that moves along belongs.
     """
 
     case: Case
@@ -83,11 +83,13 @@ class Run(MovingString):
         return self.string.lengthened(float(self.top[topdrive.TOP_LENGTH] - self.string.length[0]))
 
     def take_mud_along(self, operation: Operation) -> None:
-        """Update what the mud does to lateral motion, by the present depth and the rotation of an operation."""
+        """Update what the mud does to motion that changes, by the present depth and the rotation of an operation."""
         now = self.bit_depth, self.segments, operation.rpm
-        if self.case.mud.sideways and now != self.mud_at:
+        if self.case.mud.unsteady and now != self.mud_at:
             string, in_derrick = self.laid_out, self.hoist is not None
-            self.pipe = take_along(self.S, self.case, string, self.pipe, operation.rpm, in_derrick=in_derrick)
+            self.pipe = take_along(
+                self.S, self.case, string, self.pipe, operation.rpm, self.laws.layer_rate, in_derrick=in_derrick
+            )
             self.mud_at = now
 
 
@@ -143,30 +145,35 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
         try:
             string = lay_out(case, shallowest, deepest)
             check_fit(string, hole, deepest)
-            return _fed(case, hole, string.lengthened(first - shallowest), first - shallowest)
+            return _fed(case, hole, string.lengthened(first - shallowest), first - shallowest, deepest - first)
         except LongSegmentError:
             if case.rig.feed == "long_segment" or shallowest == deepest or case.string.components[-1].long_segment:
                 raise
     return _hung(case, hole, first, shallowest, deepest)
 
 
-def _fed(case: Case, hole: Wellbore, string: String, longer: float) -> tuple[Run, list[Phase]]:
+def _fed(case: Case, hole: Wellbore, string: String, longer: float, shorter: float) -> tuple[Run, list[Phase]]:
     """A run whose top drive stands still, and feeds pipe into the top segment.
 
-    longer : by which the top segment is longer than where it is shortest [m].
+    longer, shorter : by which the top segment is longer and shorter than where it is shortest and longest [m].
     """
     n = string.segments
     S, top = state.new_state(n), np.zeros(topdrive.TOP_SIZE)
-    pipe = fill(S, string, case)
+    pipe = fill(S, string, case, hole)
     _unbalance(S, string)
     top[topdrive.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
     lie_on_axis(S, string, hole)
     put_bends(S, case, string, hole)
-    probe = S.copy()
-    if string.long_segment:  # the top segment is stiffest where it is shortest
-        topdrive.put_long_segment(probe, string.length[0] - longer, pipe)
+    probes = [(S.copy(), n)]
+    if string.long_segment:  # the top segment is stiffest where it is shortest, for the drive where its waves come in
+        shortest, longest = string.length[0] - longer, string.length[0] + shorter
+        lengths = shortest, min(max(waves.STIFFEST * pipe.beside, shortest), longest), longest
+        probes = [(S.copy(), n) for _ in lengths]
+        for length, (probe, _) in zip(lengths, probes, strict=True):
+            topdrive.put_long_segment(probe, length, pipe)
     phases = schedule(case.operations)
-    return _run(case, hole, string, S, top, pipe, [(probe, n)], phases), phases
+    rate = _layer_rate(case, string.lengthened(shorter))
+    return _run(case, hole, string, S, top, pipe, probes, phases, rate), phases
 
 
 def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: float) -> tuple[Run, list[Phase]]:
@@ -177,7 +184,7 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     whole = tally.whole
     phases, strokes = stand_schedule(case.operations, tally, case.rig, pace_of(case, whole))
     buffer, S, top = state.new_state(whole.segments), state.new_state(whole.segments), np.zeros(topdrive.TOP_SIZE)
-    pipe = fill(buffer, whole, case)
+    pipe = fill(buffer, whole, case, hole)
     hang(buffer, whole.segments)
     _unbalance(buffer, whole)
     put_bends(buffer, case, whole)
@@ -187,20 +194,21 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     lie_on_axis(S, string, hole)
     put_bends(S, case, string, hole)
     run = _run(
-        case, hole, string, S, top, pipe, [(buffer, whole.segments), *((probe, 1) for probe in hoist.clamped())], phases
-    )
+        case, hole, string, S, top, pipe, [(buffer, whole.segments), *((probe, 1) for probe in hoist.clamped())],
+        phases, _layer_rate(case, whole),
+    )  # fmt: skip
     run.hoist = hoist
     return run, phases
 
 
 def _run(
     case: Case, hole: Wellbore, string: String, S: Array, top: Array, pipe: PerMetre,
-    probes: list[tuple[Array, int]], phases: list[Phase],
+    probes: list[tuple[Array, int]], phases: list[Phase], layer_rate: float,
 ) -> Run:  # fmt: skip
     """The run of a string that lies in its hole.
 
     probes : buffers with the string where it is stiffest, and their numbers of segments; that of the first is the
-    largest of the run.
+    largest of the run.  layer_rate [1/s] : of the mud's boundary layers.
     """
     n, most = string.segments, probes[0][1]
     laws = state.Laws(
@@ -209,10 +217,12 @@ def _run(
         friction_scale=1.0,
         contact_damping=case.contact.damping,
         joint_damping=case.solver.joint_damping,
+        shape_damping=case.solver.shape_damping,
         settling=0.0,
         **_wall_laws(case),
         rock=rock_of(case),
         torsion_damping=_torsion_damping(case, string),
+        layer_rate=layer_rate,
         unbalanced=any(component.eccentricity for component in case.string.components),
         bent=any(component.bend for component in case.string.components),
     )
@@ -226,13 +236,14 @@ def _run(
     tangent = hole.at(string.top_md + np.cumsum(string.length))[1][:, 2]
     check_weight(case, float((string.of("weight") * string.length * tangent).sum()))
     _check_cost(case, most, step, phases)
-    spring = max(float(probe[state.K_TWIST + 1]) for probe, _ in probes)
+    spring = max(float(probe[state.K_TWIST + 1]) + waves.stiffness_in_torsion(probe) for probe, _ in probes)
+    damper = (laws.joint_damping + laws.torsion_damping) * spring
     # A walk from the top would stop at the first slab that contains a point; past 90° that may be a distant piece.
     owner = np.zeros(most + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
     return Run(
         case=case, hole=hole, string=string, pipe=pipe, S=S, top=top, owner=owner, segments=n, step=step, laws=laws,
-        wall=own_wall(case, hole), drive=drive_of(case, string, spring, step),
+        wall=own_wall(case, hole), drive=drive_of(case, string, spring, damper, step),
     )  # fmt: skip
 
 
@@ -249,6 +260,14 @@ def _unbalance(S: Array, string: String) -> None:
     """Write the unbalance of the bodies into a filled buffer."""
     unbalance = string.of("mass") * string.of("eccentricity") * string.length
     state.row(S, state.UNBALANCE, string.segments)[:] = unbalance
+
+
+def _layer_rate(case: Case, longest: String) -> float:
+    """Rate of the mud's boundary layers [1/s]: the lowest axial frequency of the run, that of the longest string.
+
+    At four times this frequency their drag is again that of Stokes, at ten times it is 0.6 of it.
+    """
+    return float(2 * np.pi / axial_period_of(longest)) if case.mud.unsteady else 0.0
 
 
 def _torsion_damping(case: Case, string: String) -> float:

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.mechanics import state, topdrive
+from fctd.mechanics import state, topdrive, waves
+from fctd.mechanics.energy import penetration
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.rock import NO_ROCK, NOTHING
@@ -89,10 +90,12 @@ def _three(run: Run, rows: tuple[int, int, int]) -> Array:
 
 def start_from_rest(run: Run) -> None:
     """Set the settled string's velocities, clock, sums and losses to zero, for the start of the run."""
-    for offset in (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ):
+    for offset in (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ, state.LAYER_SPEED):
         state.row(run.S, offset, run.segments)[:] = 0.0
+    waves.still(run.S)
     if run.case.mud.cake is not None:
-        state.row(run.S, state.CAKE_AGE, run.segments)[:] = run.case.mud.cake.rested
+        rests = penetration(run.S, run.segments) > 0
+        state.row(run.S, state.CAKE_AGE, run.segments)[:] = np.where(rests, run.case.mud.cake.rested, 0.0)
     run.clear()
     run.top[topdrive.TOP_TIME] = 0.0
     if run.laws.rock.law != NO_ROCK:

@@ -5,6 +5,7 @@ import pytest
 
 from fctd import build_wellbore
 from fctd.mechanics import contact, state
+from fctd.mechanics.energy import penetration
 from fctd.model.wellbore import Wellbore
 from tests.bodies import AXIS, PLACE, TO_WALL, Array, put
 from tests.cases import make_case
@@ -43,7 +44,7 @@ def test_bodies_carried_along_see_the_walls_that_free_points_see(geometry: str, 
     S, packed = state.new_state(n), 16
     share = rng.uniform(0.5, 3, n)
     state.row(S, state.TRIBUTARY, n)[:] = share
-    angle, off = rng.uniform(0, 2 * np.pi, n), rng.uniform(0, 0.14, n)
+    angle, off = rng.uniform(0, 2 * np.pi, n), rng.uniform(0, 0.09, n)  # a wall that presses leans
     owner, followed = np.zeros(n + 2, np.int64), 0
     for k, travel in enumerate(np.arange(0.0, 110.0, 0.37)):
         md = np.linspace(-10.0, 920.0, n) + (travel if direction > 0 else 110 - travel)
@@ -60,6 +61,40 @@ def test_bodies_carried_along_see_the_walls_that_free_points_see(geometry: str, 
         np.testing.assert_allclose(expected.md, md, atol=0.02)
         followed += int((state.row(S, state.SLACK, n) > 0).sum())
     assert followed > 0.4 * n * (k + 1)  # most need no search
+
+
+def test_the_force_of_a_wall_is_the_gradient_of_its_energy_at_seams() -> None:
+    """Also along the hole, where two cylinders blend: −K d n of the stored wall against differences of ½ K d²."""
+    hole, rng = hole_of(BEND, intervals=SHOE, overlap=0.4, chord_tolerance="5 mm"), np.random.default_rng(6)
+    # Within every overlap, and in that of the shoe, where radius and stiffness change as well.
+    md = np.concatenate([ends + share * 0.4 for ends in hole.md[1:-1] for share in rng.uniform(0.05, 0.95, (2, 1))])
+    md = md[md < 990]
+    hole_radius = np.where(md < 500, 0.15, np.where(md > 500.4, 0.1, 0.13))
+    points = hole.off_axis(md, rng.uniform(0, 2 * np.pi, len(md)), hole_radius - 0.05 + rng.uniform(0.025, 0.04))
+    n, h, force, slopes = len(points), 1e-6, np.zeros((len(md), 3)), np.zeros((len(md), 3))
+    S = state.new_state(n)
+    state.row(S, state.RADIUS, n)[:], state.row(S, state.TRIBUTARY, n)[:] = 0.05, 2.0
+    owner = np.zeros(n + 2, np.int64)
+    owner[1 : n + 1] = hole.owners(points)
+
+    def pressed(at: Array) -> tuple[Array, Array]:
+        """Force (n, 3) and energy (n,) of the walls beside points, in a fresh buffer's look-up."""
+        put_points(S, at, rng)
+        state.row(S, state.SLACK, n)[:] = state.row(S, state.MARGIN_END, n)[:] = -np.inf
+        contact.update_walls(S, owner, n, (n + 7) // 8 * 8, hole.pieces, hole.geometry)
+        depth, stiffness = np.maximum(penetration(S, n), 0.0), state.row(S, state.K_WALL, n)
+        normal = np.stack([state.row(S, of, n) for of in TO_WALL], axis=1)
+        normal /= np.linalg.norm(normal, axis=1)[:, None]
+        return -(stiffness * depth)[:, None] * normal, 0.5 * stiffness * depth**2
+
+    force, energy = pressed(points)
+    for axis in range(3):
+        step = h * np.eye(3)[axis]
+        slopes[:, axis] = (pressed(points + step)[1] - pressed(points - step)[1]) / (2 * h)
+    assert (energy > 0).mean() > 0.9
+    np.testing.assert_allclose(force, -slopes, atol=1e-5 * np.abs(force).max())
+    along = np.abs(np.sum(force * hole.at(md)[1], axis=1)) / np.linalg.norm(force, axis=1)
+    assert along.max() > 0.05  # at the shoe, 5 cm narrower in 40 and less stiff
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])

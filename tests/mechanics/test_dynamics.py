@@ -3,6 +3,7 @@
 import math
 import platform
 import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from fctd.mechanics.contact import COLUMNS, Arc, follow_arcs, follow_cylinders
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.laws import CODES
 from fctd.simulation.run import Run, prepare
-from fctd.simulation.settling import settle
+from fctd.simulation.settling import settle, start_from_rest
 from tests.bodies import (
     AXIS,
     FORCE,
@@ -35,6 +36,7 @@ from tests.cases import make_case, pipe, rotation
 from tests.compiled import kept
 
 push_freely, move_bodies = kept(dynamics.push_freely), kept(dynamics.move_bodies)
+update_velocities = kept(dynamics.update_velocities)
 read_top_drive = kept(topdrive.read_top_drive)
 may_touch = kept(dynamics.may_touch)
 strain_energy, joint_twist = kept(joints.strain_energy), kept(joints.joint_twist)
@@ -56,7 +58,7 @@ def run_free(S: np.ndarray, n: int, step: float, time: float) -> None:
 
 @pytest.mark.parametrize("top_segments", [10, 1])
 def test_hanging_chain_stretches_by_the_closed_form(top_segments: int) -> None:
-    """Tapered string in mud: each part stretches by the load below and by half its own weight.
+    """Tapered string in mud: each part stretches by the load below and by half its own weight; pressure squeezes it.
 
     ``top_segments = 1`` without a length is the paper's long segment.
     """
@@ -72,6 +74,7 @@ def test_hanging_chain_stretches_by_the_closed_form(top_segments: int) -> None:
     for length, section in ((150.0, run.string.sections[0]), (850.0, run.string.sections[1])):
         stretch += (below + 0.5 * section.weight * length) * length / section.EA
         below += section.weight * length
+    stretch -= 0.4 / 206.8e9 * 1200 * topdrive.GRAVITY * 1000.0**2 / 2  # (1 − 2ν) ∫p/E
     n = run.segments
     bit = run.S[state.Z + n] + run.S[state.ARM_BOTTOM + n] * run.S[state.AZ + n]
     assert bit - 1000 == pytest.approx(stretch, rel=1e-8)
@@ -301,10 +304,12 @@ def test_an_inert_column_stays_finite() -> None:
 
 
 def test_the_largest_step_is_stable_and_hardly_more_is_not() -> None:
-    """Without a wall the axial mode of a uniform string sets the limit, and its bound is exact."""
+    """Without wall and shape damping the axial mode of a uniform string sets the limit, and its bound is exact."""
 
     def pulled(step: float | str, longer: float = 1.0) -> Run:
-        case = make_case(operations=[rotation(1000, 1)], contact={"enabled": False}, solver={"step": step})
+        case = make_case(
+            operations=[rotation(1000, 1)], contact={"enabled": False}, solver={"step": step, "shape_damping": 0}
+        )
         run, _ = prepare(case)
         run.step *= longer
         with np.errstate(over="ignore", invalid="ignore"):  # the unstable run grows without bound
@@ -317,6 +322,60 @@ def test_the_largest_step_is_stable_and_hardly_more_is_not() -> None:
     assert pulled("auto").step == pytest.approx(0.8 * largest.step)
     with pytest.raises(UnstableError, match=r"finite|folded|left"):
         pulled("largest", 1.02).check()
+
+
+@pytest.mark.parametrize("shape", [3e-3, 0.1, 10.0])
+@pytest.mark.parametrize("length", [0.3, 1.0, 10.0, 25.0])
+def test_the_largest_step_holds_with_shape_damping_of_any_size(shape: float, length: float) -> None:
+    """A kicked string loses energy at the largest step, which is that without this damping."""
+
+    def hung(**solver: Any) -> Run:
+        components = [pipe(200, None, segment_length=length)]
+        case = make_case([[0, 0, 0], [200, 0, 0]], components, [rotation(200, 1)], contact={"enabled": False},
+                         solver={"step": "largest", **solver})  # fmt: skip
+        return prepare(case)[0]
+
+    run = hung(shape_damping=shape)
+    settle(run)
+    start_from_rest(run)
+    assert run.step == hung(shape_damping=0).step
+    rng, n = np.random.default_rng(4), run.segments
+    for row in (state.VX, state.VY, state.WX, state.WY):
+        state.row(run.S, row, n)[:] = 1e-3 * rng.standard_normal(n)
+    run.refresh()
+    before = run.energy().kinetic
+    run.advance(STILL, 3000 * run.step)
+    run.refresh()
+    run.check()
+    assert run.energy().kinetic < before
+
+
+def test_boundary_layers_drag_a_swinging_body_as_stokes_says_and_a_sliding_one_not_at_all() -> None:
+    """At the layers' rate ω drag and mass are those of a plane wall, c/2 and c/2ω: work and phase of a forced swing."""
+    drag, rate, dt = 40.0, 3.0, 1e-4
+    S = state.new_state(1)
+    set_body(S, 1, 1e9, 1.0, 1.0)  # so heavy that it swings as it is told
+    S[state.LAYER_DRAG + 1] = drag
+    laws = state.Laws(state.OPEN, 0, 1.0, 0.0, 0.0, 0.0, layer_rate=rate)
+
+    def losses(speeds: np.ndarray) -> np.ndarray:
+        """Energy lost to the mud up to the end of each step."""
+        lost = np.empty(len(speeds))
+        for k, speed in enumerate(speeds):
+            S[state.VZ + 1] = speed
+            update_velocities(S, state.LANES, laws, dt)
+            lost[k] = S[state.LOST_MUD + 1]
+        return lost
+
+    period = round(2 * np.pi / rate / dt)
+    swing = np.cos(rate * dt * np.arange(6 * period))
+    lost = losses(swing)
+    per_period = lost[-1] - lost[-1 - period]
+    assert per_period == pytest.approx(0.5 * drag * 0.5 * 2 * np.pi / rate, rel=1e-3)
+    # The mass of the layer turns with the swing: what it holds at full speed is c∞/2ω, half of it kinetic energy.
+    assert S[state.LAYER_SPEED + 1] == pytest.approx(0.5, abs=0.01)
+    steady = losses(np.ones(20 * period))
+    assert steady[-1] - steady[-1 - period] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_rows_begin_on_cache_lines() -> None:

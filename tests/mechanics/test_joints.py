@@ -9,7 +9,20 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from fctd.mechanics import joints, state
-from tests.bodies import FORCE, GLOBAL_SPIN, ON_LOWER, ON_UPPER, PLACE, VELOCITY, at, place, put
+from tests.bodies import (
+    AXIS,
+    FORCE,
+    GLOBAL_SPIN,
+    ON_LOWER,
+    ON_UPPER,
+    PLACE,
+    QUATERNION,
+    VELOCITY,
+    at,
+    place,
+    put,
+    set_body,
+)
 from tests.compiled import kept
 
 update_joint_loads, strain_energy = kept(joints.update_joint_loads), kept(joints.strain_energy)
@@ -214,3 +227,70 @@ def test_tension_and_torque_are_summed_over_the_steps(bend: tuple, gap: tuple) -
     straight = pair(upper, lower, np.zeros(3))
     _, _, on_lower = loads(straight)
     assert S[state.SUM_TORQUE + 2] == pytest.approx(2 * dt * (on_lower @ lower.apply([0, 0, 1])), rel=1e-9, abs=1e-6)
+
+
+def moving_pair(bend: tuple, gap: tuple, motion: list[tuple[float, ...]]) -> np.ndarray:
+    """A pair of bodies of 300 and 200 kg whose velocities [m/s] and spins [rad/s] are ``motion``, shape damping on."""
+    S = pair(*a_pair(bend, gap))
+    for j, mass in ((1, 300.0), (2, 200.0)):
+        set_body(S, j, mass, 8 * mass, 1.0)
+        put(S, j, VELOCITY, list(motion[2 * j - 2]))
+        put(S, j, GLOBAL_SPIN, list(motion[2 * j - 1]))
+    return S
+
+
+def damped(S: np.ndarray, time: float, dt: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """What shape damping adds to the loads of joint 2 (force, moments on upper and lower body), and the power lost."""
+    found = []
+    for shape_time in (time, 0.0):
+        S[state.LOST_JOINT + 2] = 0.0
+        update_joint_loads(S, 2, 0.0, dt, 0.0, shape_time)
+        found.append((at(S, 2, FORCE), at(S, 2, ON_UPPER), at(S, 2, ON_LOWER), S[state.LOST_JOINT + 2] / dt))
+    return tuple(a - b for a, b in zip(*found, strict=True))  # type: ignore[return-value]
+
+
+@given(vector, vector, st.lists(vector, min_size=4, max_size=4), st.floats(1e-4, 1.0), st.floats(1e-5, 1e-2))
+def test_shape_damping_loses_the_work_of_its_loads_and_reverses_nothing(bend, gap, motion, time, dt) -> None:
+    """Its loads do the work −P < 0, and their impulses over a step, alone, leave less energy than before."""
+    S = moving_pair(bend, gap, motion)
+    force, upper, lower, power = damped(S, time, dt)
+    v0, g0, v1, g1 = (np.array(part) for part in motion)
+    work = force @ (v1 - v0) + upper @ g0 + lower @ g1
+    assert work == pytest.approx(-power, rel=1e-8, abs=1e-7)
+    assert power >= -1e-9
+    after = v0 - dt * force / 300, g0 + dt * upper / 2400, v1 + dt * force / 200, g1 + dt * lower / 1600
+
+    def kinetic(a, b, c, d) -> float:
+        return float(150 * a @ a + 1200 * b @ b + 100 * c @ c + 800 * d @ d)
+
+    # As far as the moments are across the axes: a body has another inertia along its own.
+    axes = [Rotation.from_quat(S[[q + j for q in QUATERNION]], scalar_first=True).apply([0, 0, 1]) for j in (1, 2)]
+    assert abs(upper @ axes[0]) + abs(lower @ axes[1]) < 1e-9 * (1 + np.linalg.norm(upper) + np.linalg.norm(lower))
+    assert kinetic(*after) <= kinetic(v0, g0, v1, g1) * (1 + 1e-9)
+
+
+@given(vector, vector, st.floats(-30, 30))
+def test_a_bent_string_that_turns_steadily_is_not_damped(bend: tuple, gap: tuple, spin: float) -> None:
+    """Each body spins about its own axis, so that axes and hinge points stay where they are; damping of the joint
+    itself takes power from it."""
+    upper, lower, _ = a_pair(bend, gap)
+    axes = upper.apply([0, 0, 1]), lower.apply([0, 0, 1])
+    S = moving_pair(bend, gap, [(0, 0, 0), tuple(spin * axes[0]), (0, 0, 0), tuple(spin * axes[1])])
+    force, on_upper, on_lower, power = damped(S, 0.1, 1e-3)
+    for part in (force, on_upper, on_lower):
+        np.testing.assert_allclose(part, 0.0, atol=1e-7)
+    assert power == pytest.approx(0.0, abs=1e-9)
+
+
+def test_shape_damping_is_in_proportion_to_stiffness_where_the_step_is_short() -> None:
+    """The upper end of the lower body tilts at 0.01 rad/s about its hinge: the couple is τ k_b 0.01."""
+    spin = np.array([0.01, 0.0, 0.0])
+    S = moving_pair((0, 0, 0), (0, 0, 0), [(0, 0, 0)] * 4)
+    axis = at(S, 2, AXIS)
+    spin -= (spin @ axis) * axis
+    put(S, 2, GLOBAL_SPIN, spin)
+    put(S, 2, VELOCITY, np.cross(spin, BELOW * axis))
+    force, on_upper, on_lower, _ = damped(S, 3e-3, 1e-9)
+    np.testing.assert_allclose(force, 0.0, atol=1e-9)
+    np.testing.assert_allclose(on_lower, -3e-3 * STIFFNESS[state.K_BEND] * spin, rtol=1e-5)  # τ k_b dt/J off
+    np.testing.assert_allclose(on_upper, -on_lower, atol=1e-9)

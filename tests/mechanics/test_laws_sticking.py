@@ -17,6 +17,7 @@ MASS, HOLE, RADIUS, ARM, DEPTH, STIFFNESS, DT = 400.0, 0.1, 0.06, 0.7, 2e-3, 2e6
 KINETIC, STATIC, DECAY = 0.2, 0.3, 0.1
 NORMAL = STIFFNESS * DEPTH  # [N]
 LAWS = [CODES["karnopp"], CODES["stribeck"]]
+IMPLICIT = [CODES["coulomb"], *LAWS]
 
 
 def body(stuck: float = 1.0, arm: float = ARM) -> Array:
@@ -89,7 +90,7 @@ def test_a_sliding_body_feels_the_kinetic_factor_after_the_decay_speed(law, deca
     assert S[state.STUCK + 1] == 0
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", IMPLICIT)
 @given(velocity=st.tuples(small, small), spin=st.tuples(small, small, small), arm=st.floats(0.0, 1.4))
 def test_friction_opposes_the_sliding_that_it_leaves(law: int, velocity, spin, arm) -> None:
     """A body that is held at its end yields up to five times more across than along: an impulse against the sliding
@@ -102,8 +103,7 @@ def test_friction_opposes_the_sliding_that_it_leaves(law: int, velocity, spin, a
     push(S, law, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
     impulse, left = MASS * (at(S, 1, VELOCITY) - before)[1:], slide(S, arm)
     limit = KINETIC * NORMAL * DT
-    if S[state.STUCK + 1] == 1:
-        np.testing.assert_allclose(left, 0.0, atol=1e-15)
+    if np.linalg.norm(left) < 1e-14:
         assert np.linalg.norm(impulse) <= limit * (1 + 1e-9)
     else:
         assert np.linalg.norm(impulse) == pytest.approx(limit, rel=1e-9)

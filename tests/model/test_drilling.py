@@ -76,11 +76,11 @@ def test_drives_by_default() -> None:
     polar = np.pi / 32 * (0.127**4 - 0.07**4)
     zeta = polar * np.sqrt(206.8e9 / 2.6 * 7850)
     assert torsional_impedance(string.sections[0]) == pytest.approx(zeta)
-    assert drive_of(drills(), string, 1e4, 1e-3) == STIFF
-    soft = drive_of(drills(rig={"drive": "impedance"}), string, 1e4, 1e-3)
+    assert drive_of(drills(), string, 1e4, 0.0, 1e-3) == STIFF
+    soft = drive_of(drills(rig={"drive": "impedance"}), string, 1e4, 0.0, 1e-3)
     assert (soft.proportional, soft.integral, soft.inertia) == pytest.approx((zeta, zeta / 3, 2000.0))
-    assert soft.apparent == least_inertia(1e4, soft.integral, 1e-3)
-    firm = drive_of(drills(rig={"drive": "speed_control"}), string, 1e4, 1e-3)
+    assert soft.apparent == least_inertia(1e4, 0.0, soft.integral, 1e-3)
+    firm = drive_of(drills(rig={"drive": "speed_control"}), string, 1e4, 0.0, 1e-3)
     assert (firm.proportional, firm.integral, firm.apparent) == pytest.approx((100 * zeta, 500 * zeta, 2000.0))
 
 

@@ -99,21 +99,51 @@ def test_a_short_component_touches_at_its_middle() -> None:
     assert run.S[state.ARM_CONTACT + k + 1] == 0
 
 
-@pytest.mark.parametrize(
-    ("above", "below", "short"),
-    [(8.0, 10.0, False), (10.0, 8.0, False), (10.0, 10.0, True), (9.0, 10.0, False), (10.0, 9.0, False)],
-)
-def test_a_short_component_is_shorter_than_both_neighbours(above: float, below: float, short: bool) -> None:
-    """One segment of 9 m; longer segments that are not its neighbours do not matter."""
-    far, near = pipe(300, 10), pipe(4 * above, 4)
-    stabiliser, nearer = pipe(9, 1, outer=0.2), pipe(4 * below, 4)
-    case = make_case(components=[pipe(300, 10), nearer, stabiliser, near, far, pipe(None, 20)])
-    string = lay_out(case, 1000.0)
-    (k,) = np.flatnonzero(string.component == 2)
-    assert np.flatnonzero(string.mid_contact()).tolist() == ([k] if short else [])
-    radius = string.contact_radius()
-    assert radius[k] == 0.1
-    assert radius[k - 1] == (0.0635 if short else 0.1)
+@pytest.mark.parametrize("beside", [0.5, 1.49, 1.5, 1.51, 10.0])
+@pytest.mark.parametrize("segments", [1, 2, 3, 4, 7])
+def test_a_point_touches_at_one_place_whatever_the_segments(beside: float, segments: int) -> None:
+    """A bit of 0.3 m at its end, a stabiliser at its middle; the joints within and beside them are the collar's."""
+    around = {"outer": 0.16, "segment_length": beside, "segments": None}
+    parts = [
+        pipe(0.3, segments, outer=0.2),
+        pipe(9.0, **around),
+        pipe(1.5, segments, outer=0.18, contact_diameter=0.2),
+        pipe(9.0, **around),
+        pipe(None, 90),
+    ]
+    string = lay_out(make_case(components=parts), 1000.0)
+    below = np.append(np.cumsum(string.length[::-1])[::-1][1:], 0.0)  # of the lower end of each segment, to the bit
+    place = np.where(string.mid_contact(), below + 0.5 * string.length, below)
+    radius, bearing = string.contact_radius(), string.tributary()
+    wide = radius == 0.1
+    np.testing.assert_allclose(place[wide], [0.3 + 9.0 + 0.75, 0.0], atol=1e-9)
+    np.testing.assert_allclose(bearing[wide], [1.5, 0.3])
+    assert set(radius[(place < 18) & ~wide]) == {0.08}
+    assert not string.mid_contact()[~wide].any()
+
+
+@pytest.mark.parametrize("beside", [1.99, 2.0, 2.01, 10.0])
+@pytest.mark.parametrize("segments", [1, 2, 5])
+def test_a_sleeve_touches_at_both_ends_whatever_the_segments(beside: float, segments: int) -> None:
+    """A sleeve of 2 m that says so, and a motor of 8 m that need not; what is longer is one by default."""
+    around = {"outer": 0.16, "segment_length": beside, "segments": None}
+    sleeve = pipe(2.0, segments, outer=0.2, contact="sleeve")
+    parts = [pipe(12.0, **around), sleeve, pipe(12.0, **around), pipe(8.0, segments, outer=0.2), pipe(None, 90)]
+    string = lay_out(make_case(components=parts), 1000.0)
+    below = np.append(np.cumsum(string.length[::-1])[::-1][1:], 0.0)
+    ends = below[string.contact_radius() == 0.1]
+    expected = [np.linspace(34.0, 26.0, segments + 1), np.linspace(14.0, 12.0, segments + 1)]
+    np.testing.assert_allclose(ends, np.concatenate(expected))
+    assert not string.mid_contact().any()
+
+
+def test_points_side_by_side_lie_within_the_sleeves_beside_them() -> None:
+    """A bit and the near-bit stabiliser above it, cut into segments: no joint between them touches as wide as they."""
+    parts = [pipe(0.5, 5, outer=0.2), pipe(1.5, 3, outer=0.2), pipe(100, 10, outer=0.16), pipe(None, 90)]
+    string = lay_out(make_case(components=parts), 1000.0)
+    assert np.flatnonzero(string.contact_radius() == 0.1).tolist() == [string.segments - 7, string.segments - 1]
+    assert np.flatnonzero(string.mid_contact()).tolist() == [string.segments - 7]
+    np.testing.assert_array_equal(string.contact_radius()[-6:-1], 0.08)
 
 
 def test_a_short_component_at_the_top_has_no_neighbour_above() -> None:

@@ -3,10 +3,13 @@
 from typing import Any
 
 import numpy as np
+import pytest
 
 from fctd import Case
 from fctd.mechanics import state
+from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import fill, lay_out
+from fctd.model.wellbore import build_wellbore
 from fctd.simulation.run import prepare
 from tests.cases import make_case, pipe, rotation
 
@@ -17,17 +20,18 @@ def test_filled_rows_by_hand() -> None:
     string = lay_out(case, 112.0)
     collar, blade, top = string.sections
     S = state.new_state(6)
-    fed = fill(S, string, case)
+    fed = fill(S, string, case, build_wellbore(case))
     length = np.array([30, 30, 30, 2, 10, 10])
+    left = 1 - squeezed(case, np.array([15, 45, 75, 91, 97, 107]))
     sections = [top, top, top, blade, collar, collar]
     expected = {
         state.MASS: [s.mass * m for s, m in zip(sections, length, strict=True)],
         state.WEIGHT: [s.weight * m for s, m in zip(sections, length, strict=True)],
         state.J_AXIAL: [s.axial_inertia * m for s, m in zip(sections, length, strict=True)],
         state.J_TRANSVERSE: [s.mass * m**3 / 12 + s.tilt_inertia * m for s, m in zip(sections, length, strict=True)],
-        state.ARM_TOP: length / 2,
-        state.ARM_BOTTOM: length / 2,
-        state.ARM_CONTACT: [15, 15, 15, 0, 5, 5],
+        state.ARM_TOP: length / 2 * left,
+        state.ARM_BOTTOM: length / 2 * left,
+        state.ARM_CONTACT: [15, 15, 15, 0, 5, 5] * left,
         state.RADIUS: [0.0635, 0.0635, 0.0635, 0.1, 0.0795, 0.0795],
         state.TRIBUTARY: [30, 30, 16, 2, 10, 5],
         state.MUD_AXIAL: 3.0 * length,
@@ -40,32 +44,37 @@ def test_filled_rows_by_hand() -> None:
     check_rows(S, expected)
     assert fed == (
         top.mass, 0.0, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7, 0.0,
+        pytest.approx(1 - left[0]), 0.0,
     )  # fmt: skip
     # Stiffness of a point: every contact counts once.
     case = filled_case(pipe(None, None, segment_length=30.0), stiffness=1e7)
-    fill(S, lay_out(case, 112.0), case)
+    fill(S, lay_out(case, 112.0), case, build_wellbore(case))
     np.testing.assert_array_equal(state.row(S, state.TRIBUTARY, 6), 1.0)
 
 
 def test_filled_rows_below_a_long_segment_by_hand() -> None:
-    """The pipe is one segment of 90 m: its springs have its whole length, its end half its mass and no arm below."""
+    """The pipe is one segment of 90 m: its springs have its whole length, its end half its weight and no arm below.
+
+    Along it and in turning, its end has the mass of two of the longest segments below, 20 m, and its waves the rest.
+    """
     case = filled_case(pipe(None, 1))
     string = lay_out(case, 112.0)
     collar, blade, top = string.sections
+    left = 1 - squeezed(case, np.array([45, 91, 97, 107]))
     S = state.new_state(4)
-    fed = fill(S, string, case)
+    fed = fill(S, string, case, build_wellbore(case))
     expected = {
-        state.MASS: [top.mass * 45, blade.mass * 2, collar.mass * 10, collar.mass * 10],
+        state.MASS: [top.mass * 20, blade.mass * 2, collar.mass * 10, collar.mass * 10],
         state.WEIGHT: [top.weight * 45, blade.weight * 2, collar.weight * 10, collar.weight * 10],
-        state.J_AXIAL: [top.axial_inertia * 45, blade.axial_inertia * 2, *[collar.axial_inertia * 10] * 2],
+        state.J_AXIAL: [top.axial_inertia * 20, blade.axial_inertia * 2, *[collar.axial_inertia * 10] * 2],
         state.J_TRANSVERSE: [
             top.mass * 45 * 90**2 / 3,
             blade.mass * 8 / 12 + blade.tilt_inertia * 2,
             *[collar.mass * 1000 / 12 + collar.tilt_inertia * 10] * 2,
         ],
-        state.ARM_TOP: [90, 1, 5, 5],
-        state.ARM_BOTTOM: [0, 1, 5, 5],
-        state.ARM_CONTACT: [0, 0, 5, 5],
+        state.ARM_TOP: [90, 1, 5, 5] * left,
+        state.ARM_BOTTOM: [0, 1, 5, 5] * left,
+        state.ARM_CONTACT: [0, 0, 5, 5] * left,
         state.RADIUS: [0.0635, 0.1, 0.0795, 0.0795],
         state.TRIBUTARY: [1, 2, 10, 5],
         state.MUD_AXIAL: [135, 6, 30, 30],
@@ -78,7 +87,13 @@ def test_filled_rows_below_a_long_segment_by_hand() -> None:
     check_rows(S, expected)
     assert fed == (
         top.mass, top.weight, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7, 0.0,
+        pytest.approx(1 - left[0]), 10.0,
     )  # fmt: skip
+
+
+def squeezed(case: Case, depth: np.ndarray) -> np.ndarray:
+    """(1 − 2ν) p/E of steel with ν = 0.3 at depths (n,) [m] of the vertical hole."""
+    return 0.4 * case.mud.density * GRAVITY * depth / 206.8e9
 
 
 def filled_case(top: dict[str, Any], **stiffness: float) -> Case:

@@ -312,9 +312,9 @@ def test_a_component_is_graded_by_hand() -> None:
 
     assert graded_as(whole, [(100.0, 4)]) == [(100.0, 4, None, 0.02, 0.3)]
     assert graded_as(whole, [(100.0, 1)]) == [(100.0, 1, None, 0.02, 0.3)]
-    assert graded_as(whole, [(40.0, 1), (60.0, 3)]) == [(40.0, 2, None, 0.0, 0.3), (60.0, 3, None, 0.02, 0.3)]
+    assert graded_as(whole, [(40.0, 1), (60.0, 3)]) == [(40.0, 1, None, 0.0, 0.3), (60.0, 3, None, 0.02, 0.3)]
     # More of it than is in the hole: cut as below, by length.
-    assert graded_as(whole, [(40.0, 4), (30.0, 1)]) == [(40.0, 4, None, 0.0, 0.3), (60.0, None, 15.0, 0.02, 0.3)]
+    assert graded_as(whole, [(40.0, 4), (30.0, 1)]) == [(40.0, 4, None, 0.0, 0.3), (60.0, None, 30.0, 0.02, 0.3)]
     assert graded_as(whole, [(40.0, 4), (59.995, 3)])[1] == (60.0, 3, None, 0.02, 0.3)
     assert graded_as(whole, [(40.0, 4), (59.988, 3)])[1] == (60.0, None, 19.996, 0.02, 0.3)
     assert graded_as(whole, [(40.0, 4), (30.0, 7)])[1] == (60.0, None, 4.285714, 0.02, 0.3)

@@ -12,6 +12,7 @@ from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import fill
 from fctd.model.stands import Tally, hang, lay_out_stands
+from fctd.model.wellbore import build_wellbore
 from fctd.simulation.run import prepare
 from tests.cases import make_case, pipe, rotation, trip
 
@@ -89,7 +90,7 @@ def test_a_string_that_hangs_knows_its_buoyancy() -> None:
     tally = lay_out_stands(case, 50.0, 100.0)
     n = tally.whole.segments
     S = state.new_state(n)
-    fill(S, tally.whole, case)
+    fill(S, tally.whole, case, build_wellbore(case))
     hang(S, n)
     buoyancy = state.row(S, state.MASS, n) * GRAVITY * 1200 / 7850  # of steel
     np.testing.assert_allclose(state.row(S, state.BUOYANCY, n), buoyancy)
@@ -132,3 +133,18 @@ def test_stands_are_moved_where_the_long_segment_does_not_fit() -> None:
         assert (run.hoist is not None) == hung
     with pytest.raises(InputError, match=r"within 1 deg of vertical"):
         prepare(make_case(BUILD, [pipe(100, 10), pipe(None, 1)], [trip(500, 900)]))
+
+
+@pytest.mark.parametrize("segments", [1, 4])
+@pytest.mark.parametrize("below", [26.0, 27.5, 28.0, 28.4])
+def test_no_stand_ends_within_a_component_that_touches_at_a_point(below: float, segments: int) -> None:
+    """Its place of contact would move when the stand above it is racked back."""
+    parts = [pipe(below, 3), pipe(1.5, segments, outer=0.2), pipe(None, 40)]
+    tally = lay_out_stands(make_case(components=parts), 700.0, 900.0)
+    assert not ((tally.reach > below + 1e-6) & (tally.reach < below + 1.5 - 1e-6)).any()
+
+
+def test_a_point_longer_than_a_stand_is_refused() -> None:
+    parts = [pipe(20.0, 2), pipe(60.0, 6, contact="point"), pipe(None, 40)]
+    with pytest.raises(InputError, match="derrick_height"):
+        lay_out_stands(make_case(components=parts), 700.0, 900.0)

@@ -12,12 +12,12 @@ def string_of(*components: dict[str, object]) -> String:
 
 
 def test_contact_points_of_short_components() -> None:
-    """A stabiliser touches at its middle with its own radius; the bit, as short, at its end."""
+    """A stabiliser touches at its middle with its own radius, the bit at its end; each bears all of its wall force."""
     string = string_of(pipe(1.0, 1, outer=0.2), pipe(50.0, 5), pipe(2.0, 1, outer=0.19), pipe(None, 94))
     assert np.flatnonzero(string.mid_contact()).tolist() == [94]
     at = [93, 94, 99, 100]
     assert string.contact_radius()[at].tolist() == [0.0635, 0.095, 0.0635, 0.1]
-    assert string.tributary()[at].tolist() == [0.5 * (string.length[93] + 2.0), 2.0, 5.5, 0.5]
+    assert string.tributary()[at].tolist() == [0.5 * (string.length[93] + 2.0), 2.0, 5.5, 1.0]
 
 
 def test_stiffness_of_joints_is_that_of_half_segments_in_series() -> None:

@@ -9,10 +9,12 @@ from fctd import Simulation, equilibrium, simulate
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.energy import energy_of
+from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.topdrive import put_long_segment
 from fctd.model.drillstring import String, lay_out
 from fctd.model.mud import added_mass, hole_radius, lateral_damping, steady_resistance
-from fctd.simulation.carried_mud import sideways, take_along
+from fctd.model.torsion import axial_period_of
+from fctd.simulation.carried_mud import layers, sideways, take_along
 from fctd.simulation.run import prepare
 from fctd.simulation.settling import start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
@@ -44,23 +46,28 @@ def steady(case: Case, string: String) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.mark.parametrize(
-    ("mud", "lateral", "mass", "axial", "rotational"),
+    ("mud", "lateral", "mass", "layer", "axial", "rotational"),
     [
-        ({"density": 1200.0}, True, True, False, False),
-        ({"density": 1200.0, "viscosity": "20 mPa*s"}, True, True, True, True),
-        ({"density": 1200.0, "viscosity": 0}, False, False, False, False),
-        ({}, False, False, False, False),
-        ({"density": 1200.0, "lateral_damping": 0}, False, True, False, False),
-        ({"density": 1200.0, "viscosity": 0.02, "axial_damping": 0, "rotational_damping": 0}, True, True, False, False),
+        ({"density": 1200.0}, True, True, True, False, False),
+        ({"density": 1200.0, "viscosity": "20 mPa*s"}, True, True, True, True, True),
+        ({"density": 1200.0, "viscosity": 0}, False, False, False, False, False),
+        ({}, False, False, False, False, False),
+        ({"density": 1200.0, "lateral_damping": 0}, False, True, True, False, False),
+        ({"density": 1200.0, "axial_damping": 1.0}, True, True, False, True, False),
+        (
+            {"density": 1200.0, "viscosity": 0.02, "axial_damping": 0, "rotational_damping": 0},
+            True, True, False, False, False,
+        ),
     ],
-)
+)  # fmt: skip
 def test_what_a_case_turns_on(
-    mud: dict[str, Any], lateral: bool, mass: bool, axial: bool, rotational: bool
+    mud: dict[str, Any], lateral: bool, mass: bool, layer: bool, axial: bool, rotational: bool
 ) -> None:  # fmt: skip
     case = well(mud)
     string = lay_out(case, 1000.0)
     found = sideways(case, string, 0.0)
-    assert [part.any() for part in (*found, *steady(case, string))] == [lateral, mass, axial, rotational]
+    parts = *found, layers(case, string, 3.0), *steady(case, string)
+    assert [part.any() for part in parts] == [lateral, mass, layer, axial, rotational]
 
 
 def test_a_damping_that_is_given_wins() -> None:
@@ -72,20 +79,24 @@ def test_a_damping_that_is_given_wins() -> None:
 
 
 def test_steady_loads_depend_on_a_given_viscosity_alone() -> None:
-    """What a given one adds is c Ω and c v along the string; without friction, which the added tension would raise."""
+    """What a given one adds is c Ω and c v along the string; without friction, which the added tension would raise.
+
+    Nor with a joint in the shoe at 500 m, whose ledge bears a part of the tension.
+    """
+    depth = 1005.0
     frictionless = {"intervals": [{**interval, "friction": 0.0} for interval in SIZES["intervals"]]}
 
     def loads(**mud: Any) -> tuple[float, float]:
         case = make_case(STATIONS, [pipe(None, None, segment_length=25.0)], wellbore=frictionless, mud=mud)
         return (
-            equilibrium(case, "rotate_off_bottom", 1000, rpm=120).surface_torque,
-            equilibrium(case, "trip_out", 1000, speed=0.5).hookload,
+            equilibrium(case, "rotate_off_bottom", depth, rpm=120).surface_torque,
+            equilibrium(case, "trip_out", depth, speed=0.5).hookload,
         )
 
     still = loads(density=1200.0, viscosity=0)
     assert loads(density=1200.0) == still
     case = well({"density": 1200.0, "viscosity": 0.03})
-    string = lay_out(case, 1000.0)
+    string = lay_out(case, depth)
     axial, rotational = steady(case, string)
     added = (rotational @ string.length) * 4 * np.pi, 0.5 * (axial @ string.length)
     assert np.subtract(loads(density=1200.0, viscosity=0.03), still) == pytest.approx(added, rel=1e-3)
@@ -114,8 +125,11 @@ def test_a_trip_past_a_shoe_changes_the_coefficients() -> None:
     wide, narrow = (length * added_mass(0.0635, 0.035, radius, 1200.0) for radius in (0.1555, 0.10795))
     assert before[-1] == after[-3] == pytest.approx(wide)
     assert after[-1] == pytest.approx(narrow)
-    # The long segment has half of its mud at its lower end.
-    assert after[0] == pytest.approx(0.5 * 340.0 * wide / length, rel=1e-6)
+    # The long segment has half of its mud at its lower end, and the mass that its waves have along it.
+    run = simulation.run
+    waves = 0.5 * run.pipe.mass * 340.0 - run.S[state.MASS + 1]
+    assert waves > 0
+    assert after[0] == pytest.approx(0.5 * 340.0 * wide / length + waves, rel=1e-6)
 
 
 def test_mud_that_joins_a_moving_body_keeps_the_sum_of_energy_and_loss() -> None:
@@ -131,7 +145,7 @@ def test_mud_that_joins_a_moving_body_keeps_the_sum_of_energy_and_loss() -> None
 
     before = total()
     heavier = well({"density": 2000.0})
-    pipe_ = take_along(run.S, heavier, run.laid_out, run.pipe, 0.0)
+    pipe_ = take_along(run.S, heavier, run.laid_out, run.pipe, 0.0, 1.0)
     assert total() == pytest.approx(before, rel=1e-12)
     assert pipe_.added_mass > run.pipe.added_mass
 
@@ -141,7 +155,7 @@ def test_the_mud_adds_its_own_moment_of_inertia() -> None:
     string = make_case(components=[pipe(200, 10), pipe(None, 1)]).string
     run, _ = prepare(well({"density": 1200.0}, trip(480, 540)).model_copy(update={"string": string}))
     n, string = run.segments, run.string
-    run.pipe = take_along(run.S, run.case, run.laid_out, run.pipe, 60.0)
+    run.pipe = take_along(run.S, run.case, run.laid_out, run.pipe, 60.0, 1.0)
     mass = state.row(run.S, state.MASS, n) + state.row(run.S, state.ADDED_MASS, n)
     inertia = state.row(run.S, state.J_TRANSVERSE, n)
     np.testing.assert_allclose(inertia[1:], (mass * string.length**2 / 12)[1:], rtol=1e-4)
@@ -149,3 +163,30 @@ def test_the_mud_adds_its_own_moment_of_inertia() -> None:
     np.testing.assert_allclose(inertia * state.row(run.S, state.INVERSE_JT, n), 1.0, rtol=1e-15)
     put_long_segment(run.S, float(string.length[0]), run.pipe)
     assert inertia[0] == pytest.approx(mass[0] * string.length[0] ** 2 / 3, rel=1e-12)
+
+
+def test_the_boundary_layers_damp_the_slowest_axial_wave_as_stokes_says() -> None:
+    """A hanging string swings along itself and loses c/4(m + c/2ω) of its swing in a second, c of both its walls."""
+    length, density, viscosity = 2400.0, 1250.0, 0.02
+    components = [pipe(None, None, inner=0.1086, segment_length=40.0)]
+    case = make_case(
+        [[0, 0, 0], [length, 0, 0]], components, [rotation(length, 1.0)], contact={"enabled": False},
+        mud={"density": density}, solver={"joint_damping": 0.0},
+    )  # fmt: skip
+    (run, _), (still, _) = prepare(case), prepare(case)
+    n, section = run.segments, run.string.sections[0]
+    frequency = 2 * np.pi / axial_period_of(run.string)
+    drag = 2 * np.pi * (0.0635 + 0.0543) * np.sqrt(2 * density * viscosity * frequency)
+    rate = drag / (4 * (section.mass + drag / (2 * frequency)))
+    middle = np.cumsum(run.string.length) - 0.5 * run.string.length
+    state.row(run.S, state.VZ, n)[:] = 0.1 * np.sin(0.5 * np.pi * middle / length)
+    swings = []
+    for _ in range(2):  # over two periods each; both strings stretch by their weight alike, and only one was kicked
+        apart = []
+        for _ in range(100):
+            for each in (run, still):
+                each.advance(STILL, 4 * np.pi / frequency / 100)
+            apart.append(abs(run.S[state.Z + n] - still.S[state.Z + n]))
+        swings.append(max(apart))
+    assert np.log(swings[0] / swings[1]) / (4 * np.pi / frequency) == pytest.approx(rate, rel=0.05)
+    assert 0.08 < rate < 0.09  # the 8 % of the guide

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from fctd.case.load import Case
-from fctd.mechanics import state
+from fctd.mechanics import state, waves
 from fctd.results.tables import SimulationResult
 from fctd.simulation.checkpoint import capture, put_back
 from fctd.simulation.simulate import Simulation
-from tests.cases import make_case, pipe, rotation
+from tests.cases import make_case, pipe, rotation, trip
 from tests.simulation.kept import BUILD, drilling, drilling_on, gone_on, same, stopped, tripping
 
 CASES = {"trip": tripping, "drill": drilling, "drill on": drilling_on}
@@ -37,6 +37,20 @@ def test_a_run_goes_on_bitwise_the_same(name: str, geometry: str, share: float) 
     for _ in again:
         pass
     same(again.result(), whole)
+
+
+def test_waves_within_a_long_segment_go_on_bitwise_the_same() -> None:
+    case = make_case([[0, 0, 0], [1200, 0, 0]], [pipe(200, 20), pipe(None, 1)], [trip(900, 903, 0.5, 1.0)])
+    whole = Simulation(case)
+    for _ in whole:
+        pass
+    checkpoint, chunks = stopped(Simulation(case), 4)
+    again = gone_on(case, checkpoint, chunks)
+    assert again.run.S[state.WAVES + waves.INERTIA] > 0
+    assert again.run.S[state.WAVES + waves.RATE] != 0
+    for _ in again:
+        pass
+    same(again.result(), whole.result())
 
 
 def test_the_shifts_of_an_autodriller_are_made_again() -> None:

@@ -11,7 +11,7 @@ from fctd.mechanics import readings, state, topdrive
 from fctd.mechanics.query import walls_in
 from fctd.results.notes import MOST_BEND, MOST_TWIST, beyond_joints, string_notes
 from fctd.results.profile import Loads
-from fctd.simulation.looks import LISTEN, is_sound, listen, may_have_notes, missing_drag
+from fctd.simulation.looks import LISTEN, is_sound, listen, may_have_notes
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
 from tests.cases import make_case, pipe, rotation
@@ -112,27 +112,3 @@ def test_the_hook_load_is_heard_after_a_while_and_then_anew() -> None:
 def test_without_walls_no_frequency_on_the_wall() -> None:
     S = state.new_state(2)
     assert listen(S, np.zeros(topdrive.TOP_SIZE), 2, 0.0)[1] == math.inf
-
-
-def test_friction_that_is_spent_around_the_hole_is_missing_along_it() -> None:
-    """Friction of three equal segments: 0.6 of it around the hole leaves 0.8 along it, all of it nothing."""
-    run, full = run_of(3), np.full(3, 40.0)
-    args = np.array([0.0, -24.0, 41.0]), full
-    assert missing_drag(run.S, 1e-3, 1e-6, *args) == pytest.approx((0.0 + 0.2 + 1.0) / 3)
-    assert missing_drag(run.S, 1e-3, 1e3, *args) == 0.0
-    assert missing_drag(run.S, 1e-3, 1e-6, np.zeros(3), np.zeros(3)) == 0.0
-
-
-def test_friction_is_missing_where_a_step_of_it_is_faster_than_the_slide() -> None:
-    """From rest around the hole μF_n h (m⁻¹ + a²/J_t + r²/J_a), mud included, and no slower than the string slides."""
-    run = run_of(1)
-    S, step, full = run.S, 1e-3, 40.0
-    state.row(S, state.HELD_BACK, 1)[:] = 0.4 * state.row(S, state.INVERSE_MASS, 1)
-    state.row(S, state.ARM_CONTACT, 1)[:] = 2.0
-    mass, tilt, spin = (
-        float(state.row(S, at, 1)[0]) for at in (state.INVERSE_MASS, state.INVERSE_JT, state.INVERSE_JA)
-    )
-    radius = float(state.row(S, state.RADIUS, 1)[0])
-    limit = step * full * (0.6 * mass + 4.0 * tilt + radius**2 * spin)
-    for speed, expected in ((0.999 * limit, 1.0), (1.001 * limit, 0.0)):
-        assert missing_drag(S, step, speed, np.array([full * radius]), np.array([full * radius])) == expected

@@ -8,12 +8,13 @@ import pytest
 
 from fctd import open_result, simulate
 from fctd.mechanics import state, topdrive
-from fctd.mechanics.topdrive import Motion
+from fctd.mechanics.topdrive import GRAVITY, Motion
+from fctd.model.drillstring import section_of
 from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.notes import MEANINGS
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.run import prepare
-from fctd.simulation.settling import start_from_rest
+from fctd.simulation.settling import settle, start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
 
 RIG = {"block_weight": 1e4, "sheave_efficiency": 0.5, "torque_offset": 50.0}
@@ -231,3 +232,23 @@ def test_the_steps_of_a_record() -> None:
     assert history["bit_rpm"].iloc[-10:].mean() == pytest.approx(60.0, rel=1e-3)  # three swings
     assert history["bit_still_s"].iloc[0] > 0.2
     assert not history["bit_still_s"].iloc[-10:].any()
+
+
+@pytest.mark.parametrize("density", [0.0, 1400.0, 2000.0])
+@pytest.mark.parametrize(
+    ("operation", "length"), [(rotation(3500, 1.0, rpm=1.0, ramp=0.5), 3500.0), (trip(1000, 2000), 1000.0)]
+)
+def test_the_bit_lies_deeper_by_weight_and_higher_by_pressure(
+    density: float, operation: dict[str, Any], length: float
+) -> None:
+    """wL²/2EA − (1 − 2ν) ∫p/E of 5 in pipe; the tally of a trip is laid out where the trip ends."""
+    part = pipe(None, None, segment_length=50.0, inner=0.10861)
+    case = make_case(
+        [[0, 0, 0], [3600, 0, 0]], [part], [operation], mud={"density": density}, wellbore={"geometry": "arcs"},
+        rig={"feed": "stands"},
+    )  # fmt: skip
+    of = section_of(case.string.components[0], density)
+    exact = of.weight * length**2 / (2 * of.EA) - 0.4 * density * GRAVITY * length**2 / 2 / 206.8e9
+    run, _ = prepare(case)
+    settle(run)
+    assert Recorder(run)._bit_md() - length == pytest.approx(exact, abs=3e-4)

@@ -11,6 +11,7 @@ from fctd.simulation.ringing import SPAN, STRIDE, Ringing, cylinder_tilt, expect
 from fctd.simulation.run import prepare
 from references import contact
 from validation.cases import load, rotation, trip
+from validation.studies.energy_ledger import RUNS, SHARPEST
 from validation.studies.long_segment import chain_frequencies
 
 
@@ -28,7 +29,10 @@ COLLARS, PIPE = "string__components__0__segments", "string__components__1__segme
 
 @pytest.mark.parametrize("overlap", [0.0, 0.2])
 def test_the_tilt_is_a_sawtooth(overlap: float) -> None:
-    """Harmonics of a chord of 2 m in a bend of curvature κ: κℓ/πn, reduced by the blending in an overlap."""
+    """Harmonics of a chord of 2 m in a bend of curvature κ: κℓ/πn, changed by the blending in an overlap.
+
+    There the direction turns evenly, by twice the kink, and jumps back by one.
+    """
     hole = build_wellbore(well_b(wellbore__overlap=overlap))
     edges = np.linspace(1900.0, 2000.0, 4001)[:, None]  # fifty cylinders
     tilt = cylinder_tilt(hole).means(edges)[:, 0]
@@ -37,7 +41,7 @@ def test_the_tilt_is_a_sawtooth(overlap: float) -> None:
         # A tilt is a small turn in one plane; its direction follows the hole.
         wave = 2 * np.mean(tilt * np.exp(2j * np.pi * n * edges[:-1] / length), axis=0)
         share = np.linalg.norm(np.abs(wave))
-        blended = abs(np.sinc(n * overlap / length))
+        blended = abs(2 * np.sinc(n * overlap / length) - np.exp(-1j * np.pi * n * overlap / length))
         assert share == pytest.approx(bend * length / (np.pi * n) * blended, rel=0.03)
 
 
@@ -46,8 +50,9 @@ def test_ringing_is_expected_where_a_harmonic_meets_the_string() -> None:
     assert swing > 8e3
     assert frequency == pytest.approx(2 * 0.5 / 2.0, rel=0.03)  # second harmonic of 0.5 m/s over 2 m
     assert 2160 < depth < 2300
-    # At a tenth more speed the resonance comes at a tenth more frequency, where less of the string is in the bend.
-    assert ringing(well_b(speed=0.55)).largest()[0] < 0.3 * swing
+    # At a tenth more speed the resonance comes at a tenth more frequency, where less of the string is in the bend:
+    # more is expected of the fifth harmonic, which meets the second mode.
+    assert ringing(well_b(speed=0.55)).largest()[0] < 0.4 * swing
     assert ringing(well_b(**{COLLARS: 19})).largest()[0] < 0.2 * swing  # no whole number of cylinders
     assert ringing(well_b(mud__axial_damping=5.0)).largest()[0] < 0.3 * swing
     assert ringing(well_b(wellbore__geometry="arcs")).largest() == (0.0, 0.0, 0.0)
@@ -93,5 +98,11 @@ def test_a_run_that_rings_says_so(geometry: str) -> None:
         assert result.message == ""
         assert swing < 0.1 * expected
     else:
-        assert "seams between the hole's cylinders at its natural frequency, 0.49 Hz: near 2205 m" in result.message
+        assert "seams between the hole's cylinders at its natural frequency, 0.49 Hz: near 2215 m" in result.message
         assert 0.4 * expected < swing < 1.5 * expected
+
+
+def test_the_ledger_closes_over_the_seams_of_a_very_sharp_bend() -> None:
+    """Sixty degrees in 50 m, pulled through: 0.3 % of the work where the wall does not push along the hole."""
+    file, changes = RUNS[SHARPEST]
+    assert simulate(load(file, **changes)).run["energy_error"] < 1e-3

@@ -209,9 +209,13 @@ def test_true_tension_is_effective_less_buoyancy() -> None:
 @pytest.mark.parametrize("inclination", [120.0, 170.0])
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 def test_a_hole_that_turns_back_upwards(inclination: float, geometry: str) -> None:
-    """Past 90 degrees the hook load is that of the vertical reach minus the push of the leg beyond the lowest point."""
+    """Past 90 degrees the hook load is that of the vertical reach minus the push of the leg beyond the lowest point.
+
+    Without friction, which would let a string that is pushed up to its buckling limit and turns roll around its hole.
+    """
     stations = [[0, 0, 0], [500, 0, 0], [1500, inclination, 0], [2300, inclination, 0]]
-    case = make_case(stations, [pipe(2200, 88)], [rotation(2200, 20)], wellbore={"geometry": geometry})
+    smooth = {"geometry": geometry, "intervals": [{"to_md": 2300, "diameter": 0.2159, "friction": 0.0}]}
+    case = make_case(stations, [pipe(2200, 88)], [rotation(2200, 20)], wellbore=smooth)
     weight = fctd.model.drillstring.section_of(case.string.components[0], 0.0).weight
     depth = fctd.build_wellbore(case).at(np.array([2200.0]))[0][0, 2]
     assert steady(simulate(case), 5).hookload_N == pytest.approx(weight * depth, abs=1e-3 * weight * 2200)
@@ -262,16 +266,17 @@ def test_progress_reports_simulated_and_total_time() -> None:
     assert min(factors) > 0
 
 
-def test_a_little_joint_damping_keeps_a_sliding_string_quiet() -> None:
+def test_default_damping_keeps_a_sliding_string_quiet() -> None:
     """Without any, compressed rigid segments chatter along the wall at their highest frequency; the default
     loses next to nothing and stops it."""
-    lost = []
-    for damping in (0.0, 1e-5):
-        case = build_case(trip(1000, 1070, speed=1.0), wellbore={"geometry": "arcs"}, solver={"joint_damping": damping})
-        last = simulate(case).energy.iloc[-1]
+    lost, swings = [], []
+    for given in ({"contact": {"damping": 0}, "solver": {"joint_damping": 0, "shape_damping": 0}}, {}):
+        result = simulate(build_case(trip(1000, 1070, speed=1.0), **({"wellbore": {"geometry": "arcs"}} | given)))
+        last, late = result.energy.iloc[-1], result.history[result.history["time_s"] > 30]
         lost.append((last.lost_contact_J + last.lost_joints_J) / last.lost_friction_J)
+        swings.append((late["hookload_max_N"] - late["hookload_min_N"]).mean())
     assert lost[1] < 1e-3
-    assert lost[1] < 0.1 * lost[0]
+    assert swings[1] < 0.5 * swings[0]
 
 
 def test_two_runs_are_the_same_to_the_last_bit() -> None:

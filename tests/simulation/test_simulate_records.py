@@ -177,6 +177,7 @@ def test_what_becomes_unstable_ends_the_iteration_and_keeps_its_records() -> Non
     assert (result.status, result.message) == ("unstable", "at 3 s: a position or velocity is not finite")
     assert len(result.history) == 2
     assert list(simulation) == []
+    assert result.profile.empty  # of a state that is not finite there is none
 
 
 class Nowhere:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from fctd.mechanics.dual import reciprocal, root
-from fctd.mechanics.friction import Law, against, along_wall, response, sliding
+from fctd.mechanics.friction import Law, against, along_wall, resisting, sliding, yielding
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
 from fctd.mechanics.state import TINY
@@ -11,19 +11,15 @@ from fctd.mechanics.state import TINY
 
 @inlined
 def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
-    """One impulse against the sliding velocity of the string's surface at the wall.
+    """The impulse that stops the sliding where μ × normal impulse allows it, else one against what is left of it.
 
-    limit : μ × normal impulse [N s].  It acts at T + r_ds·normal, hence gives force and torque, and may stop
-    the sliding of the free body but not reverse it (implicit clamp).  Returns the change of velocity and spin (6).
+    It acts at T + r_ds·normal, hence gives force and torque; see ``Law``.
     """
     sx, sy, sz, mx, my, mz = sliding(S, j, u, v, w, a, b, c, nx, ny, nz)
     square = sx * sx + sy * sy + sz * sz
-    speed = np.sqrt(square)
-    # The body's response to an impulse −f·s, f the smaller of limit/|s| and |s|²/response: one division.
-    yielding = response(S, j, sx, sy, sz, mx, my, mz, sx, sy, sz, mx, my, mz)
-    slowing, stopping = limit * yielding, speed * square
-    f = (slowing if slowing < stopping else stopping) / (speed * yielding + TINY)
-    return against(S, j, f, sx, sy, sz, mx, my, mz)
+    tx, ty, tz, ox, oy, oz, along, mixed, across = yielding(S, j, nx, ny, nz, sx, sy, sz, mx, my, mz, square)
+    f, g, _ = resisting(along, mixed, across, square, limit, limit)
+    return against(S, j, f, g, sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz)
 
 
 @inlined
