@@ -18,6 +18,8 @@ PATIENT: tuple[Attempt, ...] = (
     (200, 0.1, 1.1, 1.0, 0.01),
     (300, 0.05, 1.5, 0.3, 0.005),
 )
+# Of a string without a hole, which may hang far from where it is laid: the lateral limit is that of a wall.
+IN_THE_OPEN: tuple[Attempt, ...] = ((300, 0.2, 3.0, 1.0, 1e9),)
 LARGEST_TURN = 0.1  # [rad] per step
 
 

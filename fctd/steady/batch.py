@@ -20,7 +20,7 @@ from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry, kernel
 from fctd.mechanics.laws import CODES
-from fctd.model.drillstring import String, damping_of
+from fctd.model.drillstring import damping_of, pressure_of
 from fctd.model.operations import SteadyRates
 from fctd.model.string_rows import EI, WEIGHT, fill_rows, find_contacts
 from fctd.model.wellbore import Wellbore
@@ -86,7 +86,7 @@ class Strings(NamedTuple):
     """Strings of a case, one after the other.
 
     first (m + 1,) : of their segments in length [m] and component (N,); long_segment (m,); bit_depth (m,) [m];
-    sections : a row for each component; damping (N, 3), per_metre : see ``fill_rows``.
+    sections : a row for each component; damping (N, 3), pressure (N,), per_metre : see ``fill_rows``.
     """
 
     first: NDArray[np.int64]
@@ -97,6 +97,7 @@ class Strings(NamedTuple):
     top_md: float
     sections: Array
     damping: Array
+    pressure: Array
     per_metre: bool
 
 
@@ -169,7 +170,7 @@ def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) ->
     which = np.array([(places[id(row.laid)], row.friction) for row in rows])
     bit = {False: (0.0, 0.0), True: (case.bit.weight_on_bit, case.bit.torque)}
     loads = np.array([(*row.rates, *bit[KINDS[row.operation].on_bottom]) for row in rows], float)
-    packed, w = _pack(case, [of.string for of in laid.values()]), work
+    packed, w = _pack(case, list(laid.values())), work
     answers = np.zeros((len(rows), ANSWER))
     most = int(np.diff(packed.first).max()) + 1
     joints, contacts, walls = (np.zeros((len(rows), most, k)) for k in SHAPE_COLUMNS)
@@ -180,7 +181,8 @@ def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) ->
     return [Answer(answers[k], *(of[k, 1:end] for of in (joints, contacts, walls))) for k, end in enumerate(ends)]
 
 
-def _pack(case: Case, strings: Sequence[String]) -> Strings:
+def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
+    strings = [of.string for of in laid]
     return Strings(
         np.cumsum([0, *(string.segments for string in strings)]),
         np.concatenate([string.length for string in strings]),
@@ -190,6 +192,7 @@ def _pack(case: Case, strings: Sequence[String]) -> Strings:
         float(case.string.top_md),
         max((string.table for string in strings), key=len),
         np.concatenate([damping_of(case, string) for string in strings]),
+        np.concatenate([pressure_of(case, of.string, of.hole) for of in laid]),
         case.wellbore.stiffness_per_length is not None,
     )
 
@@ -210,8 +213,8 @@ def solve_rows(hole, strings, which, loads, S, P, G, R, D, A, U, W, owner, answe
         first, last = strings.first[k], strings.first[k + 1]
         n, long_segment = last - first, strings.long_segment[k]
         length, component = strings.length[first:last], strings.component[first:last]
-        damping = strings.damping[first:last]
-        fed = fill_rows(S, length, component, strings.sections, long_segment, damping, strings.per_metre)
+        damping, pressure = strings.damping[first:last], strings.pressure[first:last]
+        fed = fill_rows(S, length, component, strings.sections, long_segment, damping, pressure, strings.per_metre)
         find_contacts(length, component, strings.sections, long_segment, middle, radius, tributary)
         for j in range(n):
             stiffness[j], weight[j] = strings.sections[component[j], EI], strings.sections[component[j], WEIGHT]

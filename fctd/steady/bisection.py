@@ -22,7 +22,7 @@ PATIENT = (300, 0.05, 1.5, 0.3, 0.005)
 def bisect(problem: Problem) -> Climb:
     """A path of a few balances from less to more friction, or, without one at little friction, to more weight on bit.
 
-    Its pose is that at full loads where they have a balance; then it has no other.  Else the problem is left in the
+    Its pose is that at full loads where they have a balance, as a rule its only one.  Else the problem is left in the
     last balance.  Without any balance the path is empty.
     """
     path = Climb()
@@ -35,16 +35,18 @@ def bisect(problem: Problem) -> Climb:
         high = Share(LOW, 1.0)
     else:
         return path
-    is_driven = problem.rates.spin != 0 or problem.bit_torque != 0
     for _ in range(TRIALS):
         low = path.balances[-1].share
         aim = Share(0.5 * (low.friction + high.friction), 0.5 * (low.weight + high.weight))
-        if not _settles(problem, path, aim):
-            high, path.rolls = aim, is_driven and rolls(problem, aim)
+        # Beyond loads at which the string snaps, the guess may find what a step from less load does not.
+        if not (_settles(problem, path, aim) or _is_found(problem, path, aim)):
+            high, path.rolls = aim, rolls(problem, aim)
             problem.put_pose(path.balances[-1].pose)
         spent_at = _spent_at(path.steps, problem.case.rig.push)
         if path.rolls or spent_at < 1:
             break  # what keeps the string from its loads is known
+    if high == FULL and not path.rolls and not spent_at < 1 and _settles(problem, path, FULL):
+        path.pose = path.balances[-1].pose
     path.is_cut = problem.is_spent
     close(problem, path)
     if not path.spent_at < 1:

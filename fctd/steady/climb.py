@@ -12,15 +12,21 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS
-from fctd.steady.problem import Pose, Problem, Share
+from fctd.steady.problem import FULL, Pose, Problem, Share
 from fctd.steady.relaxation import Creep
+from fctd.steady.stability import push_aside
 
 # Share of the friction at which the string is laid and the weight on bit grows.
 LOW = 0.1
 # Steps of the share: first, smallest and largest; factors after a step of few or many iterations.
 FIRST, SMALLEST, LARGEST = 0.1, 3e-3, 0.25
 FEW, MANY, LONGER, SHORTER = 70, 150, 1.5, 0.67
-SHAKES = 3
+# A push ends one mode or several; a string that has more after so many is followed as it is.
+PUSHES = 8
+# A slow mode is driven by forces less than the imbalance of a balance: the string follows a push down to this share.
+TIGHTLY = 0.01
+# Steps of a longer pseudo-time than that in which a mode grows lead back: the first is this share of it.
+SLOWLY = 0.3
 START_ITERATIONS, STEP_ITERATIONS = 1500, 400
 # A string that rolls round the hole is not worth smaller steps than this.  It rolls where so much of the motion of its
 # points in a few iterations goes one way round.
@@ -92,24 +98,28 @@ class Climb:
         return 0.0 if self.of_weight else LOW
 
 
-def creep_of(problem: Problem, iterations: int) -> Creep:
-    """Step sizes that follow snaps of the string; with steps twice as long it lands in other shapes."""
-    return Creep(iterations, 0.05, 1.3, 0.5, 0.6, 0.04, 0.1, problem.allowed, problem.allowed)
+def creep_of(problem: Problem, iterations: int, tightly: float = 1.0) -> Creep:
+    """Step sizes that follow snaps of the string; with steps twice as long it lands in other shapes.
+
+    tightly : share of the imbalance that a balance is allowed.
+    """
+    allowed = tightly * problem.allowed
+    return Creep(iterations, 0.05, 1.3, 0.5, 0.6, 0.04, 0.1, allowed, allowed)
 
 
 def come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:
-    """Relax the string, and shake it where it rests in a balance that it would leave; returns code and iterations.
+    """Relax the string, and push it aside where it rests in a balance that it would leave; returns code and iterations.
 
-    A straight string stays straight above its buckling limit until something moves it aside.  A string that comes back
-    to rest where it was is taken as it is: its friction holds it in modes that are counted without friction.
+    A straight string stays straight above its buckling limit until something moves it aside.
     """
     code, done = _relax(problem, iterations, share)
-    for _ in range(SHAKES):
-        if code != CONVERGED or problem.unstable_modes(share) == 0:
+    for _ in range(PUSHES):
+        if code != CONVERGED or (time := push_aside(problem, share)) is None:
             break
-        problem.shake()
+        creep = creep_of(problem, AGAIN, TIGHTLY)
+        _, tightly = problem.relax(creep._replace(tau=min(creep.tau, SLOWLY * time)), share)
         code, more = _relax(problem, iterations, share)
-        done += more
+        done += tightly + more
     return code, done
 
 
@@ -163,12 +173,20 @@ def keep(problem: Problem, path: Climb, share: Share) -> None:
 
 
 def _begin(problem: Problem) -> Climb:
-    """A path with its first balance, at the least loads; without one, where none is found."""
-    path, share = Climb(), Share(LOW, 0.0 if problem.weight_on_bit > 0 else 1.0)
-    problem.lay_guess(share)
-    code, path.iterations = come_to_rest(problem, START_ITERATIONS, share)
-    if code == CONVERGED:
-        keep(problem, path, share)
+    """A path with its first balance, at the least loads; without one, where none is found.
+
+    Without friction every shape of balance is one of its loads alone: the path begins, and ends, with those of the
+    operation, and small loads are for a string that finds none there.
+    """
+    path = Climb()
+    least = Share(LOW, 0.0 if problem.weight_on_bit > 0 else 1.0)
+    for share in (least,) if problem.has_friction else (FULL, least):
+        problem.lay_guess(share)
+        code, done = come_to_rest(problem, START_ITERATIONS, share)
+        path.iterations += done
+        if code == CONVERGED:
+            keep(problem, path, share)
+            break
     path.is_cut = problem.is_spent
     return path
 
@@ -254,7 +272,9 @@ def _extrapolated(steps: list[Step]) -> float:
 
 
 def rolls(problem: Problem, share: Share) -> bool:
-    """Whether the string in its pose, far from balance, goes round the hole in one direction all along."""
+    """Whether the string in its pose, far from balance, is driven round the hole in one direction all along."""
+    if not problem.is_driven:
+        return False
     before = problem.walls(problem.reactions(share).contacts)
     problem.relax(creep_of(problem, ROLLING_ITERATIONS), share)
     after = problem.walls(problem.reactions(share).contacts).offset
@@ -287,17 +307,19 @@ def close(problem: Problem, path: Climb) -> None:
 
 def end_of(problem: Problem, path: Climb) -> str:
     """What ends a path, in words; empty where nothing does."""
+    if not path.balances and not path.is_cut:
+        return "the continuation found no steady shape to begin with"
+    beyond = "the work of a row ends at" if path.is_cut else "the continuation found no further steady shape beyond"
     ends = (
         (f"slack-off is spent {'at' if path.spent_at > path.least else 'below'}", path.spent_at),
         ("the string is locked up at", path.locked_at),
-        ("the work of a row ends at" if path.is_cut else "no steady shape was found beyond", path.ends_at),
+        (beyond, path.ends_at),
     )
     parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
     if not parts:
         return ""
     text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
-    remedy = "; drill there with less weight on bit" if path.of_weight else ""
     if not path.rolls or np.isnan(path.ends_at):
-        return text + remedy
-    cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit" if problem.bit_torque else ""
-    return (f"{text}: {cause} rolls the buckled string round the hole" if cause else text) + remedy
+        return text
+    cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit"
+    return f"{text}, where {cause} rolled the buckled string round the hole"

@@ -6,157 +6,46 @@ The string slides or turns at constant rates while its shape stands still; the f
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fctd.case.load import Case, check_bit_depth, naming_file
-from fctd.case.operations import KINDS
-from fctd.case.text import counted
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
 from fctd.model.drillstring import check_fit, lay_out
-from fctd.model.frames import steady_offsets
-from fctd.model.operations import SteadyRates, drive_torque, steady_rates, weight_indicator
-from fctd.model.tortuosity import shortfall
+from fctd.model.operations import SteadyRates, steady_rates
 from fctd.model.wellbore import Wellbore, build_wellbore
-from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
-from fctd.results.columns import IN_CHART, Column
-from fctd.results.display import MAIN, html_table, load_rows
-from fctd.results.notes import Note, string_notes
-from fctd.results.profile import profile_table
+from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.status import SteadyStatus
-from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, PATIENT, balance
+from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, LARGEST_TURN, PATIENT, balance
 from fctd.steady.batch import Hole, Row, hole_of, solve_batch
 from fctd.steady.bisection import bisect
 from fctd.steady.climb import BEYOND, SOUND, Climb, climb, end_of, lock_up
-from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
+from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.laid_string import LaidString
-from fctd.steady.pose import PLACE
 from fctd.steady.post_buckling import is_resolved, resolve
-from fctd.steady.problem import WORK, Allowance, Problem, Workspace
-from fctd.steady.reading import NOTABLE, OUTSIDE, SHAPE, SOLVED, SUM_NORMAL, SUM_R_MU_FN, TOP, Answer
-from fctd.steady.shape import Shape
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-Array = NDArray[np.float64]
+from fctd.steady.problem import Allowance, Problem, Workspace
+from fctd.steady.reading import SOLVED, Answer
+from fctd.steady.steady_string import Equilibrium, steady_string
 
 # Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
 APART = 0.01
-AT_FULL = "solved at its full friction alone, from which share of it on is not known"
-TOO_MUCH = "resolving takes more work than a row may"
+TOO_MUCH = "resolving takes more work than solver.resolve_work allows a row"
 TOO_FINE = f"resolving takes more than the {state.MAX_SEGMENTS} segments that a string may have: use smaller loads"
 ANALYTIC = "the wall force of the helix is the analytic one, r F²/4EI"
-
-
-@dataclass(frozen=True)
-class Equilibrium:
-    """A steady string with the bit at one depth.
-
-    status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
-    message : details.
-    shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
-    [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
-    weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
-    NaN where they were not found.
-    bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
-    sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
-    """
-
-    case: Case
-    operation: str
-    bit_depth: float
-    status: SteadyStatus
-    message: str
-    iterations: int
-    hookload: float
-    surface_torque: float
-    weight_indicator: float
-    drive_torque: float
-    total_contact_force: float
-    sum_r_ft: float
-    sum_r_mu_fn: float
-    imbalance: float
-    _shape: Shape = field(repr=False)
-    shape: str = "none"
-    hookload_low: float = float("nan")
-    hookload_high: float = float("nan")
-    slack_off_spent_at: float = float("nan")
-    locked_up_at: float = float("nan")
-
-    def __repr__(self) -> str:
-        loads = ", ".join(f"{label} {value}" for label, value in self._load_rows(MAIN).items())
-        return f"Equilibrium({self.operation}, bit at {self.bit_depth:g} m: {self.status}, {loads})"
-
-    def _repr_html_(self) -> str:
-        title = f"{self.case.name}: {self.operation}, bit at {self.bit_depth:g} m"
-        return html_table(title, {"status": str(self.status), **self._load_rows(IN_CHART)})
-
-    def _load_rows(self, of: Sequence[Column]) -> dict[str, str]:
-        return load_rows({load.name: load.value(self) if self.answered else float("nan") for load in of})
-
-    @property
-    def answered(self) -> bool:
-        """Whether the numbers belong to a balance of forces."""
-        return self.status.has_loads and bool(np.isfinite(self.hookload))
-
-    def without_loads(self) -> Equilibrium:
-        """The same without loads, for a string that has none at these loads."""
-        none = float("nan")
-        return replace(
-            self, hookload=none, surface_torque=none, weight_indicator=none, drive_torque=none,
-            total_contact_force=none, sum_r_ft=none, sum_r_mu_fn=none,
-        )  # fmt: skip
-
-    @cached_property
-    def profile(self) -> pd.DataFrame:
-        """The string from the top to the bit, a row per contact point; columns of ``profile_table``."""
-        shape, mud = self._shape, self.case.mud.density
-        points = shape.contacts[:, PLACE]
-        return profile_table(shape.hole, shape.laid.string, mud, shape.top, points, shape.walls, shape.loads)
-
-    @property
-    def offsets(self) -> Array:
-        """``steady_offsets`` of the profile's rows to the high side and to the right (n + 1, 2) [m], for pictures."""
-        profile = self.profile
-        md, high, right = (profile[name].to_numpy(float) for name in ("md_m", "offset_high_m", "offset_right_m"))
-        return steady_offsets(md, self._shape.hole.at(md)[1], high, right)
-
-    @property
-    def buckling(self) -> Buckling:
-        """Where the string is buckled; ``UNKNOWN`` where there are no loads."""
-        if not self.answered:
-            return UNKNOWN
-        return self._shape.buckling if self.case.contact.enabled else NOT_BUCKLED
-
-    @cached_property
-    def notes(self) -> tuple[Note, ...]:
-        """Warnings about the loads; empty where there are no loads."""
-        if not self.answered or not self._shape.numbers[NOTABLE]:
-            return ()
-        shape, in_hole = self._shape, self.case.contact.enabled
-        string, radius = shape.laid.string, shape.radius
-        return string_notes(string, shape.loads, self.hookload, shape.walls, radius, in_hole=in_hole)
 
 
 class Solver:
     """Steady strings of one case: the hole is built once, the string laid out anew for each bit depth.
 
-    hole : the case's hole, if it has been built already.  work : arrays that another solver has left.  allowance : work
-    of a row (problem.py).
+    hole : the case's hole, if it has been built already.  work : arrays that another solver has left.
     """
 
-    def __init__(
-        self, case: Case, hole: Wellbore | None = None, work: Workspace | None = None, allowance: float = WORK
-    ) -> None:
-        self.case, self.allowance = case, allowance
+    def __init__(self, case: Case, hole: Wellbore | None = None, work: Workspace | None = None) -> None:
+        self.case = case
         self.hole = build_wellbore(case) if hole is None else hole
         self.depths = case.depths
         self.geometry = self.hole.geometry if case.contact.enabled else state.OPEN
@@ -194,7 +83,7 @@ class Solver:
         """The same where no other method is needed, else None; several threads may call it."""
         if not answer.numbers[SOLVED]:
             return None
-        point = self.point(operation, rates, laid, answer, CONVERGED, 0)
+        point = steady_string(self.case, self.hole, operation, rates, laid, answer, CONVERGED, 0)
         as_cut = self.case.solver.buckling != "resolve" and self.case.contact.helical_force != "analytic"
         return point if as_cut or point.buckling.mode == NOT_BUCKLED.mode else None
 
@@ -216,10 +105,11 @@ class Solver:
     def settle(self, problem: Problem) -> Equilibrium:
         """The string of a problem as its segments can lie, or resolved where the case says so."""
         analytic = self.case.contact.helical_force == "analytic"
+        if self.geometry == state.OPEN:
+            code, iterations, negative = balance(problem, IN_THE_OPEN)
+            return self.answer(problem, code, iterations, negative)
         code, iterations, negative = balance(problem, (*ATTEMPTS, *PATIENT) if analytic else ATTEMPTS)
         point = self.answer(problem, code, iterations, negative)
-        if self.geometry == state.OPEN:
-            return point
         unsolved = code != CONVERGED or negative > 0
         if self.case.solver.buckling == "resolve" and (unsolved or point.buckling.mode != NOT_BUCKLED.mode):
             resolved = self.resolve(problem, iterations)
@@ -257,6 +147,7 @@ class Solver:
         out_of_wall = point.status in (SteadyStatus.DIVERGED, SteadyStatus.NOT_FINITE)
         if out_of_wall and not followed.answered and (code == CONVERGED or not path.balances):
             return point
+        coarse = coarse and not followed._shape.buckling.resolved
         if code != CONVERGED and coarse and followed.status == SteadyStatus.UNSTABLE and not path.rolls:
             # Whether the string has a shape is not known: its segments cannot bend into it.
             message = f"{followed.message}; {followed._shape.buckling.shortfall(self.case.solver.buckling)}"
@@ -273,7 +164,7 @@ class Solver:
         """
         allowed = problem.allowed
         added = add_helical_force(problem, Pace(*ATTEMPTS[0], LARGEST_TURN, allowed, allowed))
-        wound = self.answer(problem, CONVERGED, point.iterations + added.iterations, 0)
+        wound = self.answer(problem, CONVERGED, point.iterations + added.iterations, problem.unstable_modes())
         if added.settled:
             says = wound.message and problem.added.any()
             return replace(wound, message=f"{wound.message}; {ANALYTIC}") if says else wound
@@ -309,7 +200,8 @@ class Solver:
         """The string at the end of a path: with loads where the path reaches them, and with what ends the path."""
         if path.pose is not None:
             problem.put_pose(path.pose)
-        point = self.answer(problem, CONVERGED, path.iterations, 0)
+        negative = problem.unstable_modes() if path.pose is not None else 0
+        point = self.answer(problem, CONVERGED, path.iterations, negative)
         spent = path.spent_at if path.spent_at > path.least else float("nan")  # the message gives the bound
         point = replace(point, slack_off_spent_at=spent, locked_up_at=path.locked_at)
         if path.pose is None:  # but that of smaller loads
@@ -325,59 +217,14 @@ class Solver:
         """A laid-out string as a problem; cut : the case with other segments, of which it has been laid out."""
         case = self.case if cut is None else cut
         self.work = self.work.for_segments(laid.string.segments)
-        return Problem(case, self.hole, self.work, laid, operation, rates, Allowance(self.allowance))
+        return Problem(case, self.hole, self.work, laid, operation, rates, Allowance(self.case.solver.resolve_work))
 
     def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
-        """The steady string of a problem in its pose; code, negative : see ``point``."""
+        """The steady string of a problem in its pose; code, negative : see
+        ``steady_string``."""
         answer = problem.answer(iterations)
-        return self.point(problem.operation, problem.rates, problem.laid, answer, code, negative)
-
-    def point(
-        self, operation: str, rates: SteadyRates, laid: LaidString, answer: Answer, code: int, negative: int
-    ) -> Equilibrium:
-        """The steady string of an answer; code : of the iteration; negative : number of unstable modes."""
-        case, kind, numbers = self.case, KINDS[operation], answer.numbers
-        on_bottom = (case.bit.weight_on_bit, case.bit.torque) if kind.on_bottom else (0.0, 0.0)
-        shape = Shape(
-            self.hole, laid, numbers[TOP:SHAPE], answer.joints, answer.contacts, answer.walls, numbers[SHAPE:],
-            -on_bottom[0], on_bottom[1],
-        )  # fmt: skip
-        _, iterations, hookload, torque, imbalance, allowed = numbers[:TOP].tolist()
-        # The hook load of a horizontal string is 0 within rounding.
-        pushed = -hookload - case.rig.push > laid.string.segments * allowed
-        status, message = self._judge(code, negative, pushed, shape, imbalance)
-        indicator = weight_indicator(case.rig, kind.direction, hookload)
-        drive = drive_torque(case.rig, rates.spin, torque)
-        normal, r_ft, r_mu_n = shape.numbers[SUM_NORMAL : SUM_R_MU_FN + 1].tolist()
-        return Equilibrium(
-            case, operation, laid.string.bit_depth, status, message, int(iterations), hookload, torque,
-            indicator, drive, normal, r_ft, r_mu_n, imbalance, shape,
-        )  # fmt: skip
-
-    def _judge(
-        self, code: int, negative: int, pushed: bool, shape: Shape, imbalance: float
-    ) -> tuple[SteadyStatus, str]:
-        """Status and message of a solution."""
-        if code == NOT_FINITE:
-            return SteadyStatus.NOT_FINITE, SteadyStatus.NOT_FINITE.message
-        if self.geometry != state.OPEN and (outside := int(shape.numbers[OUTSIDE])):
-            text = f"segment {outside} lies deeper in the wall than the hole's radius"
-            return SteadyStatus.DIVERGED, f"{text}: use a stiffer wall or a smaller load"
-        if code != CONVERGED:
-            text = f"forces are out of balance by {imbalance:.3g} N: the string may have no steady shape"
-            return SteadyStatus.MAX_ITERATIONS, text
-        coarse = self.geometry != state.OPEN and not shape.buckling.resolved
-        lacks = shape.buckling.shortfall(self.case.solver.buckling) if coarse else ""
-        if pushed:
-            text = f"{SteadyStatus.LOCKED_UP.message}; {AT_FULL}"
-            return SteadyStatus.LOCKED_UP, f"{text}; {lacks}" if coarse else text
-        if coarse:
-            return SteadyStatus.UNDER_RESOLVED, lacks
-        if lacks := shortfall(self.case.wellbore.tortuosity, shape.laid.string.longest):
-            return SteadyStatus.UNDER_RESOLVED, lacks
-        if negative:
-            return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {counted(negative, 'mode')}"
-        return SteadyStatus.CONVERGED, ""
+        laid = problem.laid
+        return steady_string(self.case, self.hole, problem.operation, problem.rates, laid, answer, code, negative)
 
 
 def equilibrium(

@@ -3,7 +3,8 @@
 In a level hole a helix has w r − r² F²/8EI a metre more energy than the straight string (clearance r, weight w,
 compression F).  That of snaking, by Mitchell's equation, is equal to it at 1.45 times the onset 2√(EI w/r).  Snaking
 never becomes a helix by more load alone: the helix is laid into the string, with θ′ = √(F/2EI) (Lubinski, Althouse &
-Logan 1962), and comes to rest from there.
+Logan 1962), and comes to rest from there.  A torque M winds it in its own sense, of the lower energy, with
+θ′ = [1.5M + √(2.25M² + 8EIF)]/4EI (Miska & Cunha 1995).
 """
 
 import numpy as np
@@ -23,6 +24,12 @@ LOWER_ENERGY = 1.45
 LEAST_TURNS = 1.0
 # Share of the turns laid that a string at rest must have to count as a helix.
 STILL = 0.7
+
+
+def winding_rate(EI: Array, compression: Array, torque: Array) -> Array:
+    """Rate θ′ (n,) of a helix wound in the sense of its torque [rad/m]."""
+    push, twist = np.maximum(compression, 0.0), 1.5 * np.abs(torque)
+    return np.asarray((twist + np.sqrt(twist**2 + 8 * EI * push)) / (4 * EI))
 
 
 class Helix:
@@ -45,11 +52,14 @@ class Helix:
         here = problem.compressed(share)
         compression = here.compression[1:]
         beyond = self.beyond | (compression > LOWER_ENERGY * here.rows[1:, SINUSOIDAL_LIMIT])
-        rate = np.sqrt(np.maximum(compression, 0.0) / (2 * string.of("EI")))
+        found = problem.reactions(share)
+        torque = found.joints[:, JOINT_TORQUE]
+        rate = winding_rate(string.of("EI"), compression, torque)
         turns = float((rate * string.length)[beyond].sum()) / (2 * np.pi)
         if turns < self.turns + LEAST_TURNS:
             return False
-        found = problem.reactions(share)
+        if torque[beyond].sum() > 0:
+            rate = -rate
         walls = problem.walls(found.contacts)
         self.turns, self.beyond = turns, beyond
         low, right = carried_frame(problem.hole.at(walls.md)[1])

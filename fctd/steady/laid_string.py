@@ -25,7 +25,7 @@ class LaidString:
 
     def put(self, S: Array) -> PerMetre:
         """Write the string into a buffer of the engine; returns the pipe at the top."""
-        return fill(S, self.string, self.case)
+        return fill(S, self.string, self.case, self.hole)
 
     @cached_property
     def is_bent(self) -> bool:

@@ -14,9 +14,10 @@ from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.model.drillstring import lay_out
-from fctd.results.buckling import IN_HALF_WAVE, MODE, NEITHER, SINUSOIDAL_LIMIT
+from fctd.results.buckling import GROWN, IN_HALF_WAVE, MODE, NEEDED, NEITHER, SINUSOIDAL_LIMIT
+from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
 from fctd.steady.climb import LOW, SOUND, Climb, climb, come_to_rest, keep, lock_up
-from fctd.steady.continuation import CONVERGED
+from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.helix import Helix
 from fctd.steady.problem import FULL, Compressed, Problem, Share
 
@@ -25,7 +26,7 @@ Array = NDArray[np.float64]
 # The compression grows when the string can bend: by this factor and this share of the string's weight for the plan of
 # segments, which are short from this share of the limit on and so many half waves beyond.  With the factor a half wave
 # has 10 segments, and the amplitude of snaking an error below 3 %.
-MORE, ADDED, NEARLY, BEYOND = 1.6, 0.02, 0.75, 2
+MORE, ADDED, NEARLY, BEYOND = GROWN, 0.02, 0.75, 2
 # A string that is pushed buckles farther before it locks up: two segments in a half wave of one weight more.
 LOCKING, IN_LOCKING = 1.0, 2
 # Times that the string is laid out, and the helix laid at full loads.
@@ -34,7 +35,10 @@ WINDING_ITERATIONS = 800
 
 
 class Resolved(NamedTuple):
-    """A string on its fine segments: the paths of its shapes; helix is None where no part of it has that shape."""
+    """A string on its fine segments: the paths of its shapes; helix is None where no part of it has that shape.
+
+    Without friction the loads do not hang on the shape, and both are the path of the helix where there is one.
+    """
 
     problem: Problem
     snaking: Climb
@@ -47,7 +51,7 @@ def resolve(case: Case, coarse: Climb, problem: Problem, lay: Callable[[Case], P
     coarse, problem : path and string of the case's own segments; lay : makes a problem of a case with others.
     """
     bit_depth, needed = problem.string.bit_depth, (np.full(0, np.inf), np.full(0, np.inf))
-    path, total = coarse, coarse.iterations
+    path, total, wound = coarse, coarse.iterations, None
     for _ in range(LAYOUTS):
         needed = _shorter(needed, _needed(problem, path))
         finer = layouts.with_components(case, layouts.resolved(case, bit_depth, *needed))
@@ -56,12 +60,13 @@ def resolve(case: Case, coarse: Climb, problem: Problem, lay: Callable[[Case], P
         if np.array_equal(lay_out(finer, bit_depth).length, problem.string.length):
             break
         problem = lay(finer)
-        path = climb(problem, most=SOUND)
+        wound = None if problem.has_friction else _wind_at_once(problem, FULL)
+        path = climb(problem, most=SOUND) if wound is None else wound[1]
         total += path.iterations
         if is_resolved(problem, path):
             break
     path.iterations = total
-    wound = _wind(problem, path)
+    wound = _wind(problem, path) if wound is None else wound
     if wound is None:
         if problem.is_spent:
             # Whether a helix has the lower energy is not known.
@@ -95,17 +100,37 @@ def _wind(problem: Problem, snaking: Climb) -> tuple[Helix, Climb] | None:
             if balance.share <= start.share:
                 problem.put_pose(balance.pose)
                 keep(problem, path, balance.share)
-        if not _lay(problem, helix, path):
+        if not _lay(problem, helix, path, start.share):
             continue
         climb(problem, helix.prepare, path)
+        if path.pose is None and path.of_weight and not path.rolls and not path.is_cut:
+            at_once = _wind_at_once(problem, Share(LOW, 1.0))
+            if at_once is not None:
+                helix, path = at_once
+                path.iterations += snaking.iterations
+                climb(problem, helix.prepare, path)
         if helix.turns == 0 or path.pose is None or helix.stands():
             return helix, path
     return None
 
 
-def _lay(problem: Problem, helix: Helix, path: Climb) -> bool:
-    """Lay the helix at the end of a path; returns whether the string comes to rest."""
-    share = path.balances[-1].share
+def _wind_at_once(problem: Problem, share: Share) -> tuple[Helix, Climb] | None:
+    """The helix laid into the straight string of some loads, and a path of this balance; None where it does not stand.
+
+    On the way from small loads each turn that the helix gains goes round all of the others: in slightly inclined hole
+    against their weight, until the path ends.
+    """
+    problem.lay_guess(share)
+    allowed = problem.allowed
+    _, done = problem.iterate(Pace(*ATTEMPTS[0], LARGEST_TURN, allowed, allowed), share)
+    helix, path = Helix(problem), Climb(iterations=done)
+    if not _lay(problem, helix, path, share) or helix.turns == 0:
+        return None
+    return helix, path
+
+
+def _lay(problem: Problem, helix: Helix, path: Climb, share: Share) -> bool:
+    """Lay the helix at the end of a path, at loads of these shares; returns whether the string comes to rest."""
     for _ in range(WINDINGS):
         if not helix.prepare(share):
             break
@@ -114,10 +139,11 @@ def _lay(problem: Problem, helix: Helix, path: Climb) -> bool:
         if code != CONVERGED:
             return False
     if helix.turns > 0:
-        path.balances.pop()
-        path.steps.pop()
+        if path.balances:
+            path.balances.pop()
+            path.steps.pop()
         keep(problem, path, share)
-    if share == FULL:
+    if share == FULL and path.balances:
         path.pose = path.balances[-1].pose
     return helix.turns == 0 or helix.stands()
 
@@ -125,8 +151,8 @@ def _lay(problem: Problem, helix: Helix, path: Climb) -> bool:
 def is_resolved(problem: Problem, path: Climb) -> bool:
     """Whether the segments are short enough at the end of a path."""
     here = _end_of(problem, path)
-    needed = np.where(here.rows[:, MODE] == NEITHER, np.inf, _half_wave(here.EI, here.compression) / IN_HALF_WAVE)
-    return bool((problem.string.length <= np.minimum(needed[:-1], needed[1:])).all())
+    needed = here.rows[:, NEEDED]
+    return bool((problem.string.length <= np.minimum(needed[:-1], needed[1:]) * (1 + 1e-9)).all())
 
 
 def _needed(problem: Problem, path: Climb) -> tuple[Array, Array]:

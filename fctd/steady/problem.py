@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
+from fctd.mechanics.contact import FACTOR
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.query import WALL_COLUMNS, Walls
 from fctd.model.operations import SteadyRates
@@ -35,8 +36,9 @@ Array = NDArray[np.float64]
 
 # Lateral imperfection of the first guess, so that a straight string may buckle [m].
 SEED = 1e-4
-# Work of the relaxations of a row, iterations times segments: some twenty seconds.
-WORK = 8e6
+# A mode that takes longer to grow [s] is neutral within the imbalance of a balance, as that of a helix rolling round a
+# vertical hole is: a kilometre of string swings back a hundred times as fast, in the square.
+SLOWEST = 100.0
 
 
 class Workspace:
@@ -90,7 +92,7 @@ class Reactions(NamedTuple):
 
 @dataclass
 class Allowance:
-    """Work that a row may still take, iterations times segments; the problems of one row share it."""
+    """Work that the relaxations of a row may still take, iterations times segments; its problems share it."""
 
     left: float
 
@@ -141,6 +143,16 @@ class Problem:
     def _top_length(self) -> float:
         """Length of a long segment at the top [m], else 0."""
         return float(self.string.length[0]) if self.string.long_segment else 0.0
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether rotation or the torque at the bit may drive the string round the hole."""
+        return bool(self.rates.spin != 0 or self.bit_torque != 0)
+
+    @property
+    def has_friction(self) -> bool:
+        """Whether a wall holds the string anywhere."""
+        return bool(self.hole.pieces[:, FACTOR].any())
 
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
@@ -202,17 +214,18 @@ class Problem:
         """Whether the allowance has no iteration left."""
         return self.allowance.left < self.n
 
-    def shake(self) -> None:
-        """Shift every body across the string by up to ``SEED``, each another way, always the same."""
-        across = np.random.default_rng(0).uniform(-SEED, SEED, (self.n, 3))
-        self.work.P[1 : self.n + 1, PLACE] += across
-
-    def unstable_modes(self, share: Share = FULL) -> int:
-        """Number of modes in which the pose would leave its balance without friction."""
+    def bare_tangent(self, share: Share, tau: float) -> None:
+        """Fill the tangent without friction, with the pseudo-mass of a pseudo-time [s]."""
         w = self.work
         frictionless_tangent(
             w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(share), w.R, w.D, w.A, w.U
         )
+        add_pseudo_mass(w.S, self.n, tau, w.D)
+
+    def unstable_modes(self, share: Share = FULL, tau: float = SLOWEST) -> int:
+        """Number of modes in which the pose would leave its balance without friction, in less than a time [s]."""
+        w = self.work
+        self.bare_tangent(share, tau)
         return int(negative_pivots(w.D, w.A, w.U, self.n))
 
     def reactions(self, share: Share = FULL) -> Reactions:

@@ -7,6 +7,9 @@ torque converges irregularly, at first order or a little better, and one small c
 The stretch where a string is buckled is laid out by the solver (post_buckling.py), in segments that its waves need, so
 that the loads depend on the length of the other segments alone; the case's ``solver.buckling`` can turn that off.
 
+Every level halves all segments, down to half a metre those of components shorter than the others' segments too: bent
+housings, motors, stabilisers.  With such components no string is judged that has segments of more than 10 m.
+
 Before a graded string a uniform one is found.  Since a graded string is valid for one bit depth only, it has to need
 at least a tenth fewer segments.
 """
@@ -32,7 +35,8 @@ from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.notes import Note, worst
 from fctd.results.status import RefineStatus, SteadyStatus
 from fctd.steady.chords import largest_chord, shorter_cylinders
-from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.equilibrium import Solver
+from fctd.steady.steady_string import Equilibrium
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -114,7 +118,9 @@ def refine(
         _check(case, tolerance, most, depth)
         task = _Task(rates_of_all(case, kinds, speed, rpm), depth, most, progress)
         coarse = _with_buckling(case, "detect")
-        _solve("string", "uniform", _cut(coarse, task, "uniform", _divided(case, depth) / FIRST), task)  # compile
+        _solve(
+            "string", "uniform", _cut(coarse, task, "uniform", layouts.divided_length(case, depth) / FIRST), task
+        )  # compile
         resolving = case if "buckling" in case.solver.model_fields_set else _with_buckling(case, "resolve")
         # Chords change the loads of a string that lies too straight where it is buckled as they do those of any other.
         holes = _refine_hole(coarse, task, SHARE_OF_HOLE * tolerance)
@@ -142,7 +148,7 @@ class _Level(NamedTuple):
     """The strings of one layout and fineness, each level twice as fine as the one before.
 
     loads (operations, 2) : hook load [N] and torque [N m], NaN where a string was not solved; scales (operations, 2) :
-    the values errors are relative to; seconds (operations,).
+    the values errors are relative to; seconds (operations,); length : that the layout was asked for [m].
     """
 
     stage: str
@@ -154,6 +160,7 @@ class _Level(NamedTuple):
     scales: Array
     points: list[Equilibrium]
     seconds: list[float]
+    length: float = 0.0
 
     @property
     def answered(self) -> bool:
@@ -172,7 +179,7 @@ def _refine_hole(case: Case, task: _Task, allowed: float) -> list[_Level]:
     if case.wellbore.geometry == "arcs" or not case.contact.enabled:
         return levels
     for segments in IN_HOLE:
-        cut = _cut(case, task, "uniform", _divided(case, task.bit_depth) / segments)
+        cut = _cut(case, task, "uniform", layouts.divided_length(case, task.bit_depth) / segments)
         levels = [_solve("hole", "uniform", cut, task)]
         if levels[0].answered:
             break
@@ -185,15 +192,15 @@ def _refine_hole(case: Case, task: _Task, allowed: float) -> list[_Level]:
 def _refine_string(case: Case, task: _Task, layout: str, allowed: float) -> list[_Level]:
     """Levels of ever shorter segments, until their error is allowed or the next level has too many segments."""
     levels: list[_Level] = []
-    length = _divided(case, task.bit_depth) / FIRST
+    length = layouts.divided_length(case, task.bit_depth) / FIRST
     while True:
-        cut = _cut(case, task, layout, length)
+        cut = _cut(case, task, layout, length, 2 ** len(levels))
         most = min(task.most, MOST_BESIDE) if levels and levels[-1].resolved else task.most
         if levels and layouts.segments_in_hole(cut, task.bit_depth) > most:
             return levels
-        levels.append(_solve("string", layout, cut, task))
+        levels.append(_solve("string", layout, cut, task)._replace(length=length))
         answered = [k for k, level in enumerate(levels) if level.answered]
-        if len(answered) >= ANSWERS and _error(levels) <= allowed:
+        if len(answered) >= ANSWERS and _error(levels) <= allowed and _is_judged(case, levels[-1]):
             return levels
         if answered and len(levels) - answered[-1] > UNANSWERED:
             return levels
@@ -221,6 +228,11 @@ def _solve(stage: str, layout: str, case: Case, task: _Task) -> _Level:
         stage, layout, case, string.segments, float(string.length.min()), np.array(loads), np.array(scales), points,
         seconds,
     )  # fmt: skip
+
+
+def _is_judged(case: Case, level: _Level) -> bool:
+    """Whether a level may end the search: beside bent and short components of the case its segments are short."""
+    return level.length <= layouts.BESIDE_SHORT or not layouts.has_short(case)
 
 
 def _counts(point: Equilibrium, stage: str = "string") -> bool:
@@ -304,7 +316,8 @@ def _result(
         return finish(RefineStatus.NO_ANSWER, message, case, np.inf, 0, np.nan)
     found = strings[answered[-1]]
     error = error_of_hole + _error(strings[: answered[-1] + 1])
-    if answered[-1] == len(strings) - 1 and error <= tolerance and len(answered) >= ANSWERS:
+    judged = _is_judged(case, found)
+    if answered[-1] == len(strings) - 1 and error <= tolerance and len(answered) >= ANSWERS and judged:
         return finish(RefineStatus.WITHIN_TOLERANCE, "", found.case, error, found.segments, found.shortest)
     left = f"an error of {100 * error:.3g} %" if np.isfinite(error) else "an unknown error"
     message = f"{left} remains at {found.segments} segments, the largest number tried"
@@ -312,6 +325,8 @@ def _result(
         lost = next(point for point in strings[-1].points if not _counts(point))
         why = f"{lost.operation}: {lost.status}"
         message = f"strings of more than {found.segments} segments have no solution ({why}); {left} remains"
+    if not judged:
+        message += f"; bent and short components ask for segments of {layouts.BESIDE_SHORT:g} m beside them"
     if tolerance < error_of_hole < np.inf:
         message += f"; {100 * error_of_hole:.3g} % of it comes from the cylinders"
     return finish(RefineStatus.NOT_REACHED, message, found.case, error, found.segments, found.shortest)
@@ -351,20 +366,8 @@ def _with_buckling(case: Case, how: str) -> Case:
     return case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": how})})
 
 
-def _cut(case: Case, task: _Task, layout: str, length: float) -> Case:
-    return layouts.with_components(case, layouts.LAYOUTS[layout](case, task.bit_depth, length))
-
-
-def _divided(case: Case, bit_depth: float) -> float:
-    """Length of the part of the string in the hole that is cut, without the paper's long segment [m]."""
-    in_hole = bit_depth - case.string.top_md
-    last = case.string.components[-1]
-    if not layouts.is_long(last):
-        return in_hole
-    cut = sum(part.length or 0.0 for part in case.string.components)
-    if cut == 0:
-        raise InputError("a component that can be cut, beside the long segment", key="string.components")
-    return min(in_hole, cut)
+def _cut(case: Case, task: _Task, layout: str, length: float, least: int = 1) -> Case:
+    return layouts.with_components(case, layouts.LAYOUTS[layout](case, task.bit_depth, length, least))
 
 
 def _kinds(case: Case, operation: str | Sequence[str] | None) -> list[str]:

@@ -90,6 +90,8 @@ def _components(written: Sequence[Mapping[str, Any]], pieces: Sequence[Component
                 value = getattr(piece, key)
                 if value is not None:
                     table[key] = value if key == "segments" else _metres(value)
+            if ComponentSpec.model_validate(table).contact != piece.contact:
+                table["contact"] = piece.contact  # a piece of a sleeve may be as short as a point
             tables.append(table)
     tables[-1].add(tomlkit.nl())
     return tables

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from fctd.model.operations import SteadyRates
 from fctd.steady.continuation import Pace
-from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Problem
+from fctd.steady.steady_string import Equilibrium
 
 Array = NDArray[np.float64]
 

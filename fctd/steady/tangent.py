@@ -45,8 +45,9 @@ class Steady(NamedTuple):
     geometry, friction : as in Laws.  friction_scale : multiplies every friction factor.
     speed : along the hole, downwards [m/s]; spin [rad/s].
     bit_x, bit_y, bit_z : force on the bit [N], global; bit_torque : torque that resists the bit's rotation [N m].
-    at_axis : 0, or 1 where the friction force along the hole acts at the string's axis and not at its surface, which
-    leaves out its bending moment (relaxation.py).
+    at_axis : 0, or 1 where the loads do no work on a buckled string that rolls round the hole (relaxation.py): friction
+    along the hole acts at the string's axis and not at its surface, which leaves out its bending moment, and the torque
+    at the bit is semi-tangential, half about the bit's axis and half about the hole's (Ziegler 1968).
     wall_exponent, wall_reference : as in Laws.
     """
 
@@ -102,17 +103,29 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
     fa, fb, fc = in_frame(w, x, y, z, laws.bit_x, laws.bit_y, laws.bit_z)
     R[n, 3] -= arm * fb
     R[n, 4] += arm * fa
-    R[n, AXIAL_MOMENT] -= laws.bit_torque
     D[n, 3, 3] += arm * fc
     D[n, 4, 4] += arm * fc
+    pressing = np.sqrt(laws.bit_x * laws.bit_x + laws.bit_y * laws.bit_y + laws.bit_z * laws.bit_z)
+    if laws.at_axis == 0 or pressing == 0:
+        R[n, AXIAL_MOMENT] -= laws.bit_torque
+        return
+    # Half of the torque acts about the direction in which the bit is pressed.
+    half = 0.5 * laws.bit_torque / pressing
+    R[n, 3] += half * fa
+    R[n, 4] += half * fb
+    R[n, AXIAL_MOMENT] += half * fc - 0.5 * laws.bit_torque
+    D[n, 3, 4] += half * fc
+    D[n, 4, 3] -= half * fc
+    D[n, 5, 3] += half * fb
+    D[n, 5, 4] -= half * fa
 
 
 @entry
 def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """Fill D, A, U with the tangent of springs, weight and wall alone: symmetric, positive definite when stable."""
     bare = Steady(
-        laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque, 0,
-        laws.wall_exponent, laws.wall_reference,
+        laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque,
+        laws.at_axis, laws.wall_exponent, laws.wall_reference,
     )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
 

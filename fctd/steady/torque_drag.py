@@ -18,9 +18,10 @@ from fctd.results.columns import IN_CHART, SHAPES, SHARES
 from fctd.results.notes import codes_of
 from fctd.results.status import SteadyStatus
 from fctd.steady import batch
-from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.reading import Answer
+from fctd.steady.steady_string import Equilibrium
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -3,7 +3,8 @@
 A point that moves by δ moves s = t·δ/ρ along its piece of hole, with t the direction of the hole beside it and ρ its
 distance from the centre of an arc over the arc's radius (1 beside a cylinder).  Then PT changes by δ − s t, the
 direction by s κ m with m the unit vector towards the centre, and hole radius, stiffness and friction by s times their
-gains.  In the overlap of two cylinders all of these are blended, with shares that change along the first one.
+gains.  In the overlap of two cylinders all of these are blended, with shares that change along the first one, and the
+wall leans as the stepper's does (contact.lean_wall).
 
 A quantity is a tuple of four: its value, and its derivatives by the three components of the point's place.
 """
@@ -130,27 +131,83 @@ def unit(tx, ty, tz):
 
 
 @inlined
-def beside_cylinders(C, i, x, y, z):
+def total(a, b):
+    """The sum of two quantities."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
+
+
+@inlined
+def times(k, a):
+    """A number times a quantity."""
+    return k * a[0], k * a[1], k * a[2], k * a[3]
+
+
+@inlined
+def product(a, b):
+    """The product of two quantities."""
+    x, y = a[0], b[0]
+    return x * y, x * b[1] + y * a[1], x * b[2] + y * a[2], x * b[3] + y * a[3]
+
+
+@inlined
+def to_the_power(a, exponent):
+    """A power of a quantity that is above 0."""
+    value = a[0] ** exponent
+    return value, *times(exponent * value / a[0], a)[1:]
+
+
+@inlined
+def leaning(wall, gx, gy, gz, radius):
+    """A wall that presses a point with the force −K d g and the energy ½K d²: ``contact.lean_wall``."""
+    square = total(total(product(gx, gx), product(gy, gy)), product(gz, gz))
+    less = (radius, 0.0, 0.0, 0.0)
+    across = product(total(wall.beyond, less), to_the_power(square, -0.5))
+    return Beside(
+        gx, gy, gz, total(across, times(-1.0, less)), product(wall.stiffness, square), wall.factor,
+        wall.tx, wall.ty, wall.tz,
+    )  # fmt: skip
+
+
+@inlined
+def lean_in_overlap(a, b, wall, share, v, radius):
+    """The blend of the walls a and b of two cylinders, as it presses a point: ``contact.rise_in_overlap``.
+
+    share : of b per metre along the first cylinder; v : share of b, a quantity.
+    """
+    ax, ay, az = unit(a.x, a.y, a.z)
+    bx, by, bz = unit(b.x, b.y, b.z)
+    depth = total(wall.beyond, (radius, 0.0, 0.0, 0.0))
+    gain = b.stiffness[0] - a.stiffness[0]
+    stiffer = times(0.5 * gain, product(depth, to_the_power(wall.stiffness, -1)))
+    along = times(share, total(total(b.beyond, times(-1.0, a.beyond)), stiffer))
+    gx = total(blend(ax, bx, *v), times(a.tx[0], along))
+    gy = total(blend(ay, by, *v), times(a.ty[0], along))
+    gz = total(blend(az, bz, *v), times(a.tz[0], along))
+    return leaning(wall, gx, gy, gz, radius)
+
+
+@inlined
+def beside_cylinders(C, i, x, y, z, radius):
     """The wall of cylinder i beside a point, blended with that of the next one in their overlap."""
     a, s = beside_cylinder(C, i, x, y, z)
     if s <= C[i, ALONE_TO]:
         return a
     b, _ = beside_cylinder(C, i + 1, x, y, z)
     share = 1 / C[i, OVERLAP]
-    v, vx, vy, vz = along_hole(share * (s - C[i, ALONE_TO]), share, a.tx[0], a.ty[0], a.tz[0])
-    tx, ty, tz = unit(
-        blend(a.tx, b.tx, v, vx, vy, vz), blend(a.ty, b.ty, v, vx, vy, vz), blend(a.tz, b.tz, v, vx, vy, vz)
-    )
-    return Beside(
-        blend(a.x, b.x, v, vx, vy, vz), blend(a.y, b.y, v, vx, vy, vz), blend(a.z, b.z, v, vx, vy, vz),
-        blend(a.beyond, b.beyond, v, vx, vy, vz), blend(a.stiffness, b.stiffness, v, vx, vy, vz),
-        blend(a.factor, b.factor, v, vx, vy, vz), tx, ty, tz,
+    v = along_hole(share * (s - C[i, ALONE_TO]), share, a.tx[0], a.ty[0], a.tz[0])
+    tx, ty, tz = unit(blend(a.tx, b.tx, *v), blend(a.ty, b.ty, *v), blend(a.tz, b.tz, *v))
+    wall = Beside(
+        blend(a.x, b.x, *v), blend(a.y, b.y, *v), blend(a.z, b.z, *v), blend(a.beyond, b.beyond, *v),
+        blend(a.stiffness, b.stiffness, *v), blend(a.factor, b.factor, *v), tx, ty, tz,
     )  # fmt: skip
+    if wall.beyond[0] + radius > 0:
+        return lean_in_overlap(a, b, wall, share, v, radius)
+    return wall
 
 
 @inlined
-def wall_beside(C, i, geometry, x, y, z):
-    """The wall of piece i beside a point, with its gradient."""
+def wall_beside(C, i, geometry, x, y, z, radius):
+    """The wall of piece i beside a point of a string of ``radius`` [m], with its gradient."""
     if geometry == ARCS:
         return beside_arc(C, i, x, y, z)
-    return beside_cylinders(C, i, x, y, z)
+    return beside_cylinders(C, i, x, y, z, radius)

@@ -121,7 +121,7 @@ def add_wall(S, j, P, C, owner, laws, R, D, K):
     x, y, z = contact_place(S, j, P)
     i = arc_owner(C, owner[j], x, y, z) if laws.geometry == ARCS else cylinder_owner(C, owner[j], x, y, z)
     owner[j] = i
-    wall = wall_beside(C, i, laws.geometry, x, y, z)
+    wall = wall_beside(C, i, laws.geometry, x, y, z, S[RADIUS + j])
     if wall.beyond[0] + S[RADIUS + j] < 0:
         return
     w, qx, qy, qz = quaternion(P, j)
@@ -138,7 +138,7 @@ def add_wall(S, j, P, C, owner, laws, R, D, K):
 def read_wall(S, j, P, C, i, laws):
     """Normal force on body j from piece i [N], friction torque r F_t about its axis [N m] and r μ F_n [N m]."""
     x, y, z = contact_place(S, j, P)
-    wall = wall_beside(C, i, laws.geometry, x, y, z)
+    wall = wall_beside(C, i, laws.geometry, x, y, z, S[RADIUS + j])
     penetration = wall.beyond[0] + S[RADIUS + j]
     if penetration < 0:
         return 0.0, 0.0, 0.0

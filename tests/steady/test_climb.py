@@ -129,7 +129,7 @@ def test_slack_off_is_spent_at_the_root_of_the_hook_load() -> None:
 
 def test_a_locked_string_is_followed_to_lock_up() -> None:
     """By the reciprocal law of a helix, or later for snaking, which has less wall force."""
-    problem = problem_of(level_case(2.0, friction=1.0))
+    problem = problem_of(level_case(1.9, friction=1.0))
     path = climb(problem)
     pose = path.pose
     assert pose is not None

@@ -7,6 +7,7 @@ from scipy.spatial.transform import Rotation
 from fctd.mechanics import state
 from fctd.mechanics.laws import CODES
 from fctd.model.drillstring import fill, lay_out
+from fctd.model.wellbore import build_wellbore
 from fctd.steady import continuation
 from fctd.steady.continuation import (
     CONVERGED,
@@ -39,7 +40,7 @@ class Chain:
         case = make_case([[0, 5, 0], [60, 5, 0]], [pipe(60, SEGMENTS)], contact={"enabled": False})
         self.hole = Solver(case).hole
         self.work = Workspace(SEGMENTS)
-        fill(self.work.S, lay_out(case, 60.0), case)
+        fill(self.work.S, lay_out(case, 60.0), case, build_wellbore(case))
         self.laws = Steady(state.OPEN, CODES["coulomb"], 1.0, 0.3, 0.0, 0.0, 0.0, 0.0, 0.0)
         self.kinks = np.zeros((SEGMENTS + 2, 4))
         self.kinks[:, 0] = 1.0

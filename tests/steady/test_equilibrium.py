@@ -1,24 +1,29 @@
 """The steady solver: balances, statuses, convergence with segment count, bad input."""
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import simpson, solve_bvp
 
 import fctd
 from fctd import Case, InputError, equilibrium
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.laws import CODES
+from fctd.model.drillstring import section_of
 from fctd.model.operations import steady_rates
 from fctd.model.wellbore import build_wellbore, hole_frame
+from fctd.steady.balance import IN_THE_OPEN
 from fctd.steady.block_thomas import solve_with_pivoting
 from fctd.steady.continuation import add_pseudo_mass, take_step
 from fctd.steady.equilibrium import Solver
 from fctd.steady.first_guess import MD, guess
+from fctd.steady.pose import PLACE
 from fctd.steady.tangent import Steady, assemble
 from tests.cases import make_case, pipe
 from validation.harness.study import Context
@@ -195,8 +200,9 @@ def test_a_straight_string_beyond_its_buckling_load_leaves_it_for_a_helix() -> N
     assert (straight.status, straight.buckling.mode) == ("converged", "none")
 
 
-def test_a_string_without_a_balance_has_a_status() -> None:
-    """A clamped string without walls in a slanting hole would have to hang down in a loop."""
+def test_a_string_without_a_balance_has_a_status(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A clamped string without walls in a slanting hole hangs down in a loop, which five iterations do not find."""
+    monkeypatch.setattr("fctd.steady.equilibrium.IN_THE_OPEN", ((5, *IN_THE_OPEN[0][1:]),))
     case = make_case([[0, 60, 0], [300, 60, 0]], [pipe(None, None, segment_length=10.0)], contact={"enabled": False})
     point = equilibrium(case, "trip_in", 300.0)
     assert point.status == "max_iterations"
@@ -205,6 +211,34 @@ def test_a_string_without_a_balance_has_a_status() -> None:
     chart = fctd.torque_drag(case, "trip_in", [300.0])
     assert chart["hookload_N"].isna().all()
     assert list(chart["status"]) == ["max_iterations"]
+
+
+@pytest.mark.parametrize("length", [10.0, 20.0, 30.0, 45.4])
+def test_a_heavy_pipe_held_level_is_an_elastica(length: float) -> None:
+    """EI θ″ = −q (L − s) cos θ, θ(0) = 0, θ′(L) = 0, integrated; q L³/EI from 0.2 to 20."""
+    segments = 120
+    part = pipe(None, None, inner=0.1086, segment_length=length / segments)
+    case = make_case([[0, 90, 0], [length, 90, 0]], [part], contact={"enabled": False})
+    point = equilibrium(case, "trip_in", length)
+    assert point.status == "converged"
+    s = section_of(case.string.components[0], 0.0)
+    load = s.weight * length**3 / s.EI
+
+    def slopes(at, y, share):
+        return np.vstack([y[1], -share * load * (1 - at) * np.cos(y[0])])
+
+    at, found = np.linspace(0, 1, 201), np.zeros((2, 201))
+    for share in np.linspace(0.05, 1, 20):
+        solved = solve_bvp(partial(slopes, share=share), lambda a, b: np.array([a[0], b[1]]), at, found, tol=1e-8)
+        at, found = solved.x, solved.y
+    fine = np.linspace(0, 1, 4001)
+    drop = length * simpson(np.sin(solved.sol(fine)[0]), x=fine)
+    reach = length * simpson(np.cos(solved.sol(fine)[0]), x=fine)
+    places = point._shape.contacts[:, PLACE]
+    assert places[-1, 2] - point._shape.top[2] == pytest.approx(drop, rel=1e-3)
+    assert places[-1, 0] - point._shape.top[0] == pytest.approx(reach, rel=2e-3)
+    moment = point.profile["bending_moment_N_m"].max()
+    assert moment == pytest.approx(s.EI / length * solved.sol(0.0)[1], rel=1e-3)
 
 
 @pytest.mark.parametrize("stations", [[[0, 0, 0], [300, 0, 0]], [[0, 0, 0], [300, 60, 40]]])

@@ -66,7 +66,7 @@ def test_it_fills_a_buffer_with_the_string_of_its_case() -> None:
     string = lay_out(case, 700.0)
     laid = LaidString(case, build_wellbore(case), string)
     S, filled = state.new_state(string.segments), state.new_state(string.segments)
-    assert laid.put(S) == fill(filled, string, case)
+    assert laid.put(S) == fill(filled, string, case, build_wellbore(case))
     assert np.array_equal(S, filled)
     assert laid.is_bent
     assert np.array_equal(laid.pipe.radius, string.contact_radius())

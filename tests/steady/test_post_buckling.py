@@ -9,7 +9,8 @@ from fctd.mechanics import state
 from fctd.model.drillstring import section_of
 from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
-from fctd.steady.equilibrium import AT_FULL, TOO_FINE, TOO_MUCH, Solver
+from fctd.steady.equilibrium import TOO_FINE, TOO_MUCH, Solver
+from fctd.steady.steady_string import AT_FULL
 from tests.steady.buckled import HOLE, level_case, onset
 
 
@@ -69,7 +70,8 @@ def test_a_string_that_needs_more_segments_than_there_may_be(monkeypatch: pytest
 def test_a_row_whose_work_is_spent_has_the_loads_of_the_segments_of_its_case() -> None:
     case = level_case(1.3, 120.0, 12.0, friction=0.1)
     as_it_is = fctd.equilibrium(case, "drill_sliding", 120.0)
-    solver = Solver(with_resolution(case), allowance=50.0)
+    fine = with_resolution(case)
+    solver = Solver(fine.model_copy(update={"solver": fine.solver.model_copy(update={"resolve_work": 50.0})}))
     cut = solver.solve("drill_sliding", steady_rates(case, "drill_sliding"), 120.0)
     assert (cut.status, cut.shape, cut.hookload) == (as_it_is.status, "none", as_it_is.hookload)
     found = as_it_is.message.replace(', or solver.buckling = "resolve" (--resolve-buckling)', "")

@@ -5,8 +5,9 @@ import numpy as np
 from fctd.case.load import Case
 from fctd.model.operations import steady_rates
 from fctd.results.buckling import buckling_along
-from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.equilibrium import Solver
 from fctd.steady.reading import NOTABLE, OUTSIDE, SUM_NORMAL, SUM_R_FT, SUM_R_MU_FN
+from fctd.steady.steady_string import Equilibrium
 from fctd.steady.tangent import NORMAL_FORCE, R_FT, R_MU_FN
 from tests.cases import make_case, pipe
 

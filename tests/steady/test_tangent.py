@@ -1,5 +1,6 @@
 """The forces of the steady string: their derivative, and their agreement with the stepper's."""
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from fctd.mechanics.rotations import turned
 from fctd.mechanics.state import LANES, Laws
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
-from fctd.steady.pose import QUATERNION, SPIN
+from fctd.steady.pose import QUATERNION, SPIN, times
 from fctd.steady.tangent import Steady, assemble
 from tests.cases import make_case, pipe
 from tests.compiled import kept
@@ -45,12 +46,13 @@ def case_of(geometry: str, law: str, **more: Any) -> Case:
     return make_case(BUILD, components, wellbore=hole, mud=mud, bit=bit, contact={"friction_law": law}, **more)
 
 
-def laws_of(solver: Solver, kind: str) -> Steady:
+def laws_of(solver: Solver, kind: str, at_axis: int = 0) -> Steady:
     """The laws of an operation, with the bit pushed up a slanting hole."""
     rates = steady_rates(solver.case, kind)
     push = np.array([0.3, -0.2, -0.9]) * (3e4 if KINDS[kind].on_bottom else 0.0)
     torque = 2e3 if KINDS[kind].on_bottom else 0.0
-    return Steady(solver.geometry, CODES[solver.case.contact.friction_law], 1.0, rates.speed, rates.spin, *push, torque)
+    law = CODES[solver.case.contact.friction_law]
+    return Steady(solver.geometry, law, 1.0, rates.speed, rates.spin, *push, torque, at_axis)
 
 
 def changed(P: Array, j: int, k: int, by: float) -> Array:
@@ -68,12 +70,14 @@ def changed(P: Array, j: int, k: int, by: float) -> Array:
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 @pytest.mark.parametrize("law", ["coulomb", "paper"])
-@pytest.mark.parametrize("kind", ["trip_in", "back_ream", "drill_rotating"])
-def test_tangent_is_the_derivative_of_the_forces(geometry: str, law: str, kind: str) -> None:
+@pytest.mark.parametrize(
+    ("kind", "at_axis"), [("trip_in", 0), ("back_ream", 0), ("drill_rotating", 0), ("drill_rotating", 1)]
+)
+def test_tangent_is_the_derivative_of_the_forces(geometry: str, law: str, kind: str, at_axis: int) -> None:
     """Central differences of the same forces, body by body, away from balance."""
     solver = Solver(case_of(geometry, law))
     point = solver.solve(kind, steady_rates(solver.case, kind), 790.0)
-    w, laws, pieces = solver.work, laws_of(solver, kind), solver.hole.pieces
+    w, laws, pieces = solver.work, laws_of(solver, kind, at_axis), solver.hole.pieces
     n = len(point.profile) - 1
     kinks = np.zeros((n + 2, 4))
     kinks[:, 0] = 1.0
@@ -148,3 +152,34 @@ def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, ge
         assert np.abs(state.row(S, state.MASS, n) * change / dt).max() < 2e-3 * weight / n
     spin = state.row(S, state.WZ, n) - state.row(before, state.WZ, n)
     assert np.abs(state.row(S, state.J_AXIAL, n) * spin / dt).max() < 2e-3 * 0.1 * weight / n
+
+
+def test_a_torque_at_the_bit_does_no_work_on_a_string_that_rolls() -> None:
+    """The bit's axis goes round a cone of half angle β about the hole's, while the bit does not turn.
+
+    Exact: a torque about the bit's own axis does work on it, by the solid angle of the cone, 2π(1 − cos β).
+    """
+    solver = Solver(make_case([[0, 0, 0], [300, 0, 0]], [pipe(None, None, segment_length=30.0)]))
+    problem = solver.problem("drill_sliding", steady_rates(solver.case, "drill_sliding"), solver.lay_out(300.0))
+    problem.lay_guess()
+    w, n, torque, tilt, parts = problem.work, problem.n, 5e3, 0.02, 400
+    work = {}
+    for at_axis in (0, 1):
+        laws = Steady(state.OPEN, 0, 1.0, 0.0, 0.0, 0.0, 0.0, -1e4, torque, at_axis)
+        still = laws._replace(bit_torque=0.0)
+        frames = [turned(1.0, 0.0, 0.0, 0.0, tilt * np.cos(a), tilt * np.sin(a), 0.0)
+                  for a in 2 * np.pi * np.arange(parts + 1) / parts]  # fmt: skip
+        total = 0.0
+        for before, after in pairwise(frames):
+            middle = np.add(before, after) / np.linalg.norm(np.add(before, after))
+            w.P[n, QUATERNION] = middle
+            loads = []
+            for of in (laws, still):
+                assemble(w.S, n, w.P, problem.kinks, solver.hole.pieces, w.owner, of, w.R, w.D, w.A, w.U)
+                loads.append(w.R[n, 3:6].copy())
+            # The rotation from one frame to the next, in the frame between them.
+            step = 2 * np.array(times(middle[0], *-middle[1:], *np.subtract(after, before)))[1:]
+            total += float((loads[0] - loads[1]) @ step)
+        work[at_axis] = total
+    assert abs(work[0]) == pytest.approx(torque * 2 * np.pi * (1 - np.cos(tilt)), rel=1e-3)
+    assert abs(work[1]) < 1e-3 * abs(work[0])

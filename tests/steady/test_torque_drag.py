@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 
 from fctd import InputError, equilibrium, load_case, torque_drag
 from fctd.model.operations import SteadyRates
-from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Problem
 from fctd.steady.reading import Answer
+from fctd.steady.steady_string import Equilibrium
 from tests.cases import level_case, make_case, pipe
 
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]

@@ -3,32 +3,36 @@
 import numpy as np
 import pytest
 
-from fctd.mechanics import contact
+from fctd.mechanics import contact, state
+from fctd.mechanics.energy import penetration
 from fctd.mechanics.jit import entry
 from fctd.mechanics.state import ARCS, CYLINDERS
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.steady.wall_gradient import wall_beside
+from tests.bodies import PLACE, TO_WALL, put
 from tests.cases import make_case, pipe
 from tests.compiled import kept
 
 arc_wall, cylinder_wall = kept(contact.arc_wall), kept(contact.cylinder_wall)
 BEND = [[0, 5, 10], [300, 40, 80], [600, 80, 40]]
 # Quantities of ``Beside``: PT, how far beyond the hole's radius, stiffness, friction factor, direction.
+# Radii [m] of a string that is nowhere near the wall, and of one that mostly touches it.
+APART, TOUCHING = -1.0, 0.15
 PT, BEYOND, STIFFNESS, FACTOR, DIRECTION = slice(0, 3), 3, 4, 5, slice(6, 9)
 
 
 @entry
-def fill_beside(C, i, geometry, x, y, z, out):
+def fill_beside(C, i, geometry, x, y, z, radius, out):
     """Fill out (9, 4) : values and gradients of the quantities."""
-    wall = wall_beside(C, i, geometry, x, y, z)
+    wall = wall_beside(C, i, geometry, x, y, z, radius)
     for k, quantity in enumerate(wall):
         for c in range(4):
             out[k, c] = quantity[c]
 
 
-def beside(hole: Wellbore, i: int, point: np.ndarray) -> np.ndarray:
+def beside(hole: Wellbore, i: int, point: np.ndarray, radius: float = APART) -> np.ndarray:
     out = np.empty((9, 4))
-    fill_beside(hole.pieces, i, hole.geometry, *point, out)
+    fill_beside(hole.pieces, i, hole.geometry, *point, radius, out)
     return out
 
 
@@ -64,14 +68,36 @@ def test_it_is_the_wall_of_the_stepper(geometry: str) -> None:
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
-def test_gradients_are_those_of_central_differences(geometry: str) -> None:
+def test_it_presses_as_the_wall_of_the_stepper(geometry: str) -> None:
+    """A string that touches, also in overlaps and in the shoe, where the wall leans along the hole."""
+    hole, leaning = bent(geometry), 0
+    for i, point in points(hole):
+        S, owner = state.new_state(1), np.array([0, i, 0])
+        S[state.RADIUS + 1], S[state.TRIBUTARY + 1] = TOUCHING, 1.0
+        put(S, 1, PLACE, point)
+        contact.update_walls(S, owner, 1, state.LANES, hole.pieces, hole.geometry)
+        to_wall = np.array([S[row + 1] for row in TO_WALL])
+        found = beside(hole, i, point, TOUCHING)[:, 0]
+        np.testing.assert_allclose(found[PT] / np.linalg.norm(found[PT]), to_wall / np.linalg.norm(to_wall), atol=1e-9)
+        assert found[BEYOND] + TOUCHING == pytest.approx(penetration(S, 1)[0], abs=1e-12)
+        assert found[STIFFNESS] == pytest.approx(S[state.K_WALL + 1], rel=1e-12)
+        leaning += int(
+            penetration(S, 1)[0] > 0 and abs(found[PT] @ found[DIRECTION]) > 0.01 * np.linalg.norm(found[PT])
+        )
+    assert (leaning > 10) == (geometry == "cylinders")
+
+
+@pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
+@pytest.mark.parametrize("radius", [APART, TOUCHING])
+def test_gradients_are_those_of_central_differences(geometry: str, radius: float) -> None:
     hole, h, blended = bent(geometry), 1e-6, 0
     for i, point in points(hole):
-        found = beside(hole, i, point)
+        found = beside(hole, i, point, radius)
         scale = np.maximum(np.abs(found[:, :1]), 1.0)  # stiffnesses have some 1e7 N/m
         blended += int(np.abs(found[FACTOR, 1:]).max() > 0)
         for k, step in enumerate(h * np.eye(3)):
-            slope = (beside(hole, i, point + step)[:, 0] - beside(hole, i, point - step)[:, 0]) / (2 * h)
+            ahead, behind = beside(hole, i, point + step, radius), beside(hole, i, point - step, radius)
+            slope = (ahead[:, 0] - behind[:, 0]) / (2 * h)
             np.testing.assert_allclose(found[:, 1 + k] / scale[:, 0], slope / scale[:, 0], atol=3e-8)
     assert blended > 10
 

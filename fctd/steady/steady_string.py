@@ -1,0 +1,183 @@
+"""The steady string of an answer: what is read from it as a row, with its status and the reason for it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.case.text import counted
+from fctd.model.frames import steady_offsets
+from fctd.model.operations import SteadyRates, drive_torque, weight_indicator
+from fctd.model.tortuosity import shortfall
+from fctd.model.wellbore import Wellbore
+from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
+from fctd.results.columns import IN_CHART, Column
+from fctd.results.display import MAIN, html_table, load_rows
+from fctd.results.notes import Note, string_notes
+from fctd.results.profile import profile_table
+from fctd.results.status import SteadyStatus
+from fctd.steady.continuation import CONVERGED, NOT_FINITE
+from fctd.steady.laid_string import LaidString
+from fctd.steady.pose import PLACE
+from fctd.steady.reading import NOTABLE, OUTSIDE, SHAPE, SUM_NORMAL, SUM_R_MU_FN, TOP, Answer
+from fctd.steady.shape import Shape
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Array = NDArray[np.float64]
+
+AT_FULL = "solved at its full friction alone, from which share of it on is not known"
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A steady string with the bit at one depth.
+
+    status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
+    message : details.
+    shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
+    [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
+    weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
+    NaN where they were not found.
+    bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
+    sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
+    """
+
+    case: Case
+    operation: str
+    bit_depth: float
+    status: SteadyStatus
+    message: str
+    iterations: int
+    hookload: float
+    surface_torque: float
+    weight_indicator: float
+    drive_torque: float
+    total_contact_force: float
+    sum_r_ft: float
+    sum_r_mu_fn: float
+    imbalance: float
+    _shape: Shape = field(repr=False)
+    shape: str = "none"
+    hookload_low: float = float("nan")
+    hookload_high: float = float("nan")
+    slack_off_spent_at: float = float("nan")
+    locked_up_at: float = float("nan")
+
+    def __repr__(self) -> str:
+        loads = ", ".join(f"{label} {value}" for label, value in self._load_rows(MAIN).items())
+        return f"Equilibrium({self.operation}, bit at {self.bit_depth:g} m: {self.status}, {loads})"
+
+    def _repr_html_(self) -> str:
+        title = f"{self.case.name}: {self.operation}, bit at {self.bit_depth:g} m"
+        return html_table(title, {"status": str(self.status), **self._load_rows(IN_CHART)})
+
+    def _load_rows(self, of: Sequence[Column]) -> dict[str, str]:
+        return load_rows({load.name: load.value(self) if self.answered else float("nan") for load in of})
+
+    @property
+    def answered(self) -> bool:
+        """Whether the numbers belong to a balance of forces."""
+        return self.status.has_loads and bool(np.isfinite(self.hookload))
+
+    def without_loads(self) -> Equilibrium:
+        """The same without loads, for a string that has none at these loads."""
+        none = float("nan")
+        return replace(
+            self, hookload=none, surface_torque=none, weight_indicator=none, drive_torque=none,
+            total_contact_force=none, sum_r_ft=none, sum_r_mu_fn=none,
+        )  # fmt: skip
+
+    @cached_property
+    def profile(self) -> pd.DataFrame:
+        """The string from the top to the bit, a row per contact point; columns of ``profile_table``."""
+        shape, mud = self._shape, self.case.mud.density
+        points = shape.contacts[:, PLACE]
+        return profile_table(shape.hole, shape.laid.string, mud, shape.top, points, shape.walls, shape.loads)
+
+    @property
+    def offsets(self) -> Array:
+        """``steady_offsets`` of the profile's rows to the high side and to the right (n + 1, 2) [m], for pictures."""
+        profile = self.profile
+        md, high, right = (profile[name].to_numpy(float) for name in ("md_m", "offset_high_m", "offset_right_m"))
+        return steady_offsets(md, self._shape.hole.at(md)[1], high, right)
+
+    @property
+    def buckling(self) -> Buckling:
+        """Where the string is buckled; ``UNKNOWN`` where there are no loads."""
+        if not self.answered:
+            return UNKNOWN
+        return self._shape.buckling if self.case.contact.enabled else NOT_BUCKLED
+
+    @cached_property
+    def notes(self) -> tuple[Note, ...]:
+        """Warnings about the loads; empty where there are no loads."""
+        if not self.answered or not self._shape.numbers[NOTABLE]:
+            return ()
+        shape, in_hole = self._shape, self.case.contact.enabled
+        string, radius = shape.laid.string, shape.radius
+        return string_notes(string, shape.loads, self.hookload, shape.walls, radius, in_hole=in_hole)
+
+
+def steady_string(
+    case: Case,
+    hole: Wellbore,
+    operation: str,
+    rates: SteadyRates,
+    laid: LaidString,
+    answer: Answer,
+    code: int,
+    negative: int,
+) -> Equilibrium:
+    """The steady string of an answer; code : of the iteration; negative : number of unstable modes."""
+    kind, numbers = KINDS[operation], answer.numbers
+    on_bottom = (case.bit.weight_on_bit, case.bit.torque) if kind.on_bottom else (0.0, 0.0)
+    shape = Shape(
+        hole, laid, numbers[TOP:SHAPE], answer.joints, answer.contacts, answer.walls, numbers[SHAPE:],
+        -on_bottom[0], on_bottom[1],
+    )  # fmt: skip
+    _, iterations, hookload, torque, imbalance, allowed = numbers[:TOP].tolist()
+    # The hook load of a horizontal string is 0 within rounding.
+    pushed = -hookload - case.rig.push > laid.string.segments * allowed
+    status, message = _judge(case, code, negative, pushed, shape, imbalance)
+    indicator = weight_indicator(case.rig, kind.direction, hookload)
+    drive = drive_torque(case.rig, rates.spin, torque)
+    normal, r_ft, r_mu_n = shape.numbers[SUM_NORMAL : SUM_R_MU_FN + 1].tolist()
+    return Equilibrium(
+        case, operation, laid.string.bit_depth, status, message, int(iterations), hookload, torque,
+        indicator, drive, normal, r_ft, r_mu_n, imbalance, shape,
+    )  # fmt: skip
+
+
+def _judge(
+    case: Case, code: int, negative: int, pushed: bool, shape: Shape, imbalance: float
+) -> tuple[SteadyStatus, str]:
+    """Status and message of a solution."""
+    in_hole = case.contact.enabled
+    if code == NOT_FINITE:
+        return SteadyStatus.NOT_FINITE, SteadyStatus.NOT_FINITE.message
+    if in_hole and (outside := int(shape.numbers[OUTSIDE])):
+        text = f"segment {outside} lies deeper in the wall than the hole's radius"
+        return SteadyStatus.DIVERGED, f"{text}: use a stiffer wall or a smaller load"
+    if code != CONVERGED:
+        return SteadyStatus.MAX_ITERATIONS, f"the iterations end with forces out of balance by {imbalance:.3g} N"
+    coarse = in_hole and not shape.buckling.resolved
+    lacks = shape.buckling.shortfall(case.solver.buckling) if coarse else ""
+    if pushed:
+        text = f"{SteadyStatus.LOCKED_UP.message}; {AT_FULL}"
+        return SteadyStatus.LOCKED_UP, f"{text}; {lacks}" if coarse else text
+    if coarse:
+        return SteadyStatus.UNDER_RESOLVED, lacks
+    if lacks := shortfall(case.wellbore.tortuosity, shape.laid.string.longest):
+        return SteadyStatus.UNDER_RESOLVED, lacks
+    if negative:
+        return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {counted(negative, 'mode')}"
+    return SteadyStatus.CONVERGED, ""
