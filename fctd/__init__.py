@@ -23,8 +23,9 @@ with ends_program():
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
     from fctd.results.tables import SimulationResult, open_result
     from fctd.simulation.simulate import Simulation, simulate
-    from fctd.steady.equilibrium import Equilibrium, equilibrium
+    from fctd.steady.equilibrium import equilibrium
     from fctd.steady.refine import Refinement, refine
+    from fctd.steady.steady_string import Equilibrium
     from fctd.steady.torque_drag import torque_drag
 
 if TYPE_CHECKING:

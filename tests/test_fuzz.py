@@ -6,6 +6,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+import numpy as np
 import pytest
 
 from fctd import Case, Equilibrium, Wellbore, load_case
@@ -13,7 +14,7 @@ from fctd.model.drillstring import lay_out
 from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
-from tests.fuzz import mechanics
+from tests.fuzz import mechanics, offices
 from tests.fuzz.__main__ import campaign, show
 from tests.fuzz.campaign import PLAUSIBLE, SIMULATED, judge, make, write
 from tests.fuzz.wells import well
@@ -35,6 +36,27 @@ def test_files_are_refused_or_answered(start: int) -> None:
     # Neither are all files alike, nor are the wells such that hardly any has an answer.
     assert min(tally["load: accepted"] - 2, tally["load: refused"]) >= 8
     assert sum(tally[f"plausible: {status}"] for status in SteadyStatus if status.has_loads) >= 8
+
+
+@pytest.mark.parametrize("start", [0, pytest.param(300, marks=pytest.mark.slow)])
+def test_surveys_of_offices_are_read_as_they_are_meant_or_refused(start: int) -> None:
+    read, refused, offences = offices.campaign(SEED, range(start, start + 300))
+    assert offences == []
+    assert min(read, refused) > 90
+
+
+def test_wrong_readings_of_an_offices_file_are_seen(tmp_path: Path) -> None:
+    content = b"md_ft,inc_deg,azi_deg\n0,0,0\n1000,1,2\n"
+    stations = np.array([[0, 0, 0], [304.8, 1, 2]])
+    right = offices.Office(content, stations, "ft", said=True)
+    assert offices.amiss(right, "metric", tmp_path) == ("read", "")
+    for wrong in (replace(right, stations=stations * [1 / 0.3048, 1, 1]), replace(right, stations=stations[:1])):
+        assert "meant is" in offices.amiss(wrong, "metric", tmp_path)[1]
+    assert "nobody" in offices.amiss(replace(right, stations=None), "metric", tmp_path)[1]
+    unitless = replace(right, content=content.replace(b"md_ft", b"md"))
+    assert "and names ft" in offices.amiss(unitless, "metric", tmp_path)[1]
+    assert offices.amiss(replace(unitless, said=False), "metric", tmp_path) == ("read", "")
+    assert offices.amiss(replace(right, content=b"junk"), "metric", tmp_path) == ("refused", "")
 
 
 def test_a_short_run_of_a_plausible_well() -> None:

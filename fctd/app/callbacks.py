@@ -145,9 +145,9 @@ def _opening(app: Dash, served: Served) -> None:
     def upload(contents: Sequence[str] | None, names: Sequence[str] | None, pathname: str) -> tuple[Any, ...]:
         session = served.session(pathname)
         files = {name: content_of(text) for name, text in zip(names or (), contents or (), strict=True)}
-        source = source_of(files, session.source, served.pool, served.units)
+        source, note = source_of(files, session.source, served.pool, served.units)
         session.put(source)
-        return "", time.time(), None
+        return note, time.time(), None
 
 
 def well_of(session: Session) -> str:
@@ -183,10 +183,11 @@ def text_of(content: bytes) -> str:
     return text
 
 
-def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, units: System) -> Source:
+def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, units: System) -> tuple[Source, str]:
     """The case of files that came together: a case with its survey, a survey alone, or the survey that a case lacks.
 
-    before : the case that the page has shown.  Raises InputError for files that make none; no name leads to a file.
+    With it comes what is to be said of a survey's unit, or "".  before : the case that the page has shown.  Raises
+    InputError for files that make none; no name leads to a file.
     """
     cases = {name: content for name, content in files.items() if name.lower().endswith(CASE)}
     surveys = {name: content for name, content in files.items() if name not in cases}
@@ -205,10 +206,11 @@ def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, uni
     else:
         name = PurePath(survey_name.replace("\\", "/")).name or "survey"
         encoded = base64.b64encode(survey).decode()
-        text = pool.ask("new_case", name=name, survey=encoded, given_units=_init_units(units))["text"]
-        return Source(text, name, survey)
+        made = pool.ask("new_case", name=name, survey=encoded, given_units=_init_units(units))
+        note = f"{name}: {made['note']}" if made["note"] else ""
+        return Source(made["text"], name, survey), printable(note)
     pool.ask("open", source, units)  # a case that cannot be used does not take the place of the one before
-    return source
+    return source, ""
 
 
 def _init_units(units: System) -> str:

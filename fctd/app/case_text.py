@@ -144,24 +144,27 @@ def check_size(case: Case) -> None:
     stations = len(case.wellbore.trajectory)
     if stations > MOST_STATIONS:
         raise InputError(f"at most {MOST_STATIONS} stations, here {stations}")
-    segments = segments_in_hole(case, case.depths[1])
+    segments = segments_in_hole(case, case.deepest)
     if segments > MOST_SEGMENTS:
         raise InputError(f"a string of at most {MOST_SEGMENTS} segments in the hole, here about {segments}")
 
 
-def from_upload(name: str, survey: bytes, units: UnitSystem, folder: Path) -> Source:
-    """A case of an uploaded survey, as ``fctd init`` makes it.  Raises InputError for a file that is no survey."""
+def from_upload(name: str, survey: bytes, units: UnitSystem, folder: Path) -> tuple[Source, str]:
+    """A case of an uploaded survey, as ``fctd init`` makes it, and what is to be said of the unit of its depths.
+
+    Raises InputError for a file that is no survey.
+    """
     check_survey(survey, name)
     path = folder / f"new{_suffix(name)}"
     path.write_bytes(survey)
     try:
-        columns, stations = read_survey(path, units)
+        found = read_survey(path, units)
     except InputError as error:
         raise InputError(error.expected, key=error.key, value=error.value, file=name, more=error.more) from None
-    if len(stations) > MOST_STATIONS:
-        raise InputError(f"at most {MOST_STATIONS} stations, here {len(stations)}", file=name)
-    plan = from_survey(None, Path(name).stem or "my well", units, name, columns, stations)
-    return Source(plan.text(), name, survey)
+    if len(found.stations) > MOST_STATIONS:
+        raise InputError(f"at most {MOST_STATIONS} stations, here {len(found.stations)}", file=name)
+    plan = from_survey(None, Path(name).stem or "my well", units, name, found.keys, found.stations)
+    return Source(plan.text(), name, survey), found.note
 
 
 def _has_doctype(content: bytes) -> bool:

@@ -21,6 +21,8 @@ from fctd.results.whole_file import left_by_dead
 
 LONGEST: Final = 20.0  # of reading and solving [s]
 WORKERS: Final = 2  # so that a file that takes its time holds up no other
+TRIES: Final = 2  # processes for a request
+SMALLER: Final = "a smaller survey or fewer segments if this case needs too much memory"
 PATIENCE: Final = 300.0  # until a process is free [s]: the first ones compile
 # Memory that a library reserves for each of its threads would count as used.
 FEW_THREADS: Final = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MALLOC_ARENA_MAX": "2"}
@@ -67,6 +69,11 @@ class Worker:
             self.end()
             return None
         return found
+
+    @property
+    def ended(self) -> bool:
+        """Whether the process has ended by itself, or by another's hand."""
+        return self._process.poll() is not None
 
     def end(self) -> None:
         """End the process."""
@@ -129,19 +136,24 @@ class Pool:
         much memory.
         """
         digest = "" if source is None else source.digest
-        worker = self._take(digest)
         request: dict[str, Any] = {"do": do, "digest": digest, "units": units, "given": given}
-        began = time.monotonic()
-        found = worker.ask(request, self.longest)
-        if found is not None and "unknown" in found and source is not None:
-            content = {"text": source.text, "name": source.survey_name}
-            content["survey"] = base64.b64encode(source.survey).decode()
-            found = worker.ask(request | {"source": content}, self.longest)
-        took = time.monotonic() - began
-        if found is None:
+        why = ""
+        for _ in range(TRIES):  # a process that ends may have been killed for another's sake
+            worker = self._take(digest)
+            began = time.monotonic()
+            found = worker.ask(request, self.longest)
+            if found is not None and "unknown" in found and source is not None:
+                content = {"text": source.text, "name": source.survey_name}
+                content["survey"] = base64.b64encode(source.survey).decode()
+                found = worker.ask(request | {"source": content}, self.longest)
+            if found is not None:
+                break
             self._replace(worker)
-            why = f"takes longer than {self.longest:g} s" if took >= self.longest else "ends the process that computes"
-            raise RefusedError(f"this case {why}: a smaller survey, or fewer segments")
+            if time.monotonic() - began >= self.longest:
+                why = f"this case takes longer than {self.longest:g} s: a smaller survey, or fewer segments"
+                break
+        if found is None:
+            raise RefusedError(why or f"the process that computes was ended {TRIES} times: try again, or {SMALLER}")
         worker.known.add(digest)
         self._give(worker)
         if "refused" in found:
@@ -188,7 +200,10 @@ class Pool:
                 raise RefusedError(self.trouble or "the process that computes is not free")
             worker = next((free for free in self._free if digest in free.known), self._free[0])
             self._free.remove(worker)
-            return worker
+        if worker.ended:  # while it waited
+            self._replace(worker)
+            return self._take(digest)
+        return worker
 
     def _give(self, worker: Worker) -> None:
         with self._change:
@@ -197,6 +212,7 @@ class Pool:
             self._change.notify()
 
     def _replace(self, worker: Worker) -> None:
+        worker.end()
         shutil.rmtree(worker.folder, ignore_errors=True)
         with self._change:
             if worker in self._all:

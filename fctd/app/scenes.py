@@ -6,6 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from fctd.app.charts import FONT, Change, packed
+from fctd.results.profile import place_in_words
 from fctd.results.unit_systems import System
 from fctd.view.quantities import Quantity
 from fctd.view.scene import (
@@ -78,6 +79,6 @@ def _words(look: Look, strings: Strings) -> str:
     force = one.columns["side_force"]
     if len(force) and np.isfinite(force).any():
         k = int(np.nanargmax(force))
-        md = one.columns["md_m"][k] * look.depth.factor
-        text += f"; largest side force at {md:.0f} {look.depth.label}"
+        place = place_in_words(one.columns["md_m"][k], one.bit_depth, look.depth.factor, look.depth.label)
+        text += f"; largest side force at {place}"
     return text

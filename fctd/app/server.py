@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 MOST_RECEIVED: Final = 5 * 2**20  # bytes of a request
 THREADS: Final = 16
+# Connections at a time, and [s] that one may take over its headers: who opens many and sends nothing stops nobody.
+MOST_CONNECTIONS, SILENT = 500, 10
 OF_DASH: Final = re.compile(r"_dash-|assets/|_favicon\.ico$|_reload-hash$")
 OF_SESSION: Final = re.compile(r"s/([^/]*)/(.*)")
 KINDS_OF_FILES: Final = {"html": "text/html", "csv": "text/csv", "toml": "text/plain", "png": "image/png"}
@@ -72,7 +74,8 @@ class AppServer:
         guard = Guard(flask.wsgi_app, home.prefix, self.port, app.csp_hashes())
         self._server = waitress.create_server(
             guard, sockets=[self._socket], threads=THREADS, max_request_body_size=MOST_RECEIVED, ident=None,
-            clear_untrusted_proxy_headers=True,
+            clear_untrusted_proxy_headers=True, connection_limit=MOST_CONNECTIONS, channel_timeout=SILENT,
+            cleanup_interval=SILENT // 2,
         )  # fmt: skip
 
     def address(self, key: str = "") -> str:

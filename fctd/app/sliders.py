@@ -130,8 +130,8 @@ def _lacks_kinds(case: Case) -> bool:
 
 
 def _segment_length(case: Case) -> float:
-    """Mean length [m] of the segments below a long one, with the bit where the case's operations or its hole end."""
-    deepest = max((operation.end_md for operation in case.operations), default=case.depths[1])
+    """Mean length [m] of the segments below a long one, with the bit where operations, hole or string end."""
+    deepest = max((operation.end_md for operation in case.operations), default=case.deepest)
     string = lay_out(case, deepest)
     lengths = string.length[1:] if string.long_segment and string.segments > 1 else string.length
     return float(lengths.mean())

@@ -188,11 +188,11 @@ class Well:
 
 
 def depths_of(case: Case) -> list[float]:
-    """Bit depths of the chart [m]: from the last shoe, or the middle of the hole, to its end.
+    """Bit depths of the chart [m]: from the last shoe, or the middle of the hole, to its end or that of the string.
 
     A string whose top segment is the paper's long one fits only where the case moves it.
     """
-    top, bottom = case.depths
+    top, bottom = case.string.top_md, case.deepest
     last = case.string.components[-1]
     if last.long_segment and case.operations:
         _, low, high = depth_range(case)

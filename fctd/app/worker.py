@@ -67,8 +67,9 @@ def answer(wells: Wells, request: Request) -> dict[str, Any]:
 
 
 def new_case(folder: Path, name: str, survey: str, given_units: UnitSystem) -> dict[str, str]:
-    """The text of a case for an uploaded survey."""
-    return {"text": from_upload(name, base64.b64decode(survey), given_units, folder).text}
+    """The text of a case for an uploaded survey, and a note about it."""
+    source, note = from_upload(name, base64.b64decode(survey), given_units, folder)
+    return {"text": source.text, "note": note}
 
 
 OF_WELLS: Final[dict[str, Callable[..., Any]]] = {

@@ -1,6 +1,6 @@
 """``calibrate``: unknowns of a case from measured rows; ``predict``: bands of the readings of other rows."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from os import PathLike
@@ -43,6 +43,7 @@ def calibrate(
     starts: int = 4,
     seed: int = 0,
     refuse: bool = True,
+    progress: Callable[[int], None] | None = None,
 ) -> Calibration:
     """The unknowns of a case that fit measured rows best.
 
@@ -52,6 +53,7 @@ def calibrate(
     "friction.open=0.25+-0.05".  setup : a TOML file or a ``Setup``, whose unknowns are added to these.
     order : "all", or "first-section", which fits the rows of the shallowest hole section and predicts the deeper ones.
     starts, seed : of the search.  refuse : whether unknowns that the rows do not tell apart are an error.
+    progress : called with the number of strings solved so far, in the fit and in what is asked of it afterwards.
 
     Raises InputError for input that cannot be used.
     """
@@ -67,7 +69,7 @@ def calibrate(
         with _naming_setup(setup):
             rows, cases = gather_rows(case, measured, told, strings, overrides, measured=True)
             unknowns = find_unknowns(specs, told, list(cases.values()))
-        forward = Forward(rows, cases, unknowns, told)
+        forward = Forward(rows, cases, unknowns, told, progress)
         out = left_out_by_rule(rows, cases)
         deeper = _deeper_section(rows, cases) if order == "first-section" else []
         used = [k for k in range(len(rows)) if k not in out and k not in deeper]

@@ -1,6 +1,6 @@
 """From values of the unknowns to readings: the loads of the strings, then what the rig and the source make of them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -68,12 +68,14 @@ class Evaluation:
 class Forward:
     """The readings of rows for values of the unknowns; solved strings are kept for other constants of the rig.
 
+    progress : called with the number of rows solved so far, those of all trials together.
     Raises InputError for a string that does not fit its hole at a row's depth.
     """
 
     def __init__(
-        self, rows: Sequence[Row], strings: Mapping[str, Case], unknowns: Sequence[Unknown], setup: Setup
-    ) -> None:
+        self, rows: Sequence[Row], strings: Mapping[str, Case], unknowns: Sequence[Unknown], setup: Setup,
+        progress: Callable[[int], None] | None = None,
+    ) -> None:  # fmt: skip
         self.rows, self.unknowns, self.setup = tuple(rows), tuple(unknowns), setup
         self.strings = {name: case for name, case in strings.items() if any(row.string == name for row in rows)}
         self._solvers = {name: Solver(case) for name, case in self.strings.items()}
@@ -96,6 +98,7 @@ class Forward:
         self.names = tuple(unknown.name for unknown in unknowns)
         self._by_string = [k for k, unknown in enumerate(unknowns) if unknown.changes_string]
         self._sizes = np.array([unknown.size for unknown in unknowns])
+        self._count, self._progress = 0, progress
         self._kept: dict[bytes, list[StringLoads]] = {}
 
     def _readings(self) -> list[Reading]:
@@ -184,6 +187,9 @@ class Forward:
             key = row.string, row.bit_depth, row.operation, row.rates
             if row.has_string and key not in found:
                 found[key] = self._solve_row(row, solvers[row.string], steps)
+                self._count += 1
+                if self._progress is not None:
+                    self._progress(self._count)
             answers.append(found[key] if row.has_string else nothing)
         return answers
 

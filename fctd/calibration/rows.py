@@ -13,18 +13,20 @@ from fctd.case.operations import KINDS
 from fctd.case.units import FLOW, FORCE, LENGTH, ROTATION, SPEED, TORQUE
 from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
 from fctd.results.measured import DEPTH, GAUGE, STRINGLESS
-from fctd.results.measured_file import Field, Line, Text, read_lines, require
+from fctd.results.measured_file import LARGEST_FORCE, LARGEST_TORQUE, Field, Line, Text, read_lines, require
 
 Load = Literal["hookload", "torque"]
 
 OPERATIONS: Final = (*KINDS, *STRINGLESS)
-_HOOKLOAD: Final = Field("hookload", "N", FORCE, GAUGE, "kN", ranged=True, at_least=0.0)
-_TORQUE: Final = Field("torque", "N_m", TORQUE, r"(?:surface[ _]|drive[ _])?torque", "kN_m", ranged=True)
+_HOOKLOAD: Final = Field("hookload", "N", FORCE, GAUGE, "kN", ranged=True, at_least=0.0, at_most=LARGEST_FORCE)
+_TORQUE: Final = Field(
+    "torque", "N_m", TORQUE, r"(?:surface[ _]|drive[ _])?torque", "kN_m", ranged=True, at_most=LARGEST_TORQUE
+)
 _SPEED: Final = Field("speed", "m_s", SPEED, "speed|velocity", "m_s", at_least=0.0)
 _ROTATION: Final = Field("rpm", "", ROTATION, r"rpm|rotation|rotary(?:[ _]speed)?", "rpm", at_least=0.0, bare="rpm")
 _FLOW: Final = Field("flow", "m3_s", FLOW, r"flow(?:[ _]rate)?", "L_min", at_least=0.0)
 _STROKE: Final = Field("stroke", "m", LENGTH, "stroke", "m", at_least=0.0)
-_LOCKED: Final = Field("locked_torque", "N_m", TORQUE, r"locked[ _]torque", "kN_m")
+_LOCKED: Final = Field("locked_torque", "N_m", TORQUE, r"locked[ _]torque", "kN_m", at_most=LARGEST_TORQUE)
 _FIELDS: Final = (DEPTH, _HOOKLOAD, _TORQUE, _SPEED, _ROTATION, _FLOW, _STROKE, _LOCKED)
 _HEADERS: Final = "such as id, bit_depth_m, operation, hookload_kN, torque_low_kN_m, torque_high_kN_m, rpm, source"
 
@@ -105,13 +107,15 @@ def read_rows(path: Path, case: Case, sets: Mapping[str, Case], *, measured: boo
             loads = [field.column(end) for field in (_HOOKLOAD, _TORQUE) for end in ("", "_low")]
             require(lines, "hook load or torque", loads, _HEADERS)
         rows: list[Row] = []
+        known: set[str] = set()
         for line in lines:
             name = str(line.cells.get("string", ""))
             if name not in strings:
                 strings[name] = _string(line, name, path, sets)
             row = _row(line, name, strings[name], measured=measured)
-            if row.id in {other.id for other in rows}:
+            if row.id in known:
                 raise line.error("id", "a name that no row above has")
+            known.add(row.id)
             rows.append(row)
     except InputError as error:
         raise error.in_file(path) from error.__cause__

@@ -42,6 +42,8 @@ class Well(Protocol):
     def bit(self) -> BitSpec: ...
     @property
     def operations(self) -> tuple[Operation, ...]: ...
+    @property
+    def bare_lengths(self) -> Sequence[str]: ...
 
 
 class Range(NamedTuple):
@@ -64,14 +66,14 @@ YOUNG: Final = Range("Pa", 10e9, 450e9, "10 to 450 GPa", (Slip(10, 450, " GPa"),
 YIELD: Final = Range("Pa", 50e6, 3e9, "50 to 3000 MPa", (Slip(50, 3000, " MPa"),))
 # Below, a weight in kN or t or a torque in kN*m was written as a bare number; above, in a unit a thousand times too
 # large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.
-BIT_LOAD: Final = Range("N", 1e3, 2e6, "1 kN to 2 MN", (Slip(1, 999, " kN"),))
-BIT_TORQUE: Final = Range("N*m", 20, 200e3, "20 N*m to 200 kN*m", (Slip(0.5, 19.99, " kN*m"),))
+BIT_LOAD: Final = Range("N", 1e3, 2e6, "1 to 2000 kN", (Slip(1, 999, " kN"), Slip(1, 99, " klbf")))
+BIT_TORQUE: Final = Range("N*m", 20, 200e3, "0.02 to 200 kN·m", (Slip(0.5, 19.99, " kN*m"),))
 WEAR: Final = Range("m", 1e-4, 0.05, "0.1 to 50 mm", (Slip(0.1, 50, " mm"),))
-BLOCK: Final = Range("N", 1e3, 5e6, "1 kN to 5 MN", (Slip(10, 999, " kN"),))
+BLOCK: Final = Range("N", 1e3, 5e6, "1 to 5000 kN", (Slip(10, 999, " kN"), Slip(5, 250, " klbf")))
 GUIDES: Final = Range("N", 100, 200e3, "0.1 to 200 kN", (Slip(0.1, 99, " kN"),))
-OFFSET: Final = Range("N*m", 5, 50e3, "5 N*m to 50 kN*m", (Slip(0.1, 4.99, " kN*m"),))
+OFFSET: Final = Range("N*m", 5, 50e3, "0.005 to 50 kN·m", (Slip(0.1, 4.99, " kN*m"),))
 # A segment on its wall spring is damped critically by 1e5 N*s/m; mud of 2 Pa*s damps a metre of string by 1e3 N*s/m^2
-# and its rotation by 1 N*s; 3 ms in the joints end all chatter.
+# and its rotation by 1 N*s; 3 ms of the shape end all chatter.
 AT_CONTACTS: Final = Range("N*s/m", 0, 1e7, "up to 10 MN*s/m", ())
 IN_MUD: Final = Range("N*s/m^2", 0, 1e4, "up to 10 kN*s/m^2", ())
 TURNING: Final = Range("N*s", 0, 10, "up to 10 N*s", ())
@@ -93,10 +95,12 @@ def warnings_of(
     speed: float | None = None,
     rpm: float | None = None,
     frictions: Sequence[FrictionSet] = (),
+    indicator: bool = False,
 ) -> tuple[InputWarning, ...]:
     """The probable mistakes of a case, and of what is asked for: kinds of operation, rates [m/s], [rev/min], friction.
 
-    Reads the survey; raises InputError where it cannot be used.
+    indicator : whether readings of the weight indicator are asked for, which include the block.  Reads the survey;
+    raises InputError where it cannot be used.
     """
     stations = case.wellbore.trajectory
     return (
@@ -111,8 +115,12 @@ def warnings_of(
         *materials(case.string),
         *light_string(case.string, case.mud),
         *bit_size(case.string, case.wellbore, float(stations[-1, 0])),
+        *bent_along_gauge(case.string, case.wellbore),
+        *does_not_drift(case.string, case.wellbore, min(float(stations[-1, 0]), case.wellbore.intervals[-1].to_md)),
+        *bare_lengths(case.bare_lengths),
         *bit_load(case, {*kinds, *(operation.kind for operation in case.operations)}),
         *rig_loads(case.rig),
+        *no_block(case.rig, indicator),
         *rates(case.operations, kinds, speed, rpm),
     )
 
@@ -190,6 +198,7 @@ def dampings(contact: ContactSpec, mud: MudSpec, solver: SolverSpec) -> Doubts:
     yield from _outside("damping", "mud.lateral_damping", mud.lateral_damping or 0.0, "a damping", IN_MUD)
     yield from _outside("damping", "mud.rotational_damping", mud.rotational_damping or 0.0, "a damping", TURNING)
     yield from _outside("damping", "solver.joint_damping", solver.joint_damping, "a damping", IN_JOINTS)
+    yield from _outside("damping", "solver.shape_damping", solver.shape_damping, "a damping", IN_JOINTS)
 
 
 def materials(string: StringSpec) -> Doubts:
@@ -236,8 +245,8 @@ def bit_size(string: StringSpec, hole: WellboreSpec, td: float) -> Doubts:
     if bits[0] and widest.contact_diameter > first.contact_diameter:
         yield InputWarning(
             "bit_size", "string.components[0].outer_diameter",
-            f"{_name(first)} has {1e3 * first.contact_diameter:.4g} mm, {_name(widest)} above it "
-            f"{1e3 * widest.contact_diameter:.4g} mm",
+            f"{_name(first)} has {1e3 * first.contact_diameter:.6g} mm, {_name(widest)} above it "
+            f"{1e3 * widest.contact_diameter:.6g} mm",
             "check both diameters",
         )  # fmt: skip
     elif others and any(bits) and not bits[0]:
@@ -245,6 +254,62 @@ def bit_size(string: StringSpec, hole: WellboreSpec, td: float) -> Doubts:
             "bit_not_first", f"string.components[{bits.index(True)}]",
             f"{_name(string.components[bits.index(True)])} is above {_name(first)}",
             "list the components from the bit up",
+        )  # fmt: skip
+
+
+def bent_along_gauge(string: StringSpec, hole: WellboreSpec) -> Doubts:
+    """A bent component whose stabiliser is given as if it were as long as the component.
+
+    The end of a straight tool of length L, tilted by β against the string above, lies βL aside.  Where its hole leaves
+    less, and its body does not touch, the wall has to bend the tool straight.
+    """
+    wide = hole.intervals[-1].diameter
+    for i, part in enumerate(string.components):
+        gauge = part.contact_diameter > part.outer_diameter or part.contact_diameter >= IN_GAUGE * wide
+        if part.contact != "sleeve" or part.length is None or not gauge:
+            continue
+        aside, room = part.bend * part.length, max(wide - part.contact_diameter, 0.0)
+        if aside > room:
+            yield InputWarning(
+                "bent_along_gauge", f"string.components[{i}].contact_diameter",
+                f"{_name(part)} touches along all of its {part.length:.4g} m, is bent by "
+                f"{1e3 * aside:.3g} mm over this length, and has {1e3 * room:.3g} mm of room in the hole",
+                "give its stabiliser sleeve, the part up to the bend and the body above it as components of their own",
+            )  # fmt: skip
+
+
+def does_not_drift(string: StringSpec, hole: WellboreSpec, deepest: float) -> Doubts:
+    """A component that, with the bit at its greatest depth [m], is below a narrower part of the hole than it is."""
+    below = accumulate((part.length or np.inf for part in string.components), initial=0.0)
+    for i, (part, length) in enumerate(zip(string.components, below, strict=False)):
+        passed = [interval for interval in hole.intervals if interval.to_md < deepest - length]
+        tight = min(passed, key=lambda interval: interval.diameter, default=None)
+        if tight is not None and part.contact_diameter > tight.diameter * (1 + 1e-9):
+            key = "contact_diameter" if "contact_diameter" in part.model_fields_set else "outer_diameter"
+            yield InputWarning(
+                "does_not_drift", f"string.components[{i}].{key}",
+                f"{_name(part)} has {1e3 * part.contact_diameter:.6g} mm and cannot have passed the hole of "
+                f"{1e3 * tight.diameter:.6g} mm above {tight.to_md:g} m",
+                "check both diameters; of a tool that opens below a shoe only the rows below are meant",
+            )  # fmt: skip
+
+
+def bare_lengths(keys: Sequence[str]) -> Doubts:
+    """Lengths without a unit in a case whose other lengths are in feet and inches."""
+    if keys:
+        more = f", as {', '.join(keys[1:3])}{' and others' if len(keys) > 3 else ''}" if len(keys) > 1 else ""
+        yield InputWarning(
+            "bare_length", keys[0], f"a bare number is in metres{more}, the other lengths are in feet and inches",
+            "write the length with its unit",
+        )  # fmt: skip
+
+
+def no_block(rig: RigSpec, indicator: bool) -> Doubts:
+    """Readings of the weight indicator without a block, where the case does not say so."""
+    if indicator and rig.block_weight == 0 and "block_weight" not in rig.model_fields_set:
+        yield InputWarning(
+            "no_block_weight", "rig.block_weight", "the weight indicator is asked for, and the block weighs nothing",
+            "give the weight of block, hook and top drive, or 0 where the readings are without it",
         )  # fmt: skip
 
 

@@ -22,6 +22,7 @@ from pydantic_core import ErrorDetails
 from fctd.case.text import printable
 
 _LONGEST_VALUE: Final = 80  # characters of a value shown in a message
+_DEEPEST: Final = 100  # tables in each other
 
 
 class Missing(Enum):
@@ -62,7 +63,7 @@ class InputError(ValueError):
         """The same error with this file, unless it names a file already."""
         more = [other.in_file(file) for other in self.more]
         file = file if self.file is None else self.file
-        return InputError(self.expected, key=self.key, value=self.value, file=file, more=more)
+        return type(self)(self.expected, key=self.key, value=self.value, file=file, more=more)
 
     def at(self, key: str) -> InputError:
         """The same error with `key` put before its key."""
@@ -80,16 +81,39 @@ class InputError(ValueError):
         return f"{self.key} = {show(self.value)}: " if self.key else f"{show(self.value)}: "
 
 
+class Computed(str):
+    """A value that the program computed: messages show it without quotes, so that its units can be converted."""
+
+
 def show(value: object) -> str:
     """A value as a case file writes it, cut to a readable length; a path is not cut, since its end matters most."""
+    if isinstance(value, Computed):
+        return str(value)
     if isinstance(value, PathLike):
         return json.dumps(str(value), ensure_ascii=False)
+    if _is_deep(value):
+        return "a table" if isinstance(value, dict) else f"a {type(value).__name__}"
     try:
         text = repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False, default=str)
     # Thousands of digits, keys that are no strings, thousands of tables.
     except (ValueError, TypeError, RecursionError):
         text = {dict: "a table", int: "a long number"}.get(type(value), f"a {type(value).__name__}")
     return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
+
+
+def _is_deep(value: object) -> bool:
+    """Whether tables or lists lie deeper in each other than anybody reads; how deep json goes is Python's affair."""
+    level = [value]
+    for _ in range(_DEEPEST):
+        level = level[:_DEEPEST]  # one table of a level says enough
+        level = [
+            inner
+            for one in level
+            for inner in (one.values() if isinstance(one, dict) else one if isinstance(one, list | tuple) else ())
+        ]
+        if not level:
+            return False
+    return True
 
 
 def join_key(*parts: str | int) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, Final, TypeVar, get_args
 
 import numpy as np
@@ -85,6 +86,10 @@ def parse_frictions(texts: Iterable[str], key: str) -> list[FrictionSet]:
 
 def _parse(text: str, key: str) -> list[FrictionSet]:
     parts = [part.strip() for part in text.split(",")]
+    for whole, digits in pairwise(parts):
+        if whole == "0" and digits.isdecimal():  # "0,2" is 0.2 in half of the world
+            expected = f"0.{digits} with a point, or two factors, 0.0,{digits}: a comma separates factors"
+            raise InputError(expected, key=key, value=text)
     pairs = [tuple(word.strip() for word in part.split("=")) for part in parts]
     try:
         if all(len(pair) == 1 for pair in pairs):
@@ -133,6 +138,12 @@ def friction_sets(value: Any) -> list[FrictionSet]:
 
 def own_label(intervals: Sequence[IntervalSpec]) -> str:
     """The factors of a case as it stands: "0.25", or "case's own: 0.2 down to 1500 m, 0.3 below"."""
+    label = factors_label(intervals)
+    return label if label.replace(".", "").isdecimal() else f"case's own: {label}"
+
+
+def factors_label(intervals: Sequence[IntervalSpec]) -> str:
+    """The factors of intervals: "0.25", "0.2 down to 1500 m, 0.3 below", or of many intervals "0.11 to 0.16"."""
     ends: list[tuple[float, float]] = []  # factor, lower end
     for interval in intervals:
         if ends and ends[-1][0] == interval.friction:
@@ -142,9 +153,9 @@ def own_label(intervals: Sequence[IntervalSpec]) -> str:
         return f"{ends[0][0]:g}"
     if len(ends) > _MOST_PARTS:
         factors = [factor for factor, _ in ends]
-        return f"case's own: {min(factors):g} to {max(factors):g}"
+        return f"{min(factors):g} to {max(factors):g}"
     parts = ", ".join(f"{factor:g} down to {to_md:g} m" for factor, to_md in ends[:-1])
-    return f"case's own: {parts}, {ends[-1][0]:g} below"
+    return f"{parts}, {ends[-1][0]:g} below"
 
 
 def scaled_static(interval: object, factor: object) -> object:

@@ -3,10 +3,11 @@
 import errno
 import io
 import os
+import re
 import stat
 import tomllib
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from fctd.case.errors import InputError
 
@@ -40,7 +41,22 @@ def tables_of(text: str, what: str) -> dict[str, Any]:
     except RecursionError:
         raise InputError(f"{what} in TOML (too many arrays or tables lie in each other)") from None
     except ValueError as error:
-        raise InputError(f"{what} in TOML ({error})") from error
+        expected = f"{what} in TOML ({error})"
+        place = re.search(r"at line (\d+)", str(error))
+        if place is None:
+            raise InputError(expected) from error
+        line = text.split("\n")[int(place[1]) - 1].strip()
+        hints = [hint for pattern, hint in _HINTS if re.search(pattern, line)]
+        raise InputError("; ".join([expected, *hints[:1]]), key=f"line {place[1]}", value=line) from error
+
+
+# What people write that is no TOML, and what to write.
+_HINTS: Final = (
+    ("[\u2018\u2019\u201c\u201d]", "quotes are straight"),
+    (r"\\", "a path is written with /, or in single quotes"),
+    (r"=\s*[+-]?\d+,\d+\s*(#.*)?$", "decimals follow a point"),
+    (r"=\s*[+-]?[\d.]+\s*[^\W\d_]", "a quantity with its unit stands in quotes"),
+)
 
 
 def read_bytes(path: Path, largest: int) -> bytes:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import os
+import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Final, Self
 
-from pydantic import Field, ValidationError, field_validator, model_validator
+from pydantic import Field, PrivateAttr, ValidationError, field_validator, model_validator
 
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
-from fctd.case.errors import MISSING, InputError, Table, explain, look_up, nearest, set_key
+from fctd.case.errors import MISSING, InputError, Table, explain, join_key, look_up, nearest, set_key, split_key
 from fctd.case.friction import pick, scaled_static
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
@@ -32,7 +34,15 @@ from fctd.case.text import is_utf8
 from fctd.case.wall import ContactSpec, check_friction
 
 LARGEST_FILE: Final = 4  # MiB: 100,000 stations written out; the TOML reader takes some seconds for them
+_OF_SURVEYS: Final = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".xml")
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
+
+
+@dataclass(frozen=True)
+class _Written:
+    """The case as the user wrote it; all are equal, so that cases compare by keys."""
+
+    raw: Mapping[str, Any] = field(default_factory=dict, compare=False)
 
 
 class Case(Table):
@@ -49,6 +59,7 @@ class Case(Table):
     record: RecordSpec = RecordSpec()
     operations: tuple[Annotated[Operation, Field(discriminator="kind")], ...] = ()
     file: FileName | None = None
+    _written: _Written = PrivateAttr(default_factory=lambda: _Written())
 
     def __repr__(self) -> str:
         return f"Case({self.name!r})" if self.file is None else f"Case({self.name!r}, file={str(self.file)!r})"
@@ -105,6 +116,13 @@ class Case(Table):
         return self.string.top_md, deepest
 
     @property
+    def deepest(self) -> float:
+        """Greatest bit depth [m] that the string reaches within survey and intervals; reads the survey."""
+        top, bottom = self.depths
+        lengths = [part.length for part in self.string.components]
+        return bottom if None in lengths else min(bottom, top + sum(length or 0.0 for length in lengths))
+
+    @property
     def shoes(self) -> list[float]:
         """Depths [m] of the casing shoes: the ends of cased intervals (of all, without kinds) above the end of the
         hole; reads the survey."""
@@ -117,6 +135,25 @@ class Case(Table):
     def warnings(self) -> tuple[InputWarning, ...]:
         """Probable mistakes of the case and of its operations (`doubts`); reads the survey."""
         return warnings_of(self)
+
+    @property
+    def bare_lengths(self) -> list[str]:
+        """Keys of lengths that are written as bare numbers, where most lengths are in feet and inches and none in SI.
+
+        Empty where the case was not read from a file.
+        """
+        return _bare_lengths(self._written.raw)
+
+    def quoting(self, error: InputError) -> InputError:
+        """The error with the value as the user wrote it, where the error is about a key that he wrote."""
+        for key in (error.key, error.key.replace(".contact_diameter", ".outer_diameter")):
+            try:
+                written = look_up(self._written.raw, *split_key(key))
+            except InputError:
+                return error  # about no key of a case
+            if isinstance(written, str | int | float) and error.file is None:
+                return InputError(error.expected, key=key, value=written, more=error.more)
+        return error
 
     def check_depths(self, raw: Mapping[str, Any] | None = None) -> None:
         """Raise InputError for a bit depth above the top of the string, or below the end of survey or intervals.
@@ -134,6 +171,53 @@ class Case(Table):
                 )
 
 
+# Tables of a case, the keys of lengths in them that say nothing of steps or tolerances, and units of the field.
+_LENGTHS: Final = {
+    ("wellbore", "intervals"): ("to_md", "diameter"),
+    ("string", "components"): (
+        "length", "outer_diameter", "inner_diameter", "contact_diameter", "segment_length",
+    ),
+    ("operations",): ("at_md", "from_md", "to_md"),
+}  # fmt: skip
+_FIELD: Final = re.compile(r"(?:ft|feet|foot|in|inch|inches|'|\"|″|′)\.?\s*$", re.IGNORECASE)
+
+
+def _bare_lengths(raw: Mapping[str, Any]) -> list[str]:
+    bare, field_units = [], 0
+    for path, keys in _LENGTHS.items():
+        tables = look_up(raw, *path)
+        for i, table in enumerate(tables if isinstance(tables, list) else ()):
+            for key in keys:
+                value = look_up(table, key)
+                if isinstance(value, str) and not _FIELD.search(value):
+                    return []
+                field_units += isinstance(value, str)
+                if isinstance(value, int | float) and value:
+                    bare.append(join_key(*path, i, key))
+    return bare if len(bare) < field_units else []
+
+
+def _with_bare_lengths(error: InputError, raw: Mapping[str, Any]) -> InputError:
+    """The error, with the lengths that may be its cause: the rule that they break names another key."""
+    said = [error.key, *(other.key for other in error.more)]
+    more = [
+        InputError(
+            "a length with its unit: bare, it is in metres, and the other lengths are in feet and inches",
+            key=key,
+            value=look_up(raw, *split_key(key)),
+        )
+        for key in _bare_lengths(raw)
+        if key not in said
+    ]
+    return InputError(error.expected, key=error.key, value=error.value, more=[*error.more, *more])
+
+
+def _without_stations(raw: Mapping[str, Any]) -> dict[str, Any]:
+    """A case without the long list that it may have."""
+    hole = look_up(raw, "wellbore")
+    return {**raw, "wellbore": {**hole, "stations": None}} if isinstance(hole, dict) else dict(raw)
+
+
 @contextmanager
 def naming_file(case: Case) -> Iterator[None]:
     """Add the case's file to an InputError that is raised inside; InputError for what is no case, such as a path."""
@@ -142,6 +226,7 @@ def naming_file(case: Case) -> Iterator[None]:
     try:
         yield
     except InputError as error:
+        error = case.quoting(error)
         raise (error if case.file is None else error.in_file(case.file)) from None
 
 
@@ -180,7 +265,8 @@ def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None
     try:
         case = Case.model_validate(raw, context=None if folder is None else {"folder": folder})
     except ValidationError as failure:
-        raise explain(failure, raw, branches=KINDS) from None
+        raise _with_bare_lengths(explain(failure, raw, branches=KINDS), raw) from None
+    case._written = _Written(_without_stations(raw))
     if like is not None:
         case.wellbore.share_trajectory(like.wellbore)
     case.check_depths(raw)
@@ -208,7 +294,12 @@ def parse_override(text: str) -> tuple[str, Any]:
 
 def read_raw(path: Path) -> dict[str, Any]:
     """The tables of a case file, unvalidated; raises InputError, which names no file."""
-    return read_toml(path, LARGEST_FILE, "a case file")
+    try:
+        return read_toml(path, LARGEST_FILE, "a case file")
+    except InputError as error:
+        if path.suffix.lower() in _OF_SURVEYS and path.is_file():
+            raise InputError("a case file in TOML; of a survey, `fctd init` makes one") from error
+        raise
 
 
 def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:

@@ -21,7 +21,8 @@ from fctd.case.drilling import DriveSpec
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys import doubts
-from fctd.case.surveys.headers import Wanted, accepted_units, unit_of
+from fctd.case.surveys.columns import Column, ColumnSpec, wanted
+from fctd.case.surveys.headers import accepted_units, unit_of
 from fctd.case.surveys.reading import read_survey
 from fctd.case.surveys.smoothing import smooth
 from fctd.case.surveys.stations import UNITS, StationKey, Survey, Written, check
@@ -35,27 +36,10 @@ def _as_path(raw: object) -> object:
 
 
 FileName = Annotated[Path, BeforeValidator(_as_path)]
-# Viscosity of mud whose case gives none [Pa s]; it acts sideways alone, so that steady loads do not depend on it.
-SIDEWAYS = 0.02
-
-
-class ColumnSpec(Table):
-    """A column of a survey: its header, its unit, or both; the unit goes before one that the header names."""
-
-    header: str | None = None
-    unit: str | None = None
-
-
-def _as_column(raw: object) -> object:
-    """A header alone is written as a text."""
-    if isinstance(raw, str):
-        return {"header": raw}
-    if not isinstance(raw, Mapping | ColumnSpec):
-        raise InputError('a header in quotes or a table such as {header = "DEPTH", unit = "m"}', value=raw)
-    return raw
-
-
-Column = Annotated[ColumnSpec, BeforeValidator(_as_column, json_schema_input_type=str | ColumnSpec)]
+# Viscosity of mud whose case gives none [Pa s]; it acts on motion that changes alone: steady loads do not depend on it.
+UNSTEADY = 0.02
+# A component is short, as stabilisers, reamers and bits are, up to so many times the diameter with which it touches.
+SHORT = 12.0
 
 
 @dataclass
@@ -197,7 +181,7 @@ class WellboreSpec(Table):
 
     def _resolve(self) -> Survey:
         if self.survey is not None:
-            columns = {key: _wanted(column) for key, column in (self.columns or {}).items()}
+            columns = {key: wanted(column) for key, column in (self.columns or {}).items()}
             return read_survey(self.survey, columns, self.sheet)
         values = np.array(self.stations or (), dtype=float).reshape(-1, 3)
         place = Written(
@@ -214,10 +198,6 @@ class WellboreSpec(Table):
             raise error.at("stations") from None
 
 
-def _wanted(column: ColumnSpec) -> Wanted:
-    return Wanted(column.header, None if column.unit is None else unit_of(column.unit))
-
-
 class ComponentSpec(Table):
     """Pipe or a tool of one kind. `segments` or `segment_length` [m] sets the length of its segments; without either
     they are short in bends and near the bit, and longer elsewhere.
@@ -226,6 +206,11 @@ class ComponentSpec(Table):
     stabilisers, which touch the wall first. `linear_mass` (with tool joints) and the stiffnesses EA
     (`axial_stiffness`), EI (`bending_stiffness`), GJ (`torsional_stiffness`) and κGA (`shear_stiffness`) are computed
     from the pipe body where they are not given. The default `yield_strength` is that of S-135.
+
+    A "sleeve" touches with its `contact_diameter` along its length, both ends included; beside a narrower neighbour
+    the joint has the larger diameter. A "point" touches at its middle, the bit at its end; elsewhere it is no wider
+    than the sleeves beside it. Without `contact` a component is a point up to a length of 12 contact diameters. Its
+    segments, and those of its neighbours, do not matter.
 
     A bent housing has its `bend` [rad] at the upper end, where the component is tilted against the one above
     it towards `toolface` [rad], which counts from the high side clockwise looking downhole.
@@ -238,6 +223,11 @@ class ComponentSpec(Table):
     outer_diameter: units.Diameter
     inner_diameter: units.Bore
     contact_diameter: units.Diameter = Field(default_factory=lambda given: given["outer_diameter"])
+    contact: Literal["point", "sleeve"] = Field(
+        default_factory=lambda given: (
+            "point" if given["length"] and given["length"] <= SHORT * given["contact_diameter"] else "sleeve"
+        )
+    )
     segments: units.Count | None = None
     segment_length: units.PositiveLength | None = None
     linear_mass: units.PositiveLinearMass | None = None
@@ -261,7 +251,9 @@ class ComponentSpec(Table):
         if self.eccentricity >= 0.5 * self.outer_diameter:
             raise InputError("less than half of outer_diameter", key="eccentricity")
         if self.contact_diameter < self.outer_diameter:
-            raise InputError("at least outer_diameter", key="contact_diameter")
+            raise InputError(f"at least outer_diameter, {self.outer_diameter:g} m", key="contact_diameter")
+        if self.contact == "point" and self.length is None:
+            raise InputError("sleeve, for a component without a length", key="contact", value=self.contact)
         return self
 
     @property
@@ -287,16 +279,18 @@ class StringSpec(Table):
             raise InputError("at least one", key="components")
         for i, component in enumerate(self.components[:-1]):
             if component.length is None:
-                raise InputError("a length, which only the last may omit", key=f"components[{i}].length")
+                expected = "a length, which only the last may omit, as components run from the bit up"
+                raise InputError(expected, key=f"components[{i}].length")
         return self
 
 
 class MudSpec(Table):
     """Density [kg/m^3], viscosity [Pa*s]; damping per metre of string: axial and lateral [N*s/m^2], rotational [N*s].
 
-    A string that moves in time takes mud along sideways, and the mud damps it sideways, by default with a viscosity of
-    20 mPa*s. A `viscosity` that is given damps the string along and around itself too, in steady states as well; 0
-    turns all of it off. A damping that is given replaces the one that follows from the viscosity.
+    A string that moves in time takes mud along, and the mud damps its waves along itself and its motion sideways, by
+    default with a viscosity of 20 mPa*s. A `viscosity` that is given damps the string along and around itself too, in
+    steady states as well; 0 turns all of it off. A damping that is given replaces the one that follows from the
+    viscosity.
     """
 
     density: units.Density = 0.0
@@ -313,9 +307,9 @@ class MudSpec(Table):
         return self
 
     @property
-    def sideways(self) -> float:
-        """The viscosity of lateral motion in time [Pa s], 0 where the string takes no mud along."""
-        return (self.viscosity if self.viscosity is not None else SIDEWAYS) if self.density else 0.0
+    def unsteady(self) -> float:
+        """The viscosity of motion that changes in time [Pa s], 0 where the string takes no mud along."""
+        return (self.viscosity if self.viscosity is not None else UNSTEADY) if self.density else 0.0
 
 
 class RigSpec(Table):
@@ -356,23 +350,28 @@ class RigSpec(Table):
 
 
 class SolverSpec(Table):
-    """The time step [s], and joint damping as a multiple of joint stiffness [s].
+    """The time step [s], and dampings of the joints as multiples of their stiffness [s].
 
-    "largest" is the largest step that is certain to be stable, "auto" four fifths of it.
-    The default joint damping is that of steel, a loss of 0.2 % at 30 Hz; it keeps sliding segments from chattering.
+    "largest" is the largest step that is certain to be stable, "auto" four fifths of it. `shape_damping` damps the
+    change of the string's shape in space, which ends the chatter of segments on the wall; a bent string that turns
+    steadily keeps its shape, and is not braked. `joint_damping` is that of the steel, a loss of 0.2 % at 30 Hz by
+    default: it acts on what bends and stretches in the string's own frame, and brakes a bent string that turns.
     `loss_factor` is that of the string's torsion at its first torsional frequency, in addition; a large one makes the
     largest step smaller.
 
     Where a steady string is buckled, "detect" says whether its segments can bend that way, and "resolve" lays it out
-    in segments that can.
+    in segments that can. `resolve_work` is the work that a row may take for it, iterations times segments: the default
+    is some twenty seconds. Kilometres of helix that slides with friction take three to ten times as much.
     """
 
     step: float | Literal["auto", "largest"] = Field(
         default="auto", description='"auto", "largest" or a time such as "2 ms"'
     )
     joint_damping: units.Time = 1e-5
+    shape_damping: units.Time = 3e-3
     loss_factor: units.LossFactor = 0.0
     buckling: Literal["detect", "resolve"] = "detect"
+    resolve_work: units.Work = 8e6
 
     @field_validator("step", mode="before", json_schema_input_type=float | str)
     @classmethod

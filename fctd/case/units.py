@@ -119,10 +119,8 @@ class Slip(NamedTuple):
 
 def looks_like(number: float, slips: Iterable[Slip]) -> str:
     """What a number in a wrong unit looks like, as " (8.5 looks like '8.5 in')"; empty for other numbers."""
-    for slip in slips:
-        if slip.low < number <= slip.high:
-            return f" ({number:g} looks like '{number * slip.factor:g}{slip.unit}')"
-    return ""
+    fitting = [f"'{number * slip.factor:g}{slip.unit}'" for slip in slips if slip.low < number <= slip.high]
+    return f" ({number:g} looks like {' or '.join(fitting)})" if fitting else ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -272,6 +270,7 @@ Share = Annotated[float, Number(noun="a share", at_least=0.0, at_most=1.0)]
 Ratio = Annotated[float, Number(noun="a ratio", at_least=0.0, at_most=10.0)]
 PositiveRatio = Annotated[float, Number(noun="a ratio", above=0.0, at_most=10.0)]
 LossFactor = Annotated[float, Number(noun="a loss factor", at_least=0.0, at_most=0.2)]
+Work = Annotated[float, Number(noun="a number of iterations times segments", above=0.0)]
 Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
 # Hoists run at 1 to 3 m/s and top drives at up to 300 rev/min; a model at a thousandth of the size turns some thirty
 # times as fast.  A larger number is in the wrong unit.

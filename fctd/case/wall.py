@@ -106,7 +106,7 @@ class ContactSpec(Table):
 
     enabled: StrictBool = True
     friction_law: FrictionLaw = "coulomb"
-    damping: units.Damping = 1e4
+    damping: units.Damping = 1e5
     law: Literal["linear", "power"] = "linear"
     exponent: units.Exponent = 1.5
     reference_penetration: units.PositiveLength = 0.001

@@ -93,13 +93,18 @@ def calibrate_command(
     with messages.status("fitting") as status:
         if quiet:
             status.stop()
+        doing = "fitting"
+
+        def show(solved: int) -> None:
+            status.update(f"{doing}: {counted(solved, 'string')} solved")
+
         found = calibrate(
             case, measured, fits, priors=priors, setup=setup, loss=loss, order=order, starts=starts, seed=seed,
-            overrides=changes,
+            overrides=changes, progress=show,
         )  # fmt: skip
-        status.update("intervals")
+        doing = "intervals"
         _ = found.intervals
-        status.update("leaving out each row")
+        doing = "leaving out each row"
         _ = found.leave_one_out
     written: list[Path] = []
     try:

@@ -224,7 +224,8 @@ def _chart(
         _tell_not_drawn(points_measured["operation"], kinds)
     factors = parse_frictions(asked.frictions, "--friction")
     drive = read_drive(asked.speed, asked.rpm, units)
-    warnings = warnings_of(case, kinds, **drive, frictions=factors)
+    gauge = asked.load == "indicator" or points_measured is not None
+    warnings = warnings_of(case, kinds, **drive, frictions=factors, indicator=gauge)
     told = tell(case, warnings, strict=asked.strict, units=units)
     limits = keeping.limits
 
@@ -261,7 +262,8 @@ def _chart(
                 one = with_friction(case, factors[0]) if factors else case
                 solver, rates = Solver(one), rates_of_all(one, kinds, **drive)
                 points = [solver.solve(kind, rates[kind], last) for kind in kinds]
-                written += draw_profiles(plot_profile, points, units=units, force=asked.side_force, warnings=told)
+                look_of = {"force": asked.side_force, "warnings": told, "sets": max(len(factors), 1)}
+                written += draw_profiles(plot_profile, points, units=units, **look_of)
             if kept is not None:
                 kept.folder.clear()
         finally:

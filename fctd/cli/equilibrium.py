@@ -48,9 +48,11 @@ from fctd.cli.steady import (
 )
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
+from fctd.results.profile import place_in_words
 from fctd.results.tables import write_table
 from fctd.results.unit_systems import System, shown
-from fctd.steady.equilibrium import Equilibrium, equilibrium
+from fctd.steady.equilibrium import equilibrium
+from fctd.steady.steady_string import Equilibrium
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -93,7 +95,8 @@ def equilibrium_command(
     try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
         if point.answered and out is not None:
             metadata = metadata_of(case, units, [operation], drive, warnings)
-            metadata |= {"bit_depth_m": depth, "status": point.status, "message": point.message} | _loads(point)
+            metadata |= {"bit_depth_m": depth, "bit_md_m": float(point.profile["md_m"].iloc[-1])}
+            metadata |= {"status": point.status, "message": point.message} | _loads(point)
             metadata |= {"buckling": str(point.buckling), "shape": point.shape}
             metadata |= _found(point) | {"notes": as_metadata(point.notes)}
             written += write_table(in_units(units, point.profile), out, metadata)
@@ -134,7 +137,7 @@ def _print_point(point: Equilibrium, units: System) -> None:
         profile = point.profile
         for name, worst in (("effective_tension_N", "min"), ("contact_force_N", "max"), ("von_mises_Pa", "max")):
             unit, row = shown(name, units), profile.loc[profile[name].agg(f"idx{worst}")]
-            where = f"at {row['md_m'] * metre.factor:.0f} {metre.label}"
+            where = f"at {place_in_words(row['md_m'], point.bit_depth, metre.factor, metre.label)}"
             table.add_row(f"{worst}. {COLUMNS[name].label}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
         for mode in ("sinusoidal", "helical"):
             for first, last in stretches(profile, mode):

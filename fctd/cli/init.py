@@ -1,16 +1,20 @@
 """``fctd init``: a commented case file to start from."""
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from fctd.case.errors import InputError
+from fctd.case.load import load_case
+from fctd.case.surveys.headers import KEYS, Wanted, accepted_units, unit_of
+from fctd.case.surveys.stations import UNITS, StationKey
 from fctd.case.text import is_utf8, printable
 from fctd.cli.manners import Silent
-from fctd.cli.options import check_target, messages, screen
-from fctd.model.new_case import Plan, Quantities, UnitSystem, assumed, from_survey, from_template, read_survey
+from fctd.cli.options import check_target, messages, screen, tell
+from fctd.model.new_case import Plan, Quantities, UnitSystem, from_survey, from_template, read_survey
 from fctd.model.templates import TEMPLATES, TemplateName
 from fctd.results.whole_file import whole_file
 
@@ -30,6 +34,21 @@ def init_command(
         ),
     ] = None,
     units: Annotated[UnitSystem, typer.Option("--units", help="Units of the case file.")] = "metric",
+    columns: Annotated[
+        list[str],
+        typer.Option(
+            "--columns",
+            metavar="KEY=HEADER",
+            help="Header of a column of the survey, 'azi=Azi Grid', or its unit, md.unit=ft; keys: md, inc, azi; "
+            "may be repeated.",
+        ),
+    ] = [],  # noqa: B006 (typer copies it)
+    sheet: Annotated[
+        str | None,
+        typer.Option(
+            "--sheet", help="Sheet of a workbook, or trajectory of a WITSML file, of several.", show_default=False
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="FILE", help="The case file, .toml.")] = Path("my_well.toml"),
     quiet: Silent = False,
 ) -> None:
@@ -37,28 +56,57 @@ def init_command(
     check_target(out, "--out", (".toml",))
     if out.exists():
         raise InputError("a file that does not exist yet", key="--out", value=out)
-    plan = _plan(survey, template, units, out)
+    if survey is None and (columns or sheet is not None):
+        raise InputError("a survey beside --columns and --sheet", key="SURVEY")
+    plan = _plan(survey, template, units, out, parse_columns(columns), sheet)
     with whole_file(out) as scratch:
         scratch.write_text(plan.text(), encoding="utf-8")
     if not quiet:
         screen.print(f"Written: {printable(str(out))}, {printable(plan.title)}", soft_wrap=True)
-        for line in _next(plan, out):
-            screen.print(line, soft_wrap=True)
+    case = load_case(out)
+    if tell(case, case.warnings, strict=False, units="field" if units == "field" else "si"):
+        text = f"depths in {printable(str(out))} follow from the survey as it was read: if that is wrong, delete it"
+        messages.print(f"{text} and write it anew", soft_wrap=True)
+    for line in () if quiet else _next(plan, out):
+        screen.print(line, soft_wrap=True)
 
 
-def _plan(survey: Path | None, template: TemplateName | None, units: UnitSystem, out: Path) -> Plan:
+def _plan(
+    survey: Path | None,
+    template: TemplateName | None,
+    units: UnitSystem,
+    out: Path,
+    columns: dict[StationKey, Wanted],
+    sheet: str | None,
+) -> Plan:
     name = out.stem.replace("_", " ") if is_utf8(out.stem) else "my well"
     if survey is None:
         return from_template(TEMPLATES[template or "build-hold"], name, units)
     if not survey.exists():
         raise InputError("a survey file that exists", key="SURVEY", value=survey)
     written = Path(os.path.relpath(survey, out.absolute().parent)).as_posix()
-    columns, stations = read_survey(survey, units)
+    found = read_survey(survey, units, columns, sheet)
     if not is_utf8(written):
         raise InputError("a file whose path is UTF-8, as a case file is", key="SURVEY", value=survey)
-    if columns:
-        messages.print(f"warning: {survey}: {assumed(units)}, as in the key wellbore.columns", soft_wrap=True)
-    return from_survey(template, name, units, written, columns, stations)
+    if found.note:
+        messages.print(f"warning: {survey}: {found.note}", soft_wrap=True)
+    return from_survey(template, name, units, written, found.keys, found.stations)
+
+
+def parse_columns(texts: Sequence[str]) -> dict[StationKey, Wanted]:
+    """Header and unit of the quantities of "azi=Azi Grid" and "md.unit=ft"; InputError for another form."""
+    said: dict[StationKey, Wanted] = {}
+    for text in texts:
+        left, sign, right = (part.strip() for part in text.partition("="))
+        name, dot, of_unit = left.partition(".")
+        key = next((key for key in KEYS if key == name), None)
+        if key is None or not sign or not right or (dot and of_unit != "unit"):
+            raise InputError("KEY=HEADER or KEY.unit=UNIT, with a key md, inc or azi", key="--columns", value=text)
+        before = said.get(key, Wanted())
+        if dot and unit_of(right) not in UNITS[key]:
+            raise InputError(f"a unit of {accepted_units(key)}", key="--columns", value=text)
+        said[key] = Wanted(before.header, unit_of(right)) if dot else Wanted(right, before.unit)
+    return said
 
 
 def _next(plan: Plan, out: Path) -> list[str]:

@@ -1,6 +1,7 @@
 """Ctrl-C, and the signals with which a system or a closing terminal ends a program."""
 
 import gc
+import os
 import signal
 import sys
 import threading
@@ -43,6 +44,12 @@ def as_interrupts() -> Iterator[None]:
             signal.signal(number, signal.SIG_DFL)
 
 
+def listens() -> None:
+    """From now on Ctrl-C is a KeyboardInterrupt: there is somebody who answers it."""
+    if signal.getsignal(signal.SIGINT) == leave:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 @contextmanager
 def deferred() -> Iterator[None]:
     """Inside, Ctrl-C, SIGTERM and SIGHUP wait until the block has ended, so that results are written completely.
@@ -66,14 +73,28 @@ def deferred() -> Iterator[None]:
             signal.raise_signal(number)
 
 
+def leave(number: int, frame: FrameType | None) -> None:
+    """What Ctrl-C does before the commands begin: it ends the program with exit code 130."""
+    sys.exit(130)
+
+
+def is_fctd() -> bool:
+    """Whether the program that runs is the command, not another one that imports the package."""
+    command = os.path.splitext(os.path.basename(sys.argv[0]))[0] if sys.argv else ""
+    return command == "fctd" or sys.orig_argv[1:3] == ["-m", "fctd"]
+
+
 @contextmanager
 def ends_program() -> Iterator[None]:
     """Inside, Ctrl-C, SIGTERM or SIGHUP end a program with exit code 130, without a traceback.
 
     It surrounds the imports, which take a second or two.  An interactive session gets KeyboardInterrupt and continues.
+    For the command itself, Ctrl-C does so between two such blocks too, until it `listens`.
     The garbage collector rests meanwhile: what is imported stays, and a tenth of the time would go into looking
     through it.
     """
+    if is_fctd() and signal.getsignal(signal.SIGINT) == signal.default_int_handler:
+        signal.signal(signal.SIGINT, leave)
     collecting = gc.isenabled()
     gc.disable()
     try:

@@ -14,7 +14,7 @@ from typer.models import CommandInfo
 from fctd.case.errors import InputError
 from fctd.case.text import degrade_output
 from fctd.cli.compile import announcing
-from fctd.cli.interrupts import as_interrupts
+from fctd.cli.interrupts import as_interrupts, listens
 from fctd.cli.manners import HELP, Command, application
 from fctd.cli.options import (
     BAD_INPUT,
@@ -86,6 +86,7 @@ def run(commands: typer.Typer) -> None:
     """Run a command line; bad input, or a file that cannot be written, gives one line and no traceback."""
     degrade_output()
     try:
+        listens()
         with as_interrupts(), announcing():
             commands()
     except (InputError, OSError) as error:  # OSError: a full disk, a closed terminal

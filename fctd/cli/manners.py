@@ -1,6 +1,5 @@
 """What all commands have in common: ``-h``, ``-o``, ``-q``, ``--version``, and messages about their options."""
 
-from importlib.metadata import version
 from typing import Annotated, Any
 
 import typer
@@ -43,13 +42,21 @@ class Command(TyperCommand):
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        typer.echo(f"fctd {version('fctd')}")
+        from fctd.mechanics.compile_cache import hash_of_sources
+        from fctd.results.tables import versions
+
+        known = versions()
+        commit = f"commit {known['commit']}, " if "commit" in known else ""
+        typer.echo(f"fctd {known['fctd']} ({commit}sources {hash_of_sources()})")
         raise typer.Exit
 
 
 def application(
     show_version: Annotated[
-        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print version, commit, and hash of sources."
+        ),
     ] = False,
 ) -> None:
     """Fast contact torque and drag of a stiff drill string."""

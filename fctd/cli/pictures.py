@@ -13,7 +13,7 @@ from fctd.cli.options import check_target
 from fctd.plots.loads import ChartLook, Load
 from fctd.plots.tracks import SideForce
 from fctd.results.unit_systems import System
-from fctd.steady.equilibrium import Equilibrium
+from fctd.steady.steady_string import Equilibrium
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -150,10 +150,10 @@ def _kinds(operations: Sequence[str]) -> list[str]:
 
 
 def _depths(case: Case, text: str | None, units: System) -> list[float]:
-    """The depths that are asked for, else even ones from the last shoe, or the middle of the hole, to its end."""
+    """The depths that are asked for, else even ones from the last shoe, or the middle of the hole, to the deepest."""
     if text is not None:
         return read_depths(text, case, units)
-    top, bottom = case.depths
+    top, bottom = case.string.top_md, case.deepest
     first = next((shoe for shoe in reversed(case.shoes) if top < shoe < bottom), top + 0.5 * (bottom - top))
     return [round(float(depth), 3) for depth in np.linspace(first, bottom, DEPTHS)]
 

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
-from fctd.case.friction import own_label
+from fctd.case.friction import factors_label
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.units import conversion
 from fctd.model.operations import SteadyRates, rad_per_s, rates_of_all
 from fctd.results.notes import meanings_of, worst
+from fctd.results.profile import place_in_words
 from fctd.results.series import frictions_of, in_words, series_of
 from fctd.results.unit_systems import System, reworded, shown
-from fctd.steady.equilibrium import Equilibrium
+from fctd.steady.steady_string import Equilibrium
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -66,11 +67,17 @@ def heading_of_chart(
     return "; ".join(words), [facts, *_told(warnings), *notes]
 
 
-def heading_of_profile(points: Sequence[Equilibrium], units: System, warnings: Sequence[str]) -> tuple[str, list[str]]:
-    """Title of profiles, and the lines below it, the first of facts."""
+def heading_of_profile(
+    points: Sequence[Equilibrium], units: System, warnings: Sequence[str], sets: int = 1
+) -> tuple[str, list[str]]:
+    """Title of profiles, and the lines below it, the first of facts; sets : of friction factors, of which the points
+    have the first.
+    """
     case, depth = points[0].case, shown("bit_depth_m", units)
-    friction = reworded(own_label(case.wellbore.intervals), units)
-    words = [case.name, f"bit at {points[0].bit_depth * depth.factor:.0f} {depth.label}", in_words(friction)]
+    friction = reworded(factors_label(case.wellbore.intervals), units)
+    bit, ends = points[0].bit_depth, [point.profile["md_m"].iloc[-1] for point in points if point.answered]
+    words = [case.name, f"bit at {place_in_words(max([bit, *ends]), bit, *depth)}", in_words(friction)]
+    words += [f"the first of {sets} sets of factors"] if sets > 1 else []
     facts = "; ".join(facts_of(case, [point.operation for point in points], units))
     found = worst(note for point in points if point.answered for note in point.notes)
     return "; ".join(words), [facts, *_told(warnings), *(f"note {note.code}: {note}" for note in found)]

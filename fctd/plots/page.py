@@ -40,7 +40,7 @@ from fctd.results.series import Series, frictions_of, series_of
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
 from fctd.results.whole_file import whole_file
-from fctd.steady.equilibrium import Equilibrium
+from fctd.steady.steady_string import Equilibrium
 
 # Plotly's names of the markers and dashes of pictures.
 SYMBOLS: Final = {
@@ -136,7 +136,12 @@ def chart_page(
 
 
 def profile_page(
-    points: Sequence[Equilibrium], units: System = "si", *, force: SideForce = "length", warnings: Sequence[str] = ()
+    points: Sequence[Equilibrium],
+    units: System = "si",
+    *,
+    force: SideForce = "length",
+    warnings: Sequence[str] = (),
+    sets: int = 1,
 ) -> go.Figure:
     """The profiles of ``profile_figure`` as a page, with the same arguments."""
     answers = [point for point in points if point.answered]
@@ -180,7 +185,7 @@ def profile_page(
                 figure.add_hline(shoe * shown("md_m", units).factor, line=SHOE, **place)
         figure.update_yaxes(autorange="reversed", exponentformat="none", **place)
     figure.update_yaxes(title_text=f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}", row=1, col=1)
-    title, lines = heading_of_profile(points, units, warnings)
+    title, lines = heading_of_profile(points, units, warnings, sets)
     return _with_heading(figure, title, lines, PANEL + 100)
 
 

@@ -30,7 +30,7 @@ from fctd.plots.tracks import (
 )
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import System, shown
-from fctd.steady.equilibrium import Equilibrium
+from fctd.steady.steady_string import Equilibrium
 
 Array = NDArray[np.float64]
 
@@ -49,19 +49,21 @@ def profile_figure(
     *,
     force: SideForce = "length",
     warnings: Sequence[str] = (),
+    sets: int = 1,
 ) -> Figure:
     """Strings from the top to the bit, each operation a line.
 
     Inclination; tension, with the buckling limits that come near it; torque; side force per length of string, or per
     joint; bending moment; von Mises stress; and the offset of the string from the axis, within the clearance (shaded).
     Where one string is drawn, grey shows over all depths where it is buckled, else its line of tension does.  A string
-    without loads is only named in the legend.  warnings : lines below the title, before the notes.
+    without loads is only named in the legend.  warnings : lines below the title, before the notes.  sets : of friction
+    factors that were asked for, of which the strings have the first.
     """
     answers = [point for point in points if point.answered]
     case = points[0].case
     with mpl.rc_context(RC):
         depth = shown("bit_depth_m", units)
-        title, lines = heading_of_profile(points, units, warnings)
+        title, lines = heading_of_profile(points, units, warnings, sets)
         near = limits_near(answers, units) if answers else {}
         modes = [mode for mode in BUCKLED if any((point.profile["buckling"] == mode).any() for point in answers)]
         shoes = [shoe * depth.factor for shoe in case.shoes if shoe < points[0].bit_depth]

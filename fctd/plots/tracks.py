@@ -12,7 +12,7 @@ from fctd.case.units import conversion
 from fctd.plots.palette import BUCKLED
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import Shown, System, shown
-from fctd.steady.equilibrium import Equilibrium
+from fctd.steady.steady_string import Equilibrium
 
 if TYPE_CHECKING:
     import pandas as pd

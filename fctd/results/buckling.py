@@ -26,6 +26,9 @@ MODES: Final = np.array(["none", "sinusoidal", "helical"])
 # Columns of a row: limits [N], mode, and the segment length that follows the shape there [m].
 SINUSOIDAL_LIMIT, HELICAL_LIMIT, MODE, NEEDED = range(4)
 ROW_COLUMNS = 4
+# A string that can bend has more wall force and friction, and by them up to so many times the compression: the length
+# that is advised is as much shorter as the half wave then is.
+GROWN = 1.6
 MOST_EXCESS = 1e3  # of a load over its limit, which may be 0
 
 
@@ -35,8 +38,8 @@ class Buckling:
 
     mode : the worst one, none, sinusoidal or helical; unknown where there is no balance.  from_md, to_md : first and
     last contact point beyond either limit [m], NaN without one; between them may be points that are not.  longest :
-    longest segment that is too long for the wave, or 0 [m]; segment_length : the length that would do, NaN where
-    nothing is buckled [m].  excess : largest compression over its limit.
+    longest segment that is too long for the wave, or 0 [m]; segment_length : the length that would do, also when
+    the compression grows by it, NaN where nothing is buckled [m].  excess : largest compression over its limit.
     """
 
     mode: str
@@ -119,7 +122,7 @@ def buckling_of(mode: int, from_md: float, to_md: float, longest: float, needed:
     """The buckled part of a string from the numbers of ``find_buckling``."""
     if mode == NEITHER:
         return NOT_BUCKLED
-    return Buckling(str(MODES[mode]), from_md, to_md, longest, rounded_down(needed), excess)
+    return Buckling(str(MODES[mode]), from_md, to_md, longest, rounded_down(needed / GROWN**0.5), excess)
 
 
 def rounded_down(length: float) -> float:
@@ -181,6 +184,7 @@ def find_buckling(bends, top_md, md, hole_radius, tension, bit_tension, EI, weig
             rows[i, m] = own if hangs[i, m] else lying
             if lying < F and not hangs[i, m]:
                 rows[i, MODE] = m + 1
+    unmark_single(compression, rows, top_md, md, EI)
     for m in range(2):
         mark_hanging(compression, rows, hangs[:, m], m)
 
@@ -199,6 +203,34 @@ def find_buckling(bends, top_md, md, hole_radius, tension, bit_tension, EI, weig
         if length[j] > min(rows[j, NEEDED], rows[j + 1, NEEDED]) * (1 + 1e-9):
             longest = max(longest, length[j])
     return mode, first, last, longest, needed, excess
+
+
+@inlined
+def reach(compression, rows, i, k, span):
+    """Length beyond row i, towards its neighbour k at a distance, over which the compression is beyond the limit."""
+    excess, lack = compression[i] - rows[i, SINUSOIDAL_LIMIT], rows[k, SINUSOIDAL_LIMIT] - compression[k]
+    return span * excess / (excess + lack) if lack < np.inf else 0.0
+
+
+@kernel
+def unmark_single(compression, rows, top_md, md, EI):
+    """Update the mode of single rows beyond a limit: they are no stretch where they reach less far than a half wave.
+
+    The limit is passed between two contact points where a line through both is 0.
+    """
+    n = len(md)
+    for i in range(n + 1):
+        above = i > 0 and rows[i - 1, MODE] != NEITHER
+        below = i < n and rows[i + 1, MODE] != NEITHER
+        if rows[i, MODE] == NEITHER or above or below:
+            continue
+        length = 0.0
+        if i > 0:
+            length += reach(compression, rows, i, i - 1, md[i - 1] - (md[i - 2] if i > 1 else top_md))
+        if i < n:
+            length += reach(compression, rows, i, i + 1, md[i] - (md[i - 1] if i > 0 else top_md))
+        if length * np.sqrt(compression[i] / (2 * EI[max(i - 1, 0)])) < np.pi:
+            rows[i, MODE], rows[i, NEEDED] = NEITHER, np.inf
 
 
 @kernel

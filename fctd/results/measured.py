@@ -11,7 +11,7 @@ from fctd.case.operations import KINDS
 from fctd.case.units import FORCE, LENGTH, TORQUE
 from fctd.model.operations import string_load, weight_indicator
 from fctd.results.columns import COLUMNS
-from fctd.results.measured_file import ENDS, Field, Line, Text, read_lines, require
+from fctd.results.measured_file import ENDS, LARGEST_FORCE, LARGEST_TORQUE, Field, Line, Text, read_lines, require
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,9 +23,9 @@ GAUGE: Final = r"hook[ _]?load|weight[ _]indicator|indicator"
 _BELOW: Final = 30.0  # m: a measured depth may exceed the last station of the survey by a joint or two
 DEPTH: Final = Field("bit_depth", "m", LENGTH, r"bit[ _]depth|depth|md", "m", at_least=0.0)
 _LOADS: Final = (
-    Field("string_load", "N", FORCE, r"string[ _]load", "kN", ranged=True),
-    Field("hookload", "N", FORCE, GAUGE, "kN", ranged=True),
-    Field("surface_torque", "N_m", TORQUE, r"(?:surface[ _])?torque", "kN_m", ranged=True),
+    Field("string_load", "N", FORCE, r"string[ _]load", "kN", ranged=True, at_most=LARGEST_FORCE),
+    Field("hookload", "N", FORCE, GAUGE, "kN", ranged=True, at_most=LARGEST_FORCE),
+    Field("surface_torque", "N_m", TORQUE, r"(?:surface[ _])?torque", "kN_m", ranged=True, at_most=LARGEST_TORQUE),
 )
 _LOAD_COLUMNS: Final = tuple(field.column(end) for field in _LOADS for end in ENDS)
 _HEADERS: Final = "such as bit_depth_m, operation, hookload_kN, hookload_low_kN, hookload_high_kN, torque_kN_m"

@@ -20,6 +20,9 @@ from fctd.case.text import counted
 from fctd.case.units import Dimension, Quantity
 
 LARGEST_FILE: Final = 8  # MiB
+MOST_ROWS: Final = 10_000  # a string is solved for each
+# Readings beyond these, [N] and [N*m], are no rig's: a hundred times what the strongest hoists and drives do.
+LARGEST_FORCE, LARGEST_TORQUE = 1e9, 1e8
 ENDS: Final = ("", "_low", "_high")
 # A unit in brackets, or after an underscore as in the columns of tables.
 _UNIT: Final = r"(?:[ _]*[(\[]\s*(?P<inside>[^)\]]+?)\s*[)\]]|_(?P<after>[\w/]+))?"
@@ -31,7 +34,8 @@ class Field(NamedTuple):
     """A quantity of a file.
 
     stem, unit : of its column in the table; names : in headers, a regular expression; example : a unit; ranged :
-    whether it has columns of a low and a high end; at_least : smallest value; bare : the unit of a header without one.
+    whether it has columns of a low and a high end; at_least, at_most : smallest and largest value [SI]; bare :
+    the unit of a header without one.
     """
 
     stem: str
@@ -41,6 +45,7 @@ class Field(NamedTuple):
     example: str
     ranged: bool = False
     at_least: float | None = None
+    at_most: float | None = None
     bare: str = ""
 
     def column(self, end: str = "") -> str:
@@ -92,6 +97,8 @@ def read_lines(path: Path, fields: Sequence[Field], texts: Sequence[Text], heade
     rows = _rows(path)
     if len(rows) < 2:
         raise InputError("a row of headers and a row for each measurement")
+    if len(rows) > MOST_ROWS + 1:
+        raise InputError(f"at most {MOST_ROWS} rows", value=len(rows) - 1)
     (first, names), *body = rows
     columns = [_column_of(name, fields, texts, f"row {first}") for name in names]
     found = [column.name for column in columns]
@@ -162,7 +169,7 @@ def _column_of(header: str, fields: Sequence[Field], texts: Sequence[Text], row:
         if match is None:
             continue
         end = f"_{match['end'].lower()}" if field.ranged and match["end"] else ""
-        quantity = Quantity(dimension=field.dimension, at_least=field.at_least)
+        quantity = Quantity(dimension=field.dimension, at_least=field.at_least, at_most=field.at_most)
         for unit in _units(match["inside"], match["after"], field.bare):
             try:
                 quantity.parse(f"1 {unit}")

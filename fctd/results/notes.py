@@ -16,7 +16,7 @@ from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String
 from fctd.model.string_rows import INNER, OUTER, YIELD_STRENGTH
 from fctd.results.buckling import Buckling
-from fctd.results.profile import Loads, at_contacts, von_mises
+from fctd.results.profile import Loads, at_contacts, place_in_words, von_mises
 
 Array = NDArray[np.float64]
 
@@ -85,17 +85,17 @@ MEANINGS: Final = {
     ),
     "flutter": Meaning(
         "the hook load flutters",
-        'set solver.joint_damping = "3 ms", which ends what friction and the springs of the wall, or a start with a '
-        "jolt (a short ramp_time), set off; until then read means",
+        "ramp more slowly (ramp_time) where a start with a jolt sets it off, else raise contact.damping and "
+        "solver.shape_damping, which end what friction and the springs of the wall set off; until then read means",
     ),
-    "slow": Meaning(
-        "the string slides too slowly for the time step, and its drag is too low",
-        'set contact.friction_law = "karnopp", or a smaller solver.step',
+    "joint_damping": Meaning(
+        "the damping of the joints brakes the turning string",
+        "lower solver.joint_damping: its default takes next to nothing, and solver.shape_damping ends chatter without "
+        "braking a string that turns",
     ),
     "ledger": Meaning(
         "the energy ledger is off",
-        'set solver.joint_damping = "3 ms", or contact.friction_law = "karnopp" where the string slides slowly, or try '
-        "a smaller solver.step, shorter segments, or arcs",
+        "try a smaller solver.step, shorter segments, or arcs",
     ),
     "torque": Meaning(
         "the surface torque at the end of the run is not steady",
@@ -185,7 +185,7 @@ def string_notes(
     ):  # fmt: skip
         return ()
     found = [
-        _penetration(walls, radius, penetration) if in_hole else None,
+        _penetration(walls, radius, penetration, string.bit_depth) if in_hole else None,
         _stress(string, loads, walls),
         _pull(string, hookload),
     ]
@@ -217,14 +217,15 @@ def could_have_notes(
     return False
 
 
-def _penetration(walls: Walls, radius: Array, penetration: Array) -> Note | None:
+def _penetration(walls: Walls, radius: Array, penetration: Array, bit_depth: float) -> Note | None:
     clearance = walls.radius - radius
     excess = penetration / np.clip(SHARE_OF_CLEARANCE * clearance, LEAST_PENETRATION, MOST_PENETRATION)
     k = int(excess.argmax())
     if not excess[k] > 1:
         return None
+    where = place_in_words(walls.md[k], bit_depth)
     text = (
-        f"a contact point at {walls.md[k]:.0f} m is {1e3 * penetration[k]:.3g} mm deep in the wall, "
+        f"a contact point at {where} is {1e3 * penetration[k]:.3g} mm deep in the wall, "
         f"where the clearance is {1e3 * clearance[k]:.3g} mm"
     )
     return note_of("penetration", text, float(excess[k]), float(walls.md[k]))
@@ -241,7 +242,8 @@ def _stress(string: String, loads: Loads, walls: Walls) -> Note | None:
     if not stress[k] > strength[k]:
         return None
     place = float(walls.md[k - 1]) if k else string.top_md
-    text = f"the stress at {place:.0f} m is {stress[k] / 1e6:.0f} MPa, the yield strength {strength[k] / 1e6:.0f} MPa"
+    where = place_in_words(place, string.bit_depth)
+    text = f"the stress at {where} is {stress[k] / 1e6:.0f} MPa, the yield strength {strength[k] / 1e6:.0f} MPa"
     return note_of("yield", text, float(stress[k] / strength[k]), place)
 
 

@@ -35,6 +35,16 @@ class Loads(NamedTuple):
     bit_torque: float = 0.0
 
 
+def place_in_words(md: float, bit_depth: float, factor: float = 1.0, unit: str = "m") -> str:
+    """A measured depth [m] in a unit, as "3500 m + 2 m of stretch" where it is that much deeper than the pipe tally.
+
+    bit_depth : by the tally [m].  A string that hangs is longer than its tally, so that its bit may be deeper than the
+    hole.
+    """
+    over = round(md * factor) - round(bit_depth * factor)
+    return f"{min(md, bit_depth) * factor:.0f} {unit}" + (f" + {over} {unit} of stretch" if over > 0 else "")
+
+
 def at_contacts(string: String, loads: Loads) -> tuple[Array, Array, Array]:
     """Tension [N], torque and bending [N m] at the top and at the n contact points, each (n + 1,).
 

@@ -4,6 +4,7 @@ The system holds it: it is free again as soon as the process has ended, however 
 its number since.  The file names the process, for messages alone.
 """
 
+import errno
 import json
 import os
 import time
@@ -48,8 +49,14 @@ class RunLock:
         for attempt in range(ATTEMPTS):
             file = _locked(folder / NAME, shared=False)
             if file is not None:
-                os.ftruncate(file, 0)
-                os.write(file, json.dumps(Holder(os.getpid(), time.time())).encode())
+                try:
+                    os.ftruncate(file, 0)
+                    text = json.dumps(Holder(os.getpid(), time.time())).encode()
+                    if os.write(file, text) < len(text):
+                        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+                except OSError:  # a full disk: a lock that stays would be one of a process that nobody knows
+                    os.close(file)
+                    raise
                 return cls(file)
             if attempt + 1 < ATTEMPTS:
                 time.sleep(PAUSE)

@@ -1,4 +1,6 @@
-"""Notes on a run in time: a string that is pushed down its hole, one that flutters, and one that slides too slowly."""
+"""Notes on a run in time: a string that is pushed down its hole, one that flutters, and one that its damping brakes."""
+
+import math
 
 from fctd.results.notes import SMALL_SWING, Note, note_of
 
@@ -9,8 +11,8 @@ PUSH_OF_A_STEP = 0.10
 # of the lowest frequency of a segment on its wall spring, and this multiple of the slowest axial one.  Below this share
 # of the string's weight it is small: the fast part of what a start leaves behind is below 1 %.
 OF_THE_WALL, OF_THE_STRING, SMALL_FLUTTER = 1 / 2, 3.0, 0.02
-# Share of the drag that a string may lack.
-LACKING = 0.02
+# Share of the torque that the joints' own damping may take.
+OF_THE_TORQUE = 0.01
 
 
 def pushes(mean: float, least: float, block: float, weight: float) -> Note | None:
@@ -41,15 +43,14 @@ def flutters(amplitude: float, frequency: float, on_wall: float, axial: float, w
     return note_of("flutter", text, amplitude / bound)
 
 
-def slides_slowly(speed: float, lacking: float, step: float) -> Note | None:
-    """A note where a string slides so slowly that friction of law ``coulomb`` holds it around the hole.
+def brakes_turning(taken: float, torque: float) -> Note | None:
+    """A note where the joints' own damping takes part of the torque of a turning string.
 
-    speed : along the hole [m/s]; lacking : share of the drag that is missing; step [s].
+    A bent string that turns is bent to and fro in its own frame.  taken, torque : that of the damping and that at
+    surface [N m].
     """
-    if not lacking > LACKING:
+    if not taken > OF_THE_TORQUE * abs(torque):
         return None
-    text = (
-        f"the string slides at {speed:.2g} m/s, too slowly for friction of law coulomb in steps of {1e3 * step:.2g} "
-        f"ms: it holds the string around the hole, and along it {100 * lacking:.2g} % of the drag are missing"
-    )
-    return note_of("slow", text, lacking / LACKING)
+    share = f"{100 * taken / abs(torque):.2g} %" if torque else "all"
+    text = f"the joints' own damping takes {taken:.3g} N m of the torque of the turning string, {share} of it"
+    return note_of("joint_damping", text, taken / (OF_THE_TORQUE * abs(torque)) if torque else math.inf)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import os
 import platform
@@ -275,12 +276,15 @@ def _to_workbook(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -
         [(key, value if isinstance(value, str) else json.dumps(value)) for key, value in metadata.items()],
         columns=["key", "value"],
     )
-    # A text is a text, also where it looks like a formula or an address.
-    texts = {"strings_to_formulas": False, "strings_to_urls": False}
-    with pd.ExcelWriter(path, engine="xlsxwriter", engine_kwargs={"options": texts}) as book:
+    # A text is a text, also where it looks like a formula or an address.  The package packs a file while it writes it:
+    # a disk that becomes full meanwhile would leave it in the middle.
+    options = {"strings_to_formulas": False, "strings_to_urls": False, "in_memory": True}
+    content = io.BytesIO()
+    with pd.ExcelWriter(content, engine="xlsxwriter", engine_kwargs={"options": options}) as book:
         for name, table in (("table", frame), ("about", about)):
             table.to_excel(book, sheet_name=name, index=False, freeze_panes=(1, 0))
             book.sheets[name].autofit()
+    path.write_bytes(content.getvalue())
 
 
 _WRITERS: Final[dict[str, Callable[[pd.DataFrame, Path, Mapping[str, Any]], None]]] = {

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fctd.case.errors import InputError
+from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.sweep.design import Value
 from fctd.sweep.template import Template
 from fctd.sweep.work import WORK, Row, Task, TooLongError, begin_run
@@ -40,12 +41,16 @@ class Sample(NamedTuple):
 
 
 class Done(NamedTuple):
-    """A chunk's rows as an Arrow stream, with the time that its samples took and that of the chunk [s]."""
+    """A chunk's rows as an Arrow stream, with the time that its samples took and that of the chunk [s].
+
+    sources : hash of those of the program that computed them; none of a program that is too old to say.
+    """
 
     samples: tuple[int, ...]
     rows: bytes
     solving: float
     elapsed: float
+    sources: str = ""
 
 
 @dataclass(frozen=True)
@@ -109,7 +114,8 @@ class Bench:
                 rows += self.rows_of(sample)
                 solving += time.perf_counter() - start
         stream = as_stream(rows)
-        return Done(tuple(s.number for s in samples), stream, solving, time.perf_counter() - began)
+        elapsed = time.perf_counter() - began
+        return Done(tuple(s.number for s in samples), stream, solving, elapsed, hash_of_sources())
 
 
 def without_answer(status: str, reason: str) -> Row:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
+from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.steady.batch import cores
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ LOOPBACK: Final = "127.0.0.1"
 # Waiting for a scheduler, and for the first of its workers [s].
 CONNECT, WORKERS = 10.0, 60.0
 ADDRESS: Final = re.compile(r"(?P<protocol>tcp://|tls://|)[\w.:\[\]-]+:(?P<port>\d{1,5})")
+TALKERS: Final = ("asyncio", "distributed", "distributed.client", "tornado.application")
 PACKAGES: Final = ("fctd", "numba", "numpy", "python")
 
 
@@ -52,7 +54,7 @@ def connected(where: Where) -> Iterator[Client]:
     """A client with at least one worker; local ones end with it.
 
     Raises InputError where Dask is missing, where no scheduler or worker answers, and where a worker has other versions
-    of Python, numpy, numba or this program.
+    of Python, numpy, numba or this program, or other sources of it.
     """
     try:
         import distributed
@@ -93,6 +95,8 @@ def _local(where: Where) -> Iterator[Client]:
 def _joined(where: Where) -> Iterator[Client]:
     from distributed import Client
 
+    for name in TALKERS:
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # a lost scheduler is told in our words
     key = "--scheduler" if where.scheduler is not None else "--scheduler-file"
     value: Any = where.scheduler or where.scheduler_file
     address, security = address_of(where), _security(where)
@@ -135,7 +139,7 @@ def address_of(where: Where) -> str:
         key, value = "--scheduler-file", str(where.scheduler_file)
         try:
             address = str(json.loads(where.scheduler_file.read_text(encoding="utf-8"))["address"])
-        except (OSError, ValueError, KeyError, TypeError, IndexError):
+        except (OSError, ValueError, KeyError, TypeError, IndexError, RecursionError):
             raise InputError("the file that a running scheduler has written", key=key, value=value) from None
     found = ADDRESS.fullmatch(address)
     if found is None or not 0 < int(found["port"]) < 65536:
@@ -160,7 +164,7 @@ def _security(where: Where) -> Any:
 
 
 def check_workers(client: Client) -> None:
-    """Raise InputError where a worker has other versions than the client, or more threads than one."""
+    """Raise InputError where a worker has another program or other versions than the client, or threads than one."""
     found: Any = client.get_versions(packages=list(PACKAGES))  # a dict, where the client is not asynchronous
     own = found["client"]["packages"]
     for address, worker in found["workers"].items():
@@ -172,10 +176,21 @@ def check_workers(client: Client) -> None:
                     key=f"worker {address}",
                     value=shown(has.get(name)),
                 )
+    sources: Any = client.run(hash_of_sources, on_error="return")
+    for address, has in sources.items():
+        check_sources(has if isinstance(has, str) else "", f"worker {address}")
     threads = client.nthreads()
     for address, count in threads.items():
         if count != 1:
             raise InputError("workers with one thread each (--nthreads 1)", key=f"worker {address}", value=count)
+
+
+def check_sources(has: str, who: str) -> None:
+    """Raise InputError where a hash of sources is not that of this program: its rows would be those of another one."""
+    if has != hash_of_sources():
+        raise InputError(
+            f"workers whose fctd has the sources of the one here, {hash_of_sources()}", key=who, value=has or "others"
+        )
 
 
 def shown(version: Any) -> str:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
+from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.results import run_lock
 from fctd.results.parquet import read_frame, read_table
 from fctd.results.tables import versions
@@ -147,6 +148,8 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
             for name in SAME
             if found.about["versions"].get(name) != now[name]
         ]
+        if found.about.get("sources") != hash_of_sources():
+            other.append(f"other sources of fctd (commit {found.about['versions'].get('commit', 'unknown')})")
         if other:
             raise InputError(
                 f"another folder: its rows were computed with {', '.join(other)}", key="--out", value=folder
@@ -163,6 +166,7 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
         "sweep": template.spec.model_dump(mode="json"),
         "case": template.base.model_dump(mode="json"),
         "versions": versions(),
+        "sources": hash_of_sources(),
     }
     (folder / ROWS).mkdir(parents=True, exist_ok=True)
     with whole_file(folder / SAMPLES) as scratch, scratch.open("wb") as sink:

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
 from fctd.sweep.chunk import CRASHED, NO_ROWS, TIMED_OUT, Bench, Done, Sample, as_table, from_stream, without_answer
-from fctd.sweep.cluster import Where, connected, worker_count
+from fctd.sweep.cluster import Where, check_sources, connected, worker_count
 from fctd.sweep.dataset import Dataset, alone, begin_dataset
 from fctd.sweep.design import samples_of
 from fctd.sweep.spec import SweepSpec, naming_file
@@ -168,6 +168,10 @@ def sweep(
                 running.warm_up()
                 running.summary.start = time.perf_counter() - began
                 running.run()
+            except (OSError, CancelledError) as error:  # TimeoutError is an OSError
+                if client.status == "running":
+                    raise
+                raise SchedulerLostError from error
             finally:
                 running.finish()
         running.summary.statuses = dataset.statuses()
@@ -293,6 +297,7 @@ class _Running:
                 raise
             self._halve(numbers)
             return
+        check_sources(done.sources, "a worker")  # one that came later has not been asked
         self.summary.chunks += 1
         self.summary.solving += done.solving
         self.summary.elapsed += done.elapsed

@@ -292,6 +292,9 @@ def caption_of(look: Look, one: Snapshot) -> str:
         words += [f"torque {one.torque * torque.factor:z.2f} {torque.label}"]
     if len(one.offset):
         words += [f"{int(one.touching.sum())} of {len(one.offset)} points touch"]
+        stretch = (float(one.columns["md_m"][-1]) - one.bit_depth) * look.depth.factor
+        if round(stretch) > 0:
+            words += [f"the bit {stretch:.1f} {look.depth.label} deeper by stretch"]
     return plain("; ".join([*words, *([reworded(one.status, look.units)] if one.status else [])]))
 
 

@@ -14,14 +14,18 @@ from tests.app.made import SURVEY, TEXT, InProcess, source
 def test_files_that_come_together_make_a_case() -> None:
     pool = InProcess()
     case = {"well.toml": TEXT.encode()}
-    assert source_of(case | {"survey.csv": SURVEY}, None, pool, "si") == source()  # type: ignore[arg-type]
-    alone = source_of({"../my well.csv": SURVEY}, source(), pool, "si")  # type: ignore[arg-type]
+    assert source_of(case | {"survey.csv": SURVEY}, None, pool, "si") == (source(), "")  # type: ignore[arg-type]
+    alone, _ = source_of({"../my well.csv": SURVEY}, source(), pool, "si")  # type: ignore[arg-type]
     assert alone.survey_name == "my well.csv"
     assert 'survey = "my well.csv"' in alone.text
     waiting = source(TEXT, "", b"")
-    assert source_of({"survey.csv": SURVEY}, waiting, pool, "si") == source()  # type: ignore[arg-type]
-    other = source_of({"other.csv": SURVEY}, waiting, pool, "si")  # type: ignore[arg-type]
-    assert other.survey_name == "other.csv"
+    assert source_of({"survey.csv": SURVEY}, waiting, pool, "si") == (source(), "")  # type: ignore[arg-type]
+    other, note = source_of({"other.csv": SURVEY}, waiting, pool, "si")  # type: ignore[arg-type]
+    assert (other.survey_name, note) == ("other.csv", "")
+    _, note = source_of({"o.csv": SURVEY.replace(b"md_m", b"md_ft")}, None, pool, "si")  # type: ignore[arg-type]
+    assert note == "o.csv: its depths are in ft, as the file says, those of the case in m"
+    _, note = source_of({"o.csv": SURVEY.replace(b"md_m", b"md")}, None, pool, "field")  # type: ignore[arg-type]
+    assert note == "o.csv: the file names no unit of depth: ft is assumed, as in the key wellbore.columns"
     for files, words in (
         ({}, "one case"), ({"a.csv": b"", "b.csv": b""}, "one case"), ({"a.toml": b"", "b.toml": b""}, "one case"),
         ({"a.toml": b"\xff\xfe\x00"}, "UTF-8"), ({"a.toml": b"="}, "TOML"), ({"a.csv": bytes(9)}, "a survey"),

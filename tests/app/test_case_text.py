@@ -152,8 +152,8 @@ def test_a_warning_names_the_survey_as_its_user_does(tmp_path: Path) -> None:
 
 
 def test_a_survey_becomes_a_case(tmp_path: Path) -> None:
-    made = from_upload("my survey.csv", SURVEY, "metric", tmp_path)
-    assert made.survey_name == "my survey.csv"
+    made, note = from_upload("my survey.csv", SURVEY, "metric", tmp_path)
+    assert (made.survey_name, note) == ("my survey.csv", "")
     case = SourceCase(made, tmp_path).case
     assert case.name == "my survey"
     assert case.depths[1] == 900

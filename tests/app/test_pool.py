@@ -1,5 +1,7 @@
 """Processes that read and solve: warm, ended where they take too long, replaced where they die."""
 
+import os
+import signal
 import sys
 import time
 from collections.abc import Iterator
@@ -24,6 +26,7 @@ for line in sys.stdin:
     asked = json.loads(line)
     if asked["do"] == "sleep": time.sleep(60)
     if asked["do"] == "die": os._exit(9)
+    if asked["do"] == "die once" and os.path.exists(ONCE): os.remove(ONCE); os._exit(9)
     if asked["do"] == "known" and "source" not in asked: print(json.dumps({"unknown": True}), flush=True); continue
     print(json.dumps({"found": [os.getpid(), asked["do"]]}), flush=True)
 """
@@ -31,7 +34,9 @@ for line in sys.stdin:
 
 @contextmanager
 def scripted(folder: Path, monkeypatch: pytest.MonkeyPatch, how: str = "", size: int = 1) -> Iterator[Pool]:
-    monkeypatch.setattr(pools, "command_of", lambda _: [sys.executable, "-c", SCRIPTED, how])
+    monkeypatch.setattr(
+        pools, "command_of", lambda _: [sys.executable, "-c", f"ONCE = {str(folder / 'once')!r}\n{SCRIPTED}", how]
+    )
     pool = Pool(folder, size, longest=0.5)
     try:
         yield pool
@@ -48,7 +53,7 @@ def test_a_process_that_takes_too_long_or_dies_is_replaced(tmp_path: Path, monke
             pool.ask("sleep")
         assert time.monotonic() - began < 10
         second, _ = pool.ask("hello")
-        with pytest.raises(InputError, match="ends the process"):
+        with pytest.raises(InputError, match=r"was ended 2 times: try again, or a smaller survey"):
             pool.ask("die")
         third, _ = pool.ask("hello")
         assert len({first, second, third}) == 3
@@ -56,6 +61,18 @@ def test_a_process_that_takes_too_long_or_dies_is_replaced(tmp_path: Path, monke
     assert not list(tmp_path.glob("work-*"))
     with pytest.raises(InputError, match="not free"):
         pool.ask("hello")
+
+
+def test_a_process_that_was_killed_is_nobodys_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """While it waits, and while it computes."""
+    with scripted(tmp_path, monkeypatch) as pool:
+        first, _ = pool.ask("hello")
+        os.kill(first, signal.SIGKILL)
+        second, _ = pool.ask("hello")
+        (tmp_path / "once").touch()
+        third, _ = pool.ask("die once")
+        assert len({first, second, third}) == 3
+        assert not (tmp_path / "once").exists()
 
 
 def test_what_it_does_before_it_is_warm_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,10 +3,11 @@
 import base64
 import http.client
 import json
+import socket
 import threading
 import tomllib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -309,6 +310,15 @@ def test_the_first_page_has_a_well(server: AppServer) -> None:
     assert answer.status == 302
     key = answer.headers["Location"].rstrip("/").rpartition("/")[2]
     assert opened(server, key)["name"]["children"] == "a first well"
+
+
+def test_connections_that_send_nothing_stop_nobody(server: AppServer) -> None:
+    """Of a program of this machine: the headers of 200 requests never end."""
+    with ExitStack() as stack:
+        for _ in range(200):
+            idle = stack.enter_context(socket.create_connection(("127.0.0.1", server.port), timeout=10))
+            idle.sendall(b"GET / HTTP/1.1\r\nHost: ")
+        assert ask(server, f"{server.home.prefix}_dash-dependencies").status == 200
 
 
 def test_a_port_that_is_taken(tmp_path: Path) -> None:

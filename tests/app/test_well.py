@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 
 import fctd
 from fctd.app.charts import LOST, place_of
+from fctd.app.sessions import Source
 from fctd.app.well import DEPTHS, EVERY, Well, depths_of
 from fctd.case.errors import InputError
+from fctd.model.summary import summarise
 from fctd.view.scene import SCENE
 from tests.app.made import ROWS, TEXT, source
 from tests.cases import make_case, pipe
@@ -133,6 +135,17 @@ def test_rows_without_a_plain_answer_are_counted(tmp_path: Path) -> None:
     assert "; rings: buckled" in found["note"]
     crosses = len(unpacked(of(found["loads"], "data", place_of(LOST, "hookload_N"), "y")))
     assert ("crosses: no loads" in found["note"]) == (crosses > 0)
+
+
+def test_depths_end_where_the_string_does(tmp_path: Path) -> None:
+    """The first case of the guide has a string of 2450 m in a hole of 2600 m."""
+    path = Path(__file__).parents[2] / "validation" / "cases" / "curved_chain.toml"
+    case = fctd.load_case(path)
+    assert case.depths[1] == 2600.0
+    assert depths_of(case)[-1] == case.deepest == summarise(case).bit_depth
+    assert case.deepest == pytest.approx(2450.0)
+    well = Well(Source(path.read_text(encoding="utf-8")), tmp_path, "si")
+    assert well.opened()["depth"]["high"] == pytest.approx(case.deepest)
 
 
 def test_depths_of_a_long_segment_are_those_that_the_case_moves_it_through() -> None:

@@ -68,6 +68,8 @@ def test_a_string_may_be_another_case_beside_the_rows(tmp_path: Path) -> None:
         (",1600,trip_in,1,,,,", ['row 3, bit_depth_m = "1600"', "down to 1500 m"]),
         (",,trip_in,1,,,,", ["row 3, bit_depth_m", "a depth in the well"]),
         (",1000,trip_in,-5,,,,", ["row 3, hookload_kN", "at least 0"]),
+        (",1000,trip_in,1e300,,,,", ['row 3, hookload_kN = "1e300"', "at most 1e+09 N"]),
+        (",1000,rotate_off_bottom,,1e9,,60,", ["row 3, torque_low_kN_m", "at most 1e+08 N*m"]),
         (",1000,trip_in,,,,,", ["row 3", "a hook load or a torque"]),
         (",,in_slips,1,1,2,,", ["row 3", "no torque for in_slips"]),
         (",1000,drill_sliding,1,,,60,", ['row 3, rpm = "60"', "rev/min of 0 for drill_sliding"]),

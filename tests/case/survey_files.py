@@ -69,46 +69,98 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         {},
         text("DEPTH,DEVI,AZIM"),
         'row 1 = "DEPTH": expected a header with its unit, such as "DEPTH (m)", or the unit in the case: '
-        'columns = {md = {header = "DEPTH", unit = "m"}} (or "ft")',
+        'columns = {md = {header = "DEPTH", unit = "m"}} (or "ft"; for init: --columns md.unit=m)',
     ),
     ("depth in km", {}, text("Depth (km),Inc,Azi"), 'row 1 = "Depth (km)": expected a unit of m or ft'),
     ("azimuth in gon", {}, text("MD_m,Inc,Azi [gon]"), 'row 1 = "Azi [gon]": expected a unit of deg or rad'),
     ("row of units in km", {}, text("MD,Inc,Azi\nkm,deg,deg"), 'row 2, MD = "km": expected a unit of m or ft'),
     ("two units", {}, text("MD (m),Inc,Azi\nft,deg,deg"), 'row 2, MD (m) = "ft": expected m, as the header says'),
     (
+        "two units, in a row that looks like a comment",
+        {},
+        text("No,MD (m),Inc,Azi\n#,(ft),(deg),(deg)", rows=[f"{k},{row}" for k, row in enumerate(ROWS)]),
+        'row 2, MD (m) = "(ft)": expected m, as the header says',
+    ),
+    (
+        "two rows of units",
+        {},
+        text("MD,Inc,Azi\nm,,\n# ft,deg,deg"),
+        'row 3, MD = "ft": expected m, as row 2 says',
+    ),
+    ("two units in one header", {}, text("MD m (ft),Inc,Azi"), 'row 1 = "MD m (ft)": expected a unit of m or ft'),
+    (
+        "a letter that may be that of a unit or of measured",
+        {},
+        text("Depth M,Inc,Azi"),
+        'row 1 = "Depth M": expected a header with its unit, such as "Depth M (m)", or the unit in the case: '
+        'columns = {md = {header = "Depth M", unit = "m"}} (or "ft"; for init: --columns md.unit=m)',
+    ),
+    (
+        "an M below a depth, which may be that of measured",
+        {},
+        text("Depth,Inc,Azi\nM,,"),
+        'row 1 = "Depth": expected a header with its unit, such as "Depth (m)", or the unit in the case: '
+        'columns = {md = {header = "Depth", unit = "m"}} (or "ft"; for init: --columns md.unit=m)',
+    ),
+    (
+        "a title that speaks of a unit",
+        {},
+        "All depths in feet\n" + text("MD,Inc,Azi"),
+        'row 1, a title = "All depths in feet": expected a header with its unit, such as "MD (m)", or the unit in the '
+        'case: columns = {md = {header = "MD", unit = "m"}} (or "ft"; for init: --columns md.unit=m)',
+    ),
+    (
+        "decimal commas between commas",
+        {},
+        "MD (ft),Inc,Azi\n0,0,0\n500,0,9,5,45,1",
+        'row 3 = "500, 0, 9, 5, 45, 1": expected at most 3 cells, as many as headers (what separates columns is no '
+        "decimal comma)",
+    ),
+    (
+        "commas and dots for decimals",
+        {},
+        "md_m;inc;azi\n0;0,5;0\n1.030;3,5;4",
+        'row 3, md_m = "1.030": expected a number with a decimal comma, as in row 2',
+    ),
+    (
+        "dots of thousands or of decimals",
+        {},
+        "md_m;inc;azi\n0;0;0\n1.030;3;4\n1.060;4;4",
+        'row 3, md_m = "1.030": expected a number whose dot has one meaning: this is 1.03 or 1030',
+    ),
+    (
         "two columns of depth",
         {},
         text("md_m,inc,azi,md_ft"),
         'row 1, columns of md = ["md_m", "md_ft"]: expected one column of this quantity, or a choice in the case: '
-        'columns.md = {header = "md_m"} or {header = "md_ft"}',
+        'columns.md = {header = "md_m"} or {header = "md_ft"} (for init: --columns \'md=md_m\')',
     ),
     (
         "two columns of azimuth",
         {},
         text("md_m,inc,Azi grid,Azi true"),
         'row 1, columns of azi = ["Azi grid", "Azi true"]: expected one column of this quantity, or a choice in the '
-        'case: columns.azi = {header = "Azi grid"} or {header = "Azi true"}',
+        'case: columns.azi = {header = "Azi grid"} or {header = "Azi true"} (for init: --columns \'azi=Azi grid\')',
     ),
     (
         "no column of azimuth",
         {},
         text("md_m,inc,TVD"),
         'column azi_deg or azi_rad is missing: expected it among the headers "md_m", "inc", "TVD", or another header '
-        "named in columns",
+        "named in columns (for init: --columns 'azi=HEADER')",
     ),
     (
         "another file",
         {},
         "date,torque_kN_m\n2007-10-22,7",
-        'column md_m or md_ft is missing: expected it among the headers "date", "torque_kN_m", or another header named '
-        "in columns",
+        "expected a row of headers such as md_m, inc_deg, azi_deg in the first 100 rows",
     ),
     (
         "prose",
         {},
         "# A well\n\nDepth and azimuth of this well\nare not listed here.\n",
         'column inc_deg or inc_rad is missing: expected it among the headers "Depth", "and", "azimuth", "of", "this", '
-        '"well", or another header named in columns',
+        "\"well\", or another header named in columns (for init: --columns 'inc=HEADER')",
     ),
     (
         "no headers",

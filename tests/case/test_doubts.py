@@ -134,6 +134,34 @@ def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = N
                 "components": [pipe(1, 1, name="bit", outer=0.115), pipe(300, 10, 0.12), pipe(None, 20, 0.09)],
             },
         ),
+        (  # 8 m bent by 1 degree: 140 mm aside, with 16 mm of room at gauge
+            "bent_along_gauge",
+            {"components": [pipe(8, 4, bend=0.0175), pipe(None, 20)]},
+            {"components": [pipe(8, 4, bend=0.0175, contact_diameter=0.2), pipe(None, 20)]},
+        ),
+        (  # a body as wide as the hole
+            "bent_along_gauge",
+            {"components": [pipe(8, 4, outer=0.19, bend=0.0175), pipe(None, 20)]},
+            {"components": [pipe(8, 4, outer=0.2, bend=0.0175), pipe(None, 20)]},
+        ),
+        (
+            "bent_along_gauge",
+            {"components": [pipe(1, 1, outer=0.2, bend=0.0175), pipe(None, 20)]},
+            {"components": [pipe(1, 1, outer=0.2, bend=0.0175, contact="sleeve"), pipe(None, 20)]},
+        ),
+        (  # 8 1/2 in bit below casing of 7.2 in
+            "does_not_drift",
+            {"wellbore": hole((500, 0.216), (1000, 0.216)), "components": [pipe(1, 1, outer=0.216), pipe(None, 20)]},
+            {"wellbore": hole((500, 0.183), (1000, 0.216)), "components": [pipe(1, 1, outer=0.216), pipe(None, 20)]},
+        ),
+        (  # the wide pipe stays above
+            "does_not_drift",
+            {"wellbore": hole((500, 0.3), (1000, 0.2)), "components": [pipe(600, 20), pipe(None, 20, 0.25)]},
+            {
+                "wellbore": hole((500, 0.3), (600, 0.2), (1000, 0.3)),
+                "components": [pipe(300, 20), pipe(50, 10, 0.25), pipe(None, 20)],
+            },
+        ),
         (
             "bit_not_first",
             {"components": [pipe(1, 1, name="motor"), pipe(2, 1, name="bit sub"), pipe(None, 20)]},
@@ -159,6 +187,48 @@ def test_drilling_needs_a_bit_load() -> None:
     assert codes(case_of(bit={"weight_on_bit": 5e4}), *KINDS) == set()
     drilling = {"kind": "drill_sliding", "from_md": 900.0, "to_md": 950.0, "speed": 0.01}
     assert {warning.code for warning in case_of(operations=[drilling]).warnings} == {"no_bit_load"}
+
+
+def test_a_block_that_weighs_nothing_is_told_where_it_is_asked_for() -> None:
+    assert codes(case_of(), indicator=True) == {"no_block_weight"}
+    assert codes(case_of(), indicator=False) == set()
+    assert codes(case_of(rig={"block_weight": 0.0}), indicator=True) == set()
+
+
+FIELD = """
+name = "A"
+[wellbore]
+stations = [["0 ft", 0, 0], ["9000 ft", 0, 0]]
+[[wellbore.intervals]]
+to_md = "9000 ft"
+diameter = "8.5 in"
+friction = 0.2
+[[string.components]]
+name = "HWDP"
+length = {length}
+outer_diameter = "5 in"
+inner_diameter = "3 in"
+[[string.components]]
+name = "pipe"
+outer_diameter = '5"'
+inner_diameter = "4.276 in"
+segment_length = "90 ft"
+[mud]
+density = "10 ppg"
+"""
+
+
+@pytest.mark.parametrize(("length", "told"), [("930", True), ("'930 ft'", False), ("'283 m'", False)])
+def test_a_bare_length_among_feet(length: str, told: bool, tmp_path: Path) -> None:
+    path = tmp_path / "a.toml"
+    path.write_text(FIELD.format(length=length))
+    keys = [warning.key for warning in load_case(path).warnings if warning.code == "bare_length"]
+    assert keys == (["string.components[0].length"] if told else [])
+    assert load_case(path, {"string.components[0].length": "930 ft"}).warnings == ()
+
+
+def test_lengths_that_are_all_bare_are_metres() -> None:
+    assert make_case(mud={"density": 1200.0}).bare_lengths == []
 
 
 def test_rates_and_friction_that_are_asked_for() -> None:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.case.errors import MISSING, InputError, join_key, look_up, nearest, set_key, show, split_key
+from fctd.case.errors import MISSING, Computed, InputError, join_key, look_up, nearest, set_key, show, split_key
 from tests.case.test_load import refusal
 
 
@@ -31,6 +31,21 @@ def test_what_follows_from_a_problem_is_not_reported(case_file: Path) -> None:
     """The next start is filled in from a bad end, and contact_diameter from a bad outer_diameter."""
     overrides = {"operations[0].to_md": "far", "string.components[0].outer_diameter": "wide"}
     assert len(str(refusal(case_file, overrides)).splitlines()) == 2
+
+
+def test_how_deep_tables_lie_in_each_other_does_not_depend_on_python() -> None:
+    """json refuses some hundred levels or many thousands."""
+    deep: object = 1
+    for _ in range(300):
+        deep = {"a": deep}
+    assert show(deep) == "a table"
+    assert show([deep]) == "a list"
+    assert show({"a": {"b": [1]}}) == '{"a": {"b": [1]}}'
+
+
+def test_what_the_program_computed_stands_without_quotes() -> None:
+    error = InputError("enough", key="string.components", value=Computed("930 m of string"))
+    assert str(error) == "string.components = 930 m of string: expected enough"
 
 
 def test_an_error_survives_pickling(case_file: Path) -> None:

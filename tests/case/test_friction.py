@@ -37,6 +37,13 @@ def test_what_is_no_option_is_refused(text: str) -> None:
         parse_frictions([text], "--friction")
 
 
+@pytest.mark.parametrize("text", ["0,2", "0,25", "0, 3", "0.1,0,2", "0,1"])
+def test_a_decimal_comma_is_no_list(text: str) -> None:
+    with pytest.raises(InputError, match=r"expected 0\.\d+ with a point, or two factors, 0\.0,\d+: a comma separates"):
+        parse_frictions([text], "--friction")
+    assert [one.label for one in parse_frictions(["0.0,2", "0,0.3"], "--friction")] == ["0", "2", "0.3"]
+
+
 def test_a_set_gives_the_factor_of_each_interval() -> None:
     hole = intervals((500, 0.1, "cased"), (900, 0.15, "cased"), (1500, 0.4, "open"))
     assert FrictionSet(every=0.2).of(hole) == (0.2, 0.2, 0.2)

@@ -83,6 +83,25 @@ def test_a_file_that_is_not_toml_says_why(content: bytes | None, expected: str, 
         read_toml(path, 1, "a setup")
 
 
+@pytest.mark.parametrize(
+    ("line", "hint"),
+    [
+        ("x = 8.535 in", "a quantity with its unit stands in quotes"),
+        ("x = \u201c8.5 in\u201d", "quotes are straight"),
+        ("x = 0,20", "decimals follow a point"),
+        ('x = "C:\\Users\\survey.csv"', "a path is written with /, or in single quotes"),
+    ],
+)
+def test_the_line_that_is_no_toml_is_shown(line: str, hint: str, tmp_path: Path) -> None:
+    path = tmp_path / "setup.toml"
+    path.write_text(f"y = 1\n{line}\n", encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read_toml(path, 1, "a setup")
+    assert (caught.value.key, caught.value.value) == ("line 2", line)
+    assert caught.value.expected.startswith("a setup in TOML (")
+    assert caught.value.expected.endswith(f"; {hint}")
+
+
 def test_a_toml_file_is_read_with_its_mark_and_line_ends(tmp_path: Path) -> None:
     path = tmp_path / "setup.toml"
     path.write_bytes(b"\xef\xbb\xbfx = 1\r\n[y]\r\nz = [2]\r\n")

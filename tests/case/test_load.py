@@ -295,6 +295,40 @@ def test_a_file_that_is_no_case(tmp_path: Path, content: bytes | None, expected:
     assert expected in str(error)
 
 
+def test_a_survey_is_no_case(tmp_path: Path) -> None:
+    path = tmp_path / "survey.csv"
+    path.write_text("md_m,inc_deg,azi_deg\n0,0,0\n")
+    assert refusal(path).expected == "a case file in TOML; of a survey, `fctd init` makes one"
+
+
+def test_a_bare_length_among_feet_is_named_beside_the_rule_that_it_breaks(tmp_path: Path) -> None:
+    path = tmp_path / "well.toml"
+    path.write_text(
+        """name = "A"
+[wellbore]
+stations = [["0 ft", 0, 0], ["9800 ft", 0, 0]]
+[[wellbore.intervals]]
+to_md = 9200
+diameter = "8.5 in"
+friction = 0.2
+[[wellbore.intervals]]
+to_md = "9800 ft"
+diameter = "8.5 in"
+friction = 0.3
+[[string.components]]
+name = "pipe"
+outer_diameter = "5 in"
+inner_diameter = "4.276 in"
+"""
+    )
+    first, second = str(refusal(path)).splitlines()
+    assert "wellbore.intervals[1].to_md" in first
+    assert second == (
+        f"{path}: wellbore.intervals[0].to_md = 9200: expected a length with its unit: bare, it is in metres, and the "
+        "other lengths are in feet and inches"
+    )
+
+
 def test_a_folder_is_no_case(tmp_path: Path) -> None:
     assert "a case file that can be read" in str(refusal(tmp_path))
 

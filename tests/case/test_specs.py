@@ -21,9 +21,9 @@ def test_defaults(case_file: Path) -> None:
     assert (pipe.length, pipe.contact_diameter, pipe.density) == (None, 0.102, 7850.0)
     assert (pipe.youngs_modulus, pipe.poisson_ratio, pipe.bending_stiffness) == (206.8e9, 0.3, None)
     assert (case.mud.density, case.mud.viscosity, case.mud.lateral_damping) == (0.0, None, None)
-    assert case.mud.sideways == 0.0
+    assert case.mud.unsteady == 0.0
     assert (case.rig.block_weight, case.rig.sheave_efficiency, case.rig.torque_offset) == (0.0, 1.0, 0.0)
-    assert (case.contact.friction_law, case.contact.damping) == ("coulomb", 1e4)
+    assert (case.contact.friction_law, case.contact.damping) == ("coulomb", 1e5)
     assert case.contact.helical_force == "none"
     assert (case.solver.step, case.solver.joint_damping) == ("auto", 1e-5)
     assert (case.record.interval, case.record.profile_at) == (1.0, ())

@@ -67,6 +67,11 @@ FOOT = 0.3048
         ("MD (usft),Inc (°),Azi (azimuth) (°)", 1200 / 3937),
         ("Depth (m RT),Inclin,AZI_GN", 1),
         ("Depth ( ft ),I_deg,A_deg", FOOT),
+        ("Depth in feet,Drift,Direction", FOOT),
+        ("MDepth (ft),Drift,Direction", FOOT),
+        ("MDRKB ft,Inc,Azi", FOOT),
+        ("Measured Depth from RKB (feet),Inc,Azi", FOOT),
+        ("Depth m,Inc,Azi", 1),
     ],
 )
 def test_headers_that_the_field_uses(headers: str, unit: float, tmp_path: Path) -> None:
@@ -83,6 +88,31 @@ def test_radians(tmp_path: Path) -> None:
 )
 def test_a_row_of_units(units: str, tmp_path: Path) -> None:
     is_the_survey(read(tmp_path, text(f"MD,Inc,Azi\n{units}")), FOOT)
+
+
+@pytest.mark.parametrize(
+    "depth",
+    ["M.Depth", "M Depth", "M. Depth", "M-Depth", "m_depth", "MDepth", "Depth M", "DEPTH M", "M.D.", "Meas. Depth"],
+)
+@pytest.mark.parametrize("first", ["#", "No", "", "(ft)", "1"])
+def test_the_row_below_the_headers_has_the_units(depth: str, first: str, tmp_path: Path) -> None:
+    """The M of a depth is that of "measured", and a row of units may begin with anything."""
+    rows = [f"{k},{row}" for k, row in enumerate(ROWS)]
+    units = f"{first},(ft),(deg),(deg)"
+    is_the_survey(read(tmp_path, text(f"Sta.,{depth},Inclin,Azim. Grid\n{units}", rows=rows)), FOOT)
+    for header in (f"{depth} (ft)", f"{depth}_ft"):
+        is_the_survey(read(tmp_path, text(f"{header},Inc,Azi")), FOOT)
+
+
+def test_units_in_the_first_column_of_a_comment(tmp_path: Path) -> None:
+    is_the_survey(read(tmp_path, text("MD,Inc,Azi\n# a gyro\n# ft,deg,deg")), FOOT)
+    rows = [f"{k},{row}" for k, row in enumerate(ROWS)]
+    is_the_survey(read(tmp_path, text("Sta MD Inc Azi\n# (ft) (deg) (deg)", " ", rows)), FOOT)
+
+
+def test_headers_that_are_repeated_on_each_page(tmp_path: Path) -> None:
+    head = ["MD,Inc,Azi", "ft,deg,deg"]
+    is_the_survey(read(tmp_path, text("Page 1\n" + "\n".join(head), rows=[*ROWS[:2], "", *head, *ROWS[2:]])), FOOT)
 
 
 def test_other_columns_are_nothing(tmp_path: Path) -> None:
@@ -351,5 +381,5 @@ def test_every_warning_has_its_line_in_the_guide() -> None:
     folder = Path(doubts.__file__).parent
     sources = "".join((folder / name).read_text() for name in ("doubts.py", "rounding.py"))
     codes = re.findall(r'InputWarning\(\s*f?"([a-z_]+)', sources)
-    assert len(codes) == 9
+    assert len(codes) == 11
     assert [code for code in codes if f"\n| `{code}" not in GUIDE] == []

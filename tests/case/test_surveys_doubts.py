@@ -215,7 +215,7 @@ def test_numbers_that_are_exact_are_not_rounded() -> None:
     assert codes(np.round(well(DENSE), 1)) == []
     rng = np.random.default_rng(1)
     drilled = well(md) + rng.normal(0, 3, (150, 3)) * [0, 1, 1] * (md[:, None] > 300)
-    assert codes(np.round(np.abs(drilled))) == []
+    assert "rounded_survey" not in codes(np.round(np.abs(drilled)))
 
 
 def test_too_many_stations_to_smooth() -> None:
@@ -249,7 +249,44 @@ def test_azimuths_that_bend_nothing(step: float, spacing: float) -> None:
 def test_planned_and_drilled_paths_have_none(spacing: float, digits: int) -> None:
     for seed in range(20):
         rows = np.array(path(Random(seed), spacing, 3000))
-        assert codes(np.round(rows, digits)) == [], seed
+        slant = ["surface_inclination"] if rows[0, 1] > 10 else []
+        assert codes(np.round(rows, digits)) == slant, seed
+
+
+# --- dog-legs and the first station ----------------------------------------------------------------
+
+
+def test_a_slip_of_the_pen_is_a_dog_leg() -> None:
+    """32 deg for 2 deg in one row; and an azimuth of 450 in a hole that is nearly vertical."""
+    rows = SOUND.copy()
+    rows[20, 1] += 30.0
+    (warning,) = [one for one in found(rows) if one.code == "dog_leg"]
+    assert warning.key in ("s.csv, rows 21 to 22", "s.csv, rows 22 to 23")
+    assert re.fullmatch(
+        r"the hole bends by (29|3\d)\.?\d* deg in 2\d\.?\d* m, a dog-leg of 3\d\.?\d* deg/30 m \(and 1 more "
+        r"such course\)",
+        warning.text,
+    )
+    rows = SOUND.copy()
+    rows[:, 1] = 10.0
+    rows[20, 2] += 360.0 + 120.0
+    assert "dog_leg" in codes(rows)
+
+
+@pytest.mark.parametrize(("rate", "told"), [(14.5, False), (15.5, True)])
+def test_the_bound_of_dog_legs(rate: float, told: bool) -> None:
+    md = np.arange(0.0, 301.0, 30.0)
+    rows = np.column_stack([md, np.clip(rate * (np.arange(11) - 5), 0, 89), np.full(11, 40.0)])
+    assert ("dog_leg" in codes(rows)) == told
+    assert "dog_leg" not in codes(rows * [0.01, 1, 1])  # of a model in a laboratory
+
+
+@pytest.mark.parametrize(("slant", "told"), [(10.0, False), (10.1, True), (90.0, True)])
+def test_a_hole_that_starts_inclined(slant: float, told: bool) -> None:
+    """As where columns are exchanged, or inclinations are measured from the horizontal; a slant rig has 45 deg."""
+    rows = np.column_stack([DENSE, np.full(52, slant), np.full(52, 40.0)])
+    assert ("surface_inclination" in codes(rows)) == told
+    assert "surface_inclination" not in codes(rows[1:])  # "tie_in" tells of the bend
 
 
 # --- in a case -------------------------------------------------------------------------------------

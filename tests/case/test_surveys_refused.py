@@ -52,6 +52,13 @@ def test_a_wrong_workbook(case_file: Path, keys: Keys, sheets: dict[str, list[li
     assert message(case_file, keys, workbook(sheets)) == said
 
 
+def test_a_file_that_is_no_survey_is_not_shown(case_file: Path) -> None:
+    """A case of someone else may name any file, and its columns."""
+    secret = "root:$6$salt$hash:19000:0:99999:7:::\n"
+    for keys in ({}, {"columns": {"md": "Depth"}}):
+        assert "hash" not in message(case_file, keys, secret)
+
+
 def test_no_workbook_of_excel(tmp_path: Path) -> None:
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as parts:
@@ -205,5 +212,5 @@ def test_a_text_that_is_named_as_a_workbook(tmp_path: Path) -> None:
     assert len(read_survey(path).stations) == 2
     path.write_text("see the other sheet\n")
     assert str(refusal(path)).startswith(
-        f"{path}: expected a workbook, as the name says: the file is a text, and no survey (column md_m or md_ft is "
+        f"{path}: expected a workbook, as the name says: the file is a text, and no survey (expected a row of "
     )

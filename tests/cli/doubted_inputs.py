@@ -39,24 +39,25 @@ DOUBTED: Final[list[tuple[str, Any, str]]] = [
     (
         "bit.weight_on_bit",
         80,
-        "a weight on bit of 80 N (80 looks like '80 kN'): write it with its unit; usual is 1 kN to 2 MN",
+        "a weight on bit of 80 N (80 looks like '80 kN' or '80 klbf'): write it with its unit; usual is 1 to 2000 kN",
     ),
-    ("bit.weight_on_bit", "80 MN", "a weight on bit of 8e+07 N: write it with its unit; usual is 1 kN to 2 MN"),
+    ("bit.weight_on_bit", "80 MN", "a weight on bit of 8e+07 N: write it with its unit; usual is 1 to 2000 kN"),
     (
         "bit.torque",
         4,
-        "a bit torque of 4 N*m (4 looks like '4 kN*m'): write it with its unit; usual is 20 N*m to 200 kN*m",
+        "a bit torque of 4 N*m (4 looks like '4 kN*m'): write it with its unit; usual is 0.02 to 200 kN·m",
     ),
     (
         "rig.block_weight",
         250,
-        "a block weight of 250 N (250 looks like '250 kN'): write it with its unit; usual is 1 kN to 5 MN",
+        "a block weight of 250 N (250 looks like '250 kN' or '250 klbf'): write it with its unit; usual is 1 to "
+        "5000 kN",
     ),
-    ("rig.block_weight", "250e3 kN", "a block weight of 2.5e+08 N: write it with its unit; usual is 1 kN to 5 MN"),
+    ("rig.block_weight", "250e3 kN", "a block weight of 2.5e+08 N: write it with its unit; usual is 1 to 5000 kN"),
     (
         "rig.torque_offset",
         0.5,
-        "a torque offset of 0.5 N*m (0.5 looks like '0.5 kN*m'): write it with its unit; usual is 5 N*m to 50 kN*m",
+        "a torque offset of 0.5 N*m (0.5 looks like '0.5 kN*m'): write it with its unit; usual is 0.005 to 50 kN·m",
     ),
     ("rig.sheave_efficiency", 0.5, "an efficiency of 0.5: give that of all sheaves together, which is 0.8 to 1"),
     (

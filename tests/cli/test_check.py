@@ -101,12 +101,23 @@ def test_options_change_the_case(
     assert "by default" not in text
 
 
+def test_the_key_that_was_written_is_named(
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A contact diameter that follows from the outer diameter is not what is to be corrected."""
+    changes = ("string.components[0].contact_diameter=", "string.components[0].outer_diameter=12.25 in")
+    settings = [word for change in changes for word in ("--set", change)]
+    assert run(monkeypatch, "check", case_file, *settings, "--units", "field") == 2
+    said = 'string.components[0].outer_diameter = "12.25 in": expected at most the hole\'s 8.5 in'
+    assert said in capsys.readouterr().err
+
+
 def test_what_does_not_fit_is_refused_below_the_tables(
     case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(monkeypatch, "check", case_file, "--set", "string.components[0].contact_diameter=8.6 in") == 2
     out, err = capsys.readouterr()
-    assert err.startswith(f'{case_file}: string.components[0].contact_diameter = "218.4 mm"')
+    assert err.startswith(f'{case_file}: string.components[0].contact_diameter = "8.6 in"')
     assert "-1.27" in out
 
 

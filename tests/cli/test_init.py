@@ -64,7 +64,9 @@ def test_the_case_of_a_survey(here: Path, monkeypatch: pytest.MonkeyPatch, capsy
     assert point.status == "converged"
     walls = point._shape.walls
     clearance = walls.radius - point._shape.radius
-    assert ((np.linalg.norm(walls.offset, axis=1) - clearance) / clearance).max() < 0.01
+    deep = (np.linalg.norm(walls.offset, axis=1) - clearance) / clearance
+    assert deep[:-1].max() < 0.01
+    assert deep[-1] < 0.05  # the end, on which the assembly leans
 
 
 @pytest.mark.parametrize(("units", "unit", "metre"), [("metric", "m", 1.0), ("field", "ft", 0.3048)])
@@ -81,6 +83,46 @@ def test_a_survey_without_a_unit_of_depth(
     assert f"the file names no unit of depth: {unit} is assumed" in capsys.readouterr().err
     assert f'columns = {{md = {{unit = "{unit}"}}}}' in (here / "my_well.toml").read_text(encoding="utf-8")
     assert fctd.load_case("my_well.toml").depths[1] == pytest.approx(1500 * metre, abs=0.01)
+
+
+def test_a_unit_that_the_case_would_not_have(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A survey whose headers and units disagree is refused, and not read in the units of the case."""
+    rows = "".join(f"{k};{500 * k};{10 * k};45\n" for k in range(6))
+    (here / "s.csv").write_text("Sta.;M.Depth;Inclin;Azim. Grid\n#;(ft);(deg);(deg)\n" + rows)
+    assert run(monkeypatch, "init", "s.csv", "--units", "metric") == 0
+    assert "its depths are in ft, as the file says, those of the case in m" in capsys.readouterr().err
+    assert fctd.load_case("my_well.toml").depths[1] == pytest.approx(2500 * 0.3048, abs=0.01)
+    (here / "s.csv").write_text("Sta.;MD (m);Inclin;Azim. Grid\n#;(ft);(deg);(deg)\n" + rows)
+    assert run(monkeypatch, "init", "s.csv", "--units", "field", "-o", "b.toml") == 2
+    assert 'row 2, MD (m) = "(ft)": expected m, as the header says' in capsys.readouterr().err
+
+
+def test_columns_that_are_told(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = "".join(f"{k},{500 * k},{10 * k},45,90\n" for k in range(6))
+    (here / "s.csv").write_text("Sta,Tiefe (m),Inc,Azi Grid,Azi True\n" + rows)
+    assert run(monkeypatch, "init", "s.csv", "--columns", "md=Tiefe (m)") == 2
+    assert "(for init: --columns 'azi=Azi Grid')" in capsys.readouterr().err
+    told = ["--columns", "azi=azi grid", "--columns", "md=Tiefe (m)", "--columns", "md.unit=feet"]
+    assert run(monkeypatch, "init", "s.csv", *told) == 0
+    hole = fctd.load_case("my_well.toml").wellbore
+    assert hole.trajectory[-1] == pytest.approx([2500 * 0.3048, np.radians(50), np.radians(45)])
+
+
+def test_the_warnings_of_check_are_told(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (here / "s.csv").write_text(
+        "md_m,inc_deg,azi_deg\n" + "".join(f"{95 * k + k % 3 / 10},{k},40\n" for k in range(1, 30))
+    )
+    assert run(monkeypatch, "init", "s.csv", "-q") == 0
+    told = capsys.readouterr().err
+    assert run(monkeypatch, "check", "my_well.toml", "-q") == 0
+    checked = capsys.readouterr().err
+    assert checked.count("warning: ") == 2
+    assert told.startswith(checked)
+    assert "delete it and write it anew" in told
 
 
 @pytest.mark.parametrize(("steepest", "pipe"), [(60, "drill collars"), (89, "drill collars")])
@@ -102,6 +144,10 @@ def test_the_string_follows_the_survey(
         (["--out", "there.toml"], '--out = "there.toml": expected a file that does not exist yet'),
         (["--out", "there.toml/my.toml"], '--out = "there.toml/my.toml": expected '),
         (["--template", "j-well"], "'j-well' is not one of 'build-hold', 'horizontal'"),
+        (["--columns", "md=Depth"], "SURVEY is missing: expected a survey beside --columns"),
+        (["bad.csv", "--columns", "depth=MD"], '--columns = "depth=MD": expected KEY=HEADER or KEY.unit=UNIT'),
+        (["bad.csv", "--columns", "md.unit=km"], '--columns = "md.unit=km": expected a unit of m or ft'),
+        (["bad.csv", "--sheet", "A"], 'bad.csv: sheet = "A": expected no sheet for a text in columns'),
         (["--units", "si"], "'si' is not one of 'metric', 'field'"),
     ],
 )

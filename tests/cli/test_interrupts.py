@@ -216,6 +216,16 @@ def test_in_another_thread_nothing_is_changed() -> None:
     assert seen == [signal.SIG_DFL]
 
 
+@pytest.mark.parametrize("command", ["fctd", "/usr/bin/fctd.exe"])
+def test_between_the_imports_and_the_command(command: str) -> None:
+    """While the package is imported and nothing has begun, Ctrl-C leaves no traceback; other programs get it."""
+    script = f"import os, signal, sys; sys.argv[0] = {command!r}; import fctd; os.kill(os.getpid(), signal.SIGINT)"
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+    other = subprocess.run([sys.executable, "-c", script.replace("fctd", "x", 1)], cwd=ROOT, capture_output=True)
+    assert b"KeyboardInterrupt" in other.stderr
+
+
 @pytest.mark.parametrize("number", KILL)
 def test_while_it_is_imported(number: int, tmp_path: Path) -> None:
     (tmp_path / "numba.py").write_text(f"import os\nos.kill(os.getpid(), {int(number)})\n")

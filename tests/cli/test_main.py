@@ -66,7 +66,7 @@ def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
         ("wellbore.survey_method=spline", ["wellbore.survey_method", "spline", "minimum_curvature"]),
         ("wellbore.intervals[0].friction=-0.1", ["wellbore.intervals[0].friction", "-0.1"]),
         ("wellbore.intervals[0].diameter=0", ["wellbore.intervals[0].diameter", "0"]),
-        ("wellbore.intervals[0].diameter=4 in", ["contact_diameter", "127", "101.6"]),
+        ("wellbore.intervals[0].diameter=4 in", ["string.components[0].outer_diameter", "5 in", "101.6"]),
         ("string.components[0].inner_diameter=6 in", ["string.components[0].inner_diameter", "6 in"]),
         ("string.components[0].outer_diameter=-1 in", ["string.components[0].outer_diameter", "-1 in"]),
         ("string.components[0].segments=20000", ["string.components", "20000", "10000"]),

@@ -7,6 +7,8 @@ import pytest
 import typer
 
 from fctd.cli.main import COMMANDS, app
+from fctd.mechanics.compile_cache import hash_of_sources
+from fctd.results.tables import versions
 from tests.cli.test_main import CASE, run
 
 
@@ -19,7 +21,9 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_version(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(monkeypatch, "--version") == 0
-    assert capsys.readouterr().out == f"fctd {version('fctd')}\n"
+    """The version has stood for many commits: commit and sources say which program this is."""
+    commit = f"commit {known['commit']}, " if "commit" in (known := versions()) else ""
+    assert capsys.readouterr().out == f"fctd {version('fctd')} ({commit}sources {hash_of_sources()})\n"
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import fctd
+from fctd.steady.balance import IN_THE_OPEN
 from tests.cli.test_main import run
 from tests.cli.tiny import LEVEL
 
@@ -182,6 +183,7 @@ def test_a_tolerance_out_of_reach_is_exit_code_1(
 def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    monkeypatch.setattr("fctd.steady.equilibrium.IN_THE_OPEN", ((2, *IN_THE_OPEN[0][1:]),))
     out = tmp_path / "fine.toml"
     options = ("--most", "40", "--out", out, "--set", "contact.enabled=false")
     assert run(monkeypatch, "refine", case_file, *options) == 1

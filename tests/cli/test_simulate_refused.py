@@ -32,12 +32,12 @@ ROTATING, SLIDING, TRIP = {"kind": "drill_rotating", "more": "rpm = 60"}, {"kind
         (
             ROTATING,
             {"bit.weight_on_bit": "900 kN", "bit.rock.law": "given"},
-            ["bit.weight_on_bit", "900000 N", "less than the weight of string and block along the hole"],
+            ["bit.weight_on_bit", "900 kN", "less than the weight of string and block along the hole"],
         ),
         (
             ROTATING,
             {"bit.weight_on_bit": "900 kN", "rig.autodriller": "true", "bit.rock.law": "drag_bit"},
-            ["bit.weight_on_bit", "900000 N", "less than the weight"],
+            ["bit.weight_on_bit", "900 kN", "less than the weight"],
         ),
         (SLIDING, {"bit.rock.law": "drag_bit"}, ["bit.motor", "a table [bit.motor] with its flow"]),
         (

@@ -1,5 +1,8 @@
 """``fctd sweep``: its dataset, its messages, and options that exclude each other."""
 
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -10,6 +13,7 @@ from fctd.cli.main import app
 from fctd.cli.sweep import where_of
 from fctd.steady.batch import cores
 from fctd.sweep.dataset import open_dataset
+from validation.parts import clusters
 from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
 
 NOTHING = (None, None, None)
@@ -86,3 +90,22 @@ def test_options_say_where_a_sweep_runs() -> None:
     here = Path(__file__)
     assert where_of(3, None, None, NOTHING).local
     assert where_of(None, "tls://a:1", None, (here, here, here)).tls == (here, here, here)
+
+
+@pytest.mark.slow
+def test_a_lost_scheduler_is_told_without_a_traceback(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    command = [sys.executable, "-m", "fctd", "sweep", str(sweep_file(tmp_path)), "--out", str(tmp_path / "out")]
+    with clusters.cluster(tmp_path, preload=clusters.failing(tmp_path, pause=2.0)) as dask:
+        dask.wait_for_workers(1)
+        asked = [*command, "--scheduler-file", str(dask.file)]
+        with subprocess.Popen(asked, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as sweeping:
+            end = time.monotonic() + 120
+            while not (tmp_path / "out" / "sweep.json").exists() and time.monotonic() < end:
+                time.sleep(0.1)
+            time.sleep(6.0)  # some samples
+            dask.kill("scheduler")
+            _, told = sweeping.communicate(timeout=120)
+    assert sweeping.returncode == 1, told
+    assert "The scheduler has ended; what was written stays in" in " ".join(told.split())
+    assert "Traceback" not in told, told

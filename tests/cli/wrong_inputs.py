@@ -121,7 +121,7 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     ("string.components", {"name": "pipe"}, "a list of tables, the name of each in double brackets: [[name]]"),
     ("string.components[2].outer_diameter", None, "a length such as '12 m' or '40 ft'"),
     ("string.components[2].inner_diameter", "5 in", "a diameter below outer_diameter"),
-    ("string.components[2].contact_diameter", "4 in", "at least outer_diameter"),
+    ("string.components[2].contact_diameter", "4 in", "at least outer_diameter, 0.127 m"),
     ("string.components[2].outer_diameter", 127, "a length above 0 and at most 5 m (127 looks like '127 mm')"),
     ("string.components[0].segments", 1.5, "a whole number at least 1 and at most 1e+06"),
     ("string.components[2].poisson_ratio", 3, "a number at least 0 and at most 0.5"),
@@ -180,7 +180,7 @@ REFUSED_TOGETHER: Final[list[tuple[dict[str, Any], dict[str, str], str]]] = [
     (
         {"string.components[2].length": "500 m"},
         {},
-        'well.toml: string.components = "600.3 m of string": expected enough to reach from the bit at '
+        "well.toml: string.components = 600.3 m of string: expected enough to reach from the bit at "
         "1000 m to string.top_md",
     ),
     (

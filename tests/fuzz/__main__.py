@@ -2,7 +2,9 @@
 
     python -m tests.fuzz --count 21000 --seed 1
     python -m tests.fuzz --seed 1 --only 17 --out folder
+    python -m tests.fuzz --office --count 20000 --seed 1
 
+With --office: survey files as offices write them, each of which must be read as it is meant, or refused.
 Exit code 1 after any offence.
 """
 
@@ -16,6 +18,7 @@ from collections import Counter
 from pathlib import Path
 from random import Random
 
+from tests.fuzz import offices
 from tests.fuzz.campaign import Outcome, judge, make, write
 
 # Memory of a case before it counts as an offence (a MemoryError), and time before the program ends with a traceback.
@@ -32,12 +35,26 @@ def main() -> int:
     parser.add_argument("--start", type=int, default=0, help="index of the first item")
     parser.add_argument("--only", type=int, help="index of a single item, which is written into a folder")
     parser.add_argument("--out", type=Path, default=Path("."), help="the folder for --only")
+    parser.add_argument("--office", action="store_true", help="survey files of known stations alone")
     arguments = parser.parse_args()
     warnings.simplefilter("error")
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     if arguments.only is not None:
         return show(arguments.seed, arguments.only, arguments.out)
+    if arguments.office:
+        return of_offices(arguments.seed, range(arguments.start, arguments.start + arguments.count))
     return campaign(arguments.seed, range(arguments.start, arguments.start + arguments.count))
+
+
+def of_offices(seed: int, indices: range) -> int:
+    """Count the files of offices that are read and refused, and print what was read in another way than it is meant."""
+    began = time.perf_counter()
+    read, refused, offences = offices.campaign(seed, indices)
+    for offence in offences:
+        print(offence)
+    took = time.perf_counter() - began
+    print(f"{len(indices)} files of seed {seed} in {took:.0f} s: {read} read, {refused} refused, {len(offences)} wrong")
+    return 1 if offences else 0
 
 
 def outcome_of(seed: int, index: int) -> Outcome:

@@ -15,7 +15,8 @@ from matplotlib.text import Annotation, Text
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.results.status import SteadyStatus
-from fctd.steady.equilibrium import Equilibrium, equilibrium
+from fctd.steady.equilibrium import equilibrium
+from fctd.steady.steady_string import Equilibrium
 from tests.cases import make_case, pipe
 
 LBF, FOOT = 4.4482216152605, 0.3048

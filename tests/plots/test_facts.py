@@ -37,6 +37,7 @@ def test_titles_name_what_all_curves_share() -> None:
     )
     title, lines = heading_of_chart(chart(["trip_in", "trip_out"], [0.2, 0.3]), "si", None, None, ["w"])
     assert (title, lines) == ("", ["", "warning w"])
+    assert heading_of_profile(points(), "field", ["w"], 3)[0].endswith("; the first of 3 sets of factors")
     title, lines = heading_of_profile(points(), "field", ["w"])
-    assert title.startswith("test; bit at 2887 ft; friction factor")
+    assert title.startswith("test; bit at 2887 ft + 1 ft of stretch; friction factor")
     assert lines[1] == "warning w"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from fctd import Equilibrium, Wellbore, equilibrium, torque_drag
 from fctd.results.buckling import (
+    GROWN,
     HELICAL_LIMIT,
     MODE,
     NEEDED,
@@ -24,6 +25,7 @@ from fctd.results.buckling import (
     buckling_along,
     rounded_down,
 )
+from fctd.steady.balance import IN_THE_OPEN
 from tests.cases import hole_of, make_case, pipe
 
 STIFFNESS = st.floats(1e5, 2e7)  # EI of 3½ in pipe to 11 in collars [N m²]
@@ -198,7 +200,8 @@ def test_segments_resolve_the_wave_or_not(
         rows, found = judge(straight(inclination), md, F, EI=EI, weight=weight, clearance=clearance)
         assert found.resolved == resolved
         np.testing.assert_allclose(rows[:, NEEDED], length, rtol=1e-9)
-        assert 0.9 * length < found.segment_length <= length * (1 + 1e-12)
+        advised = length / math.sqrt(GROWN)
+        assert 0.9 * advised < found.segment_length <= advised * (1 + 1e-12)
         assert found.excess == pytest.approx(share)
     assert f"segments of {found.longest:.3g} m" in found.shortfall()
     assert f"at most {found.segment_length:g} m" in found.shortfall()
@@ -207,12 +210,22 @@ def test_segments_resolve_the_wave_or_not(
 
 
 def test_a_segment_beside_a_buckled_point_counts() -> None:
-    """Only the lowest point is beyond the limit: the segment above it has to be short, the one above that need not."""
+    """Only the lowest points are beyond the limit: the segment above has to be short, the one above that need not."""
     hole, limit = straight(90.0), 2 * math.sqrt(2e6 * 250 / 0.04)
-    for lengths, longest in (([20.0, 1.0], 0.0), ([1.0, 20.0], 20.0)):
-        md = [100.0, 100 + lengths[0], 100 + sum(lengths)]
-        _, found = judge(hole, md, [0.9 * limit, 0.95 * limit, 1.05 * limit])
-        assert (found.mode, found.from_md, found.to_md, found.longest) == ("sinusoidal", md[2], md[2], longest)
+    for lengths, longest in (([20.0, 1.0, 1.0], 0.0), ([1.0, 20.0, 1.0], 20.0)):
+        md = [100.0, *(100.0 + np.cumsum(lengths))]
+        _, found = judge(hole, md, [0.9 * limit, 0.95 * limit, 1.05 * limit, 1.05 * limit])
+        assert (found.mode, found.from_md, found.to_md, found.longest) == ("sinusoidal", md[2], md[3], longest)
+
+
+def test_a_single_point_is_no_stretch_where_it_is_shorter_than_a_half_wave() -> None:
+    """A third of 12 or of 60 m beside it is beyond the limit, by a line; a half wave is 13 m."""
+    hole, limit = straight(90.0), 2 * math.sqrt(2e6 * 250 / 0.04)
+    for length, mode in ((12.0, "none"), (60.0, "sinusoidal")):
+        _, found = judge(hole, [100.0, 100.0 + length], [0.9 * limit, 1.05 * limit])
+        assert found.mode == mode
+        _, found = judge(hole, [100.0, 100.0 + length, 100.0 + 2 * length], [0.9 * limit, 1.05 * limit, 0.9 * limit])
+        assert found.mode == mode
 
 
 @given(st.floats(1e-6, 1e6))
@@ -258,8 +271,9 @@ def test_a_locked_up_string_stays_locked_up() -> None:
     assert not point.buckling.resolved
 
 
-def test_chart_rows_say_where_the_string_is_buckled() -> None:
-    """A row of each kind: buckled, in tension, without a hole to buckle in, without an answer."""
+def test_chart_rows_say_where_the_string_is_buckled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A row of each kind: buckled, in tension, without a hole to buckle in, without an answer in five iterations."""
+    monkeypatch.setattr("fctd.steady.equilibrium.IN_THE_OPEN", ((5, *IN_THE_OPEN[0][1:]),))
     stations, parts = [[0, 0, 0], [600, 0, 0]], [pipe(None, None, segment_length=10.0)]
     case = make_case(stations, parts, bit={"weight_on_bit": 1e5})
     down, up = torque_drag(case, ["drill_sliding", "trip_out"], [300.0]).to_dict("records")

@@ -52,6 +52,14 @@ def test_a_decimal_comma_is_read_and_never_drops_digits(tmp_path: Path) -> None:
     assert read(tmp_path, "name,speed_m_s\na,0.35,,\n") == [{"name": "a", "speed_m_s": 0.35}]
 
 
+def test_a_file_of_readings_over_time_is_no_file_of_rows(tmp_path: Path) -> None:
+    """A string is solved for each row: 200,000 of them would take hours."""
+    text = "name,speed_m_s\n" + "a,1\n" * 10_000
+    assert len(read(tmp_path, text)) == 10_000
+    with pytest.raises(InputError, match="10001: expected at most 10000 rows"):
+        read(tmp_path, text + "a,1\n")
+
+
 def test_no_known_header(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="such as speed_m_s"):
         read(tmp_path, "a,b\n1,2\n")

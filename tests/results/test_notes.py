@@ -16,7 +16,7 @@ from fctd.model.wellbore import build_wellbore
 from fctd.results import ledger, notes
 from fctd.results.buckling import Buckling
 from fctd.results.profile import Loads
-from fctd.steady.equilibrium import Equilibrium
+from fctd.steady.steady_string import Equilibrium
 from tests.cases import make_case, pipe, rotation, trip
 
 

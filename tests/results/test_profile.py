@@ -8,7 +8,8 @@ import pytest
 from fctd import equilibrium, simulate
 from fctd.model.drillstring import lay_out
 from fctd.model.wellbore import build_wellbore, hole_frame
-from fctd.results.profile import Loads, profile_table
+from fctd.plots.facts import heading_of_profile
+from fctd.results.profile import Loads, place_in_words, profile_table
 from tests.cases import make_case, pipe, rotation, trip
 
 LONG = [pipe(100, 4), pipe(None, 1)]
@@ -167,3 +168,20 @@ def test_the_stepper_s_long_segment_hangs_from_the_hook(operation: dict[str, obj
     last = result.profile.groupby("bit_depth_m").get_group(result.profile["bit_depth_m"].max()).iloc[0]
     # The profile has the length at the interval's end, the hook load its mean: half a metre of pipe, 0.1 %.
     assert last["effective_tension_N"] == pytest.approx(result.history["hookload_N"].iloc[-1], rel=1e-3)
+
+
+def test_a_place_below_the_tally_is_said_as_stretch() -> None:
+    """12,507 ft in a well of 12,500 ft is no place of the hole."""
+    assert place_in_words(3812.1, 3810.0, 1 / 0.3048, "ft") == "12500 ft + 7 ft of stretch"
+    assert place_in_words(3812.1, 3810.0) == "3810 m + 2 m of stretch"
+    assert place_in_words(3810.3, 3810.0) == place_in_words(3809.9, 3810.0) == "3810 m"
+    assert place_in_words(12.4, 3810.0) == "12 m"
+
+
+def test_the_worst_places_of_a_long_string_are_said_as_stretch() -> None:
+    """Title of its picture, notes, and its least tension; 5,000 m of hanging pipe are 4.6 m longer."""
+    case = make_case([[0, 0, 0], [5000, 0, 0]], [pipe(None, None, yield_strength=1e8)])
+    point = equilibrium(case, "rotate_off_bottom", 5000.0)
+    assert point.profile["md_m"].iloc[-1] > 5004.0
+    title, _ = heading_of_profile([point], "si", ())
+    assert "bit at 5000 m + 5 m of stretch" in title

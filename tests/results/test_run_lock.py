@@ -31,6 +31,23 @@ def test_a_second_holder_is_refused_with_the_number_of_the_first(tmp_path: Path)
     RunLock.take(tmp_path).release()
 
 
+@pytest.mark.parametrize("room", [0, 1])
+def test_a_full_disk_leaves_no_lock(room: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing or a byte is written: the place is not one that "process 0" writes to."""
+    write = os.write
+
+    def full(file: int, data: bytes) -> int:
+        if not room:
+            raise OSError(27, "File too large")
+        return write(file, data[:room])
+
+    monkeypatch.setattr(os, "write", full)
+    with pytest.raises(OSError, match=r"File too large|No space left"):
+        RunLock.take(tmp_path)
+    monkeypatch.undo()
+    RunLock.take(tmp_path).release()
+
+
 def test_the_lock_of_a_killed_process_is_free(tmp_path: Path) -> None:
     """Also where a process with its number runs again: the file says so, the system knows better."""
     other = subprocess.Popen([sys.executable, "-c", HOLD, str(tmp_path)], stdout=subprocess.PIPE, cwd=Path.cwd())

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fctd.results.run_notes import flutters, pushes, slides_slowly
+from fctd.results.run_notes import brakes_turning, flutters, pushes
 
 
 @pytest.mark.parametrize(
@@ -46,10 +46,10 @@ def test_a_hook_load_that_flutters(amplitude: float, frequency: float, axial: fl
         assert "±20 kN at some 15 Hz" in note.text
 
 
-def test_a_string_that_slides_too_slowly_for_its_step() -> None:
-    assert slides_slowly(0.01, 0.02, 2e-3) is None
-    note = slides_slowly(0.01, 0.1, 2e-3)
+def test_joint_damping_that_brakes_a_turning_string() -> None:
+    assert brakes_turning(9.9, -1000.0) is None
+    note = brakes_turning(50.0, -1000.0)
     assert note is not None
-    assert (note.code, note.excess) == ("slow", pytest.approx(5.0))
-    assert "slides at 0.01 m/s" in note.text
-    assert "steps of 2 ms: it holds the string around the hole, and along it 10 % of the drag are missing" in note.text
+    assert (note.code, note.excess) == ("joint_damping", pytest.approx(5.0))
+    assert "takes 50 N m of the torque of the turning string, 5 % of it" in note.text
+    assert brakes_turning(0.0, 0.0) is None

@@ -5,6 +5,7 @@ import os
 import platform
 import shutil
 import subprocess
+import sys
 from importlib.metadata import version
 from pathlib import Path
 from types import SimpleNamespace
@@ -103,6 +104,28 @@ def test_a_workbook_has_a_sheet_of_the_table_and_one_of_its_origin(tmp_path: Pat
     ]  # fmt: skip
     about = dict(book.get_sheet_by_name("about").to_python())
     assert about == {"key": "value", "rpm": "[60, 90]", "operation": "trip_in"}
+
+
+@pytest.mark.parametrize("limit", [0, 1000])
+def test_a_workbook_on_a_full_disk_is_refused_in_a_line(limit: int, tmp_path: Path) -> None:
+    """The size that a file may have stands for the room of a disk."""
+    pytest.importorskip("resource")
+    script = f"""
+import resource, signal, pandas as pd
+from pathlib import Path
+from fctd.results.tables import write_table
+frame = pd.DataFrame({{"a": [k * 0.1 for k in range(20_000)]}})
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
+try:
+    write_table(frame, Path({str(tmp_path / "c.xlsx")!r}), {{}})
+except Exception as error:
+    print(type(error).__name__, error)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.stdout.startswith("InputError "), done.stdout
+    assert "expected a file that can be written (File too large)" in done.stdout
+    assert "Traceback" not in done.stderr
 
 
 def test_the_rows_of_a_part_of_a_table_have_no_numbers_of_their_own(tmp_path: Path) -> None:

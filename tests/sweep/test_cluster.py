@@ -16,6 +16,7 @@ from typing import Any
 
 import pytest
 
+import fctd
 from fctd.case.errors import InputError
 from fctd.sweep import cluster
 from fctd.sweep.cluster import Where, address_of, connected, encrypted, worker_count
@@ -79,6 +80,31 @@ def test_workers_of_another_version_are_refused(monkeypatch: pytest.MonkeyPatch)
             pass
     finally:
         versions._version_cached.cache_clear()
+
+
+@pytest.mark.slow
+def test_workers_with_other_sources_are_refused(tmp_path: Path) -> None:
+    """A copy of the program in which gravity is 9, of the same version."""
+    copy = shutil.copytree(Path(fctd.__file__).parent, tmp_path / "other" / "fctd")
+    for source in copy.rglob("topdrive.py"):
+        text = source.read_text(encoding="utf-8")
+        source.write_text(re.sub(r"^(GRAVITY\b[^=]*= )[\d.]+", r"\g<1>9.0", text, flags=re.MULTILINE), encoding="utf-8")
+    with clusters.cluster(tmp_path, program=copy.parent) as dask:
+        expected = pytest.raises(InputError, match="workers whose fctd has the sources of the one here")
+        with expected, connected(Where(scheduler_file=dask.file)):
+            pass
+
+
+@pytest.mark.slow
+def test_rows_of_other_sources_are_refused_whoever_sent_them(tmp_path: Path) -> None:
+    """As of a worker that joined later, and was not asked."""
+    preload = tmp_path / "other.py"
+    preload.write_text("from fctd.sweep import chunk\nchunk.hash_of_sources = lambda: 'other'\n", encoding="utf-8")
+    with clusters.cluster(tmp_path, preload=preload) as dask:
+        expected = pytest.raises(InputError, match='a worker = "other": expected workers whose fctd has the sources')
+        with expected:
+            sweep(read_sweep(sweep_file(tmp_path)), tmp_path / "out", Where(scheduler_file=dask.file))
+    assert open_dataset(tmp_path / "out").done == set()
 
 
 def test_a_scheduler_that_is_not_there_is_answered(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -156,7 +182,7 @@ def test_an_address_that_cannot_be_one_is_answered_at_once(
             address_of(where)
 
 
-@pytest.mark.parametrize("content", [None, "junk", "[]", "{}", "5", "\x00"])
+@pytest.mark.parametrize("content", [None, "junk", "[]", "{}", "5", "\x00", pytest.param("[" * 100_000, id="deep")])
 def test_a_file_that_no_scheduler_wrote_is_answered(content: str | None, tmp_path: Path) -> None:
     if content is not None:
         (tmp_path / "cluster.json").write_text(content)

@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 
 from fctd.case.errors import InputError
+from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import Dataset, alone, begin_dataset, identity_of, open_dataset, ranges
 from fctd.sweep.design import samples_of
@@ -112,6 +113,15 @@ def test_rows_of_another_version_are_not_mixed(tmp_path: Path) -> None:
     about["versions"]["numba"] = "0.1"
     (found.folder / "sweep.json").write_text(json.dumps(about), encoding="utf-8")
     with pytest.raises(InputError, match=r"were computed with numba 0\.1"):
+        dataset(tmp_path)
+
+
+def test_rows_of_other_sources_are_not_mixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The version has stood for many commits; the sources say whether the numbers are those of this program."""
+    found = dataset(tmp_path)
+    assert found.about["sources"] == hash_of_sources()
+    monkeypatch.setattr("fctd.sweep.dataset.hash_of_sources", lambda: "other")
+    with pytest.raises(InputError, match="were computed with other sources of fctd"):
         dataset(tmp_path)
 
 

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case.input_warnings import InputWarning
-from fctd.case.surveys.directions import dogleg
+from fctd.case.surveys.directions import dogleg, severity
 from fctd.case.surveys.rounding import rounded, spinning
 from fctd.case.surveys.stations import Survey
+from fctd.case.text import counted
 
 Array = NDArray[np.float64]
 Doubt = Callable[[Survey], Iterator[InputWarning]]
@@ -26,6 +27,9 @@ _GAP: Final = 300.0  # [m] without a station ...
 _TURN: Final = 5.0  # ... in which the hole turns by more than this [deg]
 _NAMED: Final = 5  # rejected stations in a message
 _STEEP: Final = 5.0  # [deg]: at a first station below surface, a hole that is not vertical above it
+_SLANT: Final = 10.0  # [deg]: at a first station at surface, beyond what is not said to be a slant rig
+# Short-radius wells aside, hardly a course bends by more: [deg/30 m], [deg] of the course, [m] of such a hole.
+_SHARP, _SEEN, _DEEP_ENOUGH = 15.0, 2.0, 100.0
 _HILL: Final = 50.0  # [m]: a crossing of a river or a tunnel may end so far above its start
 _LONGEST: Final = 12_000.0  # [m]: a dozen wells are longer, which were drilled by two or three rigs
 # Surveys are taken at connections: stands of three joints are 28 to 30 m or 92 to 96 ft long.
@@ -45,6 +49,36 @@ def _tie_in(survey: Survey) -> Iterator[InputWarning]:
         text += f", and the hole bends by {bend:.3g} deg between them"
         remedy = "give the survey the stations from the surface down to this one"
     yield InputWarning("tie_in", survey.rows(1, 1), text, remedy)
+
+
+def _surface(survey: Survey) -> Iterator[InputWarning]:
+    slant = math.degrees(survey.stations[0, 1])
+    if not survey.tied_in and slant > _SLANT:
+        yield InputWarning(
+            "surface_inclination",
+            survey.rows(0, 0),
+            f"the hole starts with an inclination of {slant:.4g} deg",
+            "check that inclination and azimuth are not exchanged, and that inclinations are measured from the "
+            "vertical: 0 is straight down, 90 level",
+        )
+
+
+def _sharp(survey: Survey) -> Iterator[InputWarning]:
+    """Courses that bend as no drilled hole does; one wrong row makes two of them."""
+    bend, rate = np.degrees(dogleg(survey.stations)), severity(survey.stations)
+    sharp = (rate > _SHARP) & (bend > _SEEN)
+    sharp[: survey.tied_in] = False  # told with the station that was added
+    if sharp.any() and survey.stations[-1, 0] > _DEEP_ENOUGH:
+        worst = int(np.argmax(np.where(sharp, rate, 0.0)))
+        others = int(sharp.sum()) - 1
+        more = f" (and {counted(others, 'more such course')})" if others else ""
+        yield InputWarning(
+            "dog_leg",
+            survey.rows(worst, worst + 1),
+            f"the hole bends by {bend[worst]:.3g} deg in {np.diff(survey.stations[:, 0])[worst]:.4g} m, a dog-leg of "
+            f"{rate[worst]:.3g} deg/30 m{more}",
+            "check these rows and their neighbours for a slip of the pen",
+        )
 
 
 def _few(survey: Survey) -> Iterator[InputWarning]:
@@ -153,7 +187,17 @@ def _another_unit(survey: Survey, columns: str, accepted: str) -> str:
     return f"say so in the case: columns = {{{columns}}}"
 
 
-_DOUBTS: Final[tuple[Doubt, ...]] = (_tie_in, _few, _rejected, _above_surface, _gap, _radians, _depth_unit)
+_DOUBTS: Final[tuple[Doubt, ...]] = (
+    _tie_in,
+    _surface,
+    _few,
+    _rejected,
+    _above_surface,
+    _sharp,
+    _gap,
+    _radians,
+    _depth_unit,
+)
 
 
 def find(survey: Survey, *, smoothed: bool = False) -> tuple[InputWarning, ...]:

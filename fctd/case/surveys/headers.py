@@ -1,7 +1,8 @@
 """The columns of a survey: which header names which quantity, and in which unit.
 
 A header names a quantity by the words of the field, in any case and order, with a unit in brackets, after an
-underscore, after a blank or in the row below: "md_m", "Measured Depth (ft)", "Azimuth Grid [°]", "DEPT.M".
+underscore, after a blank or in the row below: "md_m", "Measured Depth (ft)", "Azimuth Grid [°]", "DEPT.M".  The M of
+"M.Depth", "M Depth" and "Depth M" may be that of "measured": it is no unit.
 """
 
 from __future__ import annotations
@@ -21,14 +22,17 @@ KEYS: Final[tuple[StationKey, ...]] = get_args(StationKey)
 TITLES: Final = 100  # rows that may stand above the headers
 COMMENT: Final = "#"
 _REFERRED: Final = re.compile("(m|ft)(?:md|rkb|kb|rt|brt)")
+_MEASURED: Final = re.compile(r"^\W*m[\W_]*(?=dep)", re.IGNORECASE)
+_DEPTH_MEASURED: Final = re.compile(r"(?:(?<=(?i:depth))|(?<=(?i:dept)))[\s,;:-]+M(?![^\W_])(?!\s*[)\]])")
+_BY: Final = "in"  # "Depth in feet": no inch beside another unit
 _LONGEST: Final = 60  # characters of a header
 _LETTER: Final = re.compile(r"[^\W\d_]")
 
 # A header names a quantity if all its words are names or additions of that quantity and one of them is a name.
 _NAMES: Final[dict[StationKey, frozenset[str]]] = {
-    "md": frozenset({"md", "depth", "dept", "measureddepth", "ahd", "dmea"}),
+    "md": frozenset({"md", "depth", "dept", "measureddepth", "ahd", "dmea", "mdrkb", "mdkb", "mdrt", "mdbrt"}),
     "inc": frozenset({"inc", "incl", "inclin", "inclination", "devi", "dev", "deviation", "drift"}),
-    "azi": frozenset({"az", "azi", "azim", "azm", "azmth", "azimuth", "hazi"}),
+    "azi": frozenset({"az", "azi", "azim", "azm", "azmth", "azimuth", "hazi", "direction"}),
 }
 # A letter names an angle where its unit stands beside it ("I_deg") and no other header names the quantity.
 _LETTERS: Final[dict[StationKey, str]] = {"inc": "i", "azi": "a"}
@@ -36,7 +40,7 @@ _HOLE: Final = frozenset({"angle", "hole", "well", "wellbore", "borehole", "surv
 _NORTH: Final = frozenset({"grid", "true", "magnetic", "mag", "north", "gn", "tn", "mn", "corrected"})
 _REFERENCE: Final = frozenset({"rkb", "kb", "rt", "rte", "brt"})
 _ADDITIONS: Final[dict[StationKey, frozenset[str]]] = {
-    "md": frozenset({"measured", "meas", "along", "hole", "survey", "station"}) | _REFERENCE,
+    "md": frozenset({"measured", "meas", "along", "hole", "survey", "station", "from", "below"}) | _REFERENCE,
     "inc": _HOLE,
     "azi": _HOLE | _NORTH,
 }
@@ -53,6 +57,10 @@ _WORDS_OF: Final[dict[str, tuple[str, ...]]] = {
 # These are no units of a survey: they are known so that a message can say so.
 _OTHERS: Final = ("km", "cm", "mm", "in", "inch", "inches", "yd", "gon", "gons", "grad", "grads", "gradians")
 _UNIT_WORDS: Final = {word: unit for unit, words in _WORDS_OF.items() for word in words} | {w: w for w in _OTHERS}
+
+
+class NoUnitError(InputError):
+    """A survey that does not say in which unit its depths are."""
 
 
 @dataclass(frozen=True)
@@ -101,19 +109,45 @@ def find_columns(row: Row, columns: Mapping[StationKey, Wanted]) -> list[Column]
     return [_find(key, number, cells, columns.get(key, Wanted())) for key in KEYS]
 
 
-def units(row: Row, found: Sequence[Column], below: Row | None, columns: Mapping[StationKey, Wanted]) -> list[str]:
-    """The unit of each column: the one that the case says, else that of the header, else of the row below it.
+def units(row: Row, found: Sequence[Column], below: Sequence[Row], columns: Mapping[StationKey, Wanted]) -> list[str]:
+    """The unit of each column: the one that the case says, else that of the header, else of the rows below it.
 
-    Angles without a unit are in degrees.  Raises InputError for a depth without one, and for other units.
+    Angles without a unit are in degrees.  Raises `NoUnitError` for a depth without one, InputError for other units.
     """
     return [
         _unit(key, row, column, below, columns.get(key, Wanted()).unit) for key, column in zip(KEYS, found, strict=True)
     ]
 
 
-def is_units(row: Row, found: Sequence[Column]) -> bool:
-    """Whether a row below the headers holds units: of the three cells one or more is a unit and none is a number."""
+def find_units(rows: Sequence[Row], found: Sequence[Column]) -> list[Row]:
+    """The rows of units between the headers and the first station, one as a rule; they may look like comments.
+
+    Where the stations are numbered, the first cell of this row often is "#".
+    """
+    stated: list[Row] = []
+    for number, cells in rows[:TITLES]:
+        row = number, _uncommented(cells)
+        if _is_units(row, found):
+            stated.append(row)
+        elif not is_comment(cells) and any(cell_of(row, column) for column in found):
+            break
+    return stated
+
+
+def unit_in_titles(rows: Sequence[Row]) -> Row | None:
+    """The first of the rows above the headers that speaks of feet or metres, of the depths or of something else."""
+    for number, cells in rows:
+        text = " ".join(filter(None, cells))
+        if any(len(word) > 1 and _as_unit(word) in UNITS["md"] for word in _words(text)):
+            return number, [text]
+    return None
+
+
+def _is_units(row: Row, found: Sequence[Column]) -> bool:
+    """Whether of the three cells one or more is a unit and none is a number; "M" alone may be the end of "Depth M"."""
     cells = [cell_of(row, column) for column in found]
+    if {cell for cell in cells if cell} == {"M"}:
+        return False
     return any(map(unit_of, cells)) and not any(re.search(r"\d", cell) for cell in cells)
 
 
@@ -136,6 +170,7 @@ def _uncommented(cells: list[str]) -> list[str]:
 
 def _words(text: str) -> list[str]:
     """Lower-case words of a header; the dots of "M.D." are dropped, and a degree sign is a word."""
+    text = _DEPTH_MEASURED.sub(" measured", _MEASURED.sub("measured ", text))
     text = re.sub(r"\b([a-z])\.([a-z])\b", r"\1\2", text.casefold())
     return re.findall(r"[^\W_]+", re.sub("[°º˚]", " deg ", text))
 
@@ -147,10 +182,12 @@ def _as_unit(word: str) -> str | None:
 
 
 def _named_unit(header: str) -> str | None:
-    """The last unit in a header; a header that is nothing but "M" is a name."""
+    """The unit in a header, or several; a header that is nothing but "M" is a name."""
     found = [_as_unit(word) for word in _words(header)]
-    units = [unit for unit in found if unit is not None]
-    return units[-1] if units and (len(units) < len(found) or re.search(r"[(\[]", header)) else None
+    units = list(dict.fromkeys(unit for unit in found if unit is not None))
+    if len(units) > 1 and _BY in units:
+        units.remove(_BY)
+    return " and ".join(units) if units and (None in found or re.search(r"[(\[]", header)) else None
 
 
 def _normal(header: str) -> str:
@@ -190,7 +227,8 @@ def _find(key: StationKey, number: int, cells: Sequence[str], wanted: Wanted) ->
     if found and wanted.header is None:
         names = " or ".join(f"{{header = {show(column.header)}}}" for column in found)
         raise InputError(
-            f"one column of this quantity, or a choice in the case: columns.{key} = {names}",
+            f"one column of this quantity, or a choice in the case: columns.{key} = {names} "
+            f"(for init: --columns '{key}={found[0].header}')",
             key=f"row {number}, columns of {key}",
             value=[column.header for column in found],
         )
@@ -199,28 +237,32 @@ def _find(key: StationKey, number: int, cells: Sequence[str], wanted: Wanted) ->
     if wanted.header is not None:
         raise InputError(f"one of the headers {others}", key=f"columns.{key}", value=wanted.header)
     examples = " or ".join(f"{key}_{unit}" for unit in list(UNITS[key])[:2])
-    raise InputError(f"it among the headers {others}, or another header named in columns", key=f"column {examples}")
+    expected = f"it among the headers {others}, or another header named in columns (for init: --columns '{key}=HEADER')"
+    raise InputError(expected, key=f"column {examples}")
 
 
-def _unit(key: StationKey, row: Row, column: Column, below: Row | None, said: str | None) -> str:
+def _unit(key: StationKey, row: Row, column: Column, below: Sequence[Row], said: str | None) -> str:
     """The unit of one column, checked."""
     if said is not None:
         return said
     accepted = accepted_units(key)
     place, text = f"row {row[0]}", column.header
-    unit = column.unit
-    if below is not None and cell_of(below, column):
-        stated = unit_of(cell_of(below, column))
+    unit, by = column.unit, "the header"
+    for other in below:
+        cell = cell_of(other, column)
+        if not cell:
+            continue
+        stated = unit_of(cell)
         if stated is None or (unit is not None and stated != unit):
-            expected = f"a unit of {accepted}" if unit is None else f"{unit}, as the header says"
-            raise InputError(expected, key=f"row {below[0]}, {column.header}", value=cell_of(below, column))
-        unit, place, text = stated, f"row {below[0]}, {column.header}", cell_of(below, column)
+            expected = f"a unit of {accepted}" if unit is None else f"{unit}, as {by} says"
+            raise InputError(expected, key=f"row {other[0]}, {column.header}", value=cell)
+        unit, by, place, text = stated, f"row {other[0]}", f"row {other[0]}, {column.header}", cell
     if unit is None and key != "md":
         return "deg"
     if unit is None:
-        raise InputError(
+        raise NoUnitError(
             f'a header with its unit, such as "{text} (m)", or the unit in the case: '
-            f'columns = {{md = {{header = {show(text)}, unit = "m"}}}} (or "ft")',
+            f'columns = {{md = {{header = {show(text)}, unit = "m"}}}} (or "ft"; for init: --columns md.unit=m)',
             key=place,
             value=text,
         )

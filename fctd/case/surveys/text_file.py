@@ -50,7 +50,7 @@ def read_text(text: str, columns: Mapping[StationKey, Wanted]) -> Written:
         separator = max(_SEPARATORS, key=lambda separator: _likelihood(start, separator, columns))
         if separator in (_WIDE, _NARROW):
             return read_table(_blanks(text, separator, columns), columns, decimal_commas=True)
-        return read_table(_separated(text, separator), columns, decimal_commas=separator != ",")
+        return read_table(_separated(text, separator), columns, decimal_commas=separator != ",", cut=True)
     except csv.Error as error:
         raise InputError(f"a text in columns ({error})") from error
 
@@ -111,9 +111,13 @@ def _blanks(text: str, separator: str, columns: Mapping[StationKey, Wanted]) -> 
     count = len(rows[top][1])
     for index in range(top + 1, len(rows)):
         number, line = lines[index]
-        if len(rows[index][1]) == count or is_comment(rows[index][1]):
-            continue
         cells = line.split()
+        if is_comment(rows[index][1]):
+            if len(cells) == count and not is_comment(rows[top][1]):  # units, below the header of station numbers
+                rows[index] = (number, cells)
+            continue
+        if len(rows[index][1]) == count:
+            continue
         if len(cells) != count:
             raise InputError(
                 f"{count} columns, as many as headers (separate columns by commas or tabs where cells are empty)",
