@@ -4,7 +4,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd.mechanics.contact import DIRECTION, LENGTH, START, contact_point, cylinder_wall, distance_along, store_wall
+from fctd.mechanics.contact import DIRECTION, LENGTH, START, contact_point, distance_along, store_cylinder, store_wall
 from fctd.mechanics.dynamics import padded_columns, step, update_axes
 from fctd.mechanics.state import RADIUS
 
@@ -59,8 +59,7 @@ def find_walls(S, owner, n, packed, C, geometry):  # type: ignore[no-untyped-def
         if i < 0:  # no cylinder, no wall
             store_wall(S, j, 0.0, 0.0, 0.0, S[RADIUS + j] + 1.0, 0.0, 0.0)
         else:
-            px, py, pz, hole, stiffness, friction, _md = cylinder_wall(C, i, x, y, z)
-            store_wall(S, j, px, py, pz, hole, stiffness, friction)
+            store_cylinder(S, j, C, i, x, y, z)
 
 
 @njit(error_model="numpy", cache=True)

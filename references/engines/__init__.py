@@ -133,5 +133,5 @@ def check_no_mud(case: Case, engine: str) -> None:
     for key in ("axial_damping", "lateral_damping", "rotational_damping"):
         if getattr(case.mud, key):
             raise InputError(f"0 with {engine}, which has no mud", key=f"mud.{key}", value=getattr(case.mud, key))
-    if case.mud.sideways:
-        raise InputError(f"0 with {engine}, which has no mud", key="mud.viscosity", value=case.mud.sideways)
+    if case.mud.unsteady:
+        raise InputError(f"0 with {engine}, which has no mud", key="mud.viscosity", value=case.mud.unsteady)

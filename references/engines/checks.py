@@ -61,10 +61,15 @@ def _deepest(run: Run) -> float:
 
 
 def _length_error(run: Run, profile: pd.DataFrame) -> float:
-    """Relative error of the length through the end points, compared with segments stretched by their joint tension."""
+    """Relative error of the length through the end points, compared with segments stretched by their joint tension.
+
+    NaN for a state that is not finite, of which there is no profile.
+    """
     n = run.segments
     ends = np.vstack([run.S[[state.X, state.Y, state.Z]], contact_points(run.S, n)])
     measured = np.linalg.norm(np.diff(ends, axis=0), axis=1).sum()
+    if not np.isfinite(measured):
+        return float("nan")
     length = state.row(run.S, state.ARM_TOP, n) + state.row(run.S, state.ARM_BOTTOM, n)
     last = profile.iloc[-(n + 1) :]
     joints = last["effective_tension_N"].to_numpy()[:n]

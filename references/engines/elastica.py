@@ -324,9 +324,9 @@ def _check_contact_points(run: Run) -> None:
     if len(middle):
         k = int(run.string.component[middle[0]])
         raise InputError(
-            "a component as long as the segments beside it with elastica, whose contact points are at segment ends",
-            key=f"string.components[{k}].length",
-            value=f"{run.string.length[middle[0]]:g} m",
+            "sleeve with elastica, whose contact points are at segment ends",
+            key=f"string.components[{k}].contact",
+            value="point",
         )
 
 

@@ -9,6 +9,7 @@ import pandas as pd
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
+from fctd.mechanics import topdrive
 from fctd.results.status import RunStatus
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
@@ -34,6 +35,11 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     Raises InputError, and UnstableError when the string does not settle before the start.
     """
     simulation = Simulation(case, window=window, stepper=lambda run: _InWindow(begin(run), run))
+    run = simulation.run
+    if run.string.long_segment:
+        # All engines have the paper's long segment: FCTD's stepper alone knows waves within it.
+        run.pipe = run.pipe._replace(beside=0.0)
+        topdrive.put_long_segment(run.S, run.top[topdrive.TOP_LENGTH], run.pipe)
     simulation.start()
     assert isinstance(simulation.stepper, _InWindow)
     stepper = simulation.stepper.own
@@ -45,7 +51,7 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     finally:
         stepper.close()
     broken = simulation.message
-    run, result = simulation.run, simulation.result()
+    result = simulation.result()
     checks = examine(run, window.start, result.history, result.profile, result.energy, broken)
     failed = [f"{row.check} ({row.value:.3g}, at most {row.bound:g})" for row in checks.itertuples() if not row.passed]
     message = "; ".join([*([broken] if broken else []), *failed])
@@ -65,7 +71,7 @@ def check_supported(case: Case) -> None:
         (contact.friction_law not in ("coulomb", "paper"), "contact.friction_law", '"coulomb"', contact.friction_law),
         (case.rig.drive != "stiff", "rig.drive", '"stiff"', case.rig.drive),
         (drills and case.bit.rock is not None, "bit.rock", "no rock", "a table"),
-        (case.mud.sideways > 0, "mud.viscosity", "0", case.mud.viscosity),
+        (case.mud.unsteady > 0, "mud.viscosity", "0", case.mud.viscosity),
         (bent is not None, f"string.components[{bent}].bend", "0", "above 0"),
         (uneven is not None, f"string.components[{uneven}].eccentricity", "0", "above 0"),
     ]

@@ -74,8 +74,10 @@ def copy_of(run: Run, **changes: Any) -> Run:
 
 
 def without_wall(run: Run) -> Run:
-    """A copy of a run without the hole."""
-    return copy_of(run, laws=run.laws._replace(geometry=state.OPEN))
+    """A copy of a run without the hole, whose points have no wall beside them."""
+    free = copy_of(run, laws=run.laws._replace(geometry=state.OPEN))
+    state.row(free.S, state.K_WALL, free.segments)[:] = 0.0
+    return free
 
 
 def asking(run: Run, method: Any) -> Run:

@@ -28,6 +28,7 @@ def test_more_triangles_than_bullet_accepts_are_refused() -> None:
         engines.build("bullet", facets=600).run(load("s_shape", wellbore__geometry="cylinders"), Window(0.0, 0.1))
 
 
+@pytest.mark.parametrize("name", ["bullet", "mujoco"])
 @pytest.mark.parametrize(
     ("key", "table"),
     [
@@ -37,10 +38,10 @@ def test_more_triangles_than_bullet_accepts_are_refused() -> None:
         ("mud.viscosity", {"mud": {"density": 1200.0}}),
     ],
 )
-def test_another_engine_refuses_what_it_would_leave_out(key: str, table: dict[str, Any]) -> None:
+def test_another_engine_refuses_what_it_would_leave_out(name: str, key: str, table: dict[str, Any]) -> None:
     case = turning(**table)
     with pytest.raises(InputError, match="in another engine") as caught:
-        engines.build("bullet").run(case, WINDOW)
+        engines.build(name).run(case, WINDOW)
     assert caught.value.key == key
     check_supported(turning())
 
@@ -63,7 +64,7 @@ def test_another_engine_refuses_a_component_that_only_fctd_turns(key: str) -> No
         ("bullet", {"mud": {"lateral_damping": 1.0}}, "mud.lateral_damping"),
         ("bullet", {"mud": {"density": 1200.0}}, "mud.viscosity"),
         ("mujoco_chain", {}, "contact.enabled"),
-        ("elastica", {"components": [pipe(450, 15), pipe(10, 1), pipe(40, 1)]}, "string.components[1].length"),
+        ("elastica", {"components": [pipe(450, 15), pipe(1, 1), pipe(49, 1)]}, "string.components[1].contact"),
     ],
 )
 def test_a_case_that_an_engine_cannot_represent_is_an_input_error(
