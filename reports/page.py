@@ -60,6 +60,7 @@ def render(
         "leading": leading,
         "chapters": _chapters(sections),
         "paper": [(each, _ours(each.ours, sections)) for each in chapters.contents().paper],
+        "findings": [(section, judged) for section in sections.values() for judged in section.findings],
         "absent": [section for section in sections.values() if section.absent],
         "machine": _machine(sections),
     }

@@ -19,7 +19,7 @@ from reports import figures, words
 from reports.chapters import contents
 from reports.figures import style
 from validation.harness import store
-from validation.harness.store import Record
+from validation.harness.store import Judged, Record
 
 LONG = 14  # rows of a table that is folded
 THUMBNAIL = 46  # dots per inch of a small copy
@@ -82,6 +82,11 @@ class Section:
     def summary(self) -> str:
         """The outcome, in a few words."""
         return self.record.summary if self.record else "not run"
+
+    @property
+    def findings(self) -> list[Judged]:
+        """The checks that found something about the paper."""
+        return [judged for judged in self.record.checks if judged.is_finding] if self.record else []
 
     @property
     def absent(self) -> bool:

@@ -59,6 +59,7 @@ MODULES: dict[str, str] = {
     "refine_real": "reports.figures.refine",
     "real_survey": "reports.figures.real_survey",
     "volve_f4": "reports.figures.volve_f4",
+    "ladder": "reports.figures.ladder",
 }
 
 

@@ -28,8 +28,8 @@ FIGURES = [
     Figure(
         "statuses",
         "Plausible rows that end in another status than converged, by class of string. Nearly all of them drill: the "
-        "string above the bit buckles, and its friction or the torque at the bit rolls it round the hole, or its "
-        "segments are too long to bend as it does.",
+        "string above the bit buckles, and the friction of its rotation rolls it round the hole, or its segments are "
+        "too long to bend as it does.",
         statuses,
     )
 ]

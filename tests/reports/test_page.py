@@ -65,6 +65,21 @@ def test_verdicts_are_printed_in_words(render):
     assert "2 worse than recorded, 1 missed (recorded), 1 better than recorded" in text
 
 
+def test_findings_about_the_paper_are_listed_apart(render):
+    checks = (judged(1.0, "finding: a misprint", name="eq 23"), judged(1.0, "missed: chords", name="chords"))
+    html = render((replace(BLANK, checks=checks), {}), studies=["overlap"])[0]
+    first = words_of(html[html.index('<section id="findings"') : html.index('<section id="figures"')])
+    assert "eq 23 : a misprint" in first
+    assert "chords" not in first
+    page = words_of(html[html.index("<h1>Does the overlap") :])
+    own, _, found = page.partition("Findings about the paper")
+    assert "✗ missed (recorded)" in own
+    assert "eq 23" not in own
+    assert "✗ finding about the paper" in found
+    assert "Finding: a misprint" in found
+    assert "chords" not in found
+
+
 def test_table_for_display_has_units_in_its_head(render):
     run, tables = finished("ownership", display={"owners": "Wrong owners"}, quick=True)
     text = words_of(render((run, tables))[0])

@@ -29,10 +29,12 @@ STUDIES: dict[str, str] = {
     "whirl": "validation.studies.whirl",
     "drilling": "validation.studies.drilling",
     "spin_up": "validation.studies.spin_up",
+    "kept_friction": "validation.studies.kept_friction",
     "faults": "validation.studies.faults",
     "sweep_faults": "validation.studies.sweep_faults",
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
+    "compressed_strings": "validation.studies.compressed_strings",
     "johancsik": "validation.studies.johancsik",
     "segment_count": "validation.studies.segment_count",
     "refine": "validation.studies.refine",
@@ -50,4 +52,5 @@ STUDIES: dict[str, str] = {
     "monitoring": "validation.studies.monitoring",
     "monitoring_f4": "validation.studies.monitoring_f4",
     "sweep": "validation.studies.sweep",
+    "ladder": "validation.studies.ladder.study",
 }

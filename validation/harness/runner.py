@@ -7,6 +7,7 @@ import sys
 import time
 import tomllib
 import traceback
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
@@ -16,18 +17,11 @@ from itertools import chain
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    SpinnerColumn,
-    TextColumn,
-    TimeElapsedColumn,
-)
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
 from fctd.case.errors import InputError
-from fctd.case.text import printable_lines
+from fctd.case.text import counted, printable_lines
 from validation.harness import audit, fingerprint, store
 from validation.harness.files import declared
 from validation.harness.fingerprint import Inputs, Sources
@@ -39,10 +33,12 @@ from validation.harness.study import NEEDS, ROOT, Context, Outcome, Study, T, on
 EXPECTED = ROOT / "validation" / "expected.toml"
 
 Expected = Mapping[str, Mapping[str, str]]
+VERDICTS = "missed", "finding", "varies"
 
 STYLES: dict[Standing, str] = {
     "met": "green",
     "missed (recorded)": "yellow",
+    "finding about the paper": "blue",
     "better than recorded": "cyan",
     "worse than recorded": "bold red",
 }
@@ -105,7 +101,7 @@ def check_results(folder: Path) -> None:
 
 
 def read_expected(path: Path) -> Expected:
-    """study -> check -> ``missed: why``, or ``varies: why`` it is met on one machine and missed on another."""
+    """study -> check -> ``missed: why``, ``finding: why`` the paper misses it, or ``varies: why`` machines differ."""
     expected: dict[str, dict[str, str]] = {}
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -116,9 +112,10 @@ def read_expected(path: Path) -> Expected:
             raise UsageError(f"{path.name}: {study!r} is no table named after a study")
         for check, text in checks.items():
             verdict, _, why = str(text).partition(":")
-            if verdict not in ("missed", "varies") or not why.strip():
+            if verdict not in VERDICTS or not why.strip():
                 raise UsageError(
-                    f"{path.name}, [{study}] {check!r}: expected 'missed: why' or 'varies: why', got {text!r}"
+                    f"{path.name}, [{study}] {check!r}: expected 'missed: why', 'finding: why' or 'varies: why', "
+                    f"got {text!r}"
                 )
             expected.setdefault(study, {})[check] = f"{verdict}: {why.strip()}"
     return expected
@@ -179,13 +176,8 @@ def run_all(
     rules = Run(results, sources, store.provenance(), force or audited, audited)
     around = fingerprint.surroundings(quick, sources.root)
     finished: list[Done] = []
-    columns = (
-        SpinnerColumn(),
-        TextColumn("{task.description}", markup=False),
-        BarColumn(bar_width=24),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-    )
+    text, bar = TextColumn("{task.description}", markup=False), BarColumn(bar_width=24)
+    columns = (SpinnerColumn(), text, bar, MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
         context = Context(quick=quick, data=data, progress=Bars(bars))
         beside = [name for name in names if processes > 1 and not is_timed(name)]
@@ -209,6 +201,9 @@ def run_all(
     kept = sum(done.kept for done in finished)
     verdict = f"worse than recorded: {', '.join(errors)}" if errors else "none worse than recorded"
     _say(console, f"studies run: {len(finished) - kept}, kept: {kept}; {verdict}", "bold red" if errors else "bold")
+    standings = Counter(judged.standing for done in finished for judged in done.record.checks)
+    found = counted(standings["finding about the paper"], "finding")
+    _say(console, f"recorded misses: {standings['missed (recorded)']}; apart from them, {found} about the paper")
     _say(console, f"results: {results}")
     return 1 if errors else 0
 
@@ -350,13 +345,14 @@ def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
         _say(console, f"  {run.message}")
     for note in run.notes if not run.checks else ():  # the notes say why there are no checks
         _say(console, f"  {note}")
-    for judged in run.checks:
+    for judged in sorted(run.checks, key=lambda judged: judged.is_finding):  # the findings apart, after the others
         check = judged.check
         found = f"{check.value:.6g} {check.unit}".rstrip()
-        line = f"  {judged.standing:<20}  {check.name}: {found} ({check.requirement()})"
+        line = f"  {judged.standing:<23}  {check.name}: {found} ({check.requirement()})"
         _say(console, line, STYLES[judged.standing])
         if judged.standing == "better than recorded":
-            _say(console, "    recorded as missed; remove the entry from expected.toml")
+            verdict = str(judged.recorded).partition(":")[0]
+            _say(console, f"    recorded as {verdict}; remove the entry from expected.toml")
     gone = sorted(recorded.keys() - {judged.check.name for judged in run.checks})
     # A quick run may leave a check out.
     if gone and run.status == "finished" and not run.quick:

@@ -27,12 +27,12 @@ from validation.harness.fingerprint import Inputs
 from validation.harness.study import ROOT, Check
 
 Status = Literal["finished", "skipped", "failed"]
-Standing = Literal["met", "missed (recorded)", "better than recorded", "worse than recorded"]
+Standing = Literal["met", "missed (recorded)", "finding about the paper", "better than recorded", "worse than recorded"]
 
 
 @dataclass(frozen=True)
 class Judged:
-    """A check beside what ``expected.toml`` records of it: ``missed: why``, ``varies: why``, or None."""
+    """A check beside what ``expected.toml`` records of it: ``missed``, ``finding`` or ``varies: why``, or None."""
 
     check: Check
     recorded: str | None
@@ -47,7 +47,14 @@ class Judged:
         """The verdict against the record."""
         if self.check.verdict == "met":
             return "met" if self.recorded is None or self.varies else "better than recorded"
-        return "worse than recorded" if self.recorded is None else "missed (recorded)"
+        if self.recorded is None:
+            return "worse than recorded"
+        return "finding about the paper" if self.recorded.startswith("finding") else "missed (recorded)"
+
+    @property
+    def is_finding(self) -> bool:
+        """Whether what is missed is the paper's, so that it says nothing against the engine."""
+        return self.standing == "finding about the paper"
 
 
 @dataclass(frozen=True)

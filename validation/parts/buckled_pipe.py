@@ -192,7 +192,9 @@ class Rig:
         length = self.problem.string.length
         above = np.cumsum(length[::-1])[::-1] - 0.5 * length
         compression = self.problem.weight_on_bit - BUCKLING.weight * above
-        straight = float((length * (1 - compression / SECTION.EA)).sum())
+        S, n = self.problem.work.S, self.problem.n
+        unloaded = state.row(S, state.ARM_TOP, n) + state.row(S, state.ARM_BOTTOM, n)  # in the mud, which presses on it
+        straight = float((unloaded * (1 - compression / SECTION.EA)).sum())
         return BELOW_SURFACE + straight - float(point.profile["md_m"].iloc[-1])
 
 

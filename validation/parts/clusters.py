@@ -39,10 +39,13 @@ def failing(folder: Path, hang: tuple[int, ...] = (), crash: tuple[int, ...] = (
 
 
 class Cluster:
-    """A scheduler and nannies of workers, all on the loopback; ``file`` is that of the scheduler."""
+    """A scheduler and nannies of workers, all on the loopback; ``file`` is that of the scheduler.
 
-    def __init__(self, folder: Path, tls: Sequence[object] = ()) -> None:
-        self.file, self._tls = folder / "scheduler.json", tls
+    program : the folder of the package that they import.
+    """
+
+    def __init__(self, folder: Path, tls: Sequence[object] = (), program: Path = ROOT) -> None:
+        self.file, self._tls, self._program = folder / "scheduler.json", tls, program
         encrypted = ["--protocol", "tls"] if tls else []
         self.processes = [
             self._dask("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", *encrypted)
@@ -88,16 +91,22 @@ class Cluster:
         return subprocess.Popen(
             [sys.executable, "-m", f"distributed.cli.dask_{role}", "--scheduler-file", str(self.file),
              *map(str, (*options, *self._tls))],
-            cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            cwd=self._program, env=os.environ | {"PYTHONPATH": str(self._program)},
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
 
 
 @contextmanager
 def cluster(
-    folder: Path, workers: int = 1, preload: Path | None = None, threads: int = 1, tls: Sequence[object] = ()
+    folder: Path,
+    workers: int = 1,
+    preload: Path | None = None,
+    threads: int = 1,
+    tls: Sequence[object] = (),
+    program: Path = ROOT,
 ) -> Iterator[Cluster]:
     """A scheduler with workers that end with it; tls : options of both that name the files of TLS."""
-    found = Cluster(folder, tls)
+    found = Cluster(folder, tls, program)
     try:
         found.add_workers(workers, threads, preload)
         yield found

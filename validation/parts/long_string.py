@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from fctd import Case
-from fctd.mechanics import state
+from fctd.mechanics import state, waves
 from fctd.model.drillstring import section_of
 from fctd.simulation.run import prepare
 from validation.cases import load
@@ -25,14 +25,27 @@ def the_case(vertical: float | None, **changes: Any) -> Case:
     return load("paper_well", **({} if vertical is None else cut), **changes)
 
 
+def chain(S: Array, n: int, spring: int, inertia: int, kind: int) -> tuple[Array, Array]:
+    """Stiffness (m, m) and masses (m,) of the hanging chain of n bodies, and of the waves within a long segment.
+
+    spring, inertia : rows of the state; kind : of the waves, 0 or ``waves.TORSION``.
+    """
+    k, m = state.row(S, spring, n), state.row(S, inertia, n)
+    matrix = np.diag(k + np.append(k[1:], 0.0)) - np.diag(k[1:], 1) - np.diag(k[1:], -1)
+    for sign, mass, hanging in waves.hung(S, kind):
+        # It hangs between the clamp, which stands, and the segment's lower end.
+        tie = np.zeros(len(m) + 1)
+        tie[0], tie[-1] = sign, -1.0
+        matrix, m = np.pad(matrix, (0, 1)) + hanging * np.outer(tie, tie), np.append(m, mass)
+    return matrix, m
+
+
 def chain_frequencies(case: Case) -> tuple[Array, Array]:
     """Lowest axial and torsional frequencies [Hz] of the hanging chain, from its springs and masses."""
     run, _ = prepare(case)
-    n = run.segments
     found = []
-    for spring, inertia in ((state.K_AXIAL, state.MASS), (state.K_TWIST, state.J_AXIAL)):
-        k, m = state.row(run.S, spring, n), state.row(run.S, inertia, n)
-        matrix = np.diag(k + np.append(k[1:], 0.0)) - np.diag(k[1:], 1) - np.diag(k[1:], -1)
+    for rows in ((state.K_AXIAL, state.MASS, 0), (state.K_TWIST, state.J_AXIAL, waves.TORSION)):
+        matrix, m = chain(run.S, run.segments, *rows)
         squares = np.linalg.eigvalsh(matrix / np.sqrt(np.outer(m, m)))
         found.append(np.sqrt(squares[:MODES]) / (2 * np.pi))
     return found[0], found[1]

@@ -1,5 +1,6 @@
 """Checks of ``fctd refine`` on a set of wells: is the error within the tolerance, and does grading help?"""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -7,11 +8,14 @@ import pandas as pd
 
 from fctd import Case, equilibrium, refine
 from fctd.model.drillstring import lay_out
-from fctd.model.layouts import Layout, graded, is_long, uniform, with_components
+from fctd.model.layouts import Components, graded, is_long, uniform, with_components
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from fctd.steady.refine import relative_difference
 from validation.harness.study import Check, Context, Outcome
+
+# A case, a bit depth [m] and the length of the shortest segments [m] to components.
+Layout = Callable[[Case, float, float], Components]
 
 TOLERANCES = (0.01, 0.003)
 OPERATIONS = ("rotate_off_bottom", "trip_out", "trip_in")

@@ -18,7 +18,6 @@ from fctd.model import layouts
 from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
-from fctd.steady.problem import WORK
 from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
 from validation.harness.study import Check, Context, Outcome, Study
@@ -38,20 +37,20 @@ THOUSAND = (800, 1200)  # segments of the rows whose time is judged
 SLID = 4  # strings that trip in, at both shares
 HALVED = (0.3, 0.6, 0.9)  # of the friction at lock-up
 BEYOND_LOCK_UP = 0.34  # friction factor
-AMPLE = 10 * WORK  # for strings of twice the segments
+AMPLE = 8e7  # work for strings of twice the segments, ten times the default
 Row = tuple[Case, str, float]  # case, operation, bit depth
 # What a row may say.
 REASONED = (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.UNDER_RESOLVED)
 
 
-def solve(case: Case, kind: str, depth: float, work: float = WORK) -> Equilibrium:
-    """A row, with an allowance of work."""
-    return Solver(case, allowance=work).solve(kind, steady_rates(case, kind), depth)
+def solve(case: Case, kind: str, depth: float) -> Equilibrium:
+    """A row."""
+    return Solver(case).solve(kind, steady_rates(case, kind), depth)
 
 
-def resolving(case: Case) -> Case:
-    """The case with buckling resolved."""
-    return case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": "resolve"})})
+def resolving(case: Case, **more: Any) -> Case:
+    """The case with buckling resolved, and more keys of its solver."""
+    return case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": "resolve", **more})})
 
 
 def scaled(case: Case, share: float) -> Case:
@@ -190,16 +189,16 @@ def slid(context: Context, locked: list[Locked]) -> pd.DataFrame:
 
 def halved() -> pd.DataFrame:
     """The horizontal well at shares of its friction at lock-up, with the resolved segments and with their halves."""
-    beyond = horizontal_well(20.0, "resolve", BEYOND_LOCK_UP)
-    first = solve(beyond, OPERATION, DEPTH, AMPLE)
+    beyond = resolving(horizontal_well(20.0, "resolve", BEYOND_LOCK_UP), resolve_work=AMPLE)
+    first = solve(beyond, OPERATION, DEPTH)
     locked = first.locked_up_at * BEYOND_LOCK_UP
     rows = []
     for friction in (*(share * locked for share in HALVED), BEYOND_LOCK_UP):
         case = with_friction(beyond, friction)
-        point = solve(case, OPERATION, DEPTH, AMPLE)
+        point = solve(case, OPERATION, DEPTH)
         md = point.profile["md_m"].to_numpy()
         half = 0.5 * np.diff(md, prepend=2 * md[0] - md[1])
-        other = solve(layouts.with_components(case, layouts.resolved(case, DEPTH, md, half)), OPERATION, DEPTH, AMPLE)
+        other = solve(layouts.with_components(case, layouts.resolved(case, DEPTH, md, half)), OPERATION, DEPTH)
         rows.append(
             {
                 "friction": friction, "share_of_lock_up_percent": 100 * friction / locked,

@@ -90,9 +90,9 @@ def run(context: Context) -> Outcome:
         notes=[
             "Work is the work of the top drive less that of lifting or lowering the string, or the sum of the "
             "losses, whichever is larger: the work of the weight alone would hide any error.",
-            "In cylinders a part of the residual does not fall with the step: the blend of Eq. 24 changes the "
-            "penetration along the hole without a force along the hole, so the model itself does not conserve energy "
-            "at the seams between cylinders. Arcs have no seams.",
+            "In the overlap of two cylinders the blend of Eq. 24 changes the penetration along the hole, and the wall "
+            "pushes along the hole too: its force is the gradient of its energy, so that the residual falls with the "
+            "step there as in arcs, which have no seams.",
             "The residual is the largest of a run: its sign changes with the swing of the string. At the default "
             "step the phase of the stiffest modes advances by more than a radian per step and no order can be "
             "observed; the fit uses smaller steps only.",

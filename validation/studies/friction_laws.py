@@ -8,7 +8,8 @@ import pandas as pd
 from fctd import Case
 from fctd.model.drillstring import section_of
 from fctd.model.operations import rad_per_s, steady_rates
-from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.equilibrium import Solver
+from fctd.steady.steady_string import Equilibrium
 from references.soft_string.closed_forms import hold
 from references.soft_string.integration import soft_string
 from references.soft_string.sliding import motion_of, split_friction

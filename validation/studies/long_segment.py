@@ -158,14 +158,16 @@ def run(context: Context) -> Outcome:
         ],
         notes=[
             f"With the bit at {BIT:.0f} m the long segment reaches from the surface to 750 m. It has the springs and "
-            "half the mass of the pipe it stands for, at its lower end: weight and stretch are exact; a wave crosses "
-            "it instantly, since it has no distributed mass.",
+            "half the weight of the pipe it stands for, at its lower end: weight and stretch are exact. In the paper "
+            "half the mass is there too, and a wave crosses it instantly; here its slowest standing waves have most of "
+            "it (fctd/mechanics/waves.py).",
             "Differences of start-ups are from the string whose vertical part has segments of 18.75 m; the column "
             "for 37.5 m gives the effect of the segment length alone. Neither resolves the ripple of a trip's hook "
             "load, which arises where joints of the string slide over the seams between cylinders.",
-            "The column long twisting alone is a second route to the difference of the torque of a rotating start: "
-            "discs on torsion springs with dry friction, whose limits come from the soft string, with masses lumped "
-            "differently from the engine's bodies; no contact, no bending, no axial motion.",
+            "The column long twisting alone is the difference of the torque of a rotating start with the paper's "
+            "segment: discs on torsion springs with dry friction, whose limits come from the soft string, with masses "
+            "lumped differently from the engine's bodies; no contact, no bending, no axial motion. There the long "
+            "segment has half its inertia at its end, as in the paper, and no waves within.",
             "The long segment touches the wall only at its lower end. It cannot show buckling or whirl, which press "
             "vertical pipe against the wall; in compression it is stiffer than the pipe.",
         ],

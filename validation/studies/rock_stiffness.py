@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from fctd.model.operations import steady_rates
 from fctd.simulation.run import prepare
-from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.equilibrium import Solver
+from fctd.steady.steady_string import Equilibrium
 from validation.cases import load
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.bends import LIMIT, NARROW, PIPE, case_of

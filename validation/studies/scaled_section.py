@@ -31,6 +31,8 @@ MESHES = (0.6, 0.3, ELEMENT)
 SEGMENTS = (10, 30, 60, 120, 240)
 SPEEDS = (1.0, 0.5, 0.25)  # [m/s]
 PAPERS = 30  # segments in §6.1
+# The end of the string that is cut finer, and its segments: the edge of the pipe's end dents the wall over 0.12 m.
+END, END_SEGMENTS = 0.9, 24  # [m]
 # Contacts on one side that are closer than this are one [m].
 APART = 1.0
 # The edge of the pipe's end dents the wall over a decimetre; points higher up are evaluated separately [m].
@@ -102,16 +104,24 @@ def shape_of(case: Case, joints: pd.DataFrame) -> pd.DataFrame:
     centre, tangent = hole.at(joints["md_m"].to_numpy())
     # Offsets in the profile are from the axes of cylinders.
     points = centre + joints["offset_high_m"].to_numpy()[:, None] * hole_frame(tangent)[0]
-    above = np.arange(len(points), dtype=np.float64)[::-1] * _segment(case)
-    return _string(case, above, *points[:, [2, 0]].T)
+    return _string(case, _above_bit(case)[::-1], *points[:, [2, 0]].T)
 
 
-def _segment(case: Case) -> float:
-    """Length of the segments above the bit [m]."""
-    pipe = case.string.components[0]
+def _above_bit(case: Case) -> Array:
+    """Distance of every end of a segment from the bit along the unstretched string, from the bit up [m]."""
+    cut = [np.full(part.segments or 0, (part.length or 0.0) / (part.segments or 1)) for part in case.string.components]
+    return np.append(0.0, np.cumsum(np.concatenate(cut[:-1])))
+
+
+def cut_at_the_end(case: Case) -> Case:
+    """The case with as many segments, those of its last metre shorter."""
+    pipe, above = case.string.components
     assert pipe.length is not None
     assert pipe.segments is not None
-    return pipe.length / pipe.segments
+    end = pipe.model_copy(update={"name": "end of the pipe", "length": END, "segments": END_SEGMENTS})
+    rest = pipe.model_copy(update={"length": pipe.length - END, "segments": pipe.segments - END_SEGMENTS})
+    string = case.string.model_copy(update={"components": (end, rest, above)})
+    return case.model_copy(update={"string": string})
 
 
 def _string(case: Case, above: Array, z: Array, x: Array) -> pd.DataFrame:
@@ -208,16 +218,19 @@ def run(context: Context) -> Outcome:
 
     rows: list[dict[str, Any]] = []
     models: dict[tuple[int, str], Comparable] = {}
-    settings = [(count, case.wellbore.geometry) for count in counts] + [(PAPERS, "arcs")]
-    for count, geometry in context.progress(settings, "segments"):
-        chosen = load("scaled_section", wellbore__geometry=geometry, string__components__0__segments=count)
-        model, numbers = rigid_segments(chosen)
-        models[count, geometry] = model
+    chosen = [load("scaled_section", string__components__0__segments=count) for count in counts]
+    for setting in context.progress(
+        [*chosen, load("scaled_section", wellbore__geometry="arcs"), cut_at_the_end(chosen[-1])], "segments"
+    ):
+        model, numbers = rigid_segments(setting)
+        count, geometry = len(_above_bit(setting)) - 1, setting.wellbore.geometry
+        models.setdefault((count, geometry), model)
         rows.append(
             {
                 "segments": count,
                 "geometry": geometry,
-                "segment_m": _segment(chosen),
+                "segment_m": float(np.diff(_above_bit(setting)).max()),
+                "end_segment_m": _above_bit(setting)[1],
                 **differences(model, truth, clearance),
                 "step_ms": 1e3 * numbers["step_s"],
                 "wall_s": numbers["wall_s"],
@@ -239,7 +252,7 @@ def run(context: Context) -> Outcome:
     tables = {
         "segments": segments,
         "by_force": segments[["segments", "geometry", "correlation", *(f"{name}_rms_percent" for name in RMS)]],
-        "by_place": segments[["segments", "geometry", "segment_m", *PLACE, "step_ms", "wall_s"]],
+        "by_place": segments[["segments", "geometry", "segment_m", "end_segment_m", *PLACE, "step_ms", "wall_s"]],
         "slow_limit": slow,
         "at_rest": rest,
         "same_points": same,
@@ -282,11 +295,12 @@ NOTES = [
     "own exact bend, and contact by a penalty per metre at Gauss points.",
     "Force is the mean over each record interval, its RMS difference is over the whole run and divided by the peak. "
     "Displacement is compared at equal points of the string at the end of the run, over the radial clearance.",
-    "Displacement differs most at the very end of the pipe. Its edge dents the wall by some 5 mm over a length of "
-    "0.12 m; the engine evaluates contact only at its joints, each for its tributary length, and a few joints cannot "
-    "resolve the length of the dent. The mechanics of the pipe is not the cause: finite elements that touch the wall "
-    "only at the ends of the same segments place the end of the pipe where the engine does. The remaining difference "
-    "is largest at the engine's long segment, which is straight where the pipe is bent.",
+    "Displacement of equal segments differs most at the very end of the pipe. Its edge dents the wall by some 5 mm "
+    "over a length of 0.12 m; the engine evaluates contact only at its joints, each for its tributary length, and few "
+    "joints cannot resolve the length of the dent. The mechanics of the pipe is not the cause: finite elements that "
+    "touch the wall only at the ends of the same segments place the end of the pipe where the engine does. The last "
+    f"row has {END_SEGMENTS} of its segments in the last {END} m, and no more in all. The remaining difference is "
+    "largest at the engine's long segment, which is straight where the pipe is bent.",
     "The engine's cylinders are chords: offsets in its profile are from their axes, and are converted to offsets "
     "from the bend before the comparison. Their share of the difference is the tolerance of the chords, 0.1 mm.",
 ]
@@ -299,8 +313,8 @@ def _checks_of_the_finest(segments: pd.DataFrame, same: pd.DataFrame, meshes: pd
     return [
         Check(f"force at {finest} segments against finite elements", _at(segments, finest, "total_rms_percent"),
               3.0, "at_most", "%", "target: RMS over the peak"),
-        Check(f"displacement at {finest} segments against finite elements",
-              _at(segments, finest, "displacement_max_percent"), 1.0, "at_most", "%",
+        Check(f"displacement at {finest} segments, shorter in the last metre, against finite elements",
+              float(segments["displacement_max_percent"].iloc[-1]), 1.0, "at_most", "%",
               "target: largest along the string, over the clearance"),
         Check(f"displacement at {finest} segments above the end of the pipe",
               _at(segments, finest, "displacement_above_end_percent"), 1.0, "at_most", "%",
@@ -327,8 +341,8 @@ def _same_points(
     rows = []
     for count in context.progress(counts, "same points"):
         case = load("scaled_section", string__components__0__segments=count)
-        pipe = _segment(case) * count
-        truth, _ = finite_elements(case, beam_of(case, _segment(case), pipe, True), case.record.interval, still=True)
+        ends = _above_bit(case)
+        truth, _ = finite_elements(case, beam_of(case, ends[1], ends[-1], True), case.record.interval, still=True)
         both = differences(models[count, case.wellbore.geometry], truth, clearance)
         kept = ("displacement_max_percent", "displacement_rms_percent", "displacement_bit_percent")
         rows.append({"segments": count, **{name: both[name] for name in kept}})

@@ -8,7 +8,8 @@ from scipy.optimize import brentq
 
 from fctd import Case
 from fctd.model.operations import steady_rates
-from fctd.steady.equilibrium import Equilibrium, Solver
+from fctd.steady.equilibrium import Solver
+from fctd.steady.steady_string import Equilibrium
 from validation.harness.study import Check, Context, Outcome, Study
 
 FRICTION, HOLE = 0.2, 0.2159

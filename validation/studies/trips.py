@@ -14,6 +14,7 @@ import pandas as pd
 from fctd import Case, equilibrium
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.drillstring import pressure_of
 from fctd.model.operations import Phase
 from fctd.simulation.intervals import Interval, Window, within
 from fctd.simulation.run import Run
@@ -110,7 +111,8 @@ def missing(run: Run) -> float:
     """What the columns of the string differ in mass and length from those of the tally, the larger share."""
     assert run.hoist is not None
     n, tally = run.segments, run.hoist.tally
-    length = float(tally.reach[run.hoist.stands])
+    squeeze = tally.whole.of("compressibility") * pressure_of(run.case, tally.whole, run.hole)
+    length = float(tally.reach[run.hoist.stands]) - float((tally.whole.length * squeeze)[-n:].sum())
     mass = float((tally.whole.of("mass") * tally.whole.length)[-n:].sum())
     arms = sum(float(state.row(run.S, row, n).sum()) for row in (state.ARM_TOP, state.ARM_BOTTOM))
     return max(abs(float(state.row(run.S, state.MASS, n).sum()) / mass - 1), abs(arms / length - 1))

@@ -50,6 +50,16 @@ def real_chart() -> dict[str, pd.DataFrame]:
     return {"chart": _chart().assign(geometry="arcs")}
 
 
+def ladder() -> dict[str, pd.DataFrame]:
+    rows = [
+        ("helix, turns", "steady", 0.3),
+        ("capstan", "steady", 0.1),
+        ("capstan", "stepper", 3.0),
+        ("elastica", "steady", np.nan),
+    ]
+    return {"rungs": pd.DataFrame(rows, columns=["rung", "by", "error_over_bound"])}
+
+
 def soft_limit() -> dict[str, pd.DataFrame]:
     return {
         "ladder": pd.DataFrame(

@@ -68,6 +68,22 @@ def test_recorded_miss_that_is_met_again_asks_for_an_update(register, run):
     assert "remove the entry from expected.toml" in text
 
 
+def test_finding_about_the_paper_is_listed_apart_from_misses(register, run):
+    checks = [Check(name, 2.0, 1.0, "at_most", "", "the paper") for name in ("eq 23", "chords")]
+    register("toy", lambda context: Outcome({}, checks))
+    code, text = run("toy", expected={"toy": {"eq 23": "finding: a misprint", "chords": "missed: chords are chords"}})
+    assert code == 0
+    assert text.index("chords: 2") < text.index("eq 23: 2")
+    assert "recorded misses: 1; apart from them, 1 finding about the paper" in text
+
+
+def test_finding_that_the_paper_no_longer_misses_asks_for_an_update(register, run):
+    register("toy")
+    code, text = run("toy", expected={"toy": {"error": "finding: a misprint"}})
+    assert code == 0
+    assert "recorded as finding; remove the entry from expected.toml" in text
+
+
 @pytest.mark.parametrize("value", [0.5, 2.0])
 def test_what_varies_with_the_machine_is_as_recorded_either_way(register, run, value):
     register("toy", lambda context: outcome(value))

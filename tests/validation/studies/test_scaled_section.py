@@ -81,3 +81,14 @@ def test_sides_add_up_to_the_total():
     md, force = np.array([[30.0, 35.0, 43.0]]), np.array([[-2.0, 3.0, -4.0]])
     found = scaled_section.history_of(np.array([1.0]), force, md, case).iloc[0]
     assert found.to_list() == [1.0, 9.0, 2.0, 3.0, 4.0]
+
+
+def test_the_last_metre_may_be_cut_finer():
+    """As many segments in all, those of the end shorter; distances from the bit are those of their ends."""
+    case = scaled_section.load("scaled_section", string__components__0__segments=240)
+    finer = scaled_section.cut_at_the_end(case)
+    above = scaled_section._above_bit(finer)
+    assert len(above) == len(scaled_section._above_bit(case)) == 241
+    assert above[-1] == pytest.approx(18.0)
+    np.testing.assert_allclose(np.diff(above)[:24], 0.9 / 24)
+    np.testing.assert_allclose(np.diff(above)[24:], 17.1 / 216)
