@@ -44,6 +44,21 @@ def test_two_stages_beside_each_other_are_told_one_after_the_other(tmp_path: Pat
     assert sorted(re.findall(r"^above its share: (\w+), 6\d s of", text, re.MULTILINE)) == ["one", "three"]
 
 
+def test_a_python_that_is_not_there_is_said(tmp_path: Path) -> None:
+    """Without a later Python the stage says that it was not run; with one, the two commands run in a clone."""
+    for name in ("git", "make"):
+        (tmp_path / name).write_text(f'#!/bin/sh\necho "{name} $*"\n')
+        (tmp_path / name).chmod(0o755)
+    code, text = said(tmp_path, f"PATH={tmp_path}", "stage 'later' 240 later")
+    assert (code, "not run: neither python3.13 nor python3.14 is found" in text) == (0, True)
+    (tmp_path / "python3.13").write_text("#!/bin/sh\necho Python\n")
+    (tmp_path / "python3.13").chmod(0o755)
+    code, text = said(tmp_path, f"PATH={tmp_path}:/usr/bin:/bin", "later")
+    assert code == 0
+    assert "BROWSER=0 test" in text
+    assert "QUICK=1 reproduce" in text
+
+
 @pytest.mark.parametrize("pair", ["one broken", "broken one"])
 def test_a_stage_that_fails_ends_all(pair: str, tmp_path: Path) -> None:
     code, text = said(tmp_path, f"beside {pair}", "summary")
