@@ -114,8 +114,9 @@ def test_a_run_streams_and_is_stopped_with_its_records_kept(tmp_path: Path) -> N
     session, found = Sessions(tmp_path).new(), Runs()
     try:
         found.start(session, text, "survey.csv", SURVEY)
-        until(lambda: found.state(session)["kept"] not in ("", "0", "0.0"), 120)
-        assert 0 < found.state(session)["share"] < 1
+        until(lambda: found.state(session)["kept"] not in ("", "0", "0.0") or not found.state(session)["running"], 120)
+        state = found.state(session)
+        assert 0 < state["share"] < 1, state
         other = Runs([session.folder])  # a server that was killed and started again
         assert other.state(session)["running"]
         other.stop(session)
