@@ -21,7 +21,7 @@ PEAK = "import resource; peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxr
 RUN = """
 import json
 from benchmarks.strings import chain
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 run, phases = prepare(chain({segments}))
 run.advance(phases[0].motion, run.step)
 arrays = [run.S, run.top, run.owner, run.hole.pieces]

@@ -19,7 +19,8 @@ from fctd.mechanics.query import query_walls
 from fctd.mechanics.state import OPEN, RADIUS, copy_state, row
 from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import steady_rates
-from fctd.simulation.run import Run, contact_points, prepare
+from fctd.simulation.preparation import contact_points, prepare
+from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest
 from fctd.steady.equilibrium import Solver
 from fctd.steady.torque_drag import chart_rows

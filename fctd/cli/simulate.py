@@ -60,7 +60,7 @@ from fctd.results.tables import SimulationResult, check_result_folder, identity_
 from fctd.results.unit_systems import System, shown
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.kept_run import KeptRun
-from fctd.simulation.run import LONGEST_SETTLING
+from fctd.simulation.preparation import LONGEST_SETTLING
 from fctd.simulation.simulate import simulate
 
 ShownUnits = Annotated[

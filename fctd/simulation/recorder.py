@@ -33,7 +33,8 @@ from fctd.results.profile import Loads, at_contacts, profile_table, von_mises
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
 from fctd.simulation.guards import Guards
-from fctd.simulation.run import Run, contact_points
+from fctd.simulation.preparation import contact_points
+from fctd.simulation.run import Run
 from fctd.simulation.series import SegmentSeries
 
 if TYPE_CHECKING:

@@ -12,7 +12,8 @@ from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.rock import NO_ROCK, NOTHING
 from fctd.model.drilling import above_bottom
-from fctd.simulation.run import LONGEST_SETTLING, Run, own_wall
+from fctd.simulation.preparation import LONGEST_SETTLING, own_wall
+from fctd.simulation.run import Run
 
 Array = NDArray[np.float64]
 

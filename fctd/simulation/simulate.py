@@ -24,8 +24,9 @@ from fctd.simulation.ending import end_notes, spans_of
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.intervals import Interval, Window, prolonged, whole_schedule, within
 from fctd.simulation.limits import LimitReached
+from fctd.simulation.preparation import prepare
 from fctd.simulation.recorder import Recorder
-from fctd.simulation.run import Run, prepare
+from fctd.simulation.run import Run
 from fctd.simulation.settling import Settling, settle, start_from_rest
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.

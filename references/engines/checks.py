@@ -11,7 +11,8 @@ from scipy.linalg import eigh_tridiagonal
 from fctd.mechanics import state
 from fctd.mechanics.energy import penetration
 from fctd.results import ledger
-from fctd.simulation.run import Run, contact_points
+from fctd.simulation.preparation import contact_points
+from fctd.simulation.run import Run
 
 # Largest depth in the wall over the clearance there; less than 2 % with the stiffest wall of a case.
 DEEPEST = 0.2

@@ -10,7 +10,7 @@ import numpy as np
 
 from fctd.case.load import Case
 from fctd.mechanics import state
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from references import engines
 from references.engines import Window
 from references.engines.run import late

@@ -24,7 +24,8 @@ from fctd.mechanics.topdrive import Motion
 from fctd.model.wellbore import Contacts
 from fctd.results import ledger
 from fctd.simulation.external_contact import QueriedWall
-from fctd.simulation.run import Run, contact_points, prepare
+from fctd.simulation.preparation import contact_points, prepare
+from fctd.simulation.run import Run
 from fctd.simulation.settling import start_from_rest
 from fctd.simulation.simulate import Simulation
 

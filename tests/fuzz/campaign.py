@@ -14,7 +14,7 @@ from fctd import Case, Equilibrium, InputError, build_wellbore, equilibrium, loa
 from fctd.case.load import parse_override
 from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from fctd.steady.equilibrium import Solver
 from tests.fuzz import mechanics
 from tests.fuzz.items import Item

@@ -15,7 +15,8 @@ from fctd.mechanics import dynamics, joints, query, state, topdrive
 from fctd.mechanics.contact import COLUMNS, Arc, follow_arcs, follow_cylinders
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.laws import CODES
-from fctd.simulation.run import Run, prepare
+from fctd.simulation.preparation import prepare
+from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest
 from tests.bodies import (
     AXIS,

@@ -7,7 +7,7 @@ from fctd import simulate
 from fctd.mechanics import state
 from fctd.model.drillstring import section_of
 from fctd.model.operations import rad_per_s
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from fctd.simulation.settling import settle
 from references.soft_string.integration import soft_string
 from tests.cases import make_case, pipe, rotation, trip

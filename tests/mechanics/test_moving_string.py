@@ -7,7 +7,7 @@ import pytest
 
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.moving_string import STILL, HoleWall, MovingString
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation
 
 BUILD = [[0, 0, 0], [400, 0, 0], [850, 90, 0], [1200, 90, 0]]

@@ -5,7 +5,7 @@ import pytest
 from fctd import InputError, equilibrium
 from fctd.mechanics import state
 from fctd.mechanics.stability import stable_step, stiffest_mode, stiffest_torsion
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation
 
 

@@ -9,7 +9,7 @@ import pytest
 from fctd.mechanics import state
 from fctd.model import drillstring
 from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, lay_out, section_of, shear_coefficient
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 

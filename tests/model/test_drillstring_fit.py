@@ -10,7 +10,7 @@ from fctd.case.errors import InputError
 from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, check_fit, lay_out
 from fctd.model.wellbore import build_wellbore
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 

@@ -10,7 +10,7 @@ from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import fill, lay_out
 from fctd.model.wellbore import build_wellbore
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation
 
 

@@ -13,7 +13,7 @@ from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import fill
 from fctd.model.stands import Tally, hang, lay_out_stands
 from fctd.model.wellbore import build_wellbore
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [300, 0, 0], [600, 60, 0], [1000, 60, 0]]

@@ -11,7 +11,8 @@ from fctd.mechanics import state
 from fctd.mechanics.energy import penetration
 from fctd.mechanics.joints import find_bends
 from fctd.simulation.bent_housings import bent_joints
-from fctd.simulation.run import Run, prepare
+from fctd.simulation.preparation import prepare
+from fctd.simulation.run import Run
 from fctd.simulation.settling import settle
 from tests.cases import make_case, pipe
 

@@ -15,7 +15,7 @@ from fctd.model.drillstring import String, lay_out
 from fctd.model.mud import added_mass, hole_radius, lateral_damping, steady_resistance
 from fctd.model.torsion import axial_period_of
 from fctd.simulation.carried_mud import layers, sideways, take_along
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from fctd.simulation.settling import start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
 

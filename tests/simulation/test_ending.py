@@ -6,7 +6,7 @@ import pandas as pd
 from fctd.model.torsion import period_of
 from fctd.results.notes import Note
 from fctd.simulation.ending import spans_of, torque_note
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe
 
 

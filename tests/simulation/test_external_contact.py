@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fctd import Case, InputError, simulate
 from fctd.mechanics import state
 from fctd.model.wellbore import Contacts, build_wellbore, find_contacts
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation
 
 Array = NDArray[np.float64]

@@ -13,7 +13,8 @@ from fctd.mechanics.derrick import read_joint
 from fctd.mechanics.energy import penetration
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.results.ledger import LOSSES
-from fctd.simulation.run import Run, contact_points, prepare
+from fctd.simulation.preparation import contact_points, prepare
+from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest
 from fctd.simulation.simulate import Simulation
 from tests.bodies import PLACE, at

@@ -12,8 +12,8 @@ from fctd.mechanics.topdrive import GRAVITY, Motion
 from fctd.model.drillstring import section_of
 from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.notes import MEANINGS
+from fctd.simulation.preparation import prepare
 from fctd.simulation.recorder import Recorder
-from fctd.simulation.run import prepare
 from fctd.simulation.settling import settle, start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
 

@@ -7,8 +7,8 @@ import pytest
 
 from fctd import Case, simulate
 from fctd.model.wellbore import build_wellbore
+from fctd.simulation.preparation import prepare
 from fctd.simulation.ringing import SPAN, STRIDE, Ringing, cylinder_tilt, expected_ringing
-from fctd.simulation.run import prepare
 from references import contact
 from validation.cases import load, rotation, trip
 from validation.studies.energy_ledger import RUNS, SHARPEST

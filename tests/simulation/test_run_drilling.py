@@ -9,7 +9,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics import state, topdrive
 from fctd.results.tables import SimulationResult
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from fctd.simulation.simulate import Simulation
 from tests.cases import make_case, pipe
 

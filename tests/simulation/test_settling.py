@@ -7,7 +7,8 @@ from fctd.mechanics import state, topdrive
 from fctd.mechanics.faults import UnstableError
 from fctd.model.wellbore import Contacts, Wellbore, find_contacts
 from fctd.simulation import settling
-from fctd.simulation.run import Run, prepare
+from fctd.simulation.preparation import prepare
+from fctd.simulation.run import Run
 from fctd.simulation.settling import relaxing, settle, start_from_rest
 from tests.cases import make_case, pipe, rotation
 

@@ -12,7 +12,7 @@ from fctd.mechanics import state
 from fctd.model.operations import schedule
 from fctd.model.torsion import period_of
 from fctd.results.columns import BUCKLED
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [400, 0, 0], [850, 90, 0], [1200, 90, 0]]

@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from fctd import Case
 from fctd.mechanics import state, waves
 from fctd.model.drillstring import section_of
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from validation.cases import load
 
 Array = NDArray[np.float64]

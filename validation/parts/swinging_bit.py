@@ -9,7 +9,7 @@ from fctd import Case
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import rad_per_s
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.mechanics import contact, state
-from fctd.simulation.run import Run, contact_points, prepare
+from fctd.simulation.preparation import contact_points, prepare
+from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest
 from references.contact import METHODS, build, installed_version, own
 from references.contact.box_tree import BoxTree, penetration

@@ -11,8 +11,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import simulate, torque_drag
+from fctd.simulation.preparation import prepare
 from fctd.simulation.ringing import Ringing, expected_ringing
-from fctd.simulation.run import prepare
 from validation.cases import load, trip
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.windows import completed

@@ -11,7 +11,8 @@ from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import section_of
 from fctd.model.wellbore import hole_frame
-from fctd.simulation.run import Run, contact_points
+from fctd.simulation.preparation import contact_points
+from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
 from validation.harness.study import Check, Context, Outcome, Study
 

@@ -5,7 +5,7 @@ from typing import Any
 import pandas as pd
 
 from fctd import simulate
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from validation.cases import load, rotation, trip
 from validation.harness.study import Check, Context, Outcome, Study, log_slope
 

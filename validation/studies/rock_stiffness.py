@@ -7,7 +7,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd.model.operations import steady_rates
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from fctd.steady.equilibrium import Solver
 from fctd.steady.steady_string import Equilibrium
 from validation.cases import load

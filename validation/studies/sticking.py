@@ -18,7 +18,7 @@ from fctd.mechanics.laws import CODES
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.state import FX, FZ, K_WALL, LANES, PX, VX, VZ, Laws
 from fctd.mechanics.wall_law import stiffen_walls
-from fctd.simulation.run import contact_points, prepare
+from fctd.simulation.preparation import contact_points, prepare
 from fctd.simulation.settling import settle, start_from_rest
 from fctd.simulation.simulate import Simulation
 from validation.cases import load, rotation

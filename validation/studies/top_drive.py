@@ -11,7 +11,8 @@ from fctd import Case
 from fctd.mechanics import state
 from fctd.mechanics.moving_string import STILL
 from fctd.model.drilling import torsional_impedance
-from fctd.simulation.run import Run, prepare
+from fctd.simulation.preparation import prepare
+from fctd.simulation.run import Run
 from validation.cases import rotation
 from validation.harness.study import Check, Context, Outcome, Study
 

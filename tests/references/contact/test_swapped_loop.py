@@ -7,7 +7,7 @@ from fctd import simulate
 from fctd.mechanics import state
 from fctd.model.wellbore import build_wellbore
 from fctd.results.columns import BUCKLED
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from references import contact
 from references.contact.for_loop import advance_with_for_loop
 from tests.simulation.test_external_contact import turning

@@ -10,7 +10,8 @@ import pytest
 
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy
-from fctd.simulation.run import Run, prepare
+from fctd.simulation.preparation import prepare
+from fctd.simulation.run import Run
 from references import engines
 from references.engines import Window
 from references.engines.checks import axial_period, drift

@@ -6,7 +6,7 @@ import pytest
 from fctd import find_contacts
 from fctd.mechanics import state as rows
 from fctd.mechanics.energy import energy_of
-from fctd.simulation.run import contact_points
+from fctd.simulation.preparation import contact_points
 from references.timing import workloads
 from references.timing.workloads import NoWall, asking, copy_of, fallen, free_query, moving, without_wall
 from validation.parts.speed_kernel import chain

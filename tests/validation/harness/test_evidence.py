@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from fctd.mechanics.contact import DIRECTION, START
-from fctd.simulation.run import prepare
+from fctd.simulation.preparation import prepare
 from references.contact.for_loop import one_cylinder
 from references.engines import Window
 from references.engines.run import hann_means

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from fctd import Case, SimulationResult, simulate
 from fctd.mechanics.moving_string import STILL
 from fctd.results.status import RunStatus
-from fctd.simulation.run import Run, prepare
+from fctd.simulation.preparation import prepare
+from fctd.simulation.run import Run
 from validation.studies.ladder.rung import GRAVITY, By, NoAnswerError, Quantity, case_of, section, steady
 
 Array = NDArray[np.float64]

@@ -19,7 +19,8 @@ from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, String, lay_out
 from fctd.model.layouts import graded, uniform, with_components
 from fctd.model.operations import Phase, depth_range, schedule
 from fctd.simulation import run as run_module
-from fctd.simulation.run import Run, contact_points, prepare
+from fctd.simulation.preparation import contact_points, prepare
+from fctd.simulation.run import Run
 from fctd.simulation.settling import relaxing, settle, start_from_rest
 from tests.cases import make_case, pipe, rotation, trip
 
