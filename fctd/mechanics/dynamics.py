@@ -313,14 +313,12 @@ def padded_columns(n):
 
 
 @inlined
-def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
-    """Advance the string by one step: the stages of §4 and Fig. 7 in order.
+def load(S, top, n, laws, motion, pipe, dt):
+    """Stage 1: loads of the joints, of the top drive and of the rock on the bit at the present positions.
 
-    find_walls : ``update_walls``, or another search for the walls beside the contact points, with its arguments.
-    Compiled into its caller: code that takes a function as an argument cannot be stored on disk.
+    Returns feed [m/s] and rotation [rad/s] of the top drive.
     """
     packed = padded_columns(n)
-    # 1: loads of the joints and of the top drive at the present positions.
     update_joint_loads(S, packed, laws.joint_damping, dt, laws.torsion_damping, laws.shape_damping, laws.wall_exponent)
     if laws.bent:
         bend_housings(S, n, dt)
@@ -331,12 +329,13 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
         immerse(S, n)
     if laws.rock.law != NO_ROCK:
         press_bit(S, top, n, laws.rock, motion, dt)
-    # 2 and 3: the piece of hole that owns each contact point, and the point's distance from its axis and wall.
-    find_walls(S, owner, n, packed, C, laws.geometry)
-    if laws.wall_exponent != 1:
-        stiffen_walls(S, top, n, laws)
-    if laws.cake_thickness > 0:
-        press_into_cake(S, owner, n, C, laws, dt)
+    return feed, rate
+
+
+@inlined
+def move(S, top, n, laws, pipe, feed, rate, dt):
+    """Stages 4 and 5, given the loads and the walls: impulses, then the motion that they leave."""
+    packed = padded_columns(n)
     # 4: impulses of the wall, normal and friction, and those of springs, weight and mud.
     update_velocities(S, packed, laws, dt)
     # 5: motion of the bodies, of the bit in the rock, and of the top drive.
@@ -344,6 +343,23 @@ def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
         drill(S, top, n, laws.rock, dt)
     move_bodies(S, packed, dt)
     move_top_drive(S, top, pipe, feed, rate, dt)
+
+
+@inlined
+def step(find_walls, S, top, owner, n, C, laws, motion, pipe, dt):
+    """Advance the string by one step: the stages of §4 and Fig. 7 in order.
+
+    find_walls : ``update_walls``, or another search for the walls beside the contact points, with its arguments.
+    Compiled into its caller: code that takes a function as an argument cannot be stored on disk.
+    """
+    feed, rate = load(S, top, n, laws, motion, pipe, dt)
+    # 2 and 3: the piece of hole that owns each contact point, and the point's distance from its axis and wall.
+    find_walls(S, owner, n, padded_columns(n), C, laws.geometry)
+    if laws.wall_exponent != 1:
+        stiffen_walls(S, top, n, laws)
+    if laws.cake_thickness > 0:
+        press_into_cake(S, owner, n, C, laws, dt)
+    move(S, top, n, laws, pipe, feed, rate, dt)
 
 
 @entry

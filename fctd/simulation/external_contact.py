@@ -10,16 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.mechanics import state
-from fctd.mechanics.bit import drill, press_bit
 from fctd.mechanics.contact import contact_point, store_sticking, store_wall
-from fctd.mechanics.dynamics import move_bodies, padded_columns, update_axes, update_velocities
+from fctd.mechanics.dynamics import load, move, padded_columns, update_axes
 from fctd.mechanics.jit import entry
-from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.moving_string import MovingString
-from fctd.mechanics.readings import read_step
-from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.state import Laws
-from fctd.mechanics.topdrive import SUM_HOOKLOAD, SUM_TOP_TORQUE, Motion, drive_top, move_top_drive
+from fctd.mechanics.topdrive import Motion
 from fctd.mechanics.wall_law import stiffen_walls
 from fctd.model.pieces import DECAY, EXCESS, FRICTION, RADIUS, STIFFNESS, TO_MD
 from fctd.model.wellbore import Contacts, Wellbore
@@ -76,31 +72,19 @@ def _store(S, n, radii, penetration, normal, md, wall):
 
 @entry
 def _before(S, top, n, laws, motion, pipe, dt, points):
-    """Stage 1 of ``dynamics.step``, and the points (n, 3) to query; returns feed [m/s] and rotation [rad/s]."""
-    update_joint_loads(
-        S, padded_columns(n), laws.joint_damping, dt, laws.torsion_damping, laws.shape_damping, laws.wall_exponent
-    )
-    hookload, torque = top[SUM_HOOKLOAD], top[SUM_TOP_TORQUE]
-    feed, rate = drive_top(S, top, motion, pipe, dt, laws.settling)
-    read_step(S, top, n, hookload, torque, rate, laws.rock.motor, dt)
-    if laws.rock.law != NO_ROCK:
-        press_bit(S, top, n, laws.rock, motion, dt)
+    """Stage 1 of a step, and the points (n, 3) to query; returns feed [m/s] and rotation [rad/s]."""
+    feed, rate = load(S, top, n, laws, motion, pipe, dt)
     _points(S, n, points)
     return feed, rate
 
 
 @entry
 def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md, wall):
-    """Stages 3 to 5 of ``dynamics.step`` with the queried walls."""
-    packed = padded_columns(n)
+    """Stages 3 to 5 of a step with the queried walls."""
     _store(S, n, radii, penetration, normal, md, wall)
     if laws.wall_exponent != 1:
         stiffen_walls(S, top, n, laws)
-    update_velocities(S, packed, laws, dt)
-    if laws.rock.law != NO_ROCK:
-        drill(S, top, n, laws.rock, dt)
-    move_bodies(S, packed, dt)
-    move_top_drive(S, top, pipe, feed, rate, dt)
+    move(S, top, n, laws, pipe, feed, rate, dt)
 
 
 class QueriedWall:

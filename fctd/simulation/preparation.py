@@ -14,6 +14,7 @@ from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode, stiffest_torsion
 from fctd.mechanics.topdrive import PerMetre
 from fctd.mechanics.wall_law import tangent_over_linear
+from fctd.model.bent_housings import put_bends
 from fctd.model.derrick import with_derrick
 from fctd.model.drilling import check_weight, driller_of, drive_of, pace_of, rock_of
 from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, lay_out
@@ -22,8 +23,8 @@ from fctd.model.stands import check_stands, hang, lay_out_stands
 from fctd.model.strokes import stand_schedule
 from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.wellbore import Wellbore, build_wellbore
-from fctd.simulation.bent_housings import put_bends
 from fctd.simulation.external_contact import QueriedWall, WallQuery
+from fctd.simulation.features import ASKED, OWN, refuse
 from fctd.simulation.hoist import Hoist
 from fctd.simulation.run import Run
 
@@ -47,17 +48,10 @@ def prepare(case: Case, contact: WallQuery | None = None) -> tuple[Run, list[Pha
         run, phases = _prepare(case)
         run.take_mud_along(case.operations[0])
         phases = [_driven(run, phase) for phase in phases]
-        if contact is not None:
-            if run.hoist is not None:
-                raise InputError(
-                    '"long_segment" where the long segment fits, since a contact method was passed',
-                    key="rig.feed",
-                    value=case.rig.feed,
-                )
-            if not case.contact.enabled:
-                raise InputError("true, since a contact method was passed", key="contact.enabled", value=False)
-            if run.laws.cake_thickness > 0:
-                raise InputError("no overbalance, since a contact method was passed", key="wellbore.intervals")
+        if contact is None:
+            refuse(run, OWN, "a simulation")
+        else:
+            refuse(run, ASKED, "another contact method")
             run.wall = QueriedWall(contact, run.hole, run.segments)
         return run, phases
 
@@ -74,7 +68,6 @@ def _driven(run: Run, phase: Phase) -> Phase:
 def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     if not case.operations:
         raise InputError("at least one operation to simulate", key="operations", value=[])
-    _check_dynamic(case)
     case.check_depths()
     first, shallowest, deepest = depth_range(case)
     for i, depth in enumerate(case.record.profile_at):
@@ -254,16 +247,6 @@ def _check_cost(case: Case, segments: int, step: float, phases: list[Phase]) -> 
             f"at most {MOST_PROFILE_ROWS // (segments + 1)} profiles of {segments} segments",
             key="record.profile_at",
             value=f"{profiles} depths",
-        )
-
-
-def _check_dynamic(case: Case) -> None:
-    """Raise InputError for what only the steady solver supports: the force of a helix."""
-    if case.contact.helical_force != "none":
-        raise InputError(
-            '"none" in a simulation (fctd equilibrium and fctd chart support it)',
-            key="contact.helical_force",
-            value=case.contact.helical_force,
         )
 
 

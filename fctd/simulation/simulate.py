@@ -1,14 +1,13 @@
 """A whole simulation: prepare, settle, run the schedule, record (§4.6, §6.2)."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
 from itertools import takewhile
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.mechanics import topdrive
 from fctd.mechanics.energy import Energy
@@ -22,6 +21,7 @@ from fctd.results.swings import operations_table
 from fctd.results.tables import SimulationResult
 from fctd.simulation.ending import end_notes, spans_of
 from fctd.simulation.external_contact import WallQuery
+from fctd.simulation.features import refuse
 from fctd.simulation.intervals import Interval, Window, prolonged, whole_schedule, within
 from fctd.simulation.limits import LimitReached
 from fctd.simulation.preparation import prepare
@@ -61,6 +61,19 @@ class Stepper(Protocol):
         """Energy of the string [J], after ``refresh``."""
 
 
+class Engine(Protocol):
+    """Makes the stepper that takes the place of a run's own; ``honours`` : its features (features.FEATURES)."""
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def honours(self) -> Collection[str]: ...
+
+    def begin(self, run: Run) -> Stepper:
+        """A stepper at the state of a run; InputError for what it cannot represent."""
+
+
 class Keeper(Protocol):
     """Keeps a run while it lasts, so that another process can go on with it."""
 
@@ -76,8 +89,8 @@ class Simulation(Iterator[Record]):
 
     contact : another contact method, built for the hole of this case, that finds the wall at every step;
     friction, force law and step stay the same.  window : the part of the schedule that is run and recorded, as start
-    and duration [s]; the string is advanced to its start without a record.  stepper : creates another engine from
-    the run at its start, in place of the run's own stepper.  settling : called while the string settles.
+    and duration [s]; the string is advanced to its start without a record.  engine : makes the stepper that moves the
+    string from the start on, in place of the run's own.  settling : called while the string settles.
 
     A record is a row of the history.  The string settles before the first one.  Ctrl-C leaves the iteration with its
     KeyboardInterrupt; ``record_part`` then records the elapsed part of a record interval.  ``result`` may be called at
@@ -90,18 +103,14 @@ class Simulation(Iterator[Record]):
         contact: WallQuery | None = None,
         *,
         window: tuple[float, float] | None = None,
-        stepper: Callable[[Run], Stepper] | None = None,
+        engine: Engine | None = None,
         settling: Settling | None = None,
     ) -> None:
         self.case, self.window = case, None if window is None else Window(*window)
         self.run, self.phases = prepare(case, contact)
         with naming_file(case):
-            if stepper is not None and self.run.hoist is not None:
-                raise InputError(
-                    '"long_segment" where the long segment fits, since another engine moves the string',
-                    key="rig.feed",
-                    value=case.rig.feed,
-                )
+            if engine is not None:
+                refuse(self.run, engine.honours, f"engine {engine.name}")
             self.intervals = (
                 whole_schedule(self.phases, case.record.interval)
                 if self.window is None
@@ -115,7 +124,7 @@ class Simulation(Iterator[Record]):
         self.keeping = Clocks(0.0, 0.0)  # time that a keeper has spent beside it
         self.settling_residual = float("nan")
         self.stepper: Stepper = self.run
-        self._begin, self._settling = stepper, settling
+        self._engine, self._settling = engine, settling
         self._recorder: Recorder | None = None
 
     @property
@@ -158,9 +167,9 @@ class Simulation(Iterator[Record]):
                 self.run.advance(motion, end - self.run.time)
             self.run.refresh()
             self.run.clear()
-        if self._begin is not None:
+        if self._engine is not None:
             with naming_file(self.case):
-                self.stepper = self._begin(self.run)
+                self.stepper = self._engine.begin(self.run)
         self._recorder = Recorder(self.run, start, self.stepper.energy)
 
     def __next__(self) -> Record:

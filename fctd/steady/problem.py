@@ -12,14 +12,15 @@ from fctd.mechanics import state
 from fctd.mechanics.contact import FACTOR
 from fctd.mechanics.laws import CODES
 from fctd.mechanics.query import WALL_COLUMNS, Walls
+from fctd.model.bent_housings import bent_joints, kink_of
 from fctd.model.operations import SteadyRates
-from fctd.model.wellbore import Wellbore, hole_frame
+from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import buckling_along
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
 from fctd.steady.continuation import NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, limits, take_step
 from fctd.steady.first_guess import MD, NODE, find_owners, guess, lay_guess
 from fctd.steady.laid_string import LaidString
-from fctd.steady.pose import PLACE, POSE, QUATERNION, in_frame
+from fctd.steady.pose import PLACE, POSE, QUATERNION
 from fctd.steady.reading import ANSWER, SHAPE, STEPS, TOP, Answer, read_shape, read_top
 from fctd.steady.relaxation import Creep, relax
 from fctd.steady.tangent import (
@@ -283,16 +284,7 @@ class Problem:
 
     def _bend(self) -> None:
         """Write the bent housings into ``kinks``; the workspace must contain the first guess."""
-        for k, component in enumerate(self.case.string.components[: len(self.string.sections)]):
-            if component.bend == 0:
-                continue
-            # The joint above the component's uppermost segment; joint 1 at the top drive has no bend.
-            j = int(np.argmax(self.string.component == k)) + 1
-            if j == 1:
-                continue
-            _, direction = self.hole.at(self.work.G[j - 1 : j, MD])
-            (high,), (right,) = hole_frame(direction)
-            towards = np.cos(component.toolface) * high + np.sin(component.toolface) * right
-            x, y, _ = in_frame(*self.work.P[j - 1, QUATERNION], *towards)
-            half = 0.5 * component.bend
-            self.kinks[j] = np.cos(half), *(np.sin(half) / np.hypot(x, y) * np.array([-y, x])), 0.0
+        for j, part in bent_joints(self.case, self.string).items():
+            _, (direction,) = self.hole.at(self.work.G[j - 1 : j, MD])
+            x, y = kink_of(part, self.work.P[j - 1, QUATERNION], direction)
+            self.kinks[j] = np.cos(0.5 * part.bend), x, y, 0.0

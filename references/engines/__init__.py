@@ -5,15 +5,15 @@ exceptions).  All engines start from the same state, which FCTD's stepper has re
 them.
 """
 
+from collections.abc import Collection
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 import pandas as pd
 
 from fctd.case import units
-from fctd.case.errors import InputError, Table
+from fctd.case.errors import Table
 from fctd.case.load import Case
-from fctd.mechanics.energy import Energy
-from fctd.mechanics.topdrive import Motion
+from fctd.simulation import simulate
 from fctd.simulation.intervals import Window as Window
 from fctd.simulation.run import Run
 from references.registry import Registry
@@ -48,19 +48,13 @@ class EngineRun(NamedTuple):
     wall_s: float
 
 
-class Stepper(Protocol):
-    """A string inside an engine, started from the state of a ``Run``."""
+class Stepper(simulate.Stepper, Protocol):
+    """A string inside an engine, started from the state of a ``Run``; it advances in equal steps of at most ``step``.
+
+    Sums and losses go to the run at every step, poses and velocities with ``refresh``.
+    """
 
     step: float
-
-    def advance(self, motion: Motion, duration: float) -> None:
-        """Advance by ``duration`` [s] in equal steps no longer than ``step``; adds to sums and losses of the run."""
-
-    def sync(self) -> None:
-        """Update poses and velocities of the run to the present time."""
-
-    def energy(self) -> Energy:
-        """Energy of the string at present, after ``sync``."""
 
     def note(self) -> str:
         """A limitation of the loads, or an empty text."""
@@ -73,11 +67,13 @@ class StringEngine(Protocol):
     """A physics engine that can run the string of a case.
 
     name : its key in ENGINES.  distribution : the package that provides it.  does : one line for users.
+    honours : features of a case that it represents (fctd.simulation.features); it refuses the others.
     """
 
     name: ClassVar[str]
     distribution: ClassVar[str]
     does: ClassVar[str]
+    honours: ClassVar[Collection[str]]
     Options: ClassVar[type[Table]]
 
     def __init__(self, options: Any) -> None: ...
@@ -107,31 +103,3 @@ class StepOptions(Table):
     """The step [s]; by default the engine's best step."""
 
     step: units.PositiveTime | None = None
-
-
-def check_coulomb(case: Case, engine: str) -> None:
-    """Raise InputError for a case whose friction an engine with its own Coulomb friction cannot represent."""
-    if not case.contact.enabled:
-        return
-    if case.contact.friction_law != "coulomb":
-        raise InputError(
-            f"coulomb, the only law of friction of {engine}",
-            key="contact.friction_law",
-            value=case.contact.friction_law,
-        )
-    for i, interval in enumerate(case.wellbore.intervals):
-        if interval.friction != case.wellbore.intervals[0].friction:
-            raise InputError(
-                f"one friction factor for the whole hole with {engine}",
-                key=f"wellbore.intervals[{i}].friction",
-                value=interval.friction,
-            )
-
-
-def check_no_mud(case: Case, engine: str) -> None:
-    """Raise InputError for damping by mud, which only FCTD's engine models."""
-    for key in ("axial_damping", "lateral_damping", "rotational_damping"):
-        if getattr(case.mud, key):
-            raise InputError(f"0 with {engine}, which has no mud", key=f"mud.{key}", value=getattr(case.mud, key))
-    if case.mud.unsteady:
-        raise InputError(f"0 with {engine}, which has no mud", key="mud.viscosity", value=case.mud.unsteady)

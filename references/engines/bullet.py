@@ -12,6 +12,7 @@ across the plane of the hole, one direction lies along the hole wherever the wal
 The ``fair`` settings rotate the scene in this way for the lower end of the string.
 """
 
+from collections.abc import Collection
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -24,8 +25,8 @@ from fctd.mechanics import state
 from fctd.simulation.run import Run
 from references.contact.bullet import wall_of
 from references.contact.tube_mesh import Tube
-from references.engines import check_coulomb, check_no_mud, need
-from references.engines.free_bodies import FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
+from references.engines import need
+from references.engines.free_bodies import HONOURS, FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
 from references.engines.run import InWindows
 
 Array = NDArray[np.float64]
@@ -189,6 +190,7 @@ class Bullet(InWindows):
     name: ClassVar[str] = "bullet"
     distribution: ClassVar[str] = "pybullet"
     does: ClassVar[str] = "free bodies under FCTD's joint wrenches; Bullet's inertia, contact with a mesh and friction"
+    honours: ClassVar[Collection[str]] = HONOURS
     Options: ClassVar[type[Table]] = BulletOptions
 
     def __init__(self, options: BulletOptions) -> None:
@@ -197,7 +199,5 @@ class Bullet(InWindows):
 
     def begin(self, run: Run) -> FreeBodies:
         """See ``StringEngine.begin``."""
-        check_coulomb(run.case, self.name)
-        check_no_mud(run.case, self.name)
         tube = tube_of(run, self.options)
         return FreeBodies(run, _Bodies(self._bullet, run, tube, self.options), self.options.step or SHARE * run.step)

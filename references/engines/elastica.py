@@ -6,6 +6,7 @@ step would be hundreds of times shorter.  PyElastica has no contact with a tube 
 external forces that are computed here.
 """
 
+from collections.abc import Collection
 from types import ModuleType
 from typing import Any, ClassVar, Literal
 
@@ -14,13 +15,13 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from fctd.case.errors import InputError, Table
+from fctd.case.errors import Table
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.query import WALL_COLUMNS, query_walls, walls_in
 from fctd.mechanics.topdrive import Motion, planned_speeds
 from fctd.simulation.run import Run
-from references.engines import StepOptions, check_coulomb, check_no_mud, need
+from references.engines import StepOptions, need
 from references.engines.run import InWindows
 
 Array = NDArray[np.float64]
@@ -158,7 +159,7 @@ class _Stepper:
         rod.velocity_collection[:, 0] = self._around.feed * self._around.axis
         rod.omega_collection[:, 0] = 0.0, 0.0, self._around.rate
 
-    def sync(self) -> None:
+    def refresh(self) -> None:
         """Write the rod into the run as rigid segments between its nodes."""
         S, n, rod = self._run.S, self._run.segments, self._rod
         axes = rod.tangents.T
@@ -178,6 +179,7 @@ class _Stepper:
         turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0, -1.0, 1.0))[:, None]
         for k, row in enumerate((state.QW, state.QX, state.QY, state.QZ)):
             state.row(S, row, n)[:] = turns[:, k]
+        self._run.refresh()
 
     def energy(self) -> Energy:
         """See ``Stepper.energy``: energy of the rod, in PyElastica's measure of strain."""
@@ -318,18 +320,6 @@ def _simulator(elastica: ModuleType, stepper: _Stepper) -> Any:
     return simulator
 
 
-def _check_contact_points(run: Run) -> None:
-    """Raise InputError for a segment with contact at its middle: the rod has contact only at its nodes."""
-    middle = np.flatnonzero(run.string.mid_contact())
-    if len(middle):
-        k = int(run.string.component[middle[0]])
-        raise InputError(
-            "sleeve with elastica, whose contact points are at segment ends",
-            key=f"string.components[{k}].contact",
-            value="point",
-        )
-
-
 class ElasticaOptions(StepOptions):
     """Options of PyElastica.
 
@@ -346,6 +336,7 @@ class Elastica(InWindows):
     name: ClassVar[str] = "elastica"
     distribution: ClassVar[str] = "pyelastica"
     does: ClassVar[str] = "Cosserat rod; PyElastica's beam and integrator, FCTD's wall test and friction"
+    honours: ClassVar[Collection[str]] = frozenset({"wall", "no_wall", "feed", "incline", "friction_along_hole"})
     Options: ClassVar[type[Table]] = ElasticaOptions
 
     def __init__(self, options: ElasticaOptions) -> None:
@@ -354,7 +345,4 @@ class Elastica(InWindows):
 
     def begin(self, run: Run) -> _Stepper:
         """See ``StringEngine.begin``."""
-        check_coulomb(run.case, self.name)
-        check_no_mud(run.case, self.name)
-        _check_contact_points(run)
         return _Stepper(self._elastica, run, self.options.step, self.options.rotary)

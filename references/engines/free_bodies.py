@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 from fctd.case import units
 from fctd.case.errors import InputError
 from fctd.mechanics import state
-from fctd.mechanics.dynamics import padded_columns, update_axes
+from fctd.mechanics.dynamics import load, padded_columns, update_axes
 from fctd.mechanics.energy import Energy, energy_of
-from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.rotations import rotation_columns
-from fctd.mechanics.topdrive import Motion, drive_top, move_top_drive
+from fctd.mechanics.topdrive import Motion, move_top_drive
 from fctd.model.wellbore import LONGEST_CYLINDER
 from fctd.simulation.run import Run
 from references.contact.tube_mesh import Tube, TubeOptions, build_tube, curvature_at
@@ -34,6 +33,12 @@ CHORD = 5e-4
 # A contact point faster than this slides [m/s]; if friction opposite to sliding is below this share of μN, the run
 # gets a note.
 SLIDING, LEAST_SHARE = 1e-2, 0.98
+
+
+# Features of a string of free bodies: those of joints, top drive and feed, which are FCTD's, and a plain wall.
+HONOURS = frozenset(
+    {"wall", "no_wall", "middle_contact", "bends", "drive", "feed", "incline", "joint_damping", "loss_factor"}
+)
 
 
 class Bodies(Protocol):
@@ -88,10 +93,7 @@ def tube_of(run: Run, options: FreeBodyOptions) -> Tube | None:
 def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untyped-def]
     """Loads at the present poses; out (n, 6) force and moment about the centre of mass; returns feed and spin rate."""
     update_axes(S, padded_columns(n))
-    # Without the damping of the shape in space: it would act on the noise of these engines' contacts, in MuJoCo's with
-    # 6 % of the work, and their contacts end chatter by themselves.
-    update_joint_loads(S, padded_columns(n), laws.joint_damping, dt, laws.torsion_damping)
-    feed, rate = drive_top(S, top, motion, pipe, dt)
+    feed, rate = load(S, top, n, laws, motion, pipe, dt)
     for j in range(1, n + 1):
         fx, fy, fz = state.joint_force(S, j)
         gx, gy, gz = state.joint_force(S, j + 1)
@@ -175,6 +177,9 @@ class FreeBodies:
         self._wrenches = np.empty((run.segments, 6))
         self._poses = poses_of(run)
         self._slid = np.zeros(2)
+        # Without the damping of the shape in space: it would act on the noise of these engines' contacts, in MuJoCo's
+        # with 6 % of the work, and their contacts end chatter by themselves.
+        self._laws = run.laws._replace(shape_damping=0.0)
 
     def advance(self, motion: Motion, duration: float) -> None:
         """See ``Stepper.advance``."""
@@ -182,7 +187,7 @@ class FreeBodies:
         steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
         dt = duration / steps
         for _ in range(steps):
-            feed, rate = _wrenches(run.S, run.top, n, run.laws, motion, run.pipe, dt, self._wrenches)
+            feed, rate = _wrenches(run.S, run.top, n, self._laws, motion, run.pipe, dt, self._wrenches)
             before = self._poses
             self._poses = bodies.step(before, self._wrenches, dt)
             if self.watch:
@@ -190,8 +195,9 @@ class FreeBodies:
             _store(run.S, run.top, n, run.pipe, feed, rate, dt, self._poses)
         run.steps += steps
 
-    def sync(self) -> None:
-        """Nothing to do: every step updates the run."""
+    def refresh(self) -> None:
+        """See ``Stepper.refresh``; every step has updated poses and velocities."""
+        self._run.refresh()
 
     def energy(self) -> Energy:
         """See ``Stepper.energy``."""

@@ -7,6 +7,7 @@ from the sliding direction.  The ``fair`` settings give a pipe that turns in a s
 most STIFFNESS, and the impedance nearest to MuJoCo's default 0.9 that keeps friction within half a percent of μN.
 """
 
+from collections.abc import Collection
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -18,8 +19,8 @@ from fctd.mechanics import state
 from fctd.simulation.run import Run
 from references.contact.mujoco import STRING_CONTACT, wall_of
 from references.contact.tube_mesh import Tube
-from references.engines import check_coulomb, check_no_mud, need
-from references.engines.free_bodies import FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
+from references.engines import need
+from references.engines.free_bodies import HONOURS, FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
 from references.engines.run import InWindows
 
 Array = NDArray[np.float64]
@@ -125,6 +126,7 @@ class MuJoCo(InWindows):
     name: ClassVar[str] = "mujoco"
     distribution: ClassVar[str] = "mujoco"
     does: ClassVar[str] = "free bodies under FCTD's joint wrenches; MuJoCo's inertia, contact with a mesh and friction"
+    honours: ClassVar[Collection[str]] = HONOURS
     Options: ClassVar[type[Table]] = MuJoCoOptions
 
     def __init__(self, options: MuJoCoOptions) -> None:
@@ -133,7 +135,5 @@ class MuJoCo(InWindows):
 
     def begin(self, run: Run) -> FreeBodies:
         """See ``StringEngine.begin``."""
-        check_coulomb(run.case, self.name)
-        check_no_mud(run.case, self.name)
         tube = tube_of(run, self.options)
         return FreeBodies(run, _Bodies(self._mujoco, run, tube, self.options), self.options.step or SHARE * run.step)

@@ -5,6 +5,7 @@ stretch; the chain hangs from a body that the top drive turns.  With contact it 
 bodies leave the hole.
 """
 
+from collections.abc import Collection
 from typing import Any, ClassVar
 
 import numpy as np
@@ -14,7 +15,7 @@ from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.topdrive import Motion, planned_speeds
 from fctd.simulation.run import Run
-from references.engines import StepOptions, check_no_mud, need
+from references.engines import StepOptions, need
 from references.engines.run import InWindows
 
 # Step over the stability limit of the chain's twist.
@@ -66,7 +67,7 @@ class _Stepper:
         first = self._angles()[0]
         return -float(self._twist[0] * first), -float(self._data.cfrc_int[1, 5])
 
-    def sync(self) -> None:
+    def refresh(self) -> None:
         """Write the bodies into the run."""
         run, data, n = self._run, self._data, self._run.segments
         velocity = np.zeros(6)
@@ -79,6 +80,7 @@ class _Stepper:
             self._mujoco.mj_objectVelocity(self._model, data, self._mujoco.mjtObj.mjOBJ_BODY, body, velocity, 1)
             for k, row in enumerate((state.WX, state.WY, state.WZ)):
                 run.S[row + j] = velocity[k]
+        run.refresh()
 
     def energy(self) -> Energy:
         """See ``Stepper.energy``: MuJoCo's energies; its springs have the same stiffness about all axes."""
@@ -122,6 +124,7 @@ class MuJoCoChain(InWindows):
     name: ClassVar[str] = "mujoco_chain"
     distribution: ClassVar[str] = "mujoco"
     does: ClassVar[str] = "nested bodies on ball joints, MuJoCo's native model; freely hanging strings without a wall"
+    honours: ClassVar[Collection[str]] = frozenset({"no_wall"})
     Options: ClassVar[type[Table]] = StepOptions
 
     def __init__(self, options: StepOptions) -> None:
@@ -130,23 +133,6 @@ class MuJoCoChain(InWindows):
 
     def begin(self, run: Run) -> _Stepper:
         """See ``StringEngine.begin``."""
-        case = run.case
-        check_no_mud(case, self.name)
-        if case.contact.enabled:
-            raise InputError(f"false with {self.name}, which has no wall", key="contact.enabled", value=True)
-        moving = [i for i, operation in enumerate(case.operations) if operation.kind != "rotate_off_bottom"]
-        if moving or run.string.long_segment:
-            i = moving[0] if moving else 0
-            raise InputError(
-                f"rotate_off_bottom with {self.name}, which feeds no pipe",
-                key=f"operations[{i}].kind",
-                value=case.operations[i].kind,
-            )
-        tilt = run.hole.inclination(np.linspace(case.string.top_md, run.string.bit_depth, 200)).max()
-        if tilt > 1e-6:
-            raise InputError(
-                f"a vertical hole with {self.name}", key="wellbore", value=f"up to {np.degrees(tilt):.3g} deg"
-            )
         if run.top[topdrive.TOP_TIME] > 0:
             raise InputError(f"a window that starts at 0 s with {self.name}", key="window", value="a moving string")
         return _Stepper(self._mujoco, run, self.options.step)

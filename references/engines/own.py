@@ -1,10 +1,12 @@
 """FCTD's own stepper with the interface of the other engines, which are compared with it."""
 
+from collections.abc import Collection
 from typing import ClassVar
 
 from fctd.case.errors import Table
 from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.topdrive import Motion
+from fctd.simulation.features import OWN
 from fctd.simulation.run import Run
 from references.engines import StepOptions
 from references.engines.run import InWindows
@@ -18,8 +20,9 @@ class _Stepper:
     def advance(self, motion: Motion, duration: float) -> None:
         self._run.advance(motion, duration)
 
-    def sync(self) -> None:
-        """Nothing to do: the stepper works on the run itself."""
+    def refresh(self) -> None:
+        """See ``Stepper.refresh``."""
+        self._run.refresh()
 
     def energy(self) -> Energy:
         return energy_of(self._run.S, self._run.segments, self._run.laws.wall_exponent)
@@ -36,7 +39,7 @@ class Fctd(InWindows):
     """FCTD's compiled stepper."""
 
     name: ClassVar[str] = "fctd"
-    own: ClassVar[bool] = True
+    honours: ClassVar[Collection[str]] = OWN - {"stands"}  # all engines start with the same long segment
     distribution: ClassVar[str] = "fctd"
     does: ClassVar[str] = "rigid segments, point-in-cylinder contact, symplectic Euler, compiled"
     Options: ClassVar[type[Table]] = StepOptions

@@ -1,14 +1,13 @@
 """Running a window of a case in any string engine: the same start, recorder and checks for all."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
-from typing import ClassVar
+from collections.abc import Collection
+from typing import ClassVar, cast
 
 import numpy as np
 import pandas as pd
 
-from fctd.case.errors import InputError
-from fctd.case.load import Case, naming_file
+from fctd.case.load import Case
 from fctd.mechanics import topdrive
 from fctd.results.status import RunStatus
 from fctd.simulation.run import Run
@@ -17,32 +16,19 @@ from references.engines import EngineRun, Stepper, Window
 from references.engines.checks import examine
 
 
-class _InWindow:
-    """An engine's stepper as ``fctd.Simulation`` wants it."""
-
-    def __init__(self, stepper: Stepper, run: Run) -> None:
-        self.own, self._run = stepper, run
-        self.advance, self.energy = stepper.advance, stepper.energy
-
-    def refresh(self) -> None:
-        self.own.sync()
-        self._run.refresh()
-
-
-def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> EngineRun:
-    """Run a window with a stepper begun by ``begin``, record as ``fctd.simulate`` does, and hold it to the checks.
+def run_window(case: Case, window: Window, engine: "InWindows") -> EngineRun:
+    """Run a window in an engine, record as ``fctd.simulate`` does, and hold it to the checks.
 
     Raises InputError, and UnstableError when the string does not settle before the start.
     """
-    simulation = Simulation(case, window=window, stepper=lambda run: _InWindow(begin(run), run))
+    simulation = Simulation(case, window=window, engine=engine)
     run = simulation.run
     if run.string.long_segment:
         # All engines have the paper's long segment: FCTD's stepper alone knows waves within it.
         run.pipe = run.pipe._replace(beside=0.0)
         topdrive.put_long_segment(run.S, run.top[topdrive.TOP_LENGTH], run.pipe)
     simulation.start()
-    assert isinstance(simulation.stepper, _InWindow)
-    stepper = simulation.stepper.own
+    stepper = cast(Stepper, simulation.stepper)  # the engine made it
     try:
         for _ in simulation:
             pass
@@ -61,33 +47,11 @@ def run_window(case: Case, window: Window, begin: Callable[[Run], Stepper]) -> E
     )  # fmt: skip
 
 
-def check_supported(case: Case) -> None:
-    """Raise InputError for what FCTD's stepper alone computes: another engine would leave it out without a word."""
-    contact, drills = case.contact, any(operation.on_bottom for operation in case.operations)
-    uneven = next((k for k, part in enumerate(case.string.components) if part.eccentricity), None)
-    bent = next((k for k, part in enumerate(case.string.components) if part.bend), None)
-    found = [
-        (contact.law != "linear", "contact.law", '"linear"', contact.law),
-        (contact.friction_law not in ("coulomb", "paper"), "contact.friction_law", '"coulomb"', contact.friction_law),
-        (case.rig.drive != "stiff", "rig.drive", '"stiff"', case.rig.drive),
-        (drills and case.bit.rock is not None, "bit.rock", "no rock", "a table"),
-        (case.mud.unsteady > 0, "mud.viscosity", "0", case.mud.viscosity),
-        (bent is not None, f"string.components[{bent}].bend", "0", "above 0"),
-        (uneven is not None, f"string.components[{uneven}].eccentricity", "0", "above 0"),
-    ]
-    with naming_file(case):
-        for present, key, needed, value in found:
-            if present:
-                raise InputError(f"{needed} in another engine than FCTD's", key=key, value=value)
-
-
 class InWindows(ABC):
-    """Common part of all engines: ``run_window`` runs them.
+    """Common part of all engines: ``run_window`` runs them."""
 
-    own : whether it is FCTD's stepper, which knows every key of a case.
-    """
-
-    own: ClassVar[bool] = False
+    name: ClassVar[str]
+    honours: ClassVar[Collection[str]]
 
     @abstractmethod
     def begin(self, run: Run) -> Stepper:
@@ -95,9 +59,7 @@ class InWindows(ABC):
 
     def run(self, case: Case, window: Window) -> EngineRun:
         """See ``StringEngine.run``."""
-        if not self.own:
-            check_supported(case)
-        return run_window(case, window, self.begin)
+        return run_window(case, window, self)
 
 
 def late(run: EngineRun, seconds: float = np.inf) -> pd.Series:

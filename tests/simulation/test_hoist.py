@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fctd import InputError, equilibrium, simulate
+from fctd import equilibrium, simulate
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.derrick import read_joint
 from fctd.mechanics.energy import penetration
@@ -188,17 +188,6 @@ def test_a_trip_in_and_out_of_a_deviated_well() -> None:
     pull = float((last["hookload_N"] - AIR * last["block_position_m"]).mean())
     weight = float((run.string.of("weight") * run.string.length).sum())
     assert abs(pull - steady.hookload) < 0.005 * weight
-
-
-def test_another_contact_method_or_engine_needs_the_long_segment() -> None:
-    class Method:
-        name = "mine"
-
-    case = make_case(BUILD, STRING, [trip(200.0, 300.0)], rig=RIG)
-    with pytest.raises(InputError, match=r"rig\.feed.*stands.*long_segment"):
-        prepare(case, Method())  # type: ignore[arg-type]
-    with pytest.raises(InputError, match=r"rig\.feed.*stands.*long_segment"):
-        Simulation(case, stepper=lambda run: run)
 
 
 @pytest.mark.slow

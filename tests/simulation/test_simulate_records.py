@@ -15,6 +15,7 @@ from fctd.mechanics.moving_string import HoleWall, MovingString
 from fctd.mechanics.state import Laws
 from fctd.mechanics.topdrive import Motion
 from fctd.model.wellbore import Contacts
+from fctd.simulation.features import OWN
 from fctd.simulation.run import Run
 from tests.cases import make_case, pipe, rotation, trip
 
@@ -158,12 +159,15 @@ def test_another_stepper_takes_the_place_of_the_own_one() -> None:
     case = build_case()
     begun: list[Another] = []
 
-    def begin(run: Run) -> Another:
-        assert run.time == 0
-        begun.append(Another(run))
-        return begun[-1]
+    class Engine:
+        name, honours = "another", OWN
 
-    simulation = Simulation(case, stepper=begin)
+        def begin(self, run: Run) -> Another:
+            assert run.time == 0
+            begun.append(Another(run))
+            return begun[-1]
+
+    simulation = Simulation(case, engine=Engine())
     records = pd.DataFrame(list(simulation))
     pd.testing.assert_frame_equal(records, simulate(case).history, check_exact=True)
     assert simulation.stepper is begun[0]
@@ -171,7 +175,13 @@ def test_another_stepper_takes_the_place_of_the_own_one() -> None:
 
 
 def test_what_becomes_unstable_ends_the_iteration_and_keeps_its_records() -> None:
-    simulation = Simulation(build_case(), stepper=lambda run: Another(run, spoil=True))
+    class Spoiled:
+        name, honours = "spoiled", OWN
+
+        def begin(self, run: Run) -> Another:
+            return Another(run, spoil=True)
+
+    simulation = Simulation(build_case(), engine=Spoiled())
     assert len(list(simulation)) == 2
     result = simulation.result()
     assert (result.status, result.message) == ("unstable", "at 3 s: a position or velocity is not finite")

@@ -82,8 +82,7 @@ def begin(name: str, start: Run, state: str, step: float | None) -> tuple[Run, S
 def verdict(run: Run, stepper: Stepper) -> str:
     """Whether the timed string is still a valid string in its hole."""
     try:
-        stepper.sync()
-        run.refresh()
+        stepper.refresh()
         run.check()
     except UnstableError as error:
         return f"invalid: {error}"

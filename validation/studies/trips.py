@@ -185,7 +185,8 @@ def one(name: str, of: Trip) -> tuple[dict[str, Any], pd.DataFrame]:
     strokes = pd.DataFrame(stroke_rows(case, of, simulation, result.history))
     assert run.hoist is not None
     row = {
-        "well": name, "status": str(result.status), "from_m": of.shallow, "to_m": of.deep,
+        "well": name, "begins_deg": float(np.degrees(run.hole.inclination(np.zeros(1))[0])),
+        "status": str(result.status), "from_m": of.shallow, "to_m": of.deep,
         "connections": int((result.history["in_slips"].astype(int).diff() == 1).sum()),
         "most_segments": run.hoist.tally.whole.segments, "hours_simulated": result.run["simulated_s"] / 3600,
         "seconds": result.run["wall_s"], "real_time_factor": result.run["real_time_factor"],
@@ -196,11 +197,16 @@ def one(name: str, of: Trip) -> tuple[dict[str, Any], pd.DataFrame]:
     return row, strokes.assign(well=name)
 
 
+def _largest_off(strokes: pd.DataFrame, wells: pd.DataFrame) -> float:
+    return float(strokes.loc[strokes["well"].isin(wells["well"]), "off_percent_of_weight"].abs().max())
+
+
 def run(context: Context) -> Outcome:
     """In and out of every well."""
     found = [one(name, of) for name, of in context.progress(list(trips(context).items()), "trips")]
     wells = pd.DataFrame([row for row, _ in found])
     strokes = pd.concat([rows for _, rows in found], ignore_index=True)
+    slant = wells[wells["begins_deg"] > 0]
     target = "target of this project"
     return Outcome(
         tables={"wells": wells, "strokes": strokes},
@@ -210,7 +216,12 @@ def run(context: Context) -> Outcome:
             Check("trips whose hook load flutters, by the note", float(wells["notes"].str.contains("flutter").sum()), 0,
                   "at_most", "", target),
             Check("hook load below the table against the steady string, largest difference",
-                  float(strokes["off_percent_of_weight"].abs().max()), 0.5, "at_most", "% of the weight", target),
+                  _largest_off(strokes, wells[wells["begins_deg"] == 0]), 0.5, "at_most", "% of the weight", target),
+            *(
+                [Check("hook load in a well that begins inclined, largest difference", _largest_off(strokes, slant),
+                       0.5, "at_most", "% of the weight", target)]
+                if len(slant) else []
+            ),
             Check("energy ledger, residual over work", float(wells["energy_error_percent"].max()), 0.1, "at_most",
                   "%", target),
             Check("mass or length that is missing, largest share", float(wells["missing_share"].max()), 1e-9,

@@ -47,8 +47,8 @@ class FaultyStepper:
         self._stepper.advance(motion, duration)
         self._fault(self._run)
 
-    def sync(self) -> None:
-        self._stepper.sync()
+    def refresh(self) -> None:
+        self._stepper.refresh()
 
     def energy(self) -> Energy:
         return self._stepper.energy()
@@ -58,6 +58,17 @@ class FaultyStepper:
 
     def close(self) -> None:
         self._stepper.close()
+
+
+class Faulty(Fctd):
+    """FCTD as an engine whose stepper adds a fault."""
+
+    def __init__(self, fault: Callable[[Run], None]) -> None:
+        super().__init__(Fctd.Options())
+        self._fault = fault
+
+    def begin(self, run: Run) -> Any:
+        return FaultyStepper(run, self._fault)
 
 
 def through_the_wall(run: Run) -> None:
@@ -99,7 +110,7 @@ def drifting(run: Run) -> None:
     ],
 )
 def test_a_fault_fails_the_check_for_it(fault: Callable[[Run], None], failed: str) -> None:
-    run = run_window(turning(), WINDOW, lambda start: FaultyStepper(start, fault))
+    run = run_window(turning(), WINDOW, Faulty(fault))
     assert run.status == "invalid"
     assert failed in run.message
     assert not run.checks.set_index("check").loc[failed, "passed"]
@@ -115,7 +126,7 @@ def test_an_engine_that_is_unstable_at_once_is_invalid_with_a_message() -> None:
 
 
 def test_the_same_engine_without_a_fault_is_valid() -> None:
-    run = run_window(turning(), WINDOW, lambda start: FaultyStepper(start, lambda run: None))
+    run = run_window(turning(), WINDOW, Faulty(lambda run: None))
     assert run.status == "valid", run.message
 
 

@@ -10,7 +10,7 @@ from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.energy import penetration
 from fctd.mechanics.joints import find_bends
-from fctd.simulation.bent_housings import bent_joints
+from fctd.model.bent_housings import bent_joints
 from fctd.simulation.preparation import prepare
 from fctd.simulation.run import Run
 from fctd.simulation.settling import settle

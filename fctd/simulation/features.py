@@ -1,0 +1,225 @@
+"""What a string of a case may need of the stepper that moves it, and the refusal of what a stepper leaves out.
+
+Every stepper names the features that it honours; a case that uses another one is refused.  A new key of a case is
+either among the ``keys`` of a feature, or works in the same way whatever moves the string (tests count both).
+"""
+
+from collections.abc import Callable, Collection
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from fctd.case.errors import InputError
+from fctd.case.specs import SolverSpec
+from fctd.mechanics.rock import NO_ROCK
+from fctd.simulation.run import Run
+
+# Key and value of a case that use a feature, or None where it is not used.
+Use = tuple[str, Any] | None
+# Inclination below which a hole is vertical [rad].
+VERTICAL = 1e-6
+
+
+class Feature(NamedTuple):
+    """A part of the model that a stepper may leave out.
+
+    what : it is, in the plural or with an article.  without : what the case has to have where it is left out.
+    keys : of a case from which it follows, indices left out.  used : where a run uses it.
+    """
+
+    what: str
+    without: str
+    keys: tuple[str, ...]
+    used: Callable[[Run], Use]
+
+
+def _key(key: str, without: Any) -> Callable[[Run], Use]:
+    """Used where a key of the case has another value."""
+    table, name = key.split(".")
+
+    def used(run: Run) -> Use:
+        value = getattr(getattr(run.case, table), name)
+        return None if value == without or not value else (key, value)
+
+    return used
+
+
+def _at_wall(used: Callable[[Run], Use]) -> Callable[[Run], Use]:
+    """Used where the string may touch the wall."""
+    return lambda run: used(run) if run.case.contact.enabled else None
+
+
+def _law(*names: str) -> Callable[[Run], Use]:
+    def used(run: Run) -> Use:
+        law = run.case.contact.friction_law
+        return ("contact.friction_law", law) if law in names else None
+
+    return _at_wall(used)
+
+
+def _of_component(key: str) -> Callable[[Run], Use]:
+    """Used where a component of the string has a value of a key other than 0."""
+
+    def used(run: Run) -> Use:
+        values = [getattr(component, key) for component in run.case.string.components]
+        return next(((f"string.components[{k}].{key}", value) for k, value in enumerate(values) if value), None)
+
+    return used
+
+
+def _along_hole(*keys: str) -> Callable[[Run], Use]:
+    """Used where an interval of the hole has another value of a key than the first."""
+
+    def used(run: Run) -> Use:
+        first, *others = run.case.wellbore.intervals
+        for k, interval in enumerate(others, 1):
+            for key in keys:
+                if getattr(interval, key) != getattr(first, key):
+                    return f"wellbore.intervals[{k}].{key}", getattr(interval, key)
+        return None
+
+    return _at_wall(used)
+
+
+def _cake(run: Run) -> Use:
+    pressed = [
+        (f"wellbore.intervals[{k}].overbalance", one.overbalance) for k, one in enumerate(run.case.wellbore.intervals)
+    ]
+    return next((use for use in pressed if use[1]), None) if run.laws.cake_thickness > 0 else None
+
+
+def _touches_at_middle(run: Run) -> Use:
+    middle = np.flatnonzero(run.string.mid_contact())
+    return (f"string.components[{int(run.string.component[middle[0]])}].contact", "point") if len(middle) else None
+
+
+def _bit_loads(run: Run) -> Use:
+    if run.laws.rock.law == NO_ROCK:
+        return None
+    return ("bit.rock", "a table") if run.case.bit.rock is not None else ("bit", "weight on bit and torque")
+
+
+def _stands(run: Run) -> Use:
+    return None if run.hoist is None else ("rig.feed", run.case.rig.feed)
+
+
+def _feed(run: Run) -> Use:
+    moving = [(f"operations[{k}].kind", one.kind) for k, one in enumerate(run.case.operations)]
+    fed = ("string.components", "one long segment") if run.string.long_segment else None
+    return next((use for use in moving if use[1] != "rotate_off_bottom"), fed)
+
+
+def _incline(run: Run) -> Use:
+    reach = np.linspace(run.case.string.top_md, run.string.bit_depth, 200)
+    tilt = float(run.hole.inclination(reach).max())
+    return ("wellbore", f"an inclination of up to {np.degrees(tilt):.3g} deg") if tilt > VERTICAL else None
+
+
+def _mud_moves(run: Run) -> Use:
+    return ("mud.viscosity", f"{run.case.mud.unsteady:g} Pa s") if run.case.mud.unsteady else None
+
+
+def _joint_damping(run: Run) -> Use:
+    damping = run.case.solver.joint_damping
+    usual = SolverSpec.model_fields["joint_damping"].default
+    return ("solver.joint_damping", f"{damping:g} s") if damping > usual else None
+
+
+INTERVAL = "wellbore.intervals."
+FEATURES: dict[str, Feature] = {
+    "wall": Feature(
+        "a wall", "false", ("contact.enabled",),
+        lambda run: ("contact.enabled", True) if run.case.contact.enabled else None,
+    ),
+    "no_wall": Feature(
+        "strings without a wall", "true", ("contact.enabled",),
+        lambda run: None if run.case.contact.enabled else ("contact.enabled", False),
+    ),
+    "wall_law": Feature(
+        "walls that are not linear", '"linear"',
+        ("contact.law", "contact.exponent", "contact.reference_penetration", "contact.largest_penetration"),
+        _at_wall(_key("contact.law", "linear")),
+    ),
+    "stiffness_along_hole": Feature(
+        "walls of several stiffnesses", "one stiffness of the whole hole",
+        (INTERVAL + "stiffness", INTERVAL + "stiffness_per_length"),
+        _along_hole("stiffness", "stiffness_per_length"),
+    ),
+    "paper_friction": Feature(
+        "the paper's law of friction", '"coulomb"', ("contact.friction_law",), _law("paper"),
+    ),
+    "sticking": Feature(
+        "friction that sticks", '"coulomb"',
+        ("contact.friction_law", INTERVAL + "static_friction", INTERVAL + "decay_speed"), _law("karnopp", "stribeck"),
+    ),
+    "friction_along_hole": Feature(
+        "several friction factors", "one friction factor for the whole hole", (INTERVAL + "friction",),
+        _along_hole("friction"),
+    ),
+    "cake": Feature(
+        "mud cake", "no overbalance",
+        (INTERVAL + "overbalance", "mud.cake.thickness", "mud.cake.time", "mud.cake.friction", "mud.cake.rested"),
+        _cake,
+    ),
+    "middle_contact": Feature(
+        "contact at the middle of a segment", '"sleeve"', ("string.components.contact",), _at_wall(_touches_at_middle),
+    ),
+    "bends": Feature(
+        "bent housings", "0", ("string.components.bend", "string.components.toolface"), _of_component("bend"),
+    ),
+    "unbalance": Feature(
+        "masses beside the axis", "0", ("string.components.eccentricity",), _of_component("eccentricity"),
+    ),
+    "drive": Feature(
+        "a top drive that gives way", '"stiff"',
+        ("rig.drive", "rig.control.inertia", "rig.control.proportional", "rig.control.integral",
+         "rig.control.compensation", "rig.control.torque_limit"),
+        _key("rig.drive", "stiff"),
+    ),
+    "bit_loads": Feature(
+        "the loads of a bit on bottom", "operations off bottom",
+        ("bit.weight_on_bit", "bit.torque", "bit.rock.law", "bit.rock.stiffness", "bit.rock.radius",
+         "bit.rock.specific_energy", "bit.rock.force_ratio", "bit.rock.friction", "bit.rock.bit_factor",
+         "bit.rock.wear_flat", "bit.rock.contact_strength", "bit.rock.weakening", "bit.rock.weakening_rpm",
+         "bit.motor.flow", "bit.motor.revolutions_per_liter", "rig.autodriller"),
+        _bit_loads,
+    ),
+    "stands": Feature(
+        "stands that a block adds", '"long_segment" where the long segment fits',
+        ("rig.feed", "rig.stand_length", "rig.connection_time", "rig.derrick_height"), _stands,
+    ),
+    "feed": Feature(
+        "strings that move along the hole", "rotate_off_bottom", ("operations.kind", "operations.speed"), _feed
+    ),
+    "incline": Feature(
+        "inclined holes", "a vertical hole", ("wellbore.survey", "wellbore.stations"), _incline,
+    ),
+    "mud_moves": Feature("mud that moves with the string", "0", ("mud.viscosity",), _mud_moves),
+    "mud_axial": Feature("damping by mud", "0", ("mud.axial_damping",), _key("mud.axial_damping", 0.0)),
+    "mud_lateral": Feature("damping by mud", "0", ("mud.lateral_damping",), _key("mud.lateral_damping", 0.0)),
+    "mud_spin": Feature("damping by mud", "0", ("mud.rotational_damping",), _key("mud.rotational_damping", 0.0)),
+    "joint_damping": Feature(
+        "damping of the joints", "at most the default", ("solver.joint_damping",), _joint_damping,
+    ),
+    "loss_factor": Feature("damping of torsion", "0", ("solver.loss_factor",), _key("solver.loss_factor", 0.0)),
+    "helical_force": Feature(
+        "the force of a helix, which fctd equilibrium and fctd chart have", '"none"',
+        ("contact.helical_force",), _at_wall(_key("contact.helical_force", "none")),
+    ),
+}  # fmt: skip
+
+# Features of FCTD's own stepper.
+OWN = frozenset(FEATURES) - {"helical_force"}
+# With another contact method: it finds walls, in whose cake nothing is pressed and which begin below the derrick.
+ASKED = OWN - {"no_wall", "cake", "stands"}
+
+
+def refuse(run: Run, honours: Collection[str], by: str) -> None:
+    """Raise InputError for the first feature that a run uses and that is not among those that are honoured.
+
+    by : what moves the string and would leave it out.
+    """
+    for name, feature in FEATURES.items():
+        use = None if name in honours else feature.used(run)
+        if use is not None:
+            raise InputError(f"{feature.without}, since {by} leaves out {feature.what}", key=use[0], value=use[1])

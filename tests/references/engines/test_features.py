@@ -1,0 +1,67 @@
+"""Each feature of a case has its effect in another engine, or is refused."""
+
+import pytest
+
+from fctd import Case, InputError, Simulation
+from fctd.results.tables import SimulationResult
+from fctd.simulation.features import FEATURES, refuse
+from fctd.simulation.preparation import prepare
+from references import engines
+from references.engines import ENGINES, EngineRun, Window
+from references.engines.own import Fctd
+from tests.cases import pipe, rotation
+from tests.references.engines.turning import needs
+from tests.simulation.features import CROSSED, UPRIGHT, case
+
+OTHERS = [name for name in ENGINES if name != "fctd"]
+HONOURED = [(name, feature) for name in OTHERS for feature in FEATURES if feature in engines.engine_class(name).honours]
+# MuJoCo's nested chain has no wall: what it honours is compared as it stands.
+ALONE = ("mujoco_chain", "no_wall")
+
+
+def shown(result: SimulationResult | EngineRun, column: str) -> float:
+    """The mean of a column of the history, or of the energies."""
+    table = result.history if column in result.history else result.energy
+    return float(table[column].mean())
+
+
+def run_in(name: str, case: Case) -> EngineRun:
+    return engines.build(name).run(case, Window(0.0, Simulation(case).end))
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_what_an_engine_leaves_out_is_refused(name: str) -> None:
+    """All of it: a case of the feature is refused by a key of it, or by another one that it cannot do without."""
+    needs(name)
+    honours = engines.engine_class(name).honours
+    for feature in set(FEATURES) - set(honours) - {"helical_force"}:
+        run, _ = prepare(CROSSED[feature].make(True))
+        with pytest.raises(InputError, match=f"since {name} leaves out"):
+            refuse(run, honours, name)
+        with pytest.raises(InputError, match=f"since engine {name} leaves out"):
+            Simulation(run.case, engine=engines.build(name))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "feature"), [pair for pair in HONOURED if pair != ALONE])
+def test_a_feature_has_its_effect_in_another_engine(name: str, feature: str) -> None:
+    needs(name)
+    make, column = CROSSED[feature]
+    loads = {(engine, on): shown(run_in(engine, make(on)), column) for engine in ("fctd", name) for on in (True, False)}
+    effect = loads["fctd", True] - loads["fctd", False]
+    assert abs(loads[name, False] - loads["fctd", False]) < 0.1 * abs(effect), "the case shows its feature too little"
+    assert loads[name, True] - loads[name, False] == pytest.approx(effect, rel=0.1)
+
+
+def test_a_chain_hangs_as_the_string_without_a_wall() -> None:
+    needs("mujoco_chain")
+    hanging = case(
+        UPRIGHT, components=[pipe(60, 6)], operations=[rotation(60, 3.0, ramp=1.0)], contact={"enabled": False}
+    )
+    own, chain = run_in("fctd", hanging), run_in("mujoco_chain", hanging)
+    for column in ("hookload_N", "surface_torque_N_m"):
+        assert shown(chain, column) == pytest.approx(shown(own, column), rel=0.01)
+
+
+def test_the_own_stepper_is_an_engine_too() -> None:
+    assert set(FEATURES) - Fctd.honours == {"helical_force", "stands"}
