@@ -151,8 +151,10 @@ def test_a_straight_string_above_its_onset_is_not_converged(weight_on_bit: float
     point = equilibrium(hanging_case(weight_on_bit), operation, 300.0)
     if operation == "drill_rotating":  # the buckled string rolls round the hole
         assert (point.status, point.total_contact_force) == ("unstable", pytest.approx(0.0, abs=1e-6))
-        assert point.message.startswith("the string would leave this balance, and the continuation found no further")
-        assert point.message.endswith("where the friction of rotation rolled the buckled string round the hole")
+        assert point.message.startswith(
+            "the string would leave this balance, and the continuation found a steady shape"
+        )
+        assert "%, where the friction of rotation rolled the buckled string round the hole" in point.message
         return
     assert point.status == "converged"
     fine = hanging_case(weight_on_bit)
