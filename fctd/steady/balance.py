@@ -1,7 +1,7 @@
 """Newton's method from the guess of a soft string, more carefully with every attempt."""
 
 from fctd.steady.continuation import CONVERGED, NOT_FINITE, Pace
-from fctd.steady.problem import Pose, Problem
+from fctd.steady.problem import FULL, Pose, Problem, Share
 
 # With large steps most strings converge in some eight iterations.  A string with little clearance needs a pseudo-time
 # that shrinks when the imbalance rises; one that buckles needs small steps to converge or to find a stable shape.
@@ -23,7 +23,7 @@ IN_THE_OPEN: tuple[Attempt, ...] = ((300, 0.2, 3.0, 1.0, 1e9),)
 LARGEST_TURN = 0.1  # [rad] per step
 
 
-def balance(problem: Problem, attempts: tuple[Attempt, ...]) -> tuple[int, int, int]:
+def balance(problem: Problem, attempts: tuple[Attempt, ...], share: Share = FULL) -> tuple[int, int, int]:
     """Iterate to a stable balance, more carefully with every attempt, or else to the first balance found.
 
     Returns code, iterations and number of unstable modes; leaves the pose in the problem.
@@ -31,13 +31,14 @@ def balance(problem: Problem, attempts: tuple[Attempt, ...]) -> tuple[int, int, 
     total, code, negative = 0, NOT_FINITE, 0
     unstable: tuple[int, Pose] | None = None
     for iterations, tau, growth, shrink, shift in attempts:
-        problem.lay_guess()
+        problem.lay_guess(share)
         allowed = problem.allowed
-        code, done = problem.iterate(Pace(iterations, tau, growth, shrink, shift, LARGEST_TURN, allowed, allowed))
+        pace = Pace(iterations, tau, growth, shrink, shift, LARGEST_TURN, allowed, allowed)
+        code, done = problem.iterate(pace, share)
         total += done
         if code != CONVERGED:
             continue
-        negative = problem.unstable_modes()
+        negative = problem.unstable_modes(share)
         if negative == 0:
             return code, total, 0
         if unstable is None:

@@ -5,7 +5,7 @@ loads says whether it lies still under those of the operation, whether its slack
 them a shape was found.
 """
 
-from fctd.steady.balance import LARGEST_TURN
+from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
 from fctd.steady.climb import LOW, Climb, Step, close, come_to_rest, keep, rolls
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.problem import FULL, Problem, Share
@@ -26,22 +26,27 @@ def bisect(problem: Problem) -> Climb:
     last balance.  Without any balance the path is empty.
     """
     path = Climb()
-    if _is_found(problem, path, FULL) or _is_found_patiently(problem, path):
+    if _is_found(problem, path, FULL) or _is_found_patiently(problem, path, FULL):
         path.pose = path.balances[0].pose
         return path
+    path.none_at.append(FULL)
     if _is_found(problem, path, Share(LOW, 1.0)):
         high = FULL
-    elif problem.weight_on_bit > 0 and _is_found(problem, path, Share(LOW, 0.0)):
-        high = Share(LOW, 1.0)
     else:
-        return path
+        high = Share(LOW, 1.0)
+        path.none_at.append(high)
+        if problem.weight_on_bit == 0 or not _is_found(problem, path, Share(LOW, 0.0)):
+            return path
     for _ in range(TRIALS):
         low = path.balances[-1].share
         aim = Share(0.5 * (low.friction + high.friction), 0.5 * (low.weight + high.weight))
         # Beyond loads at which the string snaps, the guess may find what a step from less load does not.
         if not (_settles(problem, path, aim) or _is_found(problem, path, aim)):
-            high, path.rolls = aim, rolls(problem, aim)
-            problem.put_pose(path.balances[-1].pose)
+            is_rolled = rolls(problem, aim)
+            if not _is_found_anew(problem, path, aim):
+                high, path.rolls = aim, is_rolled
+                path.none_at.append(aim)
+                problem.put_pose(path.balances[-1].pose)
         spent_at = _spent_at(path.steps, problem.case.rig.push)
         if path.rolls or spent_at < 1:
             break  # what keeps the string from its loads is known
@@ -60,14 +65,41 @@ def _is_found(problem: Problem, path: Climb, share: Share) -> bool:
     return _settles(problem, path, share)
 
 
-def _is_found_patiently(problem: Problem, path: Climb) -> bool:
+def find_anew(problem: Problem, path: Climb) -> None:
+    """Fill ``anew_at`` of a path that ends before its loads; pose and allowance of the problem stay.
+
+    Begun anew, a string may be found to which the path does not lead.
+    """
+    pose, allowance = problem.copy_pose(), problem.allowance.left
+    tried = (share for share in path.none_beyond() if share != FULL)
+    path.anew_at = [share for share in tried if _is_found_anew(problem, Climb(), share)]
+    problem.put_pose(pose)
+    problem.allowance.left = allowance
+
+
+def _is_found_anew(problem: Problem, path: Climb, share: Share) -> bool:
+    """Whether the first methods tried for a row of these loads find a stable balance; it is added to the path.
+
+    Newton's method is tried with friction at the string's surface, as it is for a row.
+    """
+    at_axis, problem.at_axis = problem.at_axis, 0
+    code, iterations, negative = balance(problem, ATTEMPTS, share)
+    problem.at_axis = at_axis
+    path.iterations += iterations
+    if code != CONVERGED or negative > 0:
+        return _is_found_patiently(problem, path, share)
+    keep(problem, path, share)
+    return True
+
+
+def _is_found_patiently(problem: Problem, path: Climb, share: Share) -> bool:
     """Whether small steps of Newton's method find a string that slides; one that turns would roll round the hole."""
     if problem.rates.spin != 0:
         return False
-    problem.lay_guess()
-    code, done = problem.iterate(Pace(*PATIENT, LARGEST_TURN, problem.allowed, problem.allowed))
+    problem.lay_guess(share)
+    code, done = problem.iterate(Pace(*PATIENT, LARGEST_TURN, problem.allowed, problem.allowed), share)
     path.iterations += done
-    return code == CONVERGED and _settles(problem, path, FULL)
+    return code == CONVERGED and _settles(problem, path, share)
 
 
 def _settles(problem: Problem, path: Climb, share: Share) -> bool:

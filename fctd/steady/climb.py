@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fctd.case.text import counted
 from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS
 from fctd.steady.problem import FULL, Pose, Problem, Share
 from fctd.steady.relaxation import Creep
@@ -70,7 +71,8 @@ class Balance(NamedTuple):
 class Climb:
     """A path in weight on bit at little friction, then in friction.
 
-    balances : from less to more; steps : those of the last part, in friction unless ``of_weight``.
+    balances : from less to more; steps : those of the last part, in friction unless ``of_weight``.  none_at : loads at
+    which it found no balance; anew_at : those of them at which the string has one when it is begun anew.
     pose : at full loads, None where the path ends before; sound : the last balance up to there in which the string is
     hardly pushed (``SOUND``), or has not all of its weight on bit; iterations : all.
     spent_at : share of the loads at which the hook load is −block weight; locked_at : at which no push suffices; NaN
@@ -80,6 +82,8 @@ class Climb:
     """
 
     balances: list[Balance] = field(default_factory=list)
+    none_at: list[Share] = field(default_factory=list)
+    anew_at: list[Share] = field(default_factory=list)
     steps: list[Step] = field(default_factory=list)
     of_weight: bool = False
     pose: Pose | None = None
@@ -96,6 +100,15 @@ class Climb:
     def least(self) -> float:
         """The share of the loads at which its last part begins."""
         return 0.0 if self.of_weight else LOW
+
+    def none_beyond(self) -> list[Share]:
+        """Loads of its last part, from less to more, that are beyond its last balance and at which it found none."""
+        if not self.balances:
+            return []
+        friction, weight = self.balances[-1].share
+        if self.of_weight:
+            return sorted(share for share in set(self.none_at) if share.friction == LOW and share.weight > weight)
+        return sorted(share for share in set(self.none_at) if share.weight == 1 and share.friction > friction)
 
 
 def creep_of(problem: Problem, iterations: int, tightly: float = 1.0) -> Creep:
@@ -206,6 +219,8 @@ def _rise(problem: Problem, path: Climb, end: float, prepare: Callable[[Share], 
         if code != CONVERGED:
             step = 0.5 * (aim.weight - share.weight if share.weight < 1 else aim.friction - share.friction)
             path.is_cut = problem.is_spent
+            if not path.is_cut:
+                path.none_at.append(aim)
             if share.weight == 1 and not path.is_cut:
                 path.fails_at = aim.friction
             path.rolls = step < ROLLING_STEP and not path.is_cut and rolls(problem, aim)
@@ -306,20 +321,46 @@ def close(problem: Problem, path: Climb) -> None:
 
 
 def end_of(problem: Problem, path: Climb) -> str:
-    """What ends a path, in words; empty where nothing does."""
+    """What ends a path, in words: what was tried, and what was found; empty where nothing ends it."""
     if not path.balances and not path.is_cut:
-        return "the continuation found no steady shape to begin with"
-    beyond = "the work of a row ends at" if path.is_cut else "the continuation found no further steady shape beyond"
+        tried = f" at {_percent(LOW)} of the friction" if problem.has_friction else ""
+        return f"the continuation found no steady shape{tried}{' without weight on bit' * (problem.weight_on_bit > 0)}"
+    loads = "weight on bit" if path.of_weight else "friction"
     ends = (
         (f"slack-off is spent {'at' if path.spent_at > path.least else 'below'}", path.spent_at),
         ("the string is locked up at", path.locked_at),
-        (beyond, path.ends_at),
+        ("the work of a row ends at" if path.is_cut else "the continuation found a steady shape at", path.ends_at),
     )
-    parts = ", ".join(f"{what} {100 * share:.3g} %" for what, share in ends if np.isfinite(share))
+    parts = ", ".join(f"{what} {_percent(share)}" for what, share in ends if np.isfinite(share))
     if not parts:
         return ""
-    text = f"{parts} of the {'weight on bit' if path.of_weight else 'friction'}"
-    if not path.rolls or np.isnan(path.ends_at):
+    text = f"{parts} of the {loads}"
+    if np.isnan(path.ends_at) or path.is_cut:
         return text
-    cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit"
-    return f"{text}, where {cause} rolled the buckled string round the hole"
+    if path.of_weight:
+        text += f" with {_percent(LOW)} of the friction"
+    return f"{text}{_none_beyond(problem, path)}"
+
+
+def _none_beyond(problem: Problem, path: Climb) -> str:
+    """At which shares beyond the last balance of a path it found no shape, in words."""
+
+    def percents(of: list[Share]) -> list[str]:
+        return list(dict.fromkeys(_percent(share.weight if path.of_weight else share.friction) for share in of))
+
+    none = percents(path.none_beyond())
+    if not none:
+        return ""
+    text = f" and none at {none[0]}"
+    if path.rolls:
+        cause = "the friction of rotation" if problem.rates.spin else "the torque at the bit"
+        text += f", where {cause} rolled the buckled string round the hole"
+    if len(none) > 1:
+        text += ", nor at " if path.rolls else " or "
+        text += none[1] if len(none) == 2 else f"{counted(len(none) - 1, 'more share')} up to {none[-1]}"
+    anew = percents(path.anew_at)
+    return f"{text}; begun anew the string has one at {' and '.join(anew)}" if anew else text
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.3g} %"

@@ -21,7 +21,7 @@ from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, LARGEST_TURN, PATIENT, balance
 from fctd.steady.batch import Hole, Row, hole_of, solve_batch
-from fctd.steady.bisection import bisect
+from fctd.steady.bisection import bisect, find_anew
 from fctd.steady.climb import BEYOND, SOUND, Climb, climb, end_of, lock_up
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.helical_force import add_helical_force
@@ -211,6 +211,8 @@ class Solver:
             point = replace(point.without_loads(), status=status, message=status.message)
         if point.status not in (SteadyStatus.LOCKED_UP, SteadyStatus.UNSTABLE, SteadyStatus.MAX_ITERATIONS):
             return point
+        if path.pose is None:
+            find_anew(problem, path)
         return replace(point, message=end_of(problem, path) or point.message)
 
     def problem(self, operation: str, rates: SteadyRates, laid: LaidString, cut: Case | None = None) -> Problem:

@@ -122,12 +122,25 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
 
 @entry
 def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
-    """Fill D, A, U with the tangent of springs, weight and wall alone: symmetric, positive definite when stable."""
+    """Fill D, A, U with the tangent of springs, weight and wall alone: symmetric, positive definite when stable.
+
+    A bent housing keeps its toolface: the spin of its body does not turn the bend.  So the moment about the body's axis
+    is more than the derivative of the energy by the spin: it contains what holds the toolface against the bending
+    moment.  That does no work, and in the row of the spin the derivative of the torque alone takes its place.
+    """
     bare = Steady(
         laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque,
         laws.at_axis, laws.wall_exponent, laws.wall_reference,
     )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
+    for j in range(2, n + 1):
+        if kinks[j, 1] == 0 and kinks[j, 2] == 0:
+            continue
+        for k in range(AXIAL_MOMENT):
+            D[j - 1, AXIAL_MOMENT, k] = D[j - 1, k, AXIAL_MOMENT]
+        D[j - 1, AXIAL_MOMENT, AXIAL_MOMENT] += U[j, AXIAL_MOMENT, AXIAL_MOMENT] - A[j, AXIAL_MOMENT, AXIAL_MOMENT]
+        for k in range(SIZE):
+            U[j, AXIAL_MOMENT, k] = A[j, k, AXIAL_MOMENT]
 
 
 @kernel

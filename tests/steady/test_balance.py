@@ -21,7 +21,7 @@ def test_a_balance_is_that_of_the_pose_that_is_left(monkeypatch: pytest.MonkeyPa
     """Where every attempt ends unstable, the first of them is put back."""
     problem = problem_of(level_case(0.5, length=60.0, segment=3.0, friction=0.2))
     first = balance(problem, ATTEMPTS)[1]
-    monkeypatch.setattr(problem, "unstable_modes", lambda: 2)
+    monkeypatch.setattr(problem, "unstable_modes", lambda share: 2)
     code, iterations, negative = balance(problem, ATTEMPTS)
     assert (code, negative) == (CONVERGED, 2)
     assert iterations > first

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fctd.steady.balance import ATTEMPTS, balance
-from fctd.steady.bisection import ITERATIONS, TRIALS, bisect
-from fctd.steady.climb import LOW, come_to_rest
+from fctd.steady.bisection import ITERATIONS, TRIALS, bisect, find_anew
+from fctd.steady.climb import LOW, climb, come_to_rest, end_of
 from fctd.steady.problem import FULL, Problem, Share
 from tests.steady.buckled import level_case, problem_of
 
@@ -47,11 +47,46 @@ def test_the_end_of_the_balances_is_found_to_an_eighth(monkeypatch: pytest.Monke
     assert 0.7 - path.ends_at < (1 - LOW) / 2**TRIALS
 
 
+def test_the_words_are_what_was_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The last share at which a shape was found, and each beyond it at which none was."""
+    problem = problem_of(level_case(0.5, length=60.0, segment=3.0, friction=0.2))
+    has_block(monkeypatch, problem, 1e6)
+    fails_beyond(monkeypatch, problem, 0.7)
+    path = bisect(problem)
+    assert [share.friction for share in path.none_beyond()] == pytest.approx([0.775, 1.0])
+    said = "the continuation found a steady shape at 66.3 % of the friction and none at 77.5 % or 100 %"
+    assert end_of(problem, path) == said
+    fails_beyond(monkeypatch, problem, 0.0)
+    path = bisect(problem)
+    assert (
+        end_of(problem, path) == "the continuation found no steady shape at 10 % of the friction without weight on bit"
+    )
+
+
+def test_a_share_is_tried_as_a_row_of_its_own_would_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no relaxation comes to rest, Newton's method still finds the straight string."""
+    problem = problem_of(level_case(0.5, length=60.0, segment=3.0, friction=0.2))
+    has_block(monkeypatch, problem, 1e6)
+    relax = problem.relax
+    monkeypatch.setattr(problem, "relax", lambda creep, at=FULL: (1, 1) if at.friction > 0.3 else relax(creep, at))
+    path = bisect(problem)
+    assert [balance.share.friction for balance in path.balances] == pytest.approx([LOW, 0.55, 0.775, 0.8875])
+    assert end_of(problem, path).endswith("shape at 88.8 % of the friction and none at 100 %")
+    path = climb(problem)
+    assert path.balances[-1].share.friction <= 0.3
+    pose = problem.copy_pose()
+    find_anew(problem, path)
+    np.testing.assert_array_equal(problem.copy_pose().P, pose.P)
+    assert path.anew_at == path.none_beyond() != []
+    words = " and ".join(f"{100 * share.friction:.3g} %" for share in path.anew_at)
+    assert end_of(problem, path).endswith(f"; begun anew the string has one at {words}")
+
+
 def test_a_string_without_a_balance_at_full_weight_on_bit_is_tried_with_less(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = problem_of(level_case(0.5, length=60.0, segment=3.0, friction=0.2))
     relax = problem.relax
     monkeypatch.setattr(problem, "relax", lambda creep, at=FULL: (1, 1) if at.weight > 0.3 else relax(creep, at))
-    monkeypatch.setattr(problem, "iterate", lambda pace: (1, 1))
+    monkeypatch.setattr(problem, "iterate", lambda pace, at=FULL: (1, 1))
     has_block(monkeypatch, problem, 1e6)
     path = bisect(problem)
     assert [balance.share for balance in path.balances] == [Share(LOW, 0.0), Share(LOW, 0.25)]

@@ -1,5 +1,6 @@
 """Strings that Newton's method does not find directly: each ends with loads, or with what keeps it from them."""
 
+import re
 from random import Random
 
 import pytest
@@ -45,3 +46,26 @@ def test_a_torque_at_the_bit_does_not_roll_a_buckled_string_round_vertical_hole(
     assert turned.status in ("converged", "under_resolved")
     assert still.status == turned.status
     assert turned.hookload == pytest.approx(still.hookload, rel=1e-3)
+
+
+def test_a_reason_says_at_which_shares_a_shape_was_found(tmp_path):
+    """No further shape was said to be found beyond 66.9 % of the friction of this row; at 72 to 94 % it converges."""
+    solver = solver_of(910092, tmp_path)
+    rates = steady_rates(solver.case, "drill_rotating")
+    point = solver.solve("drill_rotating", rates, 618.92)
+    said, _, anew = point.message.partition("; begun anew the string has one at ")
+    words = re.search(
+        r"the continuation found a steady shape at (\S+) % of the friction and none at (\S+) %(.*)$", said
+    )
+    assert words is not None, point.message
+    found, least = float(words[1]), float(words[2])
+    assert 66.9 < found < least < 100
+    assert words[3].endswith("100 %")
+    shares = [found, *(float(share) for share in re.findall(r"(\S+) %", anew))]
+    assert all(share >= least for share in shares[1:])
+    bore = solver.case.wellbore
+    for share in shares:
+        less = [part.model_copy(update={"friction": 0.01 * share * part.friction}) for part in bore.intervals]
+        hole = bore.model_copy(update={"intervals": tuple(less)})
+        alike = Solver(solver.case.model_copy(update={"wellbore": hole})).solve("drill_rotating", rates, 618.92)
+        assert alike.status == "converged", (share, alike.message)
