@@ -73,17 +73,17 @@ def swing_of(time: Array, history: pd.DataFrame, stem: str, unit: str, span: Spa
     )
 
 
-def _turning_from(history: pd.DataFrame, span: Span) -> float:
-    """When the steady part begins in which the string turns [s].
+def _turning_from(time: Array, history: pd.DataFrame, span: Span) -> float:
+    """When the steady part begins in which the string turns [s]; time : as of ``swing_of``.
 
     After the ramp the bit rests until the string is wound up, and a drive that is not stiff may be behind its plan.
-    Till then the torque rises.  The string turns from the end of the first record in which top and bit turn as planned;
-    without such a record the steady part is the whole one.
+    Till then the torque rises.  The string turns from the first record on in which top and bit turn as planned; without
+    such a record the steady part is the whole one.
     """
-    ends, slower = history["time_s"], history[["top_rpm", "bit_rpm"]].min(axis=1)
-    inside = (ends > span.steady_from + 1e-6) & (ends < span.steady_to - 1e-6)
-    turning = ends[inside & (slower >= AS_PLANNED * span.rpm)]
-    return float(turning.iloc[0]) if span.rpm > 0 and len(turning) else span.steady_from
+    slower = history[["top_rpm", "bit_rpm"]].min(axis=1).to_numpy(float)
+    inside = (time[1:] > span.steady_from + 1e-6) & (time[:-1] < span.steady_to - 1e-6)
+    turning = time[:-1][inside & (slower >= AS_PLANNED * span.rpm)]
+    return max(float(turning[0]), span.steady_from) if span.rpm > 0 and len(turning) else span.steady_from
 
 
 def operations_table(history: pd.DataFrame, start: float, depth: float, spans: Sequence[Span]) -> pd.DataFrame:
@@ -106,7 +106,7 @@ def operations_table(history: pd.DataFrame, start: float, depth: float, spans: S
         if steady[1] <= steady[0] + 1e-6:
             steady = low, high
         part = span._replace(start=low, end=high, steady_from=steady[0], steady_to=steady[1])
-        part = part._replace(steady_from=_turning_from(history, part))
+        part = part._replace(steady_from=_turning_from(time, history, part))
         reached = np.interp([low, high], time, np.append(depth, history["bit_depth_m"]))
         pull = swing_of(time, history, "hookload", "N", part, span.axial_period)
         twist = swing_of(time, history, "surface_torque", "N_m", part, span.torsional_period)

@@ -62,7 +62,7 @@ def test_a_peak_of_the_ramp_counts_and_its_swing_does_not() -> None:
 def test_the_steady_part_begins_when_the_string_turns_as_planned(top: float, bit: float) -> None:
     """Wound up from 0 to MEAN until 20 s, with a bit that rests or a drive that has not caught up."""
     table = history(50.0)
-    early = table["time_s"] < 20.0
+    early = table["time_s"] < 20.05
     table["surface_torque_N_m"] *= np.where(early, table["time_s"] / 20.0, 1.0)
     table["top_rpm"], table["bit_rpm"] = np.where(early, top, 60.0), np.where(early, bit, 60.0)
     table["bit_still_s"] = np.where(early & (bit == 0), 0.1, 0.0)
