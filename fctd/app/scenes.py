@@ -77,7 +77,7 @@ def _words(look: Look, strings: Strings) -> str:
     (one,) = strings.snapshots
     text = unescape(caption_of(look, one))
     force = one.columns["side_force"]
-    if len(force) and np.isfinite(force).any():
+    if one.touching.any():
         k = int(np.nanargmax(force))
         place = place_in_words(one.columns["md_m"][k], one.bit_depth, look.depth.factor, look.depth.label)
         text += f"; largest side force at {place}"

@@ -257,11 +257,15 @@ def take_tare(S, top, motion, pipe, dt):
 
 @inlined
 def turn_top(S, top, pipe, drive, planned, dt):
-    """Rotation of the top after this step [rad/s] by a drive that is not stiff; adds the work of its inertia."""
-    load, drag = top_torque(S), 0.5 * pipe.mud_spin * top[TOP_LENGTH]
-    rate, behind, torque = turn(drive, planned, top[TOP_RATE], top[TOP_BEHIND], load, drag, dt)
+    """Rotation of the top after this step [rad/s] by a drive that is not stiff; adds the work on its inertia.
+
+    That is what the inertia gains, by the mean of the rotations before and after the step.  By the one after it a jolt
+    would cost ½ J ΔΩ² more, and a drive that hides J from the string follows every jolt.
+    """
+    load, drag, before = top_torque(S), 0.5 * pipe.mud_spin * top[TOP_LENGTH], top[TOP_RATE]
+    rate, behind, torque = turn(drive, planned, before, top[TOP_BEHIND], load, drag, dt)
     top[TOP_RATE], top[TOP_BEHIND] = rate, behind
-    top[TOP_WORK] += dt * rate * (torque - load - drag * rate)
+    top[TOP_WORK] += 0.5 * dt * (before + rate) * (torque - load - drag * rate)
     return rate
 
 

@@ -338,6 +338,21 @@ def torque_swings(last: float, mean: float, before: float, period: float, hooklo
     return note_of("torque", text, off / bound)
 
 
+def turns_slowly(rpm: float, planned: float) -> Note | None:
+    """A note where the top turns more slowly than planned at the end of a run.
+
+    rpm : mean over the last torsional period; planned [rev/min].
+    """
+    bound = UNSTEADY * planned
+    if not planned - rpm > bound:
+        return None
+    text = (
+        f"the top turns at {rpm:.3g} of {planned:g} rev/min in the last torsional period: the drive has not caught up "
+        "with its plan, or stands at its torque limit"
+    )
+    return note_of("torque", text, (planned - rpm) / bound)
+
+
 def hookload_swings(swing: float, mean: float, before: float, period: float, weight: float) -> Note | None:
     """A note where the hook load is not steady at the end of a run.
 

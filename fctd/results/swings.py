@@ -19,12 +19,15 @@ Array = NDArray[np.float64]
 
 # Fewer whole periods than these are said where the table is printed.
 ENOUGH_PERIODS = 2
+# Top and bit turn as planned where a record has this share of the planned rotation, which they swing about.
+AS_PLANNED = 0.95
 
 
 class Span(NamedTuple):
     """An operation in time: when it begins, is steady (between its ramps) and ends [s].
 
-    axial_period, torsional_period : of the string at its end [s].
+    axial_period, torsional_period : of the string at its end [s].  rpm : planned rotation of the top [rev/min], 0 where
+    the string does not turn.
     """
 
     operation: str
@@ -34,6 +37,7 @@ class Span(NamedTuple):
     end: float
     axial_period: float
     torsional_period: float
+    rpm: float = 0.0
 
 
 class Swing(NamedTuple):
@@ -69,12 +73,26 @@ def swing_of(time: Array, history: pd.DataFrame, stem: str, unit: str, span: Spa
     )
 
 
+def _turning_from(time: Array, history: pd.DataFrame, span: Span) -> float:
+    """When the steady part begins in which the string turns [s]; time : as of ``swing_of``.
+
+    After the ramp the bit rests until the string is wound up, and a drive that is not stiff may be behind its plan.
+    Till then the torque rises.  The string turns from the first record on in which top and bit turn as planned; without
+    such a record the steady part is the whole one.
+    """
+    slower = history[["top_rpm", "bit_rpm"]].min(axis=1).to_numpy(float)
+    inside = (time[1:] > span.steady_from + 1e-6) & (time[:-1] < span.steady_to - 1e-6)
+    turning = time[:-1][inside & (slower >= AS_PLANNED * span.rpm)]
+    return max(float(turning[0]), span.steady_from) if span.rpm > 0 and len(turning) else span.steady_from
+
+
 def operations_table(history: pd.DataFrame, start: float, depth: float, spans: Sequence[Span]) -> pd.DataFrame:
     """A row for each operation of a run: when and where it was, hook load and surface torque, and the bit's rest.
 
     history : of the run, recorded from ``start`` [s] on, with the bit at ``depth`` [m] then.  Operations that the
     records do not reach are left out; one that was cut short is judged by what there is of it.  ``bit_still_share`` is
-    the share of the steady time during which the bit did not turn, for an operation that turns the string.
+    the share of the steady time during which the bit did not turn, for an operation that turns the string; it begins
+    when the string is wound up.
     """
     import pandas as pd
 
@@ -88,12 +106,14 @@ def operations_table(history: pd.DataFrame, start: float, depth: float, spans: S
         if steady[1] <= steady[0] + 1e-6:
             steady = low, high
         part = span._replace(start=low, end=high, steady_from=steady[0], steady_to=steady[1])
+        part = part._replace(steady_from=_turning_from(time, history, part))
         reached = np.interp([low, high], time, np.append(depth, history["bit_depth_m"]))
         pull = swing_of(time, history, "hookload", "N", part, span.axial_period)
         twist = swing_of(time, history, "surface_torque", "N_m", part, span.torsional_period)
         still = np.append(0.0, np.cumsum(history["bit_still_s"]))
         turned = np.append(0.0, np.cumsum(history["top_rpm"] * np.diff(time)))
-        rest, turns = (np.diff(np.interp(steady, time, total))[0] for total in (still, turned))
+        ends = [part.steady_from, part.steady_to]
+        rest, turns = (np.diff(np.interp(ends, time, total))[0] for total in (still, turned))
         rows.append(
             {
                 "operation": span.operation,
@@ -103,7 +123,7 @@ def operations_table(history: pd.DataFrame, start: float, depth: float, spans: S
                 "to_bit_depth_m": reached[1],
                 **_cells("hookload", "N", pull),
                 **_cells("surface_torque", "N_m", twist),
-                "bit_still_share": rest / (steady[1] - steady[0]) if turns > 0 else np.nan,
+                "bit_still_share": rest / (part.steady_to - part.steady_from) if turns > 0 else np.nan,
             }
         )
     return pd.DataFrame(rows)

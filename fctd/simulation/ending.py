@@ -64,20 +64,23 @@ def spans_of(run: Run, phases: list[Phase]) -> list[Span]:
         if string.long_segment:
             string = string.lengthened(operation.end_md - string.bit_depth)
         periods = axial_period_of(string), period_of(string)
-        spans.append(Span(operation.kind, start, steady_from, steady_to, end, *periods))
+        spans.append(Span(operation.kind, start, steady_from, steady_to, end, *periods, operation.rpm))
     return spans
 
 
 def torque_note(run: Run, span: Span, history: "pd.DataFrame") -> Note | None:
     """The note on the surface torque at the end of a run whose string turns there.  span : of its last operation."""
-    if not run.case.operations[-1].rpm:
+    if not span.rpm:
         return None
     period, time_s = span.torsional_period, np.append(0.0, history["time_s"])
     torque = history["surface_torque_N_m"].to_numpy(float)
     impulse = np.append(0.0, np.cumsum(torque * np.diff(time_s)))
     before, middle, end = np.interp(time_s[-1] - period * np.array([2.0, 1.0, 0.0]), time_s, impulse)
     means = (end - middle) / period, (middle - before) / period
-    return notes.torque_swings(float(torque[-1]), *means, period, float(history["hookload_N"].iloc[-1]))
+    swings = notes.torque_swings(float(torque[-1]), *means, period, float(history["hookload_N"].iloc[-1]))
+    turned = np.append(0.0, np.cumsum(history["top_rpm"].to_numpy(float) * np.diff(time_s)))
+    turns = float(np.diff(np.interp(time_s[-1] - period * np.array([1.0, 0.0]), time_s, turned))[0])
+    return swings or notes.turns_slowly(turns / period, span.rpm)
 
 
 def hookload_note(run: Run, span: Span, history: "pd.DataFrame", start_time: float) -> Note | None:

@@ -5,9 +5,9 @@ import numpy as np
 from fctd.app import scenes
 from fctd.view.quantities import QUANTITIES
 from fctd.view.scene import PANELS, SCENE, Look, panel_data, scene_data
-from fctd.view.strings import Strings
+from fctd.view.strings import Strings, of_chart
 from tests.app.test_well import of, unpacked
-from tests.view.made import strings
+from tests.view.made import case, strings
 
 
 def test_data_are_those_of_a_view() -> None:
@@ -27,3 +27,10 @@ def test_data_are_those_of_a_view() -> None:
     assert "&" not in words
     line = of(scene, "data", SCENE.index("string"), "line")
     assert len(unpacked(line["color"])) == len(one.snapshots[0].offset)
+
+
+def test_a_string_that_touches_nowhere_has_no_place_of_the_largest_side_force() -> None:
+    one, quantity = of_chart(case(), ["trip_out"], [80.0]), QUANTITIES["tension"]
+    _, _, words = scenes.changes_of(one, quantity, "si", 1.0, hole=True)
+    assert "0 of" in words
+    assert "largest" not in words

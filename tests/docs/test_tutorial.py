@@ -26,7 +26,15 @@ def test_the_numbers_are_those_of_the_engine(case: fctd.Case) -> None:
     assert f"takes {turning - low:.0f} kN of it" in TEXT
     assert f"adds {high - turning:.0f} kN" in TEXT
     fan = fctd.torque_drag(case, "trip_out", [3000], friction=FAN)["hookload_N"] / 1e3
-    assert f"lie {fan.max() - fan.min():.0f} kN apart" in TEXT
+    assert f"span {fan.max() - fan.min():.0f} kN" in TEXT
+
+
+def test_the_curves_are_one_as_deep_as_the_text_says(case: fctd.Case) -> None:
+    depths = range(200, 1001, 100)
+    rows = fctd.torque_drag(case, ["trip_in", "rotate_off_bottom", "trip_out"], depths).groupby("bit_depth_m")
+    apart = rows["hookload_N"].max() - rows["hookload_N"].min()
+    deepest = max(depth for depth in depths if (apart.loc[:depth] < 100.0).all())
+    assert f"Up to {deepest} m, in the vertical part, the three curves are one" in TEXT
 
 
 def test_the_string_lies_where_the_text_says(case: fctd.Case) -> None:

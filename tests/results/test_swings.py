@@ -58,6 +58,27 @@ def test_a_peak_of_the_ramp_counts_and_its_swing_does_not() -> None:
     assert (row["hookload_peak_N"], row["hookload_swing_N"]) == (50e3, 1500.0)
 
 
+@pytest.mark.parametrize(("top", "bit"), [(60.0, 0.0), (20.0, 20.0)])
+def test_the_steady_part_begins_when_the_string_turns_as_planned(top: float, bit: float) -> None:
+    """Wound up from 0 to MEAN until 20 s, with a bit that rests or a drive that has not caught up."""
+    table = history(50.0)
+    early = table["time_s"] < 20.05
+    table["surface_torque_N_m"] *= np.where(early, table["time_s"] / 20.0, 1.0)
+    table["top_rpm"], table["bit_rpm"] = np.where(early, top, 60.0), np.where(early, bit, 60.0)
+    table["bit_still_s"] = np.where(early & (bit == 0), 0.1, 0.0)
+    (row,) = operations_table(table, 0.0, 1000.0, [span(5.0, 50.0, rpm=60.0)]).to_dict("records")
+    assert row["surface_torque_mean_N_m"] == pytest.approx(MEAN, rel=2e-3)
+    assert row["surface_torque_periods"] == int((50.0 - 20.0) / PERIOD)
+    assert row["bit_still_share"] == 0.0
+
+
+def test_a_string_that_never_turns_as_planned_is_judged_by_all_of_its_steady_part() -> None:
+    table = history(50.0, bit_rpm=0.0, bit_still_s=0.1)
+    (row,) = operations_table(table, 0.0, 1000.0, [span(5.0, 50.0, rpm=60.0)]).to_dict("records")
+    assert row["surface_torque_periods"] == int((50.0 - 5.0) / PERIOD)
+    assert row["bit_still_share"] == pytest.approx(1.0)
+
+
 def test_operations_follow_each_other_and_end_with_the_records() -> None:
     """Of the second the records have 5 s, none of them steady, and of the third nothing."""
     table = history(25.0, bit_depth_m=np.linspace(1000.1, 1025.0, 250))

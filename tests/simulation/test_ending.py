@@ -2,7 +2,9 @@
 
 import numpy as np
 import pandas as pd
+import pytest
 
+from fctd import simulate
 from fctd.model.torsion import period_of
 from fctd.results.notes import Note
 from fctd.simulation.ending import spans_of, torque_note
@@ -21,7 +23,7 @@ def test_the_torque_at_the_end_is_judged_by_means_over_torsional_periods() -> No
         ends = interval * np.arange(1, int(5.25 * period / interval) + 1)
         swings = np.diff(np.append(1.0, np.cos(2 * np.pi * ends / period))) * -period / (2 * np.pi * interval)
         table = {"time_s": ends, "surface_torque_N_m": 12e3 * (1 + 0.1 * swings), "hookload_N": 5e5}
-        return torque_note(run, span, pd.DataFrame(table))
+        return torque_note(run, span, pd.DataFrame(table | {"top_rpm": 60.0}))
 
     assert note(period) is None
     found = note(period / 10)
@@ -30,9 +32,24 @@ def test_the_torque_at_the_end_is_judged_by_means_over_torsional_periods() -> No
     assert f"torsional period of {period:.3g} s 12 kN·m, and over the one before 12 kN·m" in found.text
 
 
+@pytest.mark.parametrize(("torque_limit", "told"), [(None, False), ("60 N*m", True)])
+def test_a_top_that_turns_more_slowly_than_planned_has_a_note(torque_limit: str | None, told: bool) -> None:
+    """Mud alone holds the string, with 94 N m at 60 rev/min; 60 N m turn it at 38."""
+    turning = {"kind": "rotate_off_bottom", "at_md": 500, "duration": 150, "rpm": 60, "ramp_time": 1}
+    control = {"inertia": 100.0} | ({"torque_limit": torque_limit} if torque_limit else {})
+    rig = {"drive": "speed_control", "control": control}
+    mud = {"density": 1200.0, "rotational_damping": 0.03}
+    result = simulate(make_case([[0.0, 0, 0], [600, 0, 0]], [pipe(None, 10)], operations=[turning], rig=rig, mud=mud))
+    notes = [note for note in result.notes if note.code == "torque"]
+    assert bool(notes) == told
+    if told:
+        assert "the top turns at 38.2 of 60 rev/min" in notes[0].text
+
+
 def test_spans_are_those_of_the_schedule() -> None:
     """A ramp of 1 s at the beginning of 60 s of rotation: steady from there to the end."""
     turning = {"kind": "rotate_off_bottom", "at_md": 500, "duration": 60, "rpm": 60, "ramp_time": 1}
     run, phases = prepare(make_case([[0.0, 0, 0], [600, 0, 0]], [pipe(None, 10)], operations=[turning]))
     (span,) = spans_of(run, phases)
     assert (span.start, span.steady_from, span.steady_to, span.end) == (0.0, 1.0, 60.0, 60.0)
+    assert span.rpm == 60.0
