@@ -7,6 +7,7 @@
 # make lint        check style, types and allowed imports
 # make bullet      build pybullet from source, which has no wheel for Python 3.12 and later: needs a C++ compiler and
 #                  about six minutes of one core
+# make next-numba  try the newest numba in an environment of its own, .venv-next: the compiled code and its cache
 # make clean       remove results, report and caches; the environment in .venv stays
 #
 # Needs Python 3.11 to 3.14 (tested on 3.11) and make; `make -C CHECKOUT ...` works from any folder.
@@ -18,7 +19,7 @@ FLAGS := $(if $(filter-out 0,$(QUICK)),--quick)
 # The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
-.PHONY: reproduce test bench docs lint bullet clean
+.PHONY: reproduce test bench docs lint bullet next-numba clean
 
 reproduce: $(STAMP)
 	@status=0; $(BIN)/python -m validation --reproduce $(FLAGS) || status=$$?; \
@@ -59,6 +60,12 @@ bullet: $(STAMP)
 	$(BIN)/python -m pip install --disable-pip-version-check --no-deps --no-build-isolation --use-pep517 \
 	--no-binary=pybullet "$$(sed -n 's/^\(pybullet==[^ ;]*\).*/\1/p' requirements.lock)"
 
+next-numba: $(STAMP)
+	rm -rf .venv-next && cp -a .venv .venv-next
+	.venv-next/bin/python -m pip install --quiet --disable-pip-version-check --upgrade --pre numba
+	.venv-next/bin/python -c 'import numba; print("numba", numba.__version__)'
+	.venv-next/bin/python -m pytest -q -m 'slow or not slow' tests/mechanics tests/steady tests/test_package.py
+
 clean:
-	rm -rf validation/results reports/out docs/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
+	rm -rf .venv-next validation/results reports/out docs/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +

@@ -15,12 +15,13 @@ Units are SI; x is north, y east, z down.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from fctd.cli.interrupts import ends_program
-
-with ends_program():
+if TYPE_CHECKING:
+    from fctd.calibration.calibrate import calibrate, predict
+    from fctd.calibration.result import Calibration
     from fctd.case.errors import InputError
     from fctd.case.load import Case, load_case
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
+    from fctd.monitoring.monitor import Monitored, monitor
     from fctd.results.tables import SimulationResult, open_result
     from fctd.simulation.simulate import Simulation, simulate
     from fctd.steady.equilibrium import equilibrium
@@ -28,11 +29,30 @@ with ends_program():
     from fctd.steady.steady_string import Equilibrium
     from fctd.steady.torque_drag import torque_drag
 
-if TYPE_CHECKING:
-    from fctd.calibration.calibrate import calibrate, predict
-    from fctd.calibration.result import Calibration
-    from fctd.monitoring.monitor import Monitored, monitor
-
+# Where each public name stands; it is imported at its first use.
+_HOMES = {
+    "Calibration": "fctd.calibration.result",
+    "Case": "fctd.case.load",
+    "Contacts": "fctd.model.wellbore",
+    "Equilibrium": "fctd.steady.steady_string",
+    "InputError": "fctd.case.errors",
+    "Monitored": "fctd.monitoring.monitor",
+    "Refinement": "fctd.steady.refine",
+    "Simulation": "fctd.simulation.simulate",
+    "SimulationResult": "fctd.results.tables",
+    "Wellbore": "fctd.model.wellbore",
+    "build_wellbore": "fctd.model.wellbore",
+    "calibrate": "fctd.calibration.calibrate",
+    "equilibrium": "fctd.steady.equilibrium",
+    "find_contacts": "fctd.model.wellbore",
+    "load_case": "fctd.case.load",
+    "monitor": "fctd.monitoring.monitor",
+    "open_result": "fctd.results.tables",
+    "predict": "fctd.calibration.calibrate",
+    "refine": "fctd.steady.refine",
+    "simulate": "fctd.simulation.simulate",
+    "torque_drag": "fctd.steady.torque_drag",
+}
 __all__ = [
     "Calibration",
     "Case",
@@ -57,20 +77,13 @@ __all__ = [
     "torque_drag",
 ]
 
-# Names that are imported at their first use: the commands of charts and runs start sooner without them.
-_LATER = {
-    "Calibration": "fctd.calibration.result",
-    "Monitored": "fctd.monitoring.monitor",
-    "calibrate": "fctd.calibration.calibrate",
-    "monitor": "fctd.monitoring.monitor",
-    "predict": "fctd.calibration.calibrate",
-}
-
 
 def __getattr__(name: str) -> Any:
-    if name not in _LATER:
+    if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_LATER[name]), name)
+    found = getattr(import_module(_HOMES[name]), name)
+    globals()[name] = found
+    return found
 
 
 def __dir__() -> list[str]:

@@ -118,7 +118,7 @@ def shares(speed, turning):
     return PER_SPEED * speed, PER_SPEED * turning, 0.0
 
 
-LAW = Law("viscous", impulse, steady_load, shares)
+LAW = Law(impulse, steady_load, shares)
 '''
 RUN = """
 import fctd
@@ -142,9 +142,9 @@ def test_a_friction_law_is_one_file_and_one_line(copy: Path) -> None:
     laws = copy / "fctd" / "mechanics" / "laws"
     (laws / "viscous.py").write_text(VISCOUS)
     add_line(
-        laws / "__init__.py",
-        "from fctd.mechanics.laws.paper import LAW as PAPER  # noqa: F401",
-        "from fctd.mechanics.laws.viscous import LAW as VISCOUS",
+        laws.parent / "law_names.py",
+        '    "paper": "paper.LAW",',
+        '    "viscous": "viscous.LAW",',
     )
     (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 70") + ROTATE)
     assert STORE.folder is not None

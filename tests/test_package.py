@@ -94,7 +94,22 @@ def test_the_engine_needs_none_of_the_suite() -> None:
         "references", "validation", "reports", "benchmarks", "matplotlib", "plotly", "xlsxwriter", "jinja2",
         "pybullet", "fcl", "coal", "mujoco", "rtree", "trimesh", "skfem", "pytest",
     }  # fmt: skip
-    program = f"import sys, fctd; print(sorted({others} & sys.modules.keys()))"
+    program = f"import sys; from fctd import *; print(sorted({others} & sys.modules.keys()))"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_importing_it_changes_nothing_in_the_program_that_does() -> None:
+    """Neither signals nor the garbage collector; a case is read without compiled code, and without the commands."""
+    program = """
+import gc, signal, sys
+handlers = lambda: [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
+before = handlers()
+import fctd
+fctd.load_case
+assert handlers() == before and gc.isenabled()
+print(sorted(name for name in sys.modules if name == "numba" or name.startswith(("fctd.cli", "fctd.steady"))))
+"""
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
 

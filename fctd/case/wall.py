@@ -9,7 +9,7 @@ from pydantic import StrictBool, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
-from fctd.mechanics.laws import NAMES
+from fctd.mechanics.law_names import NAMES, STICKING
 
 IntervalKind = Literal["cased", "open"]
 if TYPE_CHECKING:
@@ -19,8 +19,6 @@ else:
 
 # A wave of the hole is at least so many amplitudes long; steeper ones are bends, which a survey shows.
 STEEPEST: Final = 100
-# The laws with a static factor.
-STICKING: Final = ("karnopp", "stribeck")
 
 
 class IntervalSpec(Table):

@@ -177,7 +177,7 @@ def against(S, j, f, g, sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz):
 
 
 class Law(NamedTuple):
-    """A law of friction: its name in a case file, and three functions that are compiled into their callers.
+    """A law of friction: three functions that are compiled into their callers.
 
     impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit) : change of velocity and spin (6) of body j, both in its own
     frame, by an impulse that may stop the sliding but not reverse it; n : the wall's normal; limit : μ × normal impulse
@@ -189,7 +189,6 @@ class Law(NamedTuple):
     and the share by which a turning string climbs the wall; used by the first guess of the steady solver.
     """
 
-    name: str
     impulse: Any
     steady_load: Any
     shares: Any

@@ -109,7 +109,7 @@ ROWS = 97
 class Laws(NamedTuple):
     """Choices and constants of a run, as scalars, so that one compiled stepper serves every case.
 
-    geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : a law's code of ``laws.CODES``.
+    geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : a law's code of ``law_names.CODES``.
     friction_scale : multiplies every friction factor (0 while the string settles).
     contact_damping : wall damping [N s/m].  joint_damping : stiffness-proportional damping time [s].
     settling : artificial mass-proportional damping rate [1/s], 0 in a run.

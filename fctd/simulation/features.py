@@ -11,6 +11,7 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.specs import SolverSpec
+from fctd.mechanics.law_names import STICKING
 from fctd.mechanics.rock import NO_ROCK
 from fctd.simulation.run import Run
 
@@ -49,10 +50,10 @@ def _at_wall(used: Callable[[Run], Use]) -> Callable[[Run], Use]:
     return lambda run: used(run) if run.case.contact.enabled else None
 
 
-def _law(*names: str) -> Callable[[Run], Use]:
+def _law(wanted: Callable[[str], bool]) -> Callable[[Run], Use]:
     def used(run: Run) -> Use:
         law = run.case.contact.friction_law
-        return ("contact.friction_law", law) if law in names else None
+        return ("contact.friction_law", law) if wanted(law) else None
 
     return _at_wall(used)
 
@@ -145,12 +146,13 @@ FEATURES: dict[str, Feature] = {
         (INTERVAL + "stiffness", INTERVAL + "stiffness_per_length"),
         _along_hole("stiffness", "stiffness_per_length"),
     ),
-    "paper_friction": Feature(
-        "the paper's law of friction", '"coulomb"', ("contact.friction_law",), _law("paper"),
+    "friction_law": Feature(
+        "other laws of friction", '"coulomb"', ("contact.friction_law",),
+        _law(lambda law: law != "coulomb" and law not in STICKING),
     ),
     "sticking": Feature(
         "friction that sticks", '"coulomb"',
-        ("contact.friction_law", INTERVAL + "static_friction", INTERVAL + "decay_speed"), _law("karnopp", "stribeck"),
+        ("contact.friction_law", INTERVAL + "static_friction", INTERVAL + "decay_speed"), _law(STICKING.__contains__),
     ),
     "friction_along_hole": Feature(
         "several friction factors", "one friction factor for the whole hole", (INTERVAL + "friction",),

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.mechanics import dynamics, state, topdrive, waves
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.mechanics.moving_string import HoleWall
 from fctd.mechanics.rotations import quaternion_from_axis
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode, stiffest_torsion

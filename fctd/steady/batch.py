@@ -19,7 +19,7 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry, kernel
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.model.drillstring import damping_of, pressure_of
 from fctd.model.operations import SteadyRates
 from fctd.model.string_rows import EI, WEIGHT, fill_rows, find_contacts

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry
-from fctd.mechanics.laws import CODES, shares
+from fctd.mechanics.law_names import CODES
+from fctd.mechanics.laws import shares
 from fctd.results.buckling import HELICAL, MODE, NEEDED, buckling_along
 from fctd.steady.climb import BEYOND, START_ITERATIONS, creep_of
 from fctd.steady.continuation import CONVERGED, Pace

@@ -10,7 +10,7 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.contact import FACTOR
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.mechanics.query import WALL_COLUMNS, Walls
 from fctd.model.bent_housings import bent_joints, kink_of
 from fctd.model.operations import SteadyRates

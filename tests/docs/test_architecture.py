@@ -48,3 +48,20 @@ def test_the_walks_are_those_of_a_station_a_penetration_and_a_number() -> None:
 def test_every_room_is_in_the_map(package: str) -> None:
     rooms = {path.parent.name for path in (ROOT / package).glob("*/__init__.py")}
     assert set(re.findall(rf"^\| `{package}/(\w+)/` \|", TEXT, re.MULTILINE)) == rooms
+
+
+IMPORTS = dict(re.findall(r"^\| `fctd/(\w+)/` \|[^|]*\| ([^|]+) \|$", TEXT, re.MULTILINE))
+
+
+@pytest.mark.parametrize("room", IMPORTS)
+def test_a_room_imports_what_the_map_says(room: str) -> None:
+    below = list(IMPORTS)[list(IMPORTS).index(room) + 1 :]
+    named = [name for name in below if re.search(rf"\b{name}\b", IMPORTS[room])]
+    every = "every room" in IMPORTS[room]
+    allowed = below if every else named
+    if every and named:  # a room, and every one below it
+        allowed = below[below.index(named[0]) :]
+    sources = "\n".join(path.read_text("utf-8") for path in (ROOT / "fctd" / room).rglob("*.py"))
+    used = set(re.findall(r"^\s*(?:from|import) fctd\.(\w+)", sources, re.MULTILINE)) - {room}
+    assert used <= set(allowed)
+    assert every or used == set(named)

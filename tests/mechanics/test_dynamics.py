@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from fctd.mechanics import dynamics, joints, query, state, topdrive
 from fctd.mechanics.contact import COLUMNS, Arc, follow_arcs, follow_cylinders
 from fctd.mechanics.faults import UnstableError
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.simulation.preparation import prepare
 from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from fctd.mechanics import dynamics, friction, state
-from fctd.mechanics.laws import CODES, coulomb, paper
+from fctd.mechanics.law_names import CODES
+from fctd.mechanics.laws import coulomb, paper
 from fctd.mechanics.state import Laws
 from tests.bodies import SPIN, TO_WALL, VELOCITY, Array, at, place, put, set_body
 from tests.compiled import kept

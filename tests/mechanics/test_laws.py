@@ -1,10 +1,11 @@
-"""The table of friction laws: codes in order, and a chain that calls the law of a code."""
+"""Codes of the laws of friction in order, and a chain that calls the law of a code."""
 
 import numpy as np
 import pytest
 
 from fctd.mechanics.jit import entry
-from fctd.mechanics.laws import CODES, LAWS, NAMES, steady_load
+from fctd.mechanics.law_names import CODES, NAMES, STICKING
+from fctd.mechanics.laws import LAWS, coulomb, paper, steady_load, sticking
 
 LIMIT, RADIUS = 10.0, 0.05  # μN [N], contact radius [m]
 
@@ -16,8 +17,9 @@ def chosen(code, speed, spin):
 
 
 def test_a_code_is_the_place_of_its_law() -> None:
-    assert [LAWS[CODES[name]].name for name in NAMES] == list(NAMES)
-    assert set(NAMES) == {"coulomb", "paper", "karnopp", "stribeck"}
+    own = {"coulomb": coulomb.LAW, "paper": paper.LAW, "karnopp": sticking.KARNOPP, "stribeck": sticking.STRIBECK}
+    assert {name: LAWS[CODES[name]] for name in NAMES} == own
+    assert STICKING == ("karnopp", "stribeck")
 
 
 @pytest.mark.parametrize("name", NAMES)

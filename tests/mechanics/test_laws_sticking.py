@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fctd.mechanics import dynamics, state
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.mechanics.state import Laws
 from tests.bodies import FORCE, ON_LOWER, SPIN, TO_WALL, VELOCITY, Array, at, put, set_body
 from tests.compiled import kept

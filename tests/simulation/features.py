@@ -65,7 +65,7 @@ CROSSED: dict[str, Crossed] = {
         lambda on: case(wellbore=_hole(_interval(to_md=150), _interval(**({"stiffness": 4e5} if on else {})))),
         "contact_J",
     ),
-    "paper_friction": Crossed(
+    "friction_law": Crossed(
         lambda on: case(
             contact={"friction_law": "paper"} if on else {},
             operations=[trip(300, 302, 0.5, 1.0) | {"rpm": 60}],

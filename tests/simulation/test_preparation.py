@@ -8,7 +8,7 @@ import pytest
 from fctd import InputError
 from fctd.mechanics import state
 from fctd.mechanics.energy import penetration
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.stability import SHARES, stable_step, stiffest_mode
 from fctd.simulation import preparation

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from fctd.mechanics import state
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.model.drillstring import fill, lay_out
 from fctd.model.wellbore import build_wellbore
 from fctd.steady import continuation

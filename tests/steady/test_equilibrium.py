@@ -14,7 +14,7 @@ import fctd
 from fctd import Case, InputError, equilibrium
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.model.drillstring import section_of
 from fctd.model.operations import steady_rates
 from fctd.model.wellbore import build_wellbore, hole_frame

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from fctd import Case
 from fctd.mechanics import state
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.model.drillstring import fill, lay_out
 from fctd.model.operations import steady_rates
 from fctd.model.wellbore import build_wellbore

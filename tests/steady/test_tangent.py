@@ -11,7 +11,7 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import dynamics, joints, state
 from fctd.mechanics.contact import update_walls
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.mechanics.rotations import turned
 from fctd.mechanics.state import LANES, Laws
 from fctd.model.operations import steady_rates

@@ -6,7 +6,7 @@ import pytest
 from fctd.mechanics import state
 from fctd.mechanics.contact import FACTOR, STIFFNESS
 from fctd.mechanics.jit import entry
-from fctd.mechanics.laws import CODES, NAMES
+from fctd.mechanics.law_names import CODES, NAMES
 from fctd.mechanics.rotations import turned
 from fctd.model.wellbore import build_wellbore
 from fctd.steady.pose import POSE

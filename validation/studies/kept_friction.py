@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium, simulate
-from fctd.mechanics.laws import NAMES
+from fctd.mechanics.law_names import NAMES
 from fctd.mechanics.topdrive import GRAVITY
 from validation.cases import load, rotation, trip
 from validation.harness.study import Check, Context, Outcome, Study

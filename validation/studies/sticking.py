@@ -14,7 +14,7 @@ from fctd.mechanics.cake import sealed_width
 from fctd.mechanics.dynamics import PUSHES
 from fctd.mechanics.energy import penetration
 from fctd.mechanics.jit import entry
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.state import FX, FZ, K_WALL, LANES, PX, VX, VZ, Laws
 from fctd.mechanics.wall_law import stiffen_walls

@@ -1,21 +1,25 @@
-"""The laws of friction, one import line each, and the choice between them at run time.
+"""The laws of friction (``law_names``), and the choice between them at run time.
 
 numba needs a function when it compiles its caller, so the choice is a chain of comparisons, built once from the
 table; the code of a law is its index there.
 """
 
+from importlib import import_module
 from itertools import groupby
 from typing import Any, Final
 
+from fctd.mechanics import law_names
 from fctd.mechanics.friction import Law
 from fctd.mechanics.jit import inlined
-from fctd.mechanics.laws.coulomb import LAW as COULOMB  # noqa: F401 (the table collects the laws imported here)
-from fctd.mechanics.laws.paper import LAW as PAPER  # noqa: F401
-from fctd.mechanics.laws.sticking import KARNOPP, STRIBECK  # noqa: F401
 
-LAWS: Final = tuple(law for law in list(globals().values()) if isinstance(law, Law))
-CODES: Final = {law.name: code for code, law in enumerate(LAWS)}
-NAMES: Final = tuple(CODES)
+
+def _law(place: str) -> Law:
+    module, name = place.split(".")
+    found: Law = getattr(import_module(f"{__name__}.{module}"), name)
+    return found
+
+
+LAWS: Final = tuple(map(_law, law_names.LAWS.values()))
 
 
 def chain(functions: Any) -> Any:

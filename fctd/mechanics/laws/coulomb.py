@@ -41,4 +41,4 @@ def shares(speed, turning):
     return speed / resultant, turning / resultant, turning / resultant
 
 
-LAW = Law("coulomb", impulse, steady_load, shares)
+LAW = Law(impulse, steady_load, shares)

@@ -34,4 +34,4 @@ def shares(speed, turning):
     return np.sign(speed), np.sign(turning), 0.0
 
 
-LAW = Law("paper", impulse, steady_load, shares)
+LAW = Law(impulse, steady_load, shares)

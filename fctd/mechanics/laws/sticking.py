@@ -64,5 +64,5 @@ def weakening(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
     return impulse(gradually, S, j, u, v, w, a, b, c, nx, ny, nz, limit)
 
 
-KARNOPP = Law("karnopp", sticking, steady_load, shares)
-STRIBECK = Law("stribeck", weakening, steady_load, shares)
+KARNOPP = Law(sticking, steady_load, shares)
+STRIBECK = Law(weakening, steady_load, shares)
