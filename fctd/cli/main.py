@@ -25,25 +25,26 @@ from fctd.cli.refusals import naming_options
 
 # Arguments of ``fctd.calibrate`` and ``fctd.predict``, and their options.
 CALIBRATION = {name: f"--{name}" for name in ("fit", "prior", "starts", "seed", "samples")}
-# The commands, each in the module of its name, and options of which messages of the library name the argument.
-COMMANDS: dict[str, dict[str, str]] = {
-    "init": {},
-    "check": {},
-    "schema": {},
-    "simulate": {},
-    "equilibrium": {},
-    "chart": {"bit_depth": "--depths"},
-    "refine": {"bit_depth": "--bit-depth"},
-    "calibrate": CALIBRATION,
-    "predict": CALIBRATION,
-    "monitor": {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"},
-    "status": {},
-    "view": {"bit_depth": "--depths", "exaggeration": "--sideways"},
-    "app": {},
-    "sweep": {},
-    "uncertainty": {"bit_depth": "--bit-depth"},
-    "compile": {},
+# The commands in the groups of the help, each in the module of its name, and options of which messages of the library
+# name the argument.
+GROUPS: dict[str, dict[str, dict[str, str]]] = {
+    "Begin": {"init": {}, "check": {}, "schema": {}},
+    "Steady strings": {
+        "chart": {"bit_depth": "--depths"},
+        "equilibrium": {},
+        "refine": {"bit_depth": "--bit-depth"},
+    },
+    "Strings in time": {"simulate": {}, "status": {}},
+    "Measured wells": {
+        "calibrate": CALIBRATION,
+        "predict": CALIBRATION,
+        "monitor": {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"},
+    },
+    "Many samples": {"sweep": {}, "uncertainty": {"bit_depth": "--bit-depth"}},
+    "Look": {"view": {"bit_depth": "--depths", "exaggeration": "--sideways"}, "app": {}},
+    "Upkeep": {"compile": {}},
 }
+COMMANDS = {name: options for commands in GROUPS.values() for name, options in commands.items()}
 
 
 class Commands(TyperGroup):
@@ -66,7 +67,10 @@ class Commands(TyperGroup):
 @cache
 def _command(name: str) -> Any:
     function = getattr(import_module(f"fctd.cli.{name}"), f"{name}_command")
-    info = CommandInfo(name, cls=Command, callback=naming_options(function, COMMANDS[name]))
+    group = next(group for group, commands in GROUPS.items() if name in commands)
+    info = CommandInfo(
+        name, cls=Command, callback=naming_options(function, COMMANDS[name]), rich_help_panel=group
+    )  # fmt: skip
     return get_command_from_info(info, pretty_exceptions_short=False, rich_markup_mode="rich")
 
 
