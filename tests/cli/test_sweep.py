@@ -9,12 +9,14 @@ import pytest
 from typer.testing import CliRunner
 
 from fctd.case.errors import InputError
+from fctd.cli import sweep as cli
 from fctd.cli.main import app
 from fctd.cli.sweep import where_of
 from fctd.steady.batch import cores
 from fctd.sweep.dataset import open_dataset
+from fctd.sweep.run import Summary
 from validation.parts import clusters
-from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
+from validation.parts.small_sweep import sweep_file
 
 NOTHING = (None, None, None)
 
@@ -38,22 +40,22 @@ def test_a_sweep_is_written_and_resumed(tmp_path: Path, monkeypatch: pytest.Monk
     assert "All 12 samples are there" in last.stdout
 
 
-def test_samples_without_an_answer_are_exit_code_1(tmp_path: Path) -> None:
-    pytest.importorskip("distributed")
-    path = sweep_file(tmp_path, 'method = "random"\nsamples = 2\ntime_limit = "1 us"')
-    done = CliRunner().invoke(app, ["sweep", str(path), "--out", str(tmp_path / "out"), "--workers", "1"])
-    assert done.exit_code == 1
-    assert "2 samples timed_out" in done.stderr
-
-
-def test_one_sample_is_no_plural(tmp_path: Path) -> None:
-    pytest.importorskip("distributed")
-    path = sweep_file(
-        tmp_path, 'method = "random"\nsamples = 1', WORK.replace("600:900:100", "600:600:100") + PARAMETERS
-    )
-    command = ["sweep", str(path), "--out", str(tmp_path / "out"), "--workers", "1"]
-    assert "1 sample; 1 row in" in CliRunner().invoke(app, command).stdout
-    assert "The sample is there" in CliRunner().invoke(app, command).stdout
+@pytest.mark.parametrize(
+    ("found", "code", "said"),
+    [
+        (Summary(2, 0, 1, rows=2, statuses={"timed_out": 2}), 1, "2 samples timed_out: see the column reason"),
+        (Summary(1, 0, 1, rows=1, statuses={"converged": 1}), 0, "1 sample; 1 row in 0.0 s on 1 worker "),
+        (Summary(1, 1, statuses={"converged": 1}), 0, "The sample is there: "),
+    ],
+)
+def test_what_a_sweep_found_is_said(
+    found: Summary, code: int, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Samples without an answer are exit code 1; one sample is no plural."""
+    monkeypatch.setattr(cli, "sweep", lambda *_, **__: found)
+    done = CliRunner().invoke(app, ["sweep", str(sweep_file(tmp_path)), "--out", str(tmp_path / "out")])
+    assert done.exit_code == code
+    assert said in done.output
 
 
 def test_rows_to_be_doubted_are_said_and_are_exit_code_1_however_often_it_is_asked(

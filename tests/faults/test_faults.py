@@ -1,7 +1,7 @@
 """Faults of disk, clock, environment and users, and SIGKILL: nothing is lost beyond a chunk, and a message says why.
 
-The faults are those of the study ``faults``.  Only the study tries those that compile everything; of them, a home that
-does not exist is tried here with a few functions.
+The faults are those of the study ``faults``.  Only the study tries those that take seconds or compile everything, and
+kills commands at random moments; a home that does not exist is tried here with a few functions.
 """
 
 import subprocess
@@ -9,7 +9,6 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 pytest.importorskip("resource")
@@ -17,7 +16,6 @@ pytest.importorskip("resource")
 from validation.harness.study import ROOT
 from validation.parts import faults
 from validation.parts.faults import FAULTS, SLOW, Ground, at_once, environment_of
-from validation.parts.killed_runs import Command, chart, kill_again_and_again, trip
 
 # A command in a fork of the tests, which have several threads from Python 3.12 on.
 pytestmark = pytest.mark.filterwarnings("ignore:.*multi-threaded, use of fork:DeprecationWarning")
@@ -35,9 +33,7 @@ def wanted(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, bytes]:
     return Ground(tmp_path_factory.mktemp("undisturbed")).wanted
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SECONDS)) for name in FAULTS if name not in SLOW]
-)
+@pytest.mark.parametrize("name", [name for name in FAULTS if name not in {*SLOW, *SECONDS}])
 def test_a_fault_is_told_and_loses_nothing(name: str, tmp_path: Path, wanted: Mapping[str, bytes]) -> None:
     tried = FAULTS[name](Ground(tmp_path / "ground", wanted=wanted))
     assert (tried.fault, tried.wrong) == (name, "")
@@ -60,10 +56,3 @@ def test_no_home(tmp_path: Path) -> None:
     assert (done.returncode, done.stdout) == (0, "[100.]\n")
     assert "compiled code is not kept" in done.stderr
     assert "Traceback" not in done.stderr
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("command", [trip("arcs", 800.0), chart(10.0)], ids=lambda command: command.name)
-def test_killed_at_random_moments(command: Command, tmp_path: Path) -> None:
-    found = kill_again_and_again(command, 2, np.random.default_rng(7), tmp_path / "killed")
-    assert (found.kills, found.wrong) == (2, [])

@@ -1,4 +1,4 @@
-"""Every registered figure draws from its study's tables, with labelled axes and something on them."""
+"""Names, units and layout of the report's figures; .ci/test_figures.py draws them all from the studies' tables."""
 
 import itertools
 
@@ -22,33 +22,6 @@ def test_names_make_distinct_files():
     names = [(study, figure.name) for study, figure in ALL]
     assert len(set(names)) == len(names)
     assert set(figures.MODULES) == {study for study, _ in names}
-
-
-every_figure = pytest.mark.parametrize(
-    ("study", "figure"), ALL, ids=[f"{study}-{figure.name}" for study, figure in ALL]
-)
-
-
-@every_figure
-def test_figure_draws(study, figure):
-    """What it consists of: layout and painting, which take most of the time, are those of the next test."""
-    with mpl.rc_context(style.RC):
-        canvas = figure.draw(synthetic.STUDIES[study]())
-    assert figure.caption.endswith(".")
-    for ax in canvas.axes:
-        assert ax.get_lines() or ax.patches, "an axes without data"
-    labels = {label for ax in canvas.axes for label in (ax.get_xlabel(), ax.get_ylabel()) if label}
-    assert labels
-    without_unit = {label for label in labels if ", " not in label}
-    assert without_unit <= {"contact angle", "|residual| / work", "state"}
-
-
-@pytest.mark.slow
-@every_figure
-def test_a_figure_has_room_for_its_texts(study, figure):
-    """matplotlib warns, and every warning is an error, where a layout leaves an axes no room."""
-    with mpl.rc_context(style.RC):
-        figure.draw(synthetic.STUDIES[study]()).draw_without_rendering()
 
 
 def test_torque_is_drawn_in_kilonewton_metres():

@@ -187,6 +187,7 @@ def test_tags_are_balanced(render, claims):
 
 
 def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
+    monkeypatch.setattr(command_line, "STUDIES", {"overlap": command_line.STUDIES["overlap"]})
     monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
     monkeypatch.setattr(command_line, "OUT", tmp_path / "out")
     answer = CliRunner().invoke(command_line.app)

@@ -27,7 +27,7 @@ from . import synthetic
 
 pytestmark = needs_browser
 
-DRAWN = ("contact_accuracy", "paper_well", "volve_f4", "overlap", "scaled_section", "contact_swap")
+DRAWN = ("contact_accuracy", "paper_well", "volve_f4", "overlap")
 TALLEST = 9_600  # of the first page at 1,280 px, twelve screens
 SOURCES = (".py", ".toml", ".html", ".css", ".js")
 CLICKS = 3  # from the first page to what decides a claim

@@ -106,7 +106,7 @@ def test_a_workbook_has_a_sheet_of_the_table_and_one_of_its_origin(tmp_path: Pat
     assert about == {"key": "value", "rpm": "[60, 90]", "operation": "trip_in"}
 
 
-@pytest.mark.parametrize("limit", [0, 1000])
+@pytest.mark.parametrize("limit", [0, pytest.param(1000, marks=pytest.mark.slow)])
 def test_a_workbook_on_a_full_disk_is_refused_in_a_line(limit: int, tmp_path: Path) -> None:
     """The size that a file may have stands for the room of a disk."""
     pytest.importorskip("resource")

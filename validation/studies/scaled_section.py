@@ -219,9 +219,10 @@ def run(context: Context) -> Outcome:
     rows: list[dict[str, Any]] = []
     models: dict[tuple[int, str], Comparable] = {}
     chosen = [load("scaled_section", string__components__0__segments=count) for count in counts]
-    for setting in context.progress(
-        [*chosen, load("scaled_section", wellbore__geometry="arcs"), cut_at_the_end(chosen[-1])], "segments"
-    ):
+    settings = [*chosen, load("scaled_section", wellbore__geometry="arcs")]
+    if not context.quick:  # its steps of microseconds take as long as all others
+        settings.append(cut_at_the_end(chosen[-1]))
+    for setting in context.progress(settings, "segments"):
         model, numbers = rigid_segments(setting)
         count, geometry = len(_above_bit(setting)) - 1, setting.wellbore.geometry
         models.setdefault((count, geometry), model)

@@ -36,6 +36,7 @@ def test_the_same_wall_gives_the_same_run(name: str, geometry: str, law: str) ->
     assert own.history["contact_count"].max() > 5
 
 
+@pytest.mark.slow  # half a minute of compiling in a new environment
 def test_the_compiled_for_loop_equals_fctd_where_its_cylinder_is_unique() -> None:
     case = turning()
     (run, phases), (loop, _) = prepare(case), prepare(case)

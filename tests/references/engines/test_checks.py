@@ -25,8 +25,8 @@ from tests.references.engines.turning import WINDOW, begun, turning
     [
         ("bullet", {"step": "12 ms"}, "finite state"),
         pytest.param("mujoco", {"stiffness": "1e3 N/m"}, "end points inside the hole", marks=pytest.mark.slow),
-        ("elastica", {"step": "8 ms"}, "energy"),
-        ("elastica", {"step": "8 ms"}, "chain length"),
+        pytest.param("elastica", {"step": "8 ms"}, "energy", marks=pytest.mark.slow),
+        pytest.param("elastica", {"step": "8 ms"}, "chain length", marks=pytest.mark.slow),
     ],
 )
 def test_a_bad_option_fails_the_check_for_its_error(name: str, options: dict[str, str], failed: str) -> None:

@@ -19,7 +19,9 @@ from tests.cases import make_case, pipe
 from tests.references.engines.turning import BULLET, STATIONS, WINDOW, begun, mean, turning
 from validation.cases import load
 
-CONTACT = ("bullet", "mujoco", "elastica")
+# PyElastica compiles its own functions for half a minute in a new environment.
+ELASTICA = pytest.param("elastica", marks=pytest.mark.slow)
+CONTACT = ("bullet", "mujoco", ELASTICA)
 
 
 @pytest.fixture(scope="module")
@@ -91,6 +93,7 @@ def test_bullet_notes_why_its_torque_is_low_where_the_hole_turns(
     assert mean(run, "sum_r_ft_N_m") / mean(run, "sum_r_mu_fn_N_m") == pytest.approx(share * own_share, rel=0.02)
 
 
+@pytest.mark.slow
 def test_weight_of_pipe_that_is_being_fed_in_an_engine_without_feed() -> None:
     """PyElastica's string is as long as FCTD's at the start of the window, and its upper end moves down."""
     trip = {"kind": "trip_in", "from_md": 480, "to_md": 500, "speed": 1.0, "ramp_time": 4.0}
@@ -104,6 +107,7 @@ def test_weight_of_pipe_that_is_being_fed_in_an_engine_without_feed() -> None:
 ENDS = ((1, state.ARM_BOTTOM), (-1, state.ARM_TOP))
 
 
+@pytest.mark.slow
 def test_a_rod_begins_pressed_into_the_wall_as_deep_as_the_segments_were() -> None:
     """Its nodes stand in the middle of the open joints, the last one at the bit."""
     run = begun(turning(), WINDOW)
@@ -153,7 +157,7 @@ def test_the_lean_of_two_directions_is_that_of_a_uniform_pipe() -> None:
     assert lean_of_two_directions(30.0) == pytest.approx(lean, abs=1e-6)
 
 
-@pytest.mark.parametrize("name", ["bullet", "mujoco", "mujoco_chain", "elastica"])
+@pytest.mark.parametrize("name", ["bullet", "mujoco", "mujoco_chain", ELASTICA])
 def test_a_freely_hanging_string_has_the_same_hook_load_and_torque(name: str) -> None:
     case = turning([[0, 0, 0], [600, 0, 0]], contact={"enabled": False})
     window = Window(0.0, 1.0)

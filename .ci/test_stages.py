@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-STAGES = Path(__file__).parents[1] / ".ci" / "stages"
+STAGES = Path(__file__).with_name("stages")
 HEAD = f"""
 set -euo pipefail
 scratch=.
