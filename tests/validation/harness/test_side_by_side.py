@@ -143,7 +143,7 @@ from fctd.cli.interrupts import as_interrupts
 from validation.harness import side_by_side
 
 def sleep(seconds):
-    print(os.getpid(), flush=True)
+    os.write(1, f"{os.getpid()}\\n".encode())  # in one piece
     time.sleep(seconds)
 
 with as_interrupts():
