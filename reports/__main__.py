@@ -4,6 +4,7 @@ import typer
 from grimp.exceptions import SourceSyntaxError
 
 from fctd.case.text import degrade_output, printable_lines
+from fctd.cli.interrupts import as_interrupts
 from validation.harness import fingerprint, runner, study
 from validation.harness.registry import STUDIES
 
@@ -44,4 +45,5 @@ def main() -> None:
 
 if __name__ == "__main__":
     degrade_output()
-    app(prog_name="python -m reports")
+    with as_interrupts():
+        app(prog_name="python -m reports")

@@ -1,5 +1,7 @@
 """From stored results to pages: the first page with its chapters, the claims, and a page for every study."""
 
+import os
+import re
 import shutil
 import sys
 import traceback
@@ -10,11 +12,13 @@ from typing import Any
 import jinja2
 
 from fctd.case.text import printable_lines
+from fctd.results.whole_file import left_by_dead
 from reports import chapters, figures, results, words
 from reports.claims import LOOKS, judged
 from reports.figures.leading import LEADING
 from reports.sections import Picture, Section, anchor, draw, section_of
 from validation.claims.ledger import CLAIMS
+from validation.harness import store
 
 TEMPLATES = Path(__file__).parent / "templates"
 LONG_CELL = 40  # letters of a text in a table that is broken into lines
@@ -30,12 +34,34 @@ def render(
 ) -> list[str]:
     """Write ``out/index.html``, ``claims.html``, ``studies``, ``figures`` and ``results.json``; return what is missing.
 
+    A folder of that name is replaced at the end, as a whole: an interruption leaves the pages before.
+
     Studies stand in the order given; results of studies that are not among them come after.  The claims of ``ledger``
     are judged by these results.  changes : study -> what has changed since its result was stored.  questions : study ->
     its question, for those that have not been run.
     """
+    out.parent.mkdir(parents=True, exist_ok=True)
+    scratch = out.with_name(f".{out.name}-{os.getpid()}")
+    for left, _ in left_by_dead(out.parent, rf"\.{re.escape(out.name)}-PID"):
+        shutil.rmtree(left, ignore_errors=True)
+    try:
+        problems = _render(stored, studies, scratch / "new", changes or {}, ledger, questions or {})
+        store.put(scratch / "new", out)
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+    return problems
+
+
+def _render(
+    stored: Path,
+    studies: Iterable[str],
+    out: Path,
+    changes: Mapping[str, str],
+    ledger: Path,
+    questions: Mapping[str, str],
+) -> list[str]:
+    """Write the pages into a folder that does not exist yet; see ``render``."""
     for folder in (out / "figures", out / "studies"):
-        shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
     found = sorted(path.parent.name for path in stored.glob("[!.]*/verdict.json"))
     sections: dict[str, Section] = {}
@@ -44,8 +70,8 @@ def render(
     drawn: dict[str, Picture] = {}
     for study in dict.fromkeys([*studies, *found]):
         section, tables = section_of(stored / study, out)
-        section.changed = (changes or {}).get(study, "")
-        section.asked = (questions or {}).get(study, "")
+        section.changed = changes.get(study, "")
+        section.asked = questions.get(study, "")
         sections[study] = section
         if study in first and tables:
             _draw_leading(section, first[study].figure, tables, out, drawn)
@@ -56,7 +82,7 @@ def render(
         "sections": sections,
         "claims": claims,
         "looks": LOOKS,
-        "changes": changes or {},
+        "changes": changes,
         "leading": leading,
         "chapters": _chapters(sections),
         "paper": [(each, _ours(each.ours, sections)) for each in chapters.contents().paper],

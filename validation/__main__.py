@@ -7,6 +7,7 @@ from grimp.exceptions import SourceSyntaxError
 from rich.console import Console
 
 from fctd.case.text import degrade_output, printable_lines
+from fctd.cli.interrupts import as_interrupts
 from validation.claims import judgement, ledger
 from validation.harness import fingerprint, runner, side_by_side, study
 from validation.harness.registry import STUDIES
@@ -100,4 +101,5 @@ def _line(name: str) -> str:
 
 if __name__ == "__main__":
     degrade_output()
-    app(prog_name="python -m validation")
+    with as_interrupts():
+        app(prog_name="python -m validation")

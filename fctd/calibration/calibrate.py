@@ -20,7 +20,7 @@ from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row, read_rows
 from fctd.calibration.rules import left_out_by_rule
 from fctd.calibration.setup import Setup, UnknownSpec, read_setup
-from fctd.calibration.unknowns import find_unknowns, parse_fits, refuse_overridden
+from fctd.calibration.unknowns import check_known, find_unknowns, parse_fits, refuse_edited, refuse_overridden
 from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case, load_case, naming_file
 
@@ -113,13 +113,18 @@ def predict(
     with naming_file(case):
         _check_count("samples", samples, 1)
         _check_count("seed", seed, 0)
+        beside = None
         if posterior is None:
             if case.file is None:
                 raise InputError("a posterior, since the case is not from a file", key="posterior")
-            posterior = posterior_file(Path(case.file))
+            posterior = beside = posterior_file(Path(case.file))
         known = posterior if isinstance(posterior, Posterior) else read_posterior(Path(posterior))
         refuse_overridden([unknown.name for unknown in known.unknowns], case, overrides or {})
+        if beside is not None:
+            refuse_edited(dict(zip(known.unknowns, known.best.tolist(), strict=True)), case, beside.name)
         found, cases = gather_rows(case, rows, known.setup, strings, overrides, measured=False)
+        with _naming_posterior(posterior):
+            check_known(known.unknowns, list(cases.values()))
         return predict_rows(known, found, cases, samples, seed)
 
 
@@ -147,8 +152,17 @@ def _naming_setup(setup: Files | Setup | None) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        of_setup = isinstance(setup, str | PathLike) and error.key.startswith(("unknowns.", "strings."))
+        of_setup = isinstance(setup, str | PathLike) and error.key.startswith(("unknowns", "strings."))
         raise (error.in_file(Path(setup)) if of_setup else error) from None  # type: ignore[arg-type]
+
+
+@contextmanager
+def _naming_posterior(posterior: Posterior | Files) -> Iterator[None]:
+    """Add the posterior's file to an InputError."""
+    try:
+        yield
+    except InputError as error:
+        raise (error if isinstance(posterior, Posterior) else error.in_file(Path(posterior))) from None
 
 
 def gather_setup(setup: Files | Setup | None) -> Setup:

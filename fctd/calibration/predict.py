@@ -4,17 +4,18 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
+from pydantic import Field, FiniteFloat, ValidationError
 
 from fctd.calibration.forward import Forward
 from fctd.calibration.rows import Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import Unknown
-from fctd.case.errors import InputError
+from fctd.case.errors import InputError, Table, explain
 from fctd.case.input_file import read_text
 from fctd.case.load import Case
 from fctd.results.whole_file import whole_file
@@ -62,6 +63,43 @@ class Posterior:
             scratch.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
 
 
+class _KeptUnknown(Table):
+    """An unknown in the posterior's file."""
+
+    name: str
+    low: FiniteFloat
+    high: FiniteFloat
+    size: FiniteFloat
+    unit: str
+    value: FiniteFloat
+
+
+class _Kept(Table):
+    """The posterior's file."""
+
+    unknowns: list[_KeptUnknown]
+    covariance: list[list[FiniteFloat]]
+    setup: Setup
+    spread: dict[str, dict[str, Annotated[FiniteFloat, Field(ge=0.0)]]]
+
+    def posterior(self) -> Posterior:
+        """What the file holds; raises InputError for a matrix that is no covariance of the unknowns."""
+        found = [Unknown(u.name, u.low, u.high, u.value, u.size, None, u.unit) for u in self.unknowns]
+        count = len(found)
+        if not count:
+            raise InputError("at least one unknown", key="unknowns", value=[])
+        expected = f"a covariance of the unknowns: {count} rows of {count} numbers, symmetric, no variance below 0"
+        if [len(row) for row in self.covariance] != [count] * count:
+            raise InputError(expected, key="covariance", value=self.covariance)
+        sizes = np.array([unknown.size for unknown in self.unknowns])
+        scaled = np.array(self.covariance) / np.outer(sizes, sizes)
+        rounding = 1e-8 * max(float(np.abs(scaled).max()), 1e-300)
+        if np.abs(scaled - scaled.T).max() > rounding or np.linalg.eigvalsh(scaled).min() < -rounding:
+            raise InputError(expected, key="covariance", value=self.covariance)
+        best = np.array([u.value for u in self.unknowns])
+        return Posterior(tuple(found), best, np.array(self.covariance), self.setup, self.spread)
+
+
 def posterior_file(case_file: Path) -> Path:
     """The posterior's file beside a calibrated case."""
     return case_file.with_suffix(".fit.json")
@@ -69,22 +107,20 @@ def posterior_file(case_file: Path) -> Path:
 
 def read_posterior(path: Path) -> Posterior:
     """The posterior of a file; raises InputError for a file that cannot be used."""
+    raw: Any = None
     try:
-        data: dict[str, Any] = json.loads(read_text(path, _LARGEST))
-        unknowns = tuple(
-            Unknown(u["name"], u["low"], u["high"], u["value"], u["size"], None, u["unit"]) for u in data["unknowns"]
-        )
-        covariance = np.array(data["covariance"], float).reshape(len(unknowns), len(unknowns))
-        best = np.array([u["value"] for u in data["unknowns"]], float)
-        return Posterior(unknowns, best, covariance, Setup.model_validate(data["setup"]), data["spread"])
+        raw = json.loads(read_text(path, _LARGEST))
+        return _Kept.model_validate(raw).posterior()
+    except ValidationError as failure:
+        raise explain(failure, raw, branches=("str", "float")).in_file(path) from None
     except OSError as error:
         raise InputError(
             f"the posterior beside the case, which fctd calibrate --out writes ({error.strerror})", file=path
         ) from error
     except InputError as error:
         raise error.in_file(path) from None
-    except (ValueError, KeyError, TypeError) as error:
-        raise InputError(f"a posterior as fctd calibrate --out writes it ({error})", file=path) from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"a posterior as fctd calibrate --out writes it ({error})", file=path) from None
 
 
 def predict_rows(

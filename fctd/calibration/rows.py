@@ -17,6 +17,7 @@ from fctd.results.measured_file import LARGEST_FORCE, LARGEST_TORQUE, Field, Lin
 
 Load = Literal["hookload", "torque"]
 
+MOST_WEIGHT: Final = 1e6  # of a row: beyond it the squares of its residuals overflow long before it says more
 OPERATIONS: Final = (*KINDS, *STRINGLESS)
 _HOOKLOAD: Final = Field("hookload", "N", FORCE, GAUGE, "kN", ranged=True, at_least=0.0, at_most=LARGEST_FORCE)
 _TORQUE: Final = Field(
@@ -186,6 +187,6 @@ def _weight(cell: str) -> float:
         weight = float(cell or 1.0)
     except ValueError:
         raise InputError("a weight of the row, a number above 0") from None
-    if not 0 < weight < np.inf:
-        raise InputError("a weight of the row, a number above 0")
+    if not 0 < weight <= MOST_WEIGHT:
+        raise InputError(f"a weight of the row, a number above 0 and at most {MOST_WEIGHT:g}")
     return weight

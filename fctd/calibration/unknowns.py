@@ -99,9 +99,13 @@ def find_unknowns(fit: Mapping[str, UnknownSpec], setup: Setup, cases: Sequence[
         try:
             found.append(_unknown(name, spec, cases))
         except InputError as error:
-            if name not in fit:
+            unnamed = error.value is MISSING  # the name itself is wrong
+            given = fit[name].model_dump(exclude_none=True) if name in fit else {}
+            if name not in fit and unnamed:
+                raise InputError(error.expected, key="unknowns", value=name) from None
+            if not unnamed and error.key.partition(".")[0] not in given:  # a value of the setup
                 raise error.at(join_key("unknowns", name)) from None
-            written = name if error.value is MISSING else f"{name}, {error.key}: {show(error.value)}"
+            written = name if unnamed else f"{name}, {error.key}: {show(error.value)}"
             raise InputError(error.expected, key="fit", value=written) from None
     _check_overlaps([unknown.name for unknown in found], cases)
     return found
@@ -204,6 +208,33 @@ def refuse_overridden(names: Iterable[str], case: Case, overrides: Mapping[str, 
             if any(one == key or one.startswith((f"{key}.", f"{key}[")) for one in held):
                 expected = f"a key that the posterior does not hold: it has {name} with its band; calibrate again"
                 raise InputError(expected, key=key, value=value)
+
+
+def refuse_edited(values: Mapping[Unknown, float], case: Case, posterior: str) -> None:
+    """Raise InputError where a calibrated case has other values than its posterior, which would be taken unseen.
+
+    values : of the unknowns [SI]; posterior : name of its file, in messages.  The case's file has six digits.
+    """
+    for unknown, value in values.items():
+        own = [float(getattr(case.rig, unknown.name.removeprefix("rig.")))] if unknown.name in RIG else (
+            [case.mud.density] if unknown.name == "mud.density" else _own_values(unknown.name, case)
+        )  # fmt: skip
+        for key, has in zip(keys_of(unknown.name, case), own, strict=False):
+            if abs(has - value) > 1e-5 * abs(value) + 1e-9 * unknown.size:
+                shown = f"{value:.6g} {unknown.unit}".rstrip()
+                expected = (
+                    f"{shown}, as {posterior} beside it has with its band (--posterior names another): calibrate again"
+                )
+                raise InputError(expected, key=key, value=f"{has:.6g} {unknown.unit}".rstrip())
+
+
+def check_known(unknowns: Sequence[Unknown], cases: Sequence[Case]) -> None:
+    """Raise InputError for an unknown of a posterior that no case has."""
+    for unknown in unknowns:
+        try:
+            _form_of(unknown.name, cases)
+        except InputError as error:
+            raise InputError(error.expected, key="unknowns", value=unknown.name) from None
 
 
 def _check_overlaps(names: Iterable[str], cases: Sequence[Case]) -> None:

@@ -88,7 +88,9 @@ def calibrate_command(
     changes = changes_of(overrides, friction)
     case = read_case(case_file, changes)
     for key, path in {"--out": out, "--table": table, "--plot": plot}.items():
-        refuse_sources(case, path, key)
+        refuse_sources(case, path, key, [measured, setup])
+    if out is not None:
+        refuse_sources(case, posterior_file(out), "--out", [measured, setup])
     tell(case, warnings_of(case), strict=strict, units=units)
     with messages.status("fitting") as status:
         if quiet:

@@ -215,7 +215,7 @@ def _chart(
     units, plot_profile = asked.units, asked.plot_profile
     out, plot = check_targets(asked.out, asked.plot, plot_profile)
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
-        refuse_sources(case, path, key)
+        refuse_sources(case, path, key, [asked.measured])
     bit_depths = read_depths(asked.depths, case, units)
     points_measured = None if asked.measured is None else _measured(asked.measured, case, plot)
     names = [name.strip() for text in asked.operations for name in text.split(",")]

@@ -43,6 +43,7 @@ from fctd.results.unit_systems import System, reworded, shown
 
 PICTURES = (".png", ".svg", ".pdf")
 SCREEN_ROWS = 30
+LONGEST_POLL = 3600.0  # [s]
 
 
 def monitor_command(
@@ -102,16 +103,14 @@ def monitor_command(
         check_package(plot, "--plot")
     case = read_case(case_file, changes_of(overrides))
     for key, path in {"--out": out, "--plot": plot}.items():
-        refuse_sources(case, path, key)
-        if path is not None and path.exists() and series.exists() and path.samefile(series):
-            raise InputError("another file than the series", key=key, value=path)
+        refuse_sources(case, path, key, [series])
     said = parse_columns(columns)
     with naming_file(case):
         watch = Monitor(
             case, fit, parse_uncertainty(uncertainty, "--uncertainty"), None, read_share(step, "--step"), readings
         )
-    if poll <= 0:
-        raise InputError("seconds above 0", key="--poll", value=poll)
+    if not 0 < poll <= LONGEST_POLL:
+        raise InputError(f"seconds above 0 and at most {LONGEST_POLL:g}", key="--poll", value=poll)
     tell(case, case.warnings, strict=strict, units=units)
     if follow:
         try:
@@ -187,8 +186,8 @@ def _print(found: Monitored, case: Case, units: System) -> None:
     for row in _picked(inferred).to_dict("records"):
         table.add_row(
             row["mode"], f"{row['bit_depth_m'] * depth.factor:.0f}", str(row["samples"]),
-            f"{row['weight_indicator_N'] * force.factor:.1f}", f"{row['drive_torque_N_m'] * torque.factor:.2f}",
-            f"{row['friction']:.2f}", f"{row['friction_low']:.2f} to {row['friction_high']:.2f}",
+            f"{row['weight_indicator_N'] * force.factor:.1f}", f"{row['drive_torque_N_m'] * torque.factor:z.2f}",
+            f"{row['friction']:z.2f}", f"{row['friction_low']:z.2f} to {row['friction_high']:z.2f}",
         )  # fmt: skip
     screen.print(table)
     left = stretches.loc[stretches["friction"].isna(), "left_out"].value_counts()

@@ -170,18 +170,25 @@ def check_target(path: Path | None, key: str, suffixes: Sequence[str]) -> None:
         check_file(file, key)
 
 
-def refuse_sources(case: Case, path: Path | None, key: str) -> None:
-    """Raise InputError where a table, or its metadata file, would replace the case file or its survey."""
+def refuse_sources(case: Case, path: Path | None, key: str, others: Iterable[Path | None] = ()) -> None:
+    """Raise InputError where a table, or its metadata file, would replace a file that the command reads.
+
+    others : files beside the case file and its survey.
+    """
     if path is not None:
-        refuse_source_files(case, table_files(path), key)
+        refuse_source_files(case, table_files(path), key, others)
 
 
-def refuse_source_files(case: Case, paths: Iterable[Path], key: str) -> None:
-    """Raise InputError where one of the files is the case file or its survey."""
+def refuse_source_files(case: Case, paths: Iterable[Path], key: str, others: Iterable[Path | None] = ()) -> None:
+    """Raise InputError where one of the files is the case file, its survey, or one of the others that are read."""
+    read = [other for other in others if other is not None and other.exists()]
     for path in paths:
         for source in (case.file, case.wellbore.survey):
             if source is not None and path.exists() and path.samefile(source):
                 raise InputError("another file than the case and its survey", key=key, value=path)
+        for other in read:
+            if path.exists() and path.samefile(other):
+                raise InputError(f"another file than {other}, which this command reads", key=key, value=path)
 
 
 def print_status(status: str, message: str, units: System = "si") -> None:

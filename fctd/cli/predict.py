@@ -48,13 +48,13 @@ def predict_command(
     check_pictures({"--plot": plot}, DRAWN)
     changes = changes_of(overrides)
     case = read_case(case_file, changes)
-    for key, path in {"--out": out, "--plot": plot}.items():
-        refuse_sources(case, path, key)
     beside = posterior_file(case_file) if posterior is None else posterior
+    for key, path in {"--out": out, "--plot": plot}.items():
+        refuse_sources(case, path, key, [rows, beside])
     with messages.status("predicting") as status:
         if quiet:
             status.stop()
-        table = predict(case, rows, beside, samples=samples, seed=seed, overrides=changes)
+        table = predict(case, rows, posterior, samples=samples, seed=seed, overrides=changes)
     written = [] if out is None else write_table(table, out, {})
     if plot is not None:
         from fctd import plots  # needs matplotlib

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar
 
 from fctd.case.errors import InputError
 from fctd.results.unit_systems import System, reworded
@@ -22,7 +22,7 @@ def naming_options(command: Callable[P, R], others: Mapping[str, str] | None = N
 
     @wraps(command)
     def told(*given: P.args, **options: P.kwargs) -> R:
-        units: Any = options.get("units", "si")
+        units: System = "field" if options.get("units") == "field" else "si"  # ``init`` calls SI units metric
         try:
             return command(*given, **options)
         except InputError as error:

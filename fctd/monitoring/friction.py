@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Final
 
 import numpy as np
 
@@ -30,6 +31,11 @@ class Uncertainty:
     torque_offset: float = 0.0
 
 
+# A reading without noise would outweigh all others in the baselines of the alarms.
+LEAST: Final = {"hook_load": 1.0, "torque": 1e-4}
+# A torque near 0 has the noise of the torque that this factor gives: a share of 0 would be none.
+LEAST_FACTOR: Final = 0.05
+
 _DIMENSIONS: dict[str, Dimension] = {"hook_load": FORCE, "block_weight": FORCE, "torque_offset": TORQUE}
 
 
@@ -49,11 +55,15 @@ def parse_uncertainty(texts: list[str], key: str) -> Uncertainty:
             else:
                 percent = value.endswith("%")
                 found[name] = FRICTION.parse(float(value.rstrip("% ")) * (0.01 if percent else 1.0))
+            if found[name] < LEAST.get(name, 0.0):
+                raise ValueError
         except (InputError, ValueError):
             dimension = _DIMENSIONS.get(name)
             expected = (
                 "a number or a percentage" if dimension is None else f"{dimension.noun} such as {dimension.example}"
             )
+            if name in LEAST:
+                expected += f", at least {LEAST[name]:g}{' N' if name in _DIMENSIONS else ''}: every reading has noise"
             raise InputError(expected, key=f"{key} {name}", value=value) from None
     return Uncertainty(**found)
 
@@ -95,13 +105,14 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
     if found is None:
         return none("no steady string at this depth")
     if rotating:
-        spread, held = uncertainty.torque * abs(reading.median), uncertainty.torque_offset
+        least = LEAST_FACTOR / abs(found.per_reading) if found.per_reading else 0.0
+        spread, held = uncertainty.torque * max(abs(reading.median), least), uncertainty.torque_offset
     else:
         spread, held = uncertainty.hook_load, uncertainty.block_weight
     noise = abs(found.per_reading) * float(np.hypot(spread, reading.error))
-    cased = chart.by_held(mode, depth) * uncertainty.cased if uncertainty.cased > 0 else 0.0
-    total = float(np.sqrt(noise**2 + found.per_reading**2 * (held**2 + cased**2)))
     if not noise < WIDEST:
         return none("the reading does not depend on this friction factor enough")
+    cased = chart.by_held(mode, depth) * uncertainty.cased if uncertainty.cased > 0 else 0.0
+    total = float(np.sqrt(noise**2 + found.per_reading**2 * (held**2 + cased**2)))
     low, high = (found.factor + sign * TWO_SIDED_95 * total for sign in (-1, 1))
     return Apparent(stretch, found.factor, noise, low, high, "")

@@ -32,3 +32,8 @@ def test_values_are_written_in_the_units_of_the_file(tmp_path: Path) -> None:
     again = fctd.load_case(out)
     assert again.rig.block_weight == pytest.approx(found.values["rig.block_weight"])
     assert fctd.predict(again, tmp_path / "rows.csv")["predicted"].iloc[0] == pytest.approx(25e3 * 9.80665)
+    # Its posterior would hold the values of before.
+    out.write_text(text.replace('block_weight = "25 t"', 'block_weight = "30 t"'), encoding="utf-8")
+    with pytest.raises(fctd.InputError, match=r'new.toml: rig.block_weight = "30 t": expected 245166 N, as new.fit'):
+        fctd.predict(fctd.load_case(out), tmp_path / "rows.csv")
+    fctd.predict(fctd.load_case(out), tmp_path / "rows.csv", tmp_path / "new.fit.json")

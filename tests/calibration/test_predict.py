@@ -1,5 +1,6 @@
 """Predictions: bands in closed form, scores, and the posterior's file."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -67,7 +68,12 @@ def test_a_posterior_is_written_and_read(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("text", "expected"),
-    [(None, "fctd calibrate --out writes"), ("{", "a posterior as fctd calibrate"), ("{}", "'unknowns'")],
+    [
+        (None, "fctd calibrate --out writes"),
+        ("{", "a posterior as fctd calibrate"),
+        ("{}", "unknowns is missing"),
+        ("[" * 100_000, "a posterior as fctd calibrate"),
+    ],
 )
 def test_a_posterior_that_cannot_be_used(text: str | None, expected: str, tmp_path: Path) -> None:
     if text is not None:
@@ -76,6 +82,48 @@ def test_a_posterior_that_cannot_be_used(text: str | None, expected: str, tmp_pa
         read_posterior(tmp_path / "a.fit.json")
     with pytest.raises(InputError, match="not from a file"):
         predict(CASE, [SLIPS])
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "expected"),
+    [
+        ("unknowns", [], "unknowns = \\[\\]: expected at least one unknown"),
+        ("covariance", [[float("nan")]], "covariance\\[0\\]\\[0\\] = nan"),
+        ("covariance", [[-1.0]], "no variance below 0"),
+        ("covariance", [[1.0, 0.0]], "1 rows of 1 numbers"),
+        ("spread", [1], "spread"),
+        ("spread", {"": {"hookload": "wide"}}, "hookload"),
+        ("spread", {"": {"hookload": -1.0}}, "hookload"),
+        ("setup", {"sources": {"x": {"hookload_noise": "wide"}}}, "setup.sources.x.hookload_noise"),
+    ],
+)
+def test_a_posterior_with_a_value_that_no_calibration_writes(
+    key: str, value: object, expected: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.fit.json"
+    posterior().write(path)
+    path.write_text(json.dumps(json.loads(path.read_text(encoding="utf-8")) | {key: value}), encoding="utf-8")
+    with pytest.raises(InputError, match=f"a.fit.json: .*{expected}"):
+        read_posterior(path)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "expected"),
+    [
+        ("name", 5, r"unknowns\[0\].name = 5"),
+        ("value", None, r"unknowns\[0\].value"),
+        ("value", float("inf"), r"unknowns\[0\].value = inf"),
+        ("name", "friction[7]", r"unknowns = \"friction\[7\]\": expected friction of intervals that the case has"),
+    ],
+)
+def test_an_unknown_that_no_calibration_writes(key: str, value: object, expected: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.fit.json"
+    posterior().write(path)
+    kept = json.loads(path.read_text(encoding="utf-8"))
+    kept["unknowns"][0][key] = value
+    path.write_text(json.dumps(kept), encoding="utf-8")
+    with pytest.raises(InputError, match=f"a.fit.json: .*{expected}"):
+        predict(CASE, [SLIPS], path)
 
 
 def test_values_drawn_have_the_mean_and_deviation_and_keep_to_the_bounds() -> None:

@@ -92,6 +92,7 @@ def test_a_bad_row_is_answered_with_file_row_and_column(row: str, expected: list
         ("bit_depth_m,hookload_kN\n1,1\n", ["a column of operation"]),
         ("bit_depth_m,operation\n1,trip_in\n", ["a column of hook load or torque"]),
         ("bit_depth_m,operation,hookload_kN,weight\n900,trip_in,1,0\n", ["row 2, weight", "above 0"]),
+        ("bit_depth_m,operation,hookload_kN,weight\n900,trip_in,1,1e300\n", ["row 2, weight", "at most 1e+06"]),
         ("bit_depth_m,operation,hookload_kN,string\n900,trip_in,1,x\n", ["row 2, string", "case file that exists"]),
     ],
 )

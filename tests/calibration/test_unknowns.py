@@ -113,3 +113,17 @@ def test_an_override_of_an_unknown_is_refused(name: str, key: str) -> None:
 def test_an_override_beside_the_unknowns_stays() -> None:
     others = {"wellbore.intervals[0].friction": 0.1, "rig.block_weights": 1.0, "mud.density": 1.0, "friction.cased": 1}
     refuse_overridden(["friction.open", "rig.block_weight", "mass.collars", "bias.torque.DDR"], well(), others)
+
+
+@pytest.mark.parametrize(
+    ("told", "expected"),
+    [
+        ({"friction.opne": {}}, 'unknowns = "friction.opne": expected the unknown friction.open'),
+        ({"friction.open": {"bounds": [0.6, 0.1]}}, "unknowns.friction.open.bounds = "),
+        ({"friction.open": {"prior": {"mean": 0.25, "sd": 0}}}, "unknowns.friction.open.prior.sd = "),
+    ],
+)
+def test_a_wrong_value_of_the_setup_is_not_that_of_an_option(told: dict[str, object], expected: str) -> None:
+    setup = Setup.model_validate({"unknowns": told})
+    with pytest.raises(InputError, match=f"^{expected}"):
+        find_unknowns(parse_fits(["friction.open"]), setup, [well()])

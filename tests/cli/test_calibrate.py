@@ -75,3 +75,16 @@ def test_wrong_inputs_end_with_exit_code_2(
     files[1].write_text(rows, encoding="utf-8")
     assert run(monkeypatch, "calibrate", *files, *options) == 2
     assert expected in capsys.readouterr().err
+
+
+def test_the_files_that_it_reads_are_not_replaced(
+    files: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    setup = tmp_path / "setup.toml"
+    setup.write_text('[sources.""]\nhookload_noise = "20 kN"\n', encoding="utf-8")
+    for option, path in (("--table", files[1]), ("--out", setup)):
+        before = path.read_bytes()
+        options = ("--fit", "rig.block_weight", "--setup", setup, option, path)
+        assert run(monkeypatch, "calibrate", *files, *options) == 2
+        assert f'{option} = "{path}": expected another file than {path}, which' in capsys.readouterr().err
+        assert path.read_bytes() == before

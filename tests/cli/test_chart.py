@@ -248,3 +248,7 @@ def test_measured_rows_that_the_picture_does_not_show_are_told(
     assert run(monkeypatch, "chart", case_file, *options) == 0
     errors = " ".join(capsys.readouterr().err.split())
     assert "2 of 3 measured rows are not drawn, of operations that are not asked for: trip_in, rotate" in errors
+    before = Path("rows.csv").read_bytes()
+    assert run(monkeypatch, "chart", case_file, *options, "--out", "rows.csv") == 2
+    assert '--out = "rows.csv": expected another file than rows.csv, which' in capsys.readouterr().err
+    assert Path("rows.csv").read_bytes() == before

@@ -140,6 +140,7 @@ def test_the_string_follows_the_survey(
     [
         (["nowhere.csv"], 'SURVEY = "nowhere.csv": expected a survey file that exists'),
         (["bad.csv"], "bad.csv: row 3, inc_deg = "),
+        (["far.csv"], 'far.csv: row 3, md_m = "1e9": expected a measured depth of at most 50 km'),
         (["--out", "my.yaml"], '--out = "my.yaml": expected a file name that ends in .toml'),
         (["--out", "there.toml"], '--out = "there.toml": expected a file that does not exist yet'),
         (["--out", "there.toml/my.toml"], '--out = "there.toml/my.toml": expected '),
@@ -159,6 +160,7 @@ def test_refused(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     (here / "there.toml").write_text("mine")
+    (here / "far.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n1e9,0,0\n")
     (here / "bad.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n100,x,0\n")
     monkeypatch.setenv("COLUMNS", "200")
     assert run(monkeypatch, "init", *arguments) == 2

@@ -91,6 +91,8 @@ def test_without_a_factor_the_exit_code_is_1(case_file: Path, monkeypatch: pytes
         (None, ["--false-alarm-in", "0"], "--false-alarm-in"),
         (None, ["--uncertainty", "torque=x"], "--uncertainty"),
         (None, ["--poll", "0"], "--poll"),
+        (None, ["--poll", "nan"], "--poll"),
+        (None, ["--uncertainty", "torque=0%"], "--uncertainty torque"),
         (None, ["--plot", "found.html"], "--plot"),
     ],
 )

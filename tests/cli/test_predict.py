@@ -34,3 +34,16 @@ def test_rows_without_readings_have_bands_and_no_scores(
     assert run(monkeypatch, "predict", new, plan, "--set", "rig.block_weight=1 kN") == 2
     assert "rig.block_weight" in capsys.readouterr().err
     assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_files_that_it_reads_are_not_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, rows, kept = tmp_path / "small.toml", tmp_path / "rows.csv", tmp_path / "kept.csv"
+    case.write_text(CASE, encoding="utf-8")
+    for path in (rows, kept):
+        path.write_text(ROWS, encoding="utf-8")
+    for option in ([rows], [kept, "--posterior", rows]):
+        assert run(monkeypatch, "predict", case, *option, "--out", rows) == 2
+        assert f'--out = "{rows}": expected another file than {rows}' in capsys.readouterr().err
+    assert rows.read_text(encoding="utf-8") == ROWS

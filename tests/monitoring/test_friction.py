@@ -54,3 +54,19 @@ def test_uncertainties_of_options() -> None:
     for text in ("torque", "twist=5%", "torque=much", "hook_load=2 m"):
         with pytest.raises(InputError, match="--uncertainty"):
             parse_uncertainty([text], "--uncertainty")
+
+
+def test_a_torque_of_zero_has_noise_and_one_beyond_all_numbers_tells_nothing() -> None:
+    """A sensor that is dead, and one that is broken."""
+    one = stretch("rotating", 765.0)
+    dead = apparent(replace(one, torque=one.torque._replace(median=0.0)), chart(), Uncertainty())
+    assert dead.factor < 0
+    assert dead.noise > 1e-3
+    broken = apparent(replace(one, torque=one.torque._replace(median=1e300)), chart(), Uncertainty())
+    assert "does not depend" in broken.left_out
+
+
+@pytest.mark.parametrize("text", ["torque=0%", "torque=1e-300", "hook_load=0 t"])
+def test_every_reading_has_noise(text: str) -> None:
+    with pytest.raises(InputError, match="every reading has noise"):
+        parse_uncertainty([text], "--uncertainty")

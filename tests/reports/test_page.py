@@ -288,3 +288,19 @@ def test_a_long_table_is_folded_and_a_short_one_open(render, tmp_path):
     render((replace(run, tables=tuple(tables)), tables))
     text = study_page(tmp_path, "ownership").read_text()
     assert re.findall(r'<details class="table"( open)?>\s*<summary>(\w+)', text) == [(" open", "Few"), ("", "Many")]
+
+
+def test_an_interruption_leaves_the_pages_before(render, tmp_path, monkeypatch):
+    render((replace(BLANK, checks=(judged(0.0),)), {}), studies=["overlap"])
+    before = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    left = tmp_path / ".out-4194304"  # of a process that has ended: beyond the ids that Linux gives
+    left.mkdir()
+
+    def interrupted(*arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("reports.page._write_pages", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        render(studies=["overlap"])
+    assert {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()} == before
+    assert sorted(path.name for path in tmp_path.glob(".*")) == []

@@ -2,6 +2,8 @@
 
 import os
 import signal
+import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import active_children, get_all_start_methods, get_context
@@ -9,6 +11,7 @@ from typing import Any
 
 from validation.harness.study import A, T
 
+LOOK = 0.5  # [s] between two looks whether the first process is there
 # What the processes of ``each`` call: they are copies of this one, and need not be sent it.
 _CALLED: list[Callable[[Any], Any]] = []
 
@@ -23,7 +26,7 @@ def each(function: Callable[[A], T], arguments: Sequence[A], processes: int) -> 
     _CALLED.append(function)
     others = set(active_children())
     try:
-        with ProcessPoolExecutor(processes, get_context("fork"), _ignore_interrupts) as pool:
+        with ProcessPoolExecutor(processes, get_context("fork"), _begin, (os.getpid(),)) as pool:
             try:
                 for ready in as_completed([pool.submit(_call, argument) for argument in arguments]):
                     yield ready.result()
@@ -39,9 +42,18 @@ def _call(argument: Any) -> Any:
     return _CALLED[-1](argument)
 
 
-def _ignore_interrupts() -> None:
-    """Ctrl-C reaches every process of a terminal; the first one answers it."""
+def _begin(parent: int) -> None:
+    """What a process does first: the one that began it answers Ctrl-C, which reaches every process of a terminal, and
+    ends it; where that one has been killed, it ends too."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # a copy has the handlers of the first one
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(LOOK)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def apart(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
@@ -49,5 +61,6 @@ def apart(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
 
     In fresh processes: this one may have threads, which a copy would lack.
     """
-    with ProcessPoolExecutor(min(workers(), len(arguments)), mp_context=get_context("spawn")) as pool:
+    count = min(workers(), len(arguments))
+    with ProcessPoolExecutor(count, get_context("spawn"), _begin, (os.getpid(),)) as pool:
         return list(pool.map(function, arguments))

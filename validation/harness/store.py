@@ -121,12 +121,12 @@ def write(record: Record, tables: dict[str, pd.DataFrame], results: Path, inputs
         _write_verdict(record, new / "verdict.json")
         if inputs is not None:
             inputs.write(new)
-        _put(new, folder)
+        put(new, folder)
     return folder
 
 
-def _put(new: Path, folder: Path) -> None:
-    """Give a new folder the place of the one there, if any; another run may do the same at the same time."""
+def put(new: Path, folder: Path) -> None:
+    """Give a new folder the place of the one there, if any, which moves beside it; another run may do the same."""
     for k in count():
         with suppress(FileNotFoundError):
             folder.rename(new.with_name(f"old-{k}"))

@@ -3,7 +3,11 @@
 import operator
 import os
 import re
+import signal
+import subprocess
+import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pandas as pd
@@ -128,3 +132,46 @@ def test_what_is_reproduced_is_what_claims_and_the_first_page_rest_on():
     asked |= {each.study for each in leading.LEADING}
     public = {name for name in STUDIES if "data" in runner.load(name).needs}
     assert {name for name in STUDIES if runner.load(name).reproduce} == asked - public
+
+
+SLEEPERS = """
+import os, time
+from fctd.cli.interrupts import as_interrupts
+from validation.harness import side_by_side
+
+def sleep(seconds):
+    os.write(1, f"{os.getpid()}\\n".encode())  # in one piece
+    time.sleep(seconds)
+
+with as_interrupts():
+    list(side_by_side.each(sleep, [30, 30, 30, 30], 2))
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc")
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_no_process_outlives_the_first_one(number):
+    command = [sys.executable, "-c", SLEEPERS]
+    first = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    assert first.stdout is not None
+    others = [int(first.stdout.readline()) for _ in range(2)]
+    first.send_signal(number)
+    try:
+        first.wait(20)
+        end = time.monotonic() + 20
+        while any(map(runs, others)):
+            assert time.monotonic() < end
+            time.sleep(0.05)
+    finally:
+        first.stdout.close()
+        for process in (first.pid, *others):
+            with suppress(ProcessLookupError):
+                os.kill(process, signal.SIGKILL)
+
+
+def runs(process: int) -> bool:
+    """Whether a process is there; one that has ended and whose parent has not asked for it is not."""
+    try:
+        return "\nState:\tZ" not in Path(f"/proc/{process}/status").read_text()
+    except OSError:
+        return False
