@@ -4,6 +4,7 @@ import contextlib
 import re
 import runpy
 import shlex
+import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -107,6 +108,23 @@ def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+# Sweeps with fewer samples than the guide's.
+FEWER = {"uncertain_friction.toml": ("samples = 60", "samples = 16"), "stick_slip_map.toml": ("count = 5", "count = 2")}
+
+
+@pytest.fixture
+def fewer(checkout: Path) -> Path:
+    """The checkout with examples of its own, of which sweeps have fewer samples."""
+    (checkout / "examples").unlink()
+    shutil.copytree(ROOT / "examples", checkout / "examples", ignore=shutil.ignore_patterns("__pycache__"))
+    for file, (many, few) in FEWER.items():
+        path = checkout / "examples" / file
+        text = path.read_text(encoding="utf-8")
+        assert many in text
+        path.write_text(text.replace(many, few), encoding="utf-8")
+    return checkout
+
+
 @contextlib.contextmanager
 def exit_code_0() -> Iterator[None]:
     with pytest.raises(SystemExit) as stopped:
@@ -140,18 +158,18 @@ def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatc
 
 @pytest.mark.parametrize("document", [pytest.param(d, marks=slow(d)) for d in CHAINED], ids=name)
 def test_commands_build_on_each_other(
-    document: Path, checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    document: Path, fewer: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A script writes to its standard output, which the command redirects."""
     for command in commands(document):
         script = re.fullmatch(r"\.venv/bin/python (examples/\w+\.py) (.*?) > (\S+)", command)
         if script is None:
-            run_command(command, checkout, monkeypatch)
+            run_command(command, fewer, monkeypatch)
             continue
         monkeypatch.setattr(sys, "argv", [script[1], *script[2].split()])
         capsys.readouterr()
         runpy.run_path(script[1], run_name="__main__")
-        (checkout / script[3]).write_text(capsys.readouterr().out, encoding="utf-8")
+        (fewer / script[3]).write_text(capsys.readouterr().out, encoding="utf-8")
     run_blocks(document, capsys)
 
 

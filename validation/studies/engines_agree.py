@@ -36,7 +36,6 @@ ENGINES: dict[str, tuple[str, dict[str, Any]]] = {
 SOLVER, BY_SIMILARITY = "steady solver", "steady solver, full size by similarity"
 STEPPER = "FCTD's stepper, at its own size"
 FAIR = ("Bullet", "MuJoCo", "PyElastica")
-LONG_WELL = ("Bullet", "MuJoCo")  # engines that take long with the paper's well, which the quick study leaves out
 SMALL_WINDOW = 0.1  # [s] of the model at a thousandth, down whose 1.5 m of steel a wave runs and back in a millisecond
 # Holes and operations of the curved chain.
 WINDOWS = (
@@ -224,7 +223,7 @@ def well_table(context: Context, names: tuple[str, ...]) -> pd.DataFrame:
     for segments in context.progress((60,) if quick else (60, 170), "paper-well"):
         # Two periods of ringing; with 170 segments one, which costs a minute.
         window = Window(WELL_LEAD, 1.0 if quick else 4.2 if segments == 60 else 2.1)
-        chosen = tuple(name for name in names if not (quick and name in LONG_WELL))
+        chosen = tuple(name for name in names if not (quick and name in ("Bullet", "MuJoCo")))
         table, _ = compare(well(segments, window), "trip_in", 2250.0, window, chosen)
         found.append(table.assign(segments=segments))
     return pd.concat(found, ignore_index=True)
