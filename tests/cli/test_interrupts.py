@@ -216,7 +216,7 @@ def test_in_another_thread_nothing_is_changed() -> None:
     assert seen == [signal.SIG_DFL]
 
 
-IMPORTING = "import os, signal, sys; sys.argv[0] = sys.argv[1]; import fctd; os.kill(os.getpid(), signal.SIGINT)"
+IMPORTING = "import os, signal, sys; sys.argv[0] = sys.argv[1]; import fctd.__main__; os.kill(os.getpid(), signal.SIGINT)"
 
 
 @pytest.mark.parametrize("command", ["fctd", "/usr/bin/fctd.exe"])
@@ -227,7 +227,8 @@ def test_between_the_imports_and_the_command(command: str) -> None:
 
 
 def test_other_programs_that_import_it_get_ctrl_c() -> None:
-    other = subprocess.run([sys.executable, "-c", IMPORTING, "x"], cwd=ROOT, capture_output=True)
+    program = IMPORTING.replace("fctd.__main__", "fctd")
+    other = subprocess.run([sys.executable, "-c", program, "fctd"], cwd=ROOT, capture_output=True)
     assert b"KeyboardInterrupt" in other.stderr
 
 
