@@ -20,7 +20,8 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
-from fctd.model.operations import depth_range, rates_of_all
+from fctd.model.depths import usual_depths
+from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.plots.palette import BUCKLED
 from fctd.results.measured import read_measured
@@ -49,7 +50,7 @@ class Well:
     def __init__(self, source: Source, folder: Path, units: System) -> None:
         self.units, self.read = units, SourceCase(source, folder)
         self.case = self.read.case
-        self.depths = depths_of(self.case)
+        self.depths = usual_depths(self.case, DEPTHS)
         self.sliders = sliders_of(self.case, units)
         self.hole, self._rows = build_wellbore(self.case), Rows()
         self._drawn = drawn_hole(self.case, self.hole, self.case.string.top_md)
@@ -185,20 +186,3 @@ class Well:
             "crosses: no loads": any(np.isnan(row["hookload_N"]) for row in rows),
         }
         return "; ".join(filter(None, [told, *(sign for sign, drawn in signs.items() if drawn)]))
-
-
-def depths_of(case: Case) -> list[float]:
-    """Bit depths of the chart [m]: from the last shoe, or the middle of the hole, to its end or that of the string.
-
-    A string whose top segment is the paper's long one fits only where the case moves it.
-    """
-    top, bottom = case.string.top_md, case.deepest
-    last = case.string.components[-1]
-    if last.long_segment and case.operations:
-        _, low, high = depth_range(case)
-    else:
-        low = next((shoe for shoe in reversed(case.shoes) if top < shoe < bottom), top + 0.5 * (bottom - top))
-        high = bottom
-    if high - low < 1.0:
-        low = top + 0.5 * (high - top)
-    return [round(float(depth), 3) for depth in np.linspace(low, high, DEPTHS)]

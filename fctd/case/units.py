@@ -311,3 +311,20 @@ Viscosity = Annotated[float, Quantity(dimension=VISCOSITY, at_least=0.0, at_most
 DampingPerLength = Annotated[float, Quantity(dimension=DAMPING_PER_LENGTH, at_least=0.0)]
 PositiveFlow = Annotated[float, Quantity(dimension=FLOW, above=0.0)]
 RotationalDamping = Annotated[float, Quantity(dimension=ROTATIONAL_DAMPING, at_least=0.0)]
+
+
+def typed(text: str, dimension: Dimension, key: str, bare: str = "") -> float:
+    """A quantity of at least 0 as it is typed, "1750 m" or a bare "1750", in SI; InputError names the key.
+
+    bare : unit of a bare number, by default that of SI.
+    """
+    try:
+        value: object = float(text)
+    except ValueError:
+        value = text
+    else:
+        value = f"{text} {bare}" if bare else value
+    try:
+        return Quantity(dimension=dimension, at_least=0.0).parse(value)
+    except InputError as error:
+        raise InputError(error.expected, key=key, value=text) from None

@@ -16,7 +16,6 @@ from fctd.case.friction import parse_frictions
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
-from fctd.case.units import LENGTH
 from fctd.cli.chart_table import print_chart
 from fctd.cli.keeping import (
     EVERY_CHART,
@@ -39,12 +38,12 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    bare_length,
     changes_of,
     finish,
     messages,
     print_written,
     read_case,
-    read_quantity,
     refuse_sources,
     tell,
 )
@@ -66,20 +65,19 @@ from fctd.cli.steady import (
     in_units,
     metadata_of,
     print_segments,
-    read_depth,
     read_drive,
 )
+from fctd.model.depths import read_depths
 from fctd.model.operations import rates_of_all
 from fctd.plots.loads import ChartLook
 from fctd.results.measured import read_measured
 from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.results.tables import write_table
-from fctd.results.unit_systems import System
 from fctd.simulation.limits import LimitReached
 from fctd.steady.equilibrium import Solver
 from fctd.steady.kept_rows import KeptRows
-from fctd.steady.torque_drag import Row, chart_rows, depths_between, with_friction
+from fctd.steady.torque_drag import Row, chart_rows, with_friction
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -88,7 +86,6 @@ DEPTHS_HELP = (
     "Bit depths, 1750:2450:10 in m, with --units field in ft, '5000 ft:8000 ft:30 ft' or shoe:td:50; the last is "
     "always among them."
 )
-MOST_DEPTHS = 10_000  # more is a slip in the step
 PROGRAM = "fctd chart"
 
 
@@ -216,7 +213,7 @@ def _chart(
     out, plot = check_targets(asked.out, asked.plot, plot_profile)
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key, [asked.measured])
-    bit_depths = read_depths(asked.depths, case, units)
+    bit_depths = read_depths(asked.depths, case, "--depths", bare_length(units))
     points_measured = None if asked.measured is None else _measured(asked.measured, case, plot)
     names = [name.strip() for text in asked.operations for name in text.split(",")]
     kinds = list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name])))
@@ -298,26 +295,6 @@ def _frame(rows: list[Row]) -> "pd.DataFrame":
     import pandas as pd  # slow to import
 
     return pd.DataFrame(rows)
-
-
-def read_depths(text: str, case: Case, units: System = "si") -> list[float]:
-    """Bit depths [m] of FROM:TO:STEP, TO included; ``shoe`` is the last casing shoe, ``td`` the end of the hole.
-
-    Bare numbers are in the system's unit.
-    """
-    parts = text.split(":")
-    if len(parts) != 3:
-        raise InputError(
-            "FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft' or shoe:td:50", key="--depths", value=text
-        )
-    first, last = (read_depth(part, case, "--depths", units, given=text) for part in parts[:2])
-    step = read_quantity(parts[2], LENGTH, "--depths", units)
-    if not (first <= last and step > 0):
-        raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key="--depths", value=text)
-    steps = (last - first) / step
-    if steps >= MOST_DEPTHS:
-        raise InputError(f"at most {MOST_DEPTHS} depths", key="--depths", value=text)
-    return depths_between(first, last, step)
 
 
 def _tell_not_drawn(measured: "pd.Series[str]", kinds: Sequence[str]) -> None:

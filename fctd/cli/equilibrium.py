@@ -19,6 +19,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    bare_length,
     changes_of,
     finish,
     messages,
@@ -43,9 +44,9 @@ from fctd.cli.steady import (
     in_units,
     metadata_of,
     print_segments,
-    read_depth,
     read_drive,
 )
+from fctd.model.depths import read_depth
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
 from fctd.results.profile import place_in_words
@@ -84,7 +85,7 @@ def equilibrium_command(
     case = read_case(case_file, changes_of(overrides, friction, resolve_buckling))
     refuse_sources(case, out, "--out")
     refuse_sources(case, plot, "--plot")
-    depth = read_depth(bit_depth, case, "--bit-depth", units)
+    depth = read_depth(bit_depth, case, "--bit-depth", bare_length(units))
     with naming_file(case):
         check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
     drive = read_drive(speed, rpm, units)

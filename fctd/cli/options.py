@@ -13,7 +13,7 @@ from fctd.case.friction import parse_frictions
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, load_case, parse_override
 from fctd.case.text import printable, printable_lines
-from fctd.case.units import Dimension, Quantity
+from fctd.case.units import Dimension, typed
 from fctd.results.notes import Note
 from fctd.results.tables import own_files, table_files
 from fctd.results.unit_systems import System, reworded
@@ -131,19 +131,14 @@ def print_notes(notes: Iterable[Note], units: System = "si") -> None:
         messages.print(f"note: {reworded(str(note), units)}", soft_wrap=True)
 
 
+def bare_length(units: System) -> str:
+    """The unit of a bare length in a system of units."""
+    return BARE_FIELD_UNITS["m"] if units == "field" else "m"
+
+
 def read_quantity(text: str, dimension: Dimension, key: str, units: System = "si") -> float:
     """A quantity of at least 0, "1750 m" or a bare "1750" in the system's unit, in SI; InputError names the option."""
-    try:
-        value: object = float(text)
-    except ValueError:
-        value = text
-    else:
-        if units == "field" and dimension.unit in BARE_FIELD_UNITS:
-            value = f"{text} {BARE_FIELD_UNITS[dimension.unit]}"
-    try:
-        return Quantity(dimension=dimension, at_least=0.0).parse(value)
-    except InputError as error:
-        raise InputError(error.expected, key=key, value=text) from None
+    return typed(text, dimension, key, BARE_FIELD_UNITS.get(dimension.unit, "") if units == "field" else "")
 
 
 def read_share(text: str, key: str) -> float:

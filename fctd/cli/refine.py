@@ -16,6 +16,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    bare_length,
     changes_of,
     check_target,
     finish,
@@ -29,7 +30,8 @@ from fctd.cli.options import (
     screen,
     tell,
 )
-from fctd.cli.steady import DEPTH_HELP, KIND_HELP, ResolveBuckling, Rpm, Speed, Units, read_depth, read_drive
+from fctd.cli.steady import DEPTH_HELP, KIND_HELP, ResolveBuckling, Rpm, Speed, Units, read_drive
+from fctd.model.depths import read_depth
 from fctd.results.unit_systems import System, shown
 from fctd.steady.refine import Refinement, refine
 from fctd.steady.refined_file import survey_from, write_refined
@@ -79,7 +81,7 @@ def refine_command(
     refuse_sources(case, out, "--out")
     if out is not None:
         survey_from(out, case)  # raises InputError before the computing
-    depth = None if bit_depth is None else read_depth(bit_depth, case, "--bit-depth", units)
+    depth = None if bit_depth is None else read_depth(bit_depth, case, "--bit-depth", bare_length(units))
     drive = read_drive(speed, rpm, units)
     tell(case, warnings_of(case, operations, **drive), strict=strict, units=units)
     with messages.status("compiling") as status:

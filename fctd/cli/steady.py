@@ -10,7 +10,7 @@ from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.case.units import LENGTH, ROTATION, SPEED
+from fctd.case.units import ROTATION, SPEED
 from fctd.cli.options import check_target, read_quantity, screen
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.drillstring import lay_out
@@ -70,22 +70,6 @@ def read_drive(speed: str | None, rpm: str | None, units: System = "si") -> dict
         "speed": None if speed is None else read_quantity(speed, SPEED, "--speed", units),
         "rpm": None if rpm is None else read_quantity(rpm, ROTATION, "--rpm"),
     }
-
-
-def read_depth(text: str, case: Case, key: str, units: System = "si", *, given: str | None = None) -> float:
-    """A depth [m] of an option: bare numbers in the system's unit; ``shoe`` is the last casing shoe, ``td`` the end.
-
-    given : the option's whole value, where text is a part of it.  Raises InputError, which names the option.
-    """
-    word = text.strip().lower()
-    if word == "td":
-        return case.depths[1]
-    if word == "shoe":
-        shoes = case.shoes
-        if not shoes:
-            raise InputError("a depth, as the case has one interval and no shoe", key=key, value=given or text)
-        return shoes[-1]
-    return read_quantity(text, LENGTH, key, units)
 
 
 def check_table(out: Path | None, suffixes: Sequence[str] = TABLES) -> None:

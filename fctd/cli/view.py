@@ -5,21 +5,20 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
-from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import file_name, printable
-from fctd.cli.chart import DEPTHS_HELP, read_depths
+from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.keeping import case_of, how_far
 from fctd.cli.options import (
     Friction,
     Overrides,
     Quiet,
+    bare_length,
     changes_of,
     check_target,
     messages,
@@ -30,6 +29,7 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import check_package
 from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive
+from fctd.model.depths import read_depths, usual_depths
 from fctd.results.run_folder import about_of, run_path
 from fctd.results.tables import open_result, result_files
 from fctd.results.unit_systems import System
@@ -109,7 +109,9 @@ def view_command(
     else:
         case = read_case(source, changes_of(overrides, friction, resolve_buckling))
         kinds = _kinds(operations)
-        wanted = _depths(case, depths, units)
+        wanted = (
+            usual_depths(case, DEPTHS) if depths is None else read_depths(depths, case, "--depths", bare_length(units))
+        )
         drive = read_drive(speed, rpm, units)
         told = tell(case, warnings_of(case, kinds, **drive), strict=False, units=units)
         columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn())
@@ -147,15 +149,6 @@ def _of_run(folder: Path, given: dict[str, object]) -> Strings:
 def _kinds(operations: Sequence[str]) -> list[str]:
     names = [name.strip() for text in operations for name in text.split(",")] or list(USUAL)
     return list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name])))
-
-
-def _depths(case: Case, text: str | None, units: System) -> list[float]:
-    """The depths that are asked for, else even ones from the last shoe, or the middle of the hole, to the deepest."""
-    if text is not None:
-        return read_depths(text, case, units)
-    top, bottom = case.string.top_md, case.deepest
-    first = next((shoe for shoe in reversed(case.shoes) if top < shoe < bottom), top + 0.5 * (bottom - top))
-    return [round(float(depth), 3) for depth in np.linspace(first, bottom, DEPTHS)]
 
 
 def _write(

@@ -186,15 +186,6 @@ def with_friction(case: Case, friction: FrictionChoice) -> Case:
     return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})
 
 
-def depths_between(first: float, last: float, step: float) -> list[float]:
-    """Bit depths [m] from the first in steps to the last, which is always among them.
-
-    Rounding errors neither double the last one nor give 1750.3000000000002.
-    """
-    steps = (last - first) / step
-    return [*(round(first + k * step, 6) for k in range(int(np.ceil(steps - 1e-6)))), round(last, 6)]
-
-
 def own_friction(case: Case) -> float:
     """The friction factor of the case if all its intervals have the same, else NaN."""
     factors = {interval.friction for interval in case.wellbore.intervals}

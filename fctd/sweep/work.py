@@ -6,24 +6,23 @@ used its time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.units import LENGTH, Quantity
+from fctd.model.depths import read_depths
 from fctd.model.operations import rates_of_all
 from fctd.results.columns import LOADS
 from fctd.results.notes import codes_of
 from fctd.simulation.simulate import Simulation
 from fctd.steady.refine import refine
-from fctd.steady.torque_drag import chart_rows, depths_between
+from fctd.steady.torque_drag import chart_rows
 from fctd.sweep.spec import WorkSpec
 
 Row = dict[str, Any]
 Tick = Callable[[], None]
-MOST_DEPTHS: Final = 10_000
 
 
 class TooLongError(RuntimeError):
@@ -40,7 +39,8 @@ class Task:
 
 def task_of(spec: WorkSpec, case: Case) -> Task:
     """The work of a sweep; raises InputError for depths or rates that the case cannot have."""
-    depths = read_depths(spec.depths, case) if spec.depths is not None else ()
+    written = spec.depths if spec.depths is not None else ()
+    depths = tuple(read_depths(written, case, "work.depths") if isinstance(written, str) else written)
     if spec.bit_depth is not None:
         depths = (spec.bit_depth,)
     if spec.kind != "simulate":
@@ -48,34 +48,6 @@ def task_of(spec: WorkSpec, case: Case) -> Task:
     elif not case.operations:
         raise InputError('operations of the case, which kind = "simulate" runs', key="work.kind", value="simulate")
     return Task(spec, depths)
-
-
-def read_depths(written: str | Sequence[float], case: Case) -> tuple[float, ...]:
-    """Bit depths [m] of "FROM:TO:STEP", of which shoe is the case's last casing shoe and td its end, or of a list."""
-    if not isinstance(written, str):
-        return tuple(written)
-    parts = [part.strip() for part in written.split(":")]
-    key = "work.depths"
-    if len(parts) != 3:
-        raise InputError("FROM:TO:STEP, such as '1750:2450:10' or 'shoe:td:30 ft'", key=key, value=written)
-    length = Quantity(dimension=LENGTH, above=0.0)
-    named = {"td": case.depths[1]}
-    if case.shoes:
-        named["shoe"] = case.shoes[-1]
-    try:
-        first, last, step = (named.get(part.lower()) or length.parse(_number(part)) for part in parts)
-    except InputError as error:
-        raise InputError(error.expected, key=key, value=written) from None
-    if not (first <= last and (last - first) / step < MOST_DEPTHS):
-        raise InputError(f"depths that rise, at most {MOST_DEPTHS}", key=key, value=written)
-    return tuple(depths_between(first, last, step))
-
-
-def _number(text: str) -> float | str:
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def misfit(case: Case, task: Task) -> InputError | None:

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 import fctd
 from fctd.app.charts import LOST, place_of
 from fctd.app.sessions import Source
-from fctd.app.well import DEPTHS, EVERY, Well, depths_of
+from fctd.app.well import DEPTHS, EVERY, Well
 from fctd.case.errors import InputError
+from fctd.model.depths import usual_depths
 from fctd.model.summary import summarise
 from fctd.view.scene import SCENE
 from tests.app.made import ROWS, TEXT, source
-from tests.cases import make_case, pipe
 
 KINDS = ["trip_out", "rotate_off_bottom"]
 
@@ -142,15 +142,7 @@ def test_depths_end_where_the_string_does(tmp_path: Path) -> None:
     path = Path(__file__).parents[2] / "validation" / "cases" / "curved_chain.toml"
     case = fctd.load_case(path)
     assert case.depths[1] == 2600.0
-    assert depths_of(case)[-1] == case.deepest == summarise(case).bit_depth
+    assert usual_depths(case, 2)[-1] == case.deepest == summarise(case).bit_depth
     assert case.deepest == pytest.approx(2450.0)
     well = Well(Source(path.read_text(encoding="utf-8")), tmp_path, "si")
     assert well.opened()["depth"]["high"] == pytest.approx(case.deepest)
-
-
-def test_depths_of_a_long_segment_are_those_that_the_case_moves_it_through() -> None:
-    long = [pipe(200, 20), pipe(None, 1)]
-    moved = {"kind": "trip_in", "from_md": 250.0, "to_md": 400.0, "speed": 0.2}
-    stations = [[0.0, 0, 0], [300, 0, 0], [500, 45, 0], [900, 45, 0]]
-    assert depths_of(make_case(stations, long, [moved]))[:: DEPTHS - 1] == [250.0, 400.0]
-    assert depths_of(make_case(stations, [pipe(None, None, segment_length=20.0)]))[:: DEPTHS - 1] == [450.0, 900.0]

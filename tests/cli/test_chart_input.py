@@ -2,15 +2,10 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from fctd.case.errors import InputError
-from fctd.cli.chart import MOST_DEPTHS, read_depths
 from tests.cli.test_main import run
-from tests.cli.tiny import CHART, FOOT, POINT
+from tests.cli.tiny import CHART, POINT
 from tests.plots.made import well
 
 SHOD = well()
@@ -84,31 +79,3 @@ def test_all_operations_do_not_hide_a_wrong_one(
     kinds = ("--operation", "all", "--operation", "wiggle")
     assert run(monkeypatch, "chart", case_file, *kinds, "--depths", "500:800:100") == 2
     assert "wiggle" in capsys.readouterr().err
-
-
-@given(
-    first=st.integers(1, 50_000), step=st.integers(1, 400), count=st.integers(0, 300), beyond=st.integers(0, 399),
-    unit=st.sampled_from([("", 1.0), (" m", 1.0), (" ft", FOOT), (" cm", 0.01)]),
-)  # fmt: skip
-def test_depths_rise_from_first_to_last_in_equal_steps(
-    first: int, step: int, count: int, beyond: int, unit: tuple[str, float]
-) -> None:
-    """The last step may be shorter: the end is always in."""
-    name, metres = unit
-    last = first + count * step + beyond % step
-    depths = read_depths(f"{first}{name}:{last}{name}:{step}{name}", SHOD)
-    expected = metres * np.unique(np.append(first + step * np.arange(count + 1), last))
-    np.testing.assert_allclose(depths, expected, rtol=0, atol=1e-6)
-
-
-def test_the_grid_has_a_limit() -> None:
-    assert len(read_depths(f"1:{MOST_DEPTHS}:1", SHOD)) == MOST_DEPTHS
-    with pytest.raises(InputError):
-        read_depths(f"1:{MOST_DEPTHS + 1}:1", SHOD)
-
-
-def test_words_stand_for_the_shoe_and_the_end_of_the_hole() -> None:
-    """A shoe at 1,500 m in a hole of 2,000 m."""
-    assert read_depths("shoe:td:200", SHOD) == [1500, 1700, 1900, 2000]
-    assert read_depths("1400: shoe :100", SHOD) == [1400, 1500]
-    assert read_depths("td:td:1", SHOD) == [2000]

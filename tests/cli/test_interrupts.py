@@ -216,7 +216,9 @@ def test_in_another_thread_nothing_is_changed() -> None:
     assert seen == [signal.SIG_DFL]
 
 
-IMPORTING = "import os, signal, sys; sys.argv[0] = sys.argv[1]; import fctd.__main__; os.kill(os.getpid(), signal.SIGINT)"
+IMPORTING = (
+    "import os, signal, sys; sys.argv[0] = sys.argv[1]; import fctd.__main__; os.kill(os.getpid(), signal.SIGINT)"
+)
 
 
 @pytest.mark.parametrize("command", ["fctd", "/usr/bin/fctd.exe"])

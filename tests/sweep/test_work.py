@@ -12,7 +12,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case
 from fctd.steady.equilibrium import equilibrium
 from fctd.sweep.spec import WorkSpec
-from fctd.sweep.work import WORK, Row, Task, TooLongError, misfit, read_depths, task_of
+from fctd.sweep.work import WORK, Row, Task, TooLongError, misfit, task_of
 from validation.parts.small_sweep import case_file
 
 RUN = """
@@ -101,18 +101,12 @@ def test_every_work_asks_the_clock(spec: dict[str, object], tmp_path: Path) -> N
         rows(load_case(case_file(tmp_path, RUN)), too_late, **spec)
 
 
-def test_depths_are_those_of_the_chart_command(tmp_path: Path) -> None:
+def test_depths_are_a_list_or_written(tmp_path: Path) -> None:
     case = load_case(case_file(tmp_path))
-    assert read_depths("600: td :120", case) == (600, 720, 840, 900)
-    assert read_depths("shoe:td:250", case) == (400, 650, 900)
-    assert read_depths("2000 ft:2050 ft:50 ft", case) == (609.6, 624.84)
-    assert read_depths([700.0], case) == (700.0,)
-
-
-@pytest.mark.parametrize("text", ["600", "600:900", "900:600:10", "600:900:0", "600:900:ten", "600:900:1e-4"])
-def test_wrong_depths_name_the_key(text: str, tmp_path: Path) -> None:
+    assert task(case, operations=["trip_out"], depths=[700.0]).depths == (700.0,)
+    assert task(case, operations=["trip_out"], depths="2000 ft:td:1000 ft").depths == (609.6, 900.0)
     with pytest.raises(InputError, match=r"work\.depths"):
-        read_depths(text, load_case(case_file(tmp_path)))
+        task(case, operations=["trip_out"], depths="600:900")
 
 
 def test_rates_that_no_operation_takes_are_refused(tmp_path: Path) -> None:

@@ -1,0 +1,68 @@
+"""Bit depths as people write them, and those that are taken where none is asked for."""
+
+import numpy as np
+
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.units import LENGTH, typed
+from fctd.model.operations import depth_range
+
+MOST_DEPTHS = 10_000  # more is a slip in the step
+
+
+def read_depth(text: str, case: Case, key: str, bare: str = "m", *, given: str | None = None) -> float:
+    """A depth [m]: a length, ``shoe`` for the last casing shoe, ``td`` for the end of the hole.
+
+    bare : unit of a bare number.  given : the whole value of the key, where the text is a part of it.  Raises
+    InputError, which names the key.
+    """
+    word = text.strip().lower()
+    if word == "td":
+        return case.depths[1]
+    if word == "shoe":
+        shoes = case.shoes
+        if not shoes:
+            raise InputError("a depth, as the case has one interval and no shoe", key=key, value=given or text)
+        return shoes[-1]
+    return typed(text, LENGTH, key, bare)
+
+
+def read_depths(text: str, case: Case, key: str, bare: str = "m") -> list[float]:
+    """Bit depths [m] of FROM:TO:STEP, TO included; see ``read_depth``.  Raises InputError, which names the key."""
+    parts = text.split(":")
+    if len(parts) != 3:
+        raise InputError(
+            "FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft' or shoe:td:50", key=key, value=text
+        )
+    first, last = (read_depth(part, case, key, bare, given=text) for part in parts[:2])
+    step = typed(parts[2], LENGTH, key, bare)
+    if not (first <= last and step > 0):
+        raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key=key, value=text)
+    if (last - first) / step >= MOST_DEPTHS:
+        raise InputError(f"at most {MOST_DEPTHS} depths", key=key, value=text)
+    return depths_between(first, last, step)
+
+
+def depths_between(first: float, last: float, step: float) -> list[float]:
+    """Bit depths [m] from the first in steps to the last, which is always among them.
+
+    Rounding errors neither double the last one nor give 1750.3000000000002.
+    """
+    steps = (last - first) / step
+    return [*(round(first + k * step, 6) for k in range(int(np.ceil(steps - 1e-6)))), round(last, 6)]
+
+
+def usual_depths(case: Case, count: int) -> list[float]:
+    """Even bit depths [m]: from the last shoe, or the middle of the hole, to its end or that of the string.
+
+    A string whose top segment is the paper's long one fits only where the case moves it.
+    """
+    top, bottom = case.string.top_md, case.deepest
+    if case.string.components[-1].long_segment and case.operations:
+        _, low, high = depth_range(case)
+    else:
+        low = next((shoe for shoe in reversed(case.shoes) if top < shoe < bottom), top + 0.5 * (bottom - top))
+        high = bottom
+    if high - low < 1.0:
+        low = top + 0.5 * (high - top)
+    return [round(float(depth), 3) for depth in np.linspace(low, high, count)]
