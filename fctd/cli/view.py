@@ -15,6 +15,7 @@ from fctd.case.text import file_name, printable
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.keeping import case_of, how_far
 from fctd.cli.options import (
+    FAILED,
     Friction,
     Overrides,
     Quiet,
@@ -122,7 +123,12 @@ def view_command(
                 bar.update(task, completed=done, total=total)
 
             strings = of_chart(case, kinds, wanted, **drive, progress=show)
+        if strings.left_out:
+            messages.print(f"warning: {strings.left_out}", markup=False, soft_wrap=True)
+            told = [*told, strings.left_out]
     _write(strings, out, png, colour, units, exaggeration, told)
+    if strings.left_out:
+        raise typer.Exit(FAILED)
 
 
 def _of_run(folder: Path, given: dict[str, object]) -> Strings:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, Literal
 
@@ -68,12 +68,13 @@ class Snapshot:
 
 @dataclass(frozen=True)
 class Strings:
-    """What a view shows.  along : what its slider goes over."""
+    """What a view shows.  along : what its slider goes over; left_out : depths at which there is no string, and why."""
 
     case: Case
     along: Literal["bit depth", "time"]
     snapshots: tuple[Snapshot, ...]
     drawn: DrawnHole
+    left_out: str = ""
 
     @property
     def groups(self) -> list[str]:
@@ -105,19 +106,26 @@ def of_chart(
     """
     kinds = [operation] if isinstance(operation, str) else list(operation)
     rates, solver = rates_of_all(case, kinds, speed, rpm), Solver(case)
-    points, unfit = [], None
+    points, unfit = [], dict[float, InputError]()
     for k, depth in enumerate(bit_depths, start=1):
         try:
             laid = solver.lay_out(float(depth))
             points += [solver.solve_string(kind, rates[kind], laid) for kind in kinds]
         except InputError as error:
-            unfit = unfit or error
+            unfit[float(depth)] = error
         if progress is not None:
             progress(k, len(bit_depths))
     if not points:
-        raise unfit or InputError("at least one bit depth", key="bit_depths", value=[])
+        raise next(iter(unfit.values()), InputError("at least one bit depth", key="bit_depths", value=[]))
     points.sort(key=lambda point: kinds.index(point.operation))
-    return of_points(points, solver.hole)
+    return replace(of_points(points, solver.hole), left_out=_left_out(unfit))
+
+
+def _left_out(unfit: dict[float, InputError]) -> str:
+    if not unfit:
+        return ""
+    depths = ", ".join(f"{depth:g}" for depth in unfit)
+    return f"no string with the bit at {depths} m: {next(iter(unfit.values()))}"
 
 
 def of_points(points: Sequence[Equilibrium], hole: Wellbore | None = None, drawn: DrawnHole | None = None) -> Strings:

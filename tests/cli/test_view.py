@@ -33,6 +33,18 @@ def test_a_case_and_its_run_become_pages(
     assert "rotating off bottom, bit at 800.0 m" in Path("run.html").read_text(encoding="utf-8")
 
 
+def test_depths_without_a_string_are_named(
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """On the screen and on the page; as a chart with such rows, it is exit code 1."""
+    monkeypatch.chdir(tmp_path)
+    given = ("--operation", "trip_in", "--depths", "700:2700:1000", "--quiet")
+    assert run(monkeypatch, "view", case_file, *given) == 1
+    told = "no string with the bit at 1700, 2700 m"
+    assert told in capsys.readouterr().err
+    assert told in Path("small-view.html").read_text(encoding="utf-8")
+
+
 def test_a_run_that_has_not_ended(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
