@@ -1,5 +1,6 @@
 """Users' files, read up to a largest size: reading a pipe would block, and a device may never end."""
 
+import codecs
 import errno
 import io
 import os
@@ -18,6 +19,30 @@ def read_text(path: Path, largest: int) -> str:
     Raises as `read_bytes` does, and ValueError for a file that is not UTF-8.
     """
     return io.StringIO(read_bytes(path, largest).decode("utf-8-sig"), newline=None).read()
+
+
+def read_office_text(path: Path, largest: int) -> str:
+    """As `read_text`, of a file in any encoding in which an office saves text.
+
+    Raises as `read_bytes` does, and ValueError for a file that is not text.
+    """
+    content = read_bytes(path, largest)
+    return io.StringIO(content.decode(encoding_of(content)), newline=None).read()
+
+
+def encoding_of(content: bytes) -> str:
+    """The encoding of a text as offices save them: UTF-8, UTF-16, or Windows 1252 where it is neither."""
+    if content.startswith(codecs.BOM_UTF8):
+        return "utf-8-sig"
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return "utf-16"
+    if b"\0" in content[:100]:  # UTF-16 without its mark: every other byte of a text is zero
+        return "utf-16-le" if content[1:2] == b"\0" else "utf-16-be"
+    try:
+        content.decode("utf-8")
+    except UnicodeDecodeError:
+        return "cp1252"
+    return "utf-8"
 
 
 def read_toml(path: Path, largest: int, what: str) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from fctd.case.errors import InputError
-from fctd.case.input_file import read_text
+from fctd.case.input_file import read_office_text
 from fctd.case.text import counted
 from fctd.case.units import Dimension, Quantity
 
@@ -141,7 +141,7 @@ def require(lines: Sequence[Line], what: str, columns: Sequence[str], headers: s
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """Line number and stripped cells of every row that is not blank."""
     try:
-        text = read_text(path, LARGEST_FILE)
+        text = read_office_text(path, LARGEST_FILE)
         reader = csv.reader(io.StringIO(text), delimiter=_separator(text))
         return [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader if any(map(str.strip, cells))]
     except OSError as error:

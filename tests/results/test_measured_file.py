@@ -16,9 +16,9 @@ FIELDS = (
 )
 
 
-def read(tmp_path: Path, text: str) -> list[dict[str, object]]:
+def read(tmp_path: Path, text: str, encoding: str = "utf-8") -> list[dict[str, object]]:
     path = tmp_path / "rows.csv"
-    path.write_text(text, encoding="utf-8")
+    path.write_text(text, encoding=encoding)
     return [line.cells for line in read_lines(path, FIELDS, [Text("name", "name|id")], "such as speed_m_s")]
 
 
@@ -40,6 +40,12 @@ def test_rows_of_a_spreadsheet(separator: str, tmp_path: Path) -> None:
     name = "a" if separator == " , " else "a, b"
     text = f"\nname{separator}speed_m_s\n{name}{separator}0.3\n"
     assert read(tmp_path, text) == [{"name": name, "speed_m_s": 0.3}]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "cp1252"])
+def test_rows_in_the_encodings_of_an_office(encoding: str, tmp_path: Path) -> None:
+    text = "name,speed_m_s\nprüf,0.5\n"
+    assert read(tmp_path, text, encoding) == [{"name": "prüf", "speed_m_s": 0.5}]
 
 
 def test_a_decimal_comma_is_read_and_never_drops_digits(tmp_path: Path) -> None:

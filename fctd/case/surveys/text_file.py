@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import csv
 import io
 import re
@@ -11,6 +10,7 @@ from itertools import islice
 from typing import Final
 
 from fctd.case.errors import InputError
+from fctd.case.input_file import encoding_of
 from fctd.case.surveys.headers import COMMENT, KEYS, TITLES, Row, Wanted, find_header, is_comment
 from fctd.case.surveys.stations import MOST_STATIONS, StationKey, Written
 from fctd.case.surveys.table import read_table
@@ -32,7 +32,7 @@ def decode(content: bytes) -> str:
     Raises InputError for a file that is not text.
     """
     try:
-        text = content.decode(_encoding(content)).removesuffix("\x1a")  # the mark of DOS at the end of a text
+        text = content.decode(encoding_of(content)).removesuffix("\x1a")  # the mark of DOS at the end of a text
     except UnicodeDecodeError as error:
         raise InputError(KINDS) from error
     if _BINARY.search(text):
@@ -53,20 +53,6 @@ def read_text(text: str, columns: Mapping[StationKey, Wanted]) -> Written:
         return read_table(_separated(text, separator), columns, decimal_commas=separator != ",", cut=True)
     except csv.Error as error:
         raise InputError(f"a text in columns ({error})") from error
-
-
-def _encoding(content: bytes) -> str:
-    if content.startswith(codecs.BOM_UTF8):
-        return "utf-8-sig"
-    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        return "utf-16"
-    if b"\0" in content[:100]:  # UTF-16 without its mark: every other byte of a text is zero
-        return "utf-16-le" if content[1:2] == b"\0" else "utf-16-be"
-    try:
-        content.decode("utf-8")
-    except UnicodeDecodeError:
-        return "cp1252"
-    return "utf-8"
 
 
 def _likelihood(start: str, separator: str, columns: Mapping[StationKey, Wanted]) -> tuple[int, int]:
