@@ -2,6 +2,7 @@
 
 import functools
 import gc
+import signal
 import sys
 
 import hypothesis
@@ -15,6 +16,14 @@ hypothesis.settings.load_profile("fctd")
 
 # A program builds its command line once and runs one command; the tests run hundreds.
 typer.main.get_command = functools.cache(typer.main.get_command)
+
+
+def pytest_configure() -> None:
+    """A shell ignores Ctrl-C for what it starts in the background, and nohup the end of a terminal: tests do not."""
+    for name, usual in {"SIGINT": signal.default_int_handler, "SIGHUP": signal.SIG_DFL}.items():
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) == signal.SIG_IGN:
+            signal.signal(number, usual)
 
 
 def pytest_sessionfinish() -> None:

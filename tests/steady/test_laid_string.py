@@ -58,7 +58,7 @@ def test_the_string_is_laid_out_once_a_depth(monkeypatch: pytest.MonkeyPatch) ->
 
     monkeypatch.setattr(equilibrium, "lay_out", counted)
     torque_drag(bent_case(), KINDS, DEPTHS, FRICTIONS)
-    assert depths == DEPTHS
+    assert sorted(depths) == sorted(DEPTHS)  # threads take them in any order
 
 
 def test_it_fills_a_buffer_with_the_string_of_its_case() -> None:
