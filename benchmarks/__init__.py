@@ -1,3 +1,3 @@
 """Benchmarks of the engine, the references and the release gate."""
 
-import fctd  # noqa: F401 (fctd sets the folder of compiled code, and the reference kernel does not import fctd)
+import fctd.mechanics.jit  # noqa: F401 (it sets the folder of compiled code; the reference kernel does not import fctd)

@@ -136,7 +136,7 @@ for rpm in (30, 60):
 COMPILED = """
 from fctd.mechanics import dynamics, state
 from fctd.mechanics.jit import entry
-from fctd.mechanics.laws import CODES
+from fctd.mechanics.law_names import CODES
 
 laws = state.Laws(state.ARCS, CODES["viscous"], 1.0, 0.0, 0.0, 0.0)
 entry(dynamics.update_velocities.py_func)(state.new_state(1), state.LANES, laws, 1e-3)
