@@ -22,11 +22,12 @@ from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, LARGEST_TURN, PATIENT, balance
 from fctd.steady.batch import Hole, Row, hole_of, solve_batch
 from fctd.steady.bisection import bisect, find_anew
+from fctd.steady.carried_shape import Carried, begin, carry
 from fctd.steady.climb import BEYOND, SOUND, Climb, climb, end_of, lock_up
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.laid_string import LaidString
-from fctd.steady.post_buckling import is_resolved, resolve
+from fctd.steady.post_buckling import Resolved, is_resolved, resolve
 from fctd.steady.problem import Allowance, Problem, Workspace
 from fctd.steady.reading import SOLVED, Answer
 from fctd.steady.steady_string import Equilibrium, steady_string
@@ -93,16 +94,19 @@ class Solver:
 
     # Of an iteration that diverged only the status is used; its numbers may overflow.
     @np.errstate(over="ignore", invalid="ignore")
-    def solve_problem(self, problem: Problem) -> Equilibrium:
-        """The same of a problem, which then has the pose of the answer, but for resolved strings."""
-        point = self.settle(problem)
+    def solve_problem(self, problem: Problem, above: Carried | None = None) -> Equilibrium:
+        """The same of a problem, which then has the pose of the answer, but for resolved strings.
+
+        above : the shapes of the row above, with which a resolved string begins.
+        """
+        point = self.settle(problem, above)
         # Of an unstable balance the solver's pose may be another.
         buckled = point.answered and point.status != SteadyStatus.UNSTABLE and point.buckling.mode == "helical"
         if buckled and not point.buckling.resolved and self.case.contact.helical_force == "analytic":
             return self.with_helical_force(problem, point)
         return point
 
-    def settle(self, problem: Problem) -> Equilibrium:
+    def settle(self, problem: Problem, above: Carried | None = None) -> Equilibrium:
         """The string of a problem as its segments can lie, or resolved where the case says so."""
         analytic = self.case.contact.helical_force == "analytic"
         if self.geometry == state.OPEN:
@@ -112,7 +116,7 @@ class Solver:
         point = self.answer(problem, code, iterations, negative)
         unsolved = code != CONVERGED or negative > 0
         if self.case.solver.buckling == "resolve" and (unsolved or point.buckling.mode != NOT_BUCKLED.mode):
-            resolved = self.resolve(problem, iterations)
+            resolved = self.resolve(problem, iterations, above)
             if resolved.status == SteadyStatus.UNDER_RESOLVED:
                 return replace(resolved, message=f"{TOO_FINE}; {resolved.message}")
             if resolved.status != SteadyStatus.MAX_ITERATIONS:
@@ -174,27 +178,41 @@ class Solver:
         spent = "slack-off is spent, and " if pushed else ""
         return replace(wound.without_loads(), status=status, message=f"{spent}{end}; {ANALYTIC}")
 
-    def resolve(self, problem: Problem, iterations: int) -> Equilibrium:
+    def resolve(self, problem: Problem, iterations: int, above: Carried | None = None) -> Equilibrium:
         """The buckled string of a problem on segments that can bend as it does, in the shape of the lower energy."""
-        problem.at_axis = 1
-        coarse = climb(problem, most=SOUND)
-        coarse.iterations += iterations
+        bit_depth, allowance = problem.string.bit_depth, problem.allowance
 
         def lay_finer(case: Case) -> Problem:
-            laid = LaidString(case, self.hole, lay_out(case, problem.string.bit_depth))
+            laid = LaidString(case, self.hole, lay_out(case, bit_depth))
             finer = self.problem(problem.operation, problem.rates, laid, case)
-            finer.at_axis, finer.allowance = 1, problem.allowance
+            finer.at_axis, finer.allowance = 1, allowance
             return finer
 
-        problem, snaking, helix = resolve(self.case, coarse, problem, lay_finer)
-        point = replace(self.follow(problem, snaking), shape="snaking")
+        if above is not None:
+            begun = begin(self.case, above, bit_depth, lay_finer)
+            point = None if begun is None else self.of_lower_energy(begun, iterations)
+            if point is not None and point.status == SteadyStatus.CONVERGED:
+                return point
+            problem = self.problem(problem.operation, problem.rates, problem.laid)
+            allowance = problem.allowance
+        problem.at_axis = 1
+        coarse = climb(problem, most=SOUND)
+        return self.of_lower_energy(resolve(self.case, coarse, problem, lay_finer), iterations)
+
+    def of_lower_energy(self, resolved: Resolved, iterations: int) -> Equilibrium:
+        """The answer of a resolved string: its helix, where it has one, with the hook loads of both shapes."""
+        problem, snaking, helix = resolved
+        point = self.follow(problem, snaking)
         if helix is None:
-            return point
-        wound = replace(self.follow(problem, helix), shape="helix")
-        loads = [p.hookload for p in (point, wound) if p.answered]
-        if len(loads) < 2 or abs(loads[1] - loads[0]) <= APART * problem.weight:
-            return wound
-        return replace(wound, hookload_low=min(loads), hookload_high=max(loads))
+            chosen = replace(point, shape="snaking")
+        else:
+            wound = point if helix is snaking else self.follow(problem, helix)
+            chosen = replace(wound, shape="helix")
+            loads = [p.hookload for p in (point, wound) if p.answered]
+            if len(loads) == 2 and abs(loads[1] - loads[0]) > APART * problem.weight:
+                chosen = replace(chosen, hookload_low=min(loads), hookload_high=max(loads))
+        carried = carry(resolved) if chosen.status == SteadyStatus.CONVERGED else None
+        return replace(chosen, iterations=chosen.iterations + iterations, carried=carried)
 
     def follow(self, problem: Problem, path: Climb) -> Equilibrium:
         """The string at the end of a path: with loads where the path reaches them, and with what ends the path."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fctd.model.frames import carried_frame
 from fctd.results.buckling import SINUSOIDAL_LIMIT
 from fctd.steady.first_guess import MD, OFFSET, TENSION, TORQUE
-from fctd.steady.problem import Problem, Share
+from fctd.steady.problem import Problem, Reactions, Share
 from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
 
 Array = NDArray[np.float64]
@@ -49,16 +49,11 @@ class Helix:
         share : loads of the balance that the string is in.
         """
         problem, n, string = self.problem, self.problem.n, self.problem.string
-        here = problem.compressed(share)
-        compression = here.compression[1:]
-        beyond = self.beyond | (compression > LOWER_ENERGY * here.rows[1:, SINUSOIDAL_LIMIT])
         found = problem.reactions(share)
-        torque = found.joints[:, JOINT_TORQUE]
-        rate = winding_rate(string.of("EI"), compression, torque)
-        turns = float((rate * string.length)[beyond].sum()) / (2 * np.pi)
+        beyond, rate, turns = self._due(share, found)
         if turns < self.turns + LEAST_TURNS:
             return False
-        if torque[beyond].sum() > 0:
+        if found.joints[beyond, JOINT_TORQUE].sum() > 0:
             rate = -rate
         walls = problem.walls(found.contacts)
         self.turns, self.beyond = turns, beyond
@@ -81,13 +76,33 @@ class Helix:
         problem.lay_nodes()
         return True
 
+    def is_due(self, share: Share) -> bool:
+        """Whether it would be laid into the string in its pose; nothing is laid."""
+        return self._due(share, self.problem.reactions(share))[2] >= self.turns + LEAST_TURNS
+
+    def take_up(self, share: Share) -> None:
+        """Count the turns of the string in its pose as laid."""
+        self.beyond = self._due(share, self.problem.reactions(share))[0]
+        self.turns = self._turns()
+
     def stands(self) -> bool:
         """Whether the string in its pose still has most of the turns that were laid."""
-        if self.turns == 0:
-            return False
+        return self.turns > 0 and self._turns() > STILL * self.turns
+
+    def _due(self, share: Share, found: Reactions) -> tuple[NDArray[np.bool_], Array, float]:
+        """Contact points (n,) in which a helix has the lower energy, its rate (n,) [rad/m] there and its turns."""
+        problem, string = self.problem, self.problem.string
+        here = problem.compressed(share)
+        compression = here.compression[1:]
+        beyond = self.beyond | (compression > LOWER_ENERGY * here.rows[1:, SINUSOIDAL_LIMIT])
+        rate = winding_rate(string.of("EI"), compression, found.joints[:, JOINT_TORQUE])
+        return beyond, rate, float((rate * string.length)[beyond].sum()) / (2 * np.pi)
+
+    def _turns(self) -> float:
+        """Turns of the string in its pose about the hole's axis, in the part through which the helix goes."""
         problem = self.problem
         walls = problem.walls(problem.reactions().contacts)
         low, right = carried_frame(problem.hole.at(walls.md)[1])
         angle = np.unwrap(np.arctan2((walls.offset * right).sum(axis=1), (walls.offset * low).sum(axis=1)))
         both = self.beyond[1:] & self.beyond[:-1]
-        return bool(abs(np.diff(angle)[both].sum()) / (2 * np.pi) > STILL * self.turns)
+        return float(abs(np.diff(angle)[both].sum())) / (2 * np.pi)

@@ -55,7 +55,7 @@ def resolve(case: Case, coarse: Climb, problem: Problem, lay: Callable[[Case], P
     bit_depth, needed = problem.string.bit_depth, (np.full(0, np.inf), np.full(0, np.inf))
     path, total, wound = coarse, coarse.iterations, None
     for _ in range(LAYOUTS):
-        needed = _shorter(needed, _needed(problem, path))
+        needed = shorter(needed, needed_lengths(problem, path))
         finer = layouts.with_components(case, layouts.resolved(case, bit_depth, *needed))
         if layouts.segments_in_hole(finer, bit_depth) > state.MAX_SEGMENTS:
             break
@@ -102,7 +102,7 @@ def _wind(problem: Problem, snaking: Climb) -> tuple[Helix, Climb] | None:
             if balance.share <= start.share:
                 problem.put_pose(balance.pose)
                 keep(problem, path, balance.share)
-        if not _lay(problem, helix, path, start.share):
+        if not lay_helix(problem, helix, path, start.share):
             continue
         climb(problem, helix.prepare, path)
         if path.pose is None and path.of_weight and not path.rolls and not path.is_cut:
@@ -126,12 +126,12 @@ def _wind_at_once(problem: Problem, share: Share) -> tuple[Helix, Climb] | None:
     allowed = problem.allowed
     _, done = problem.iterate(Pace(*ATTEMPTS[0], LARGEST_TURN, allowed, allowed), share)
     helix, path = Helix(problem), Climb(iterations=done)
-    if not _lay(problem, helix, path, share, AT_ONCE_ITERATIONS) or helix.turns == 0:
+    if not lay_helix(problem, helix, path, share, AT_ONCE_ITERATIONS) or helix.turns == 0:
         return None
     return helix, path
 
 
-def _lay(problem: Problem, helix: Helix, path: Climb, share: Share, most: int = WINDING_ITERATIONS) -> bool:
+def lay_helix(problem: Problem, helix: Helix, path: Climb, share: Share, most: int = WINDING_ITERATIONS) -> bool:
     """Lay the helix at the end of a path, at loads of these shares; returns whether the string comes to rest."""
     for _ in range(WINDINGS):
         if not helix.prepare(share):
@@ -157,7 +157,7 @@ def is_resolved(problem: Problem, path: Climb) -> bool:
     return bool((problem.string.length <= np.minimum(needed[:-1], needed[1:]) * (1 + 1e-9)).all())
 
 
-def _needed(problem: Problem, path: Climb) -> tuple[Array, Array]:
+def needed_lengths(problem: Problem, path: Climb) -> tuple[Array, Array]:
     """Measured depths of top and contact points (n + 1,) [m], and the segment length to plan there (n + 1,)."""
     here = _end_of(problem, path)
     fine = (here.rows[:, MODE] != NEITHER) | (here.compression > NEARLY * here.rows[:, SINUSOIDAL_LIMIT])
@@ -185,7 +185,7 @@ def _half_wave(EI: Array, compression: Array) -> Array:
     return np.asarray(np.pi * np.sqrt(2 * EI / np.maximum(compression, 1e-3)))
 
 
-def _shorter(before: tuple[Array, Array], now: tuple[Array, Array]) -> tuple[Array, Array]:
+def shorter(before: tuple[Array, Array], now: tuple[Array, Array]) -> tuple[Array, Array]:
     """The lesser of two lengths, each a function of measured depth, at the depths of both."""
     md = np.union1d(before[0], now[0])
     return md, np.minimum.reduce([_at(md, *given) for given in (before, now) if len(given[0])])

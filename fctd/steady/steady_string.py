@@ -32,6 +32,8 @@ from fctd.steady.shape import Shape
 if TYPE_CHECKING:
     import pandas as pd
 
+    from fctd.steady.carried_shape import Carried
+
 Array = NDArray[np.float64]
 
 AT_FULL = "solved at its full friction alone, from which share of it on is not known"
@@ -46,7 +48,7 @@ class Equilibrium:
     shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
     [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
     weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
-    NaN where they were not found.
+    NaN where they were not found.  carried : of a resolved string, the shapes with which the next depth may begin.
     bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
     sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
@@ -71,6 +73,7 @@ class Equilibrium:
     hookload_high: float = float("nan")
     slack_off_spent_at: float = float("nan")
     locked_up_at: float = float("nan")
+    carried: Carried | None = field(default=None, repr=False)
 
     def __repr__(self) -> str:
         loads = ", ".join(f"{label} {value}" for label, value in self._load_rows(MAIN).items())

@@ -18,6 +18,7 @@ from fctd.results.columns import IN_CHART, SHAPES, SHARES
 from fctd.results.notes import codes_of
 from fctd.results.status import SteadyStatus
 from fctd.steady import batch
+from fctd.steady.carried_shape import Carried
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.reading import Answer
@@ -127,6 +128,8 @@ class _Chart:
         self.solvers, self.rates = solvers, rates
         self.loads = [(kind, k) for kind in kinds for k in range(len(solvers))]
         self._batches = batch.Batches(solvers[0][1].case, [solver.hole for _, solver in solvers])
+        # Shapes of the last resolved row of each of the loads; rows that need other methods are solved in their order.
+        self._above: dict[tuple[str, int], Carried] = {}
 
     def attempt(self, depths: Sequence[float]) -> list[AtDepth]:
         """What one attempt finds at some bit depths [m]; several threads may call it."""
@@ -152,10 +155,14 @@ class _Chart:
             return _row(label, solver, kind, depth, point)
 
         def by_other_methods() -> Row:
+            above = self._above.pop((kind, k), None)
             try:
-                return _row(label, solver, kind, depth, solver.solve_problem(solver.problem(kind, rates, string)))
+                point = solver.solve_problem(solver.problem(kind, rates, string), above)
             except InputError as error:  # as of a resolved string with too many segments
                 return _row(label, solver, kind, depth, None, str(error))
+            if point.carried is not None:
+                self._above[kind, k] = point.carried
+            return _row(label, solver, kind, depth, point)
 
         return by_other_methods
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from fctd import InputError, equilibrium, load_case, torque_drag
 from fctd.model.operations import SteadyRates
+from fctd.steady.carried_shape import Carried
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Problem
@@ -171,7 +172,7 @@ def test_a_row_that_cannot_be_laid_out_does_not_end_the_chart(monkeypatch: pytes
     def none_at_800(solver: Solver, kind: str, rates: SteadyRates, laid: LaidString, answer: Answer) -> Any:
         return None if laid.string.bit_depth == 800 else first(solver, kind, rates, laid, answer)
 
-    def refuse(solver: Solver, problem: Problem) -> Equilibrium:
+    def refuse(solver: Solver, problem: Problem, above: Carried | None) -> Equilibrium:
         raise InputError("at most 10 segments", key="string.components")
 
     monkeypatch.setattr(Solver, "first", none_at_800)
@@ -192,7 +193,7 @@ def test_a_row_without_loads_has_the_reason_of_the_solver() -> None:
     assert "deeper in the wall" in point.message
 
 
-def test_a_resolved_row_has_both_shapes_and_does_not_depend_on_its_neighbours() -> None:
+def test_a_resolved_row_has_both_shapes_also_where_it_begins_with_those_above() -> None:
     """At 2.6 times the sinusoidal limit a helix and snaking are both balances; the helix has the lower energy."""
     chart = torque_drag(level_case(), ["drill_sliding", "trip_in"], [120.0, 150.0], friction=[0.2, 0.5])
     row = chart.iloc[3]
@@ -201,7 +202,9 @@ def test_a_resolved_row_has_both_shapes_and_does_not_depend_on_its_neighbours() 
     assert (chart["shape"][4:] == "none").all()
     assert chart.loc[4:, "hookload_low_N":"locked_up_at"].isna().all(axis=None)
     alone = torque_drag(level_case(), "drill_sliding", [150.0], friction=0.5).iloc[0]
-    pd.testing.assert_series_equal(row, alone, check_names=False, check_exact=True)
+    assert row["iterations"] < 0.6 * alone["iterations"]
+    for name in ("hookload_N", "hookload_low_N", "hookload_high_N"):
+        assert row[name] == pytest.approx(alone[name], rel=2e-3)
 
 
 def test_a_string_that_no_push_moves_has_no_loads_but_says_where_it_locked_up() -> None:
