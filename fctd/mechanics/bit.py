@@ -15,6 +15,7 @@ from fctd.mechanics.state import (
     FX,
     FY,
     FZ,
+    GIVEN_TORQUE,
     INVERSE_JA,
     LX,
     LY,
@@ -47,7 +48,8 @@ def press_bit(S, top, n, rock, motion, dt):
     share = ramp(top[TOP_TIME] + 0.5 * dt, motion.start, motion.duration, motion.bit_from, motion.bit_to)
     ax, ay, az = axis(S, n)
     response = dt * S[INVERSE_JA + n]
-    free = rock.motor + S[WZ + n] + response * (ax * S[LX + n] + ay * S[LY + n] + az * S[LZ + n])
+    turned_by = ax * S[LX + n] + ay * S[LY + n] + az * S[LZ + n]
+    free = rock.motor + S[WZ + n] + response * (turned_by + S[GIVEN_TORQUE + n])
     # The law takes the spin before this step: ``free`` is without the torque of the rock, and too fast.
     weight, limit = bit_loads(rock, top[PRESSED], share, rock.motor + S[WZ + n])
     torque = -min(limit, abs(free) / response)

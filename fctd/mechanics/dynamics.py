@@ -14,6 +14,7 @@ from fctd.mechanics.cake import press_into_cake
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.derrick import immerse
 from fctd.mechanics.friction import approach, normal_impulse, wall_normal
+from fctd.mechanics.given_loads import count_given, push_given
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import bend_housings, update_joint_loads
 from fctd.mechanics.laws import LAWS, chain
@@ -300,10 +301,14 @@ def update_velocities(S, n, laws, dt):
     """Update velocity and spin of every body by springs, weight, wall and mud, given joint loads and walls."""
     if laws.unbalanced:
         swing_unbalance(S, n, dt)
+    if laws.given:
+        push_given(S, n, dt)
     if laws.geometry == OPEN:
         push_freely(S, n, laws, dt)
     else:
         push_by_law(laws.friction, S, n, laws, dt)
+    if laws.given:
+        count_given(S, n, dt)
 
 
 @inlined

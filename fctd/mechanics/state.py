@@ -102,8 +102,10 @@ KINK_X, KINK_Y = 92 * STRIDE, 93 * STRIDE
 LAYER_DRAG, LAYER_SPEED = 94 * STRIDE, 95 * STRIDE
 # Numbers of the waves within the long segment, one after the other (waves.py).
 WAVES = 96 * STRIDE
+# Loads that are given to a body (given_loads.py): a force along its axis towards the bit [N], a torque about it [N m].
+GIVEN_FORCE, GIVEN_TORQUE = 97 * STRIDE, 98 * STRIDE
 
-ROWS = 97
+ROWS = 99
 
 
 class Laws(NamedTuple):
@@ -119,7 +121,8 @@ class Laws(NamedTuple):
     torsion_damping : damping time of torsion in addition to that of the joints [s].
     shape_damping : damping time of bending and shear in space [s].
     layer_rate : rate at which the mud's boundary layers follow the string along itself [1/s].
-    unbalanced : whether any body has an unbalance; bent : whether any joint has a bent housing.
+    unbalanced : whether any body has an unbalance; bent : whether any joint has a bent housing; given : whether any
+    body has given loads.
     """
 
     geometry: int
@@ -139,6 +142,7 @@ class Laws(NamedTuple):
     layer_rate: float = 0.0
     unbalanced: bool = False
     bent: bool = False
+    given: bool = False
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

@@ -200,6 +200,10 @@ FEATURES: dict[str, Feature] = {
     "mud_axial": Feature("damping by mud", "0", ("mud.axial_damping",), _key("mud.axial_damping", 0.0)),
     "mud_lateral": Feature("damping by mud", "0", ("mud.lateral_damping",), _key("mud.lateral_damping", 0.0)),
     "mud_spin": Feature("damping by mud", "0", ("mud.rotational_damping",), _key("mud.rotational_damping", 0.0)),
+    # No key of a case gives them yet.
+    "given_loads": Feature(
+        "loads given to the string", "none", (), lambda run: ("mud", "a force or a torque") if run.laws.given else None
+    ),
     "joint_damping": Feature(
         "damping of the joints", "at most the default", ("solver.joint_damping",), _joint_damping,
     ),

@@ -237,7 +237,7 @@ def solve_row(
     _, _, _, bx, by, bz = axis_at(C, hole.geometry, i, bit_depth)
     laws = Steady(
         hole.with_wall, hole.law, 1.0, loads[SPEED], loads[SPIN], -pressing * bx, -pressing * by, -pressing * bz,
-        torque, 0, hole.wall_exponent, hole.wall_reference,
+        torque, 0, hole.wall_exponent, hole.wall_reference, 1.0,
     )  # fmt: skip
     _, allowed = limits(S, n, bit_depth, pressing, fed, top_length)
     guess(S, n, C, laws, top_md, -pressing, SEED, G, P)

@@ -15,6 +15,8 @@ from fctd.mechanics.state import (
     ARCS,
     ARM_BOTTOM,
     ARM_TOP,
+    GIVEN_FORCE,
+    GIVEN_TORQUE,
     K_AXIAL,
     K_TWIST,
     MUD_AXIAL,
@@ -105,8 +107,9 @@ def soft_string(S, n, C, laws, top_md, bit_tension, G):
         G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2] = out * ux, out * uy, out * uz
         tension -= along * mu * side
         torque += around * mu * side * S[RADIUS + j] + S[MUD_SPIN + j] * laws.spin
+        torque -= laws.given * S[GIVEN_TORQUE + j]
         G[j, TENSION], G[j, TORQUE] = tension, torque
-        tension += S[WEIGHT + j] * az - S[MUD_AXIAL + j] * laws.speed
+        tension += S[WEIGHT + j] * az - S[MUD_AXIAL + j] * laws.speed + laws.given * S[GIVEN_FORCE + j]
         bx, by, bz = ax, ay, az
     G[0, TENSION], G[0, TORQUE] = tension, torque
 

@@ -62,8 +62,8 @@ class Helical:
         law = CODES[problem.case.contact.friction_law]
         slide(law, float(rates.speed), float(rates.spin), self.radius, self.along, self.around)
         self.wound = np.zeros(n, np.bool_)
-        self.mud_axial, self.mud_spin = state.row(S, state.MUD_AXIAL, n), state.row(S, state.MUD_SPIN, n)
-        self.own_axial, self.own_spin = self.mud_axial.copy(), self.mud_spin.copy()
+        self.force, self.torque = state.row(S, state.GIVEN_FORCE, n), state.row(S, state.GIVEN_TORQUE, n)
+        self.other_force, self.other_torque = self.force.copy(), self.torque.copy()
 
     def add(self) -> None:
         """Add the wall force that is missing at the string's compression."""
@@ -80,11 +80,10 @@ class Helical:
         compression = np.maximum(0.5 * walls.friction * normal * self.along - below, 0.0)
         helix = (walls.radius - self.radius) * compression**2 / (4 * string.of("EI")) * string.tributary()
         missing = np.where(self.wound, np.maximum(helix - normal + problem.added[:, 0], 0.0), 0.0)
-        limit, rates = walls.friction * missing, problem.rates
-        # The friction enters as mud does, whose drag and torque are proportional to the rates.
-        self.mud_axial[:] = self.own_axial + (limit * self.along / rates.speed if rates.speed else 0.0)
-        self.mud_spin[:] = self.own_spin + (self.radius * limit * self.around / rates.spin if rates.spin else 0.0)
-        problem.added = np.column_stack([missing, self.radius * limit * self.around, self.radius * limit])
+        limit = walls.friction * missing
+        turning = self.radius * limit * self.around
+        self.force[:], self.torque[:] = self.other_force - limit * self.along, self.other_torque - turning
+        problem.added = np.column_stack([missing, turning, self.radius * limit])
 
 
 def add_helical_force(problem: Problem, pace: Pace) -> Added:

@@ -17,6 +17,8 @@ from fctd.mechanics.state import (
     ARM_BOTTOM,
     ARM_CONTACT,
     ARM_TOP,
+    GIVEN_FORCE,
+    GIVEN_TORQUE,
     K_AXIAL,
     K_BEND,
     K_SHEAR,
@@ -48,7 +50,7 @@ class Steady(NamedTuple):
     at_axis : 0, or 1 where the loads do no work on a buckled string that rolls round the hole (relaxation.py): friction
     along the hole acts at the string's axis and not at its surface, which leaves out its bending moment, and the torque
     at the bit is semi-tangential, half about the bit's axis and half about the hole's (Ziegler 1968).
-    wall_exponent, wall_reference : as in Laws.
+    wall_exponent, wall_reference : as in Laws.  given : share of the loads that are given to the bodies.
     """
 
     geometry: int
@@ -63,6 +65,7 @@ class Steady(NamedTuple):
     at_axis: int = 0
     wall_exponent: float = 1.0
     wall_reference: float = 1e-3
+    given: float = 1.0
 
 
 @entry
@@ -80,18 +83,19 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
     for j in range(1, n + 1):
         add_joint(S, j, P, kinks, R, *blocks, loads, slopes)
         R[j, 2] += S[WEIGHT + j]
-        # Mud drags a sliding string along its own axis and a turning one about it.
-        drag = -S[MUD_AXIAL + j] * laws.speed
+        # Mud drags a sliding string along its own axis and a turning one about it, as given loads push and turn it.
+        push = laws.given * S[GIVEN_FORCE + j] - S[MUD_AXIAL + j] * laws.speed
         w, x, y, z = quaternion(P, j)
         xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
-        R[j, 0] += drag * zx
-        R[j, 1] += drag * zy
-        R[j, 2] += drag * zz
+        R[j, 0] += push * zx
+        R[j, 1] += push * zy
+        R[j, 2] += push * zz
         R[j, AXIAL_MOMENT] -= S[MUD_SPIN + j] * laws.spin
+        R[j, AXIAL_MOMENT] += laws.given * S[GIVEN_TORQUE + j]
         # A tilt (a, b) turns the axis by a (−y) + b x.
         for i, dx, dy in ((0, xx, yx), (1, xy, yy), (2, xz, yz)):
-            D[j, i, 3] += drag * dy
-            D[j, i, 4] -= drag * dx
+            D[j, i, 3] += push * dy
+            D[j, i, 4] -= push * dx
         if laws.geometry != OPEN:
             add_wall(S, j, P, C, owner, laws, R, D, pressed)
     R[n, 0] += laws.bit_x
@@ -126,11 +130,12 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
 
     A bent housing keeps its toolface: the spin of its body does not turn the bend.  So the moment about the body's axis
     is more than the derivative of the energy by the spin: it contains what holds the toolface against the bending
-    moment.  That does no work, and in the row of the spin the derivative of the torque alone takes its place.
+    moment.  That does no work, and in the row of the spin the derivative of the torque alone takes its place.  Given
+    loads turn with their bodies and have no energy: they are left out.
     """
     bare = Steady(
         laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque,
-        laws.at_axis, laws.wall_exponent, laws.wall_reference,
+        laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0,
     )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
     for j in range(2, n + 1):

@@ -29,10 +29,13 @@ def inclined() -> Case:
     return make_case(stations, [pipe(LENGTH, SEGMENTS)], mud={"density": 1200.0}, wellbore=hole)
 
 
-def guessed(case: Case, kind: str, bit_tension: float = 0.0, seed: float = 0.0) -> Workspace:
-    """A solver's arrays with the guess of a whole string in its hole."""
+def guessed(
+    case: Case, kind: str, bit_tension: float = 0.0, seed: float = 0.0, given: tuple[float, float] = (0.0, 0.0)
+) -> Workspace:
+    """A solver's arrays with the guess of a whole string in its hole; given : to the tenth segment [N], [N m]."""
     solver, work = Solver(case), Workspace(SEGMENTS)
     fill(work.S, lay_out(case, LENGTH), case, build_wellbore(case))
+    work.S[state.GIVEN_FORCE + 10], work.S[state.GIVEN_TORQUE + 10] = given
     rates = steady_rates(case, kind)
     laws = Steady(solver.geometry, CODES[case.contact.friction_law], 1.0, rates.speed, rates.spin, 0.0, 0.0, 0.0, 0.0)
     guess(work.S, SEGMENTS, solver.hole.pieces, laws, 0.0, bit_tension, seed, work.G, work.P)
@@ -50,6 +53,14 @@ def test_tension_of_a_string_that_slides(kind: str, sign: int) -> None:
     assert work.G[0, TENSION] == pytest.approx(expected[0] - half, rel=1e-9)
     assert work.G[1:SEGMENTS, TENSION] == pytest.approx(expected[1:] + half, rel=1e-9)
     assert work.G[: SEGMENTS + 1, TORQUE] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_given_loads_add_to_what_is_above_them() -> None:
+    without, work = guessed(inclined(), "trip_in"), guessed(inclined(), "trip_in", given=(3e4, -2e3))
+    gained = (work.G - without.G)[: SEGMENTS + 1]
+    above = np.arange(SEGMENTS + 1) < 10  # the node at its lower end is below it
+    assert gained[:, TENSION] == pytest.approx(3e4 * above, abs=1e-6)
+    assert gained[:, TORQUE] == pytest.approx(2e3 * (np.arange(SEGMENTS + 1) <= 10), abs=1e-6)
 
 
 def test_torque_of_a_string_that_turns() -> None:

@@ -91,7 +91,7 @@ def test_friction_acts_against_the_sliding_of_the_surface(law: str, operation: s
     problem, speed = pressed(case, operation)
     limit = FRICTION * problem.added[:, 0]
     n, S, rates = problem.n, problem.work.S, problem.rates
-    drag, torque = state.row(S, state.MUD_AXIAL, n) * rates.speed, state.row(S, state.MUD_SPIN, n) * rates.spin
+    drag, torque = -state.row(S, state.GIVEN_FORCE, n), -state.row(S, state.GIVEN_TORQUE, n)
     radius = section(case).contact_radius
     around = radius * rates.spin
     along = np.array([rates.speed, around]) / np.hypot(rates.speed, around) if law == "coulomb" else np.sign([speed, 1])

@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 
+from fctd.mechanics import state
 from fctd.model.operations import steady_rates
+from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.climb import creep_of
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
-from fctd.steady.problem import FULL, Share
+from fctd.steady.problem import FULL, Problem, Share
+from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
 from tests.cases import make_case, pipe
 from tests.steady.buckled import level_case, problem_of
 
@@ -44,6 +47,31 @@ def test_reactions_balance_the_loads() -> None:
     # The clamp at the axis carries what lies before the first contact.
     assert 0.8 < normal / (problem.weight - problem.weight_on_bit) < 1
     assert found.imbalance <= problem.allowed
+
+
+@pytest.mark.parametrize("kind", ["trip_in", "trip_out", "rotate_off_bottom"])
+def test_given_loads_are_carried_to_the_top(kind: str) -> None:
+    """Exact in a straight hole, whose wall force does not depend on the tension, but where the top leaves its axis.
+
+    A string that is laid out anew has none.
+    """
+    solver = Solver(make_case([[0, 40, 90], [600, 40, 90]], [pipe(600, 30)], wellbore={"geometry": "arcs"}))
+    laid, rates, force, torque = solver.lay_out(600.0), steady_rates(solver.case, kind), 2e4, -1.5e3
+
+    def solved(*given: float) -> Problem:
+        problem = solver.problem(kind, rates, laid)
+        for row, load in zip((state.GIVEN_FORCE, state.GIVEN_TORQUE), given, strict=False):
+            problem.work.S[row + 12] = load
+        assert balance(problem, ATTEMPTS)[0] == CONVERGED
+        return problem
+
+    found = solved(force, torque).reactions()
+    before = solved().reactions()
+    assert found.hookload - before.hookload == pytest.approx(force, rel=1e-3)
+    assert found.torque - before.torque == pytest.approx(-torque, rel=1e-3)
+    above = np.arange(30) < 12
+    assert found.joints[:, JOINT_TENSION] - before.joints[:, JOINT_TENSION] == pytest.approx(force * above, abs=20.0)
+    assert found.joints[:, JOINT_TORQUE] - before.joints[:, JOINT_TORQUE] == pytest.approx(-torque * above, abs=1.5)
 
 
 def test_compression_is_that_of_the_top_and_the_contact_points() -> None:

@@ -79,6 +79,8 @@ def test_tangent_is_the_derivative_of_the_forces(geometry: str, law: str, kind: 
     point = solver.solve(kind, steady_rates(solver.case, kind), 790.0)
     w, laws, pieces = solver.work, laws_of(solver, kind, at_axis), solver.hole.pieces
     n = len(point.profile) - 1
+    for row, load in ((state.GIVEN_FORCE, 2e4), (state.GIVEN_TORQUE, -1e3)):
+        state.row(w.S, row, n)[::3] = load
     kinks = np.zeros((n + 2, 4))
     kinks[:, 0] = 1.0
     kinks[n - 2] = np.cos(0.01), 0.006, 0.008, 0.0
