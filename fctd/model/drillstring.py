@@ -71,8 +71,13 @@ def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
 
 
 @lru_cache(maxsize=256)  # a chart lays out the same components at every depth
-def section_of(component: ComponentSpec, mud_density: float) -> Section:
-    """Properties of a component per metre; weight by the buoyancy factor (Eq. 25), inertia without it."""
+def section_of(component: ComponentSpec, outside: float, inside: float | None = None) -> Section:
+    """Properties of a component per metre, with fluids of these densities [kg/m³] outside and inside.
+
+    The steel displaces the fluid outside (buoyancy factor, Eq. 25), and the bore contains that inside, by default the
+    same, in its place.  Inertia is that of the steel.
+    """
+    inside = outside if inside is None else inside
     b, a = 0.5 * component.outer_diameter, 0.5 * component.inner_diameter
     area = np.pi * (b * b - a * a)
     second = np.pi / 4 * (b**4 - a**4)
@@ -86,7 +91,7 @@ def section_of(component: ComponentSpec, mud_density: float) -> Section:
 
     return Section(
         mass=mass,
-        weight=mass * GRAVITY * (1 - mud_density / component.density),
+        weight=mass * GRAVITY * (1 - outside / component.density) + (inside - outside) * GRAVITY * np.pi * a * a,
         axial_inertia=0.5 * mass * (a * a + b * b),
         tilt_inertia=0.25 * mass * (a * a + b * b),
         EA=given(component.axial_stiffness, modulus * area),

@@ -33,6 +33,17 @@ def test_buoyancy_lowers_weight_and_not_mass() -> None:
     assert mud.weight == pytest.approx(0.8 * air.weight)
 
 
+def test_the_weight_is_that_of_steel_and_fluid_inside_less_the_fluid_displaced() -> None:
+    """Exact, for air in pipe that floats in; with tool joints the bore is that of the pipe body."""
+    component = make_case(components=[pipe(1000, 20, linear_mass=90.0)]).string.components[0]
+    bore, displaced = np.pi / 4 * 0.07**2, 90.0 / 7850 + np.pi / 4 * 0.07**2
+    for outside, inside in ((1570.0, 0.0), (1200.0, 1800.0), (0.0, 1000.0)):
+        section = section_of(component, outside, inside)
+        assert section.weight == pytest.approx(9.80665 * (90.0 + inside * bore - outside * displaced))
+        assert section._replace(weight=0.0) == section_of(component, 0.0)._replace(weight=0.0)
+    assert section_of(component, 1570.0, 1570.0) == section_of(component, 1570.0)
+
+
 def test_components_are_laid_from_the_bit_and_the_top_takes_the_remainder() -> None:
     case = make_case(components=[pipe(100, 10, outer=0.159), pipe(500, 20), pipe(1000, 40)])
     string = lay_out(case, 810.0)
