@@ -47,6 +47,7 @@ from fctd.cli.steady import (
     read_drive,
 )
 from fctd.model.depths import read_depth
+from fctd.results.buckling import BUCKLED
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
 from fctd.results.profile import place_in_words
@@ -140,7 +141,7 @@ def _print_point(point: Equilibrium, units: System) -> None:
             unit, row = shown(name, units), profile.loc[profile[name].agg(f"idx{worst}")]
             where = f"at {place_in_words(row['md_m'], point.bit_depth, metre.factor, metre.label)}"
             table.add_row(f"{worst}. {COLUMNS[name].label}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
-        for mode in ("sinusoidal", "helical"):
+        for mode in BUCKLED:
             for first, last in stretches(profile, mode):
                 where = f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"
                 table.add_row(f"beyond {mode} limit", where, metre.label)

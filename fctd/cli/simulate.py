@@ -52,6 +52,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import DRAWN, check_pictures
+from fctd.results.buckling import MODES
 from fctd.results.columns import BUCKLED, COLUMNS
 from fctd.results.run_folder import RunFolder
 from fctd.results.status import RunStatus
@@ -243,7 +244,7 @@ def _summarise(result: SimulationResult, units: System) -> None:
         buckled = result.history[result.history["buckling"] != "none"]
         if len(buckled):
             first, last = (buckled[column.name].agg(how) for column, how in zip(BUCKLED, ("min", "max"), strict=True))
-            mode = "helical" if (buckled["buckling"] == "helical").any() else "sinusoidal"
+            mode = max(buckled["buckling"], key=MODES.index)
             where = f"between {first * depth.factor:.0f} and {last * depth.factor:.0f} {depth.label}"
             screen.print(f"buckled in {len(buckled)} of {len(result.history)} records, at worst {mode}, {where}")
     _print_operations(result, units)

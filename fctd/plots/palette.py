@@ -2,6 +2,8 @@
 
 from typing import Final
 
+from fctd.results import buckling
+
 # After Okabe and Ito's palette, which colour-blind readers can distinguish; some of the colours are darker or lighter
 # than theirs, so that no two are the same grey.
 PALETTE: Final = {
@@ -23,6 +25,6 @@ LOOKS: Final = {
     "drill_sliding": (PALETTE["sky"], "P"),
 }
 # Greys of a buckled string by mode, and of their edges; light enough for a curve of any colour on them.
-BUCKLED: Final = {"sinusoidal": "#f0f0f0", "helical": "#c6c6c6"}
+BUCKLED: Final = dict(zip(buckling.BUCKLED, ("#f0f0f0", "#c6c6c6"), strict=True))
 EDGE = "#8a8a8a"
 MEASURED = "#ffe04d"  # of the faces of measured points

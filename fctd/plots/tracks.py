@@ -38,7 +38,6 @@ NEAR: Final = 0.6
 LEAST: Final = {"effective_tension_N": 0.01, "torque_N_m": 2e-3, "bending_moment_N_m": 1e-3}
 LEAST_STRESS: Final = 1e6  # [Pa]
 AIR: Final = 0.05  # of the span of an axis, beyond the values
-MODES: Final = ("sinusoidal", "helical")
 JOINT: Final = 9.144  # [m], the 30 ft to which side forces on tool joints and casing are given
 
 
@@ -105,7 +104,7 @@ def limits_near(answers: Sequence[Equilibrium], units: System) -> dict[str, Trac
     profile = answers[0].profile
     md = profile["md_m"].to_numpy(float) * shown("md_m", units).factor
     near = {}
-    for mode in MODES:
+    for mode in BUCKLED:
         limit = -profile[f"{mode}_limit_N"].replace(np.inf, np.nan).to_numpy(float) * factor
         limit = np.where(limit >= reach, limit, np.nan)
         if np.isfinite(limit).any():

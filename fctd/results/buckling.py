@@ -21,8 +21,10 @@ Array = NDArray[np.float64]
 IN_HALF_WAVE, IN_TURN = 8, 12
 # Limits of hanging pipe over (EI w²)^⅓, for the compression at its lower end (Lubinski 1950; Wu & Juvkam-Wold 1995).
 HANGING_SINUSOIDAL, HANGING_HELICAL = 1.94, 5.55
+# Modes by their numbers, and those of a buckled string.
 NEITHER, SINUSOIDAL, HELICAL = 0, 1, 2
-MODES: Final = np.array(["none", "sinusoidal", "helical"])
+MODES: Final = ("none", "sinusoidal", "helical")
+BUCKLED: Final = MODES[1:]
 # Columns of a row: limits [N], mode, and the segment length that follows the shape there [m].
 SINUSOIDAL_LIMIT, HELICAL_LIMIT, MODE, NEEDED = range(4)
 ROW_COLUMNS = 4
@@ -122,7 +124,7 @@ def buckling_of(mode: int, from_md: float, to_md: float, longest: float, needed:
     """The buckled part of a string from the numbers of ``find_buckling``."""
     if mode == NEITHER:
         return NOT_BUCKLED
-    return Buckling(str(MODES[mode]), from_md, to_md, longest, rounded_down(needed / GROWN**0.5), excess)
+    return Buckling(MODES[mode], from_md, to_md, longest, rounded_down(needed / GROWN**0.5), excess)
 
 
 def rounded_down(length: float) -> float:

@@ -60,7 +60,7 @@ def at_contacts(string: String, loads: Loads) -> tuple[Array, Array, Array]:
 
 
 def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Load) -> Any:
-    """Von Mises stress at the outer fibre [Pa]; also compiled (``notes.could_have_notes``).
+    """Von Mises stress at the outer fibre [Pa]; also compiled (``limits.py``).
 
     tension (effective) [N], torque, bending [N m]; outer and inner radius [m].  Equal pressure on all sides adds
     the same to every normal stress, and does not change it.
@@ -116,6 +116,6 @@ def profile_table(
             "von_mises_Pa": von_mises(tension, torque, bending, outer, inner),
             "sinusoidal_limit_N": buckled[:, SINUSOIDAL_LIMIT],
             "helical_limit_N": buckled[:, HELICAL_LIMIT],
-            "buckling": MODES[buckled[:, MODE].astype(int)],
+            "buckling": np.array(MODES)[buckled[:, MODE].astype(int)],
         }
     )

@@ -80,5 +80,5 @@ class SegmentSeries:
             offset = rows[:, -3:]
             for name, side in zip(("high", "right"), hole_frame(hole.at(rows[:, 2])[1]), strict=True):
                 table[f"offset_{name}_m"] = (offset * side).sum(axis=1)
-            table["buckling"] = MODES[rows[:, len(COLUMNS)].astype(int)]
+            table["buckling"] = np.array(MODES)[rows[:, len(COLUMNS)].astype(int)]
         return table

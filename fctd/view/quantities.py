@@ -26,7 +26,6 @@ COLOURS: Final[dict[Scale, tuple[tuple[float, str], ...]]] = {
 }  # fmt: skip
 # Above it lie so few values of all strings that they would leave the rest pale.
 BRIGHTEST: Final = 99.5  # percentile
-MODES: Final = ("none", "sinusoidal", "helical")
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from fctd.plots.page import plain
 from fctd.plots.palette import DARK, EDGE, PALETTE, QUIET
 from fctd.plots.tracks import side_force_unit
+from fctd.results.buckling import MODES
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.view.hole import clearance_at, exaggeration_of, rings, wall_lines
-from fctd.view.quantities import MODES, QUANTITIES, Quantity
+from fctd.view.quantities import QUANTITIES, Quantity
 from fctd.view.strings import Snapshot, Strings
 
 Array = NDArray[np.float64]

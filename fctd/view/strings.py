@@ -16,12 +16,12 @@ from fctd.case.operations import KINDS
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
 from fctd.plots.tracks import side_force
+from fctd.results.buckling import MODES
 from fctd.results.status import SteadyStatus
 from fctd.results.tables import SimulationResult
 from fctd.steady.equilibrium import Solver
 from fctd.steady.steady_string import Equilibrium
 from fctd.view.hole import DrawnHole, drawn_hole
-from fctd.view.quantities import MODES
 
 if TYPE_CHECKING:
     import pandas as pd
