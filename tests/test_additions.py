@@ -1,4 +1,4 @@
-"""In a copy of the package, one line adds a result column, and one file and one line add a friction law."""
+"""In a copy of the package, one line adds a result column or a limit with its note, one file and one line a law."""
 
 import json
 import os
@@ -71,6 +71,19 @@ def fctd(copy: Path, cache: Path, *commands: list[str]) -> list[str]:
     return done.stdout.split("\f")[:-1]
 
 
+def lines_of(copy: Path, compiled: str, interpreted: str) -> list[str]:
+    """What two scripts print in the copy, the second without compiling."""
+    environment, printed = os.environ | {"PYTHONPATH": str(copy), "NUMBA_CACHE_DIR": str(copy / "cache")}, ""
+    for script, disabled in ((compiled, "0"), (interpreted, "1")):
+        done = subprocess.run(
+            [sys.executable, "-c", script], cwd=copy, env=environment | {"NUMBA_DISABLE_JIT": disabled},
+            capture_output=True, text=True,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        printed += done.stdout
+    return printed.splitlines()
+
+
 @pytest.mark.slow
 def test_a_result_column_is_one_line(copy: Path) -> None:
     """It is in charts and their field units, on the screen and beside a profile."""
@@ -89,6 +102,58 @@ def test_a_result_column_is_one_line(copy: Path) -> None:
     assert "spare" in screen
     assert all(f"{value:.2f}" in screen for value in spare)
     assert "spare pull" in point
+
+
+MAKE_UP = """
+    Limit(
+        "make_up", "a connection turns further than it was made up", "lower the friction factor",
+        lambda at, section: abs(at.torque) / 1e3,
+        lambda share, at, section, where: f"{at.torque:.0f} N m at {where}, the connection holds 1000 N m",
+    ),
+"""
+LIMITED = """
+import fctd
+from fctd.results.notes import meanings_of
+from fctd.sweep.probabilities import probability_table
+
+case = fctd.load_case("well.toml")
+chart = fctd.torque_drag(case, ["trip_out", "rotate_off_bottom"], [700.0])
+events = probability_table(chart.assign(sample=0), [], 1)
+run = fctd.simulate(case)
+assert run.status == "completed", run.message
+print(list(chart["notes"]), meanings_of(chart["notes"])["make_up"]["headline"], set(events["event"]), sep="\\n")
+for found in (fctd.equilibrium(case, "rotate_off_bottom", 700.0), run):
+    print([note.text for note in found.notes])
+"""
+ONE_WALK = """
+import numpy as np
+import fctd
+from fctd.model.drillstring import lay_out
+from fctd.model.wellbore import build_wellbore
+from fctd.results.notes import string_notes
+from fctd.results.profile import Loads
+
+case = fctd.load_case("well.toml")
+string, hole = lay_out(case, 700.0), build_wellbore(case)
+loads = Loads(*np.zeros((4, string.segments)), bit_torque=1500.0)
+walls = hole.walls(hole.at(np.linspace(100.0, 700.0, string.segments))[0])
+print([note.text for note in string_notes(string, loads, 0.0, walls, string.contact_radius())])
+"""
+
+
+@pytest.mark.slow(seconds=20)
+def test_a_limit_and_its_note_are_one_entry_of_a_table(copy: Path) -> None:
+    """Charts, equilibria, the records of a run and a sweep's events have it; compiled is the walk alone."""
+    limits = copy / "fctd" / "results" / "limits.py"
+    add_line(limits, "LIMITS: Final[tuple[Limit, ...]] = (", MAKE_UP)
+    (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 100") + ROTATE)
+    printed = lines_of(copy, compiled=ONE_WALK, interpreted=LIMITED)
+    walked, codes, headline, events, *texts = printed
+    assert walked == "['1500 N m at 700 m, the connection holds 1000 N m']"
+    assert codes == "['none', 'make_up']"
+    assert headline == "a connection turns further than it was made up"
+    assert "beyond make up" in events
+    assert all("the connection holds 1000 N m" in text for text in texts)
 
 
 VISCOUS = '''"""Law ``viscous``: a drag along the axis and a couple about it that grow with the speed at the wall."""
@@ -158,16 +223,8 @@ def test_a_friction_law_is_one_file_and_one_line(copy: Path) -> None:
         '    "viscous": "viscous.LAW",',
     )
     (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 100") + ROTATE)
-    environment = os.environ | {"PYTHONPATH": str(copy), "NUMBA_CACHE_DIR": str(copy / "cache")}
-    printed = ""
-    for script, interpreted in ((COMPILED, "0"), (RUN, "1")):
-        done = subprocess.run(
-            [sys.executable, "-c", script], cwd=copy, env=environment | {"NUMBA_DISABLE_JIT": interpreted},
-            capture_output=True, text=True,
-        )  # fmt: skip
-        assert done.returncode == 0, done.stderr
-        printed += done.stdout
-    moved, slow, fast = ([float(part) for part in line.split()] for line in printed.splitlines())
+    printed = lines_of(copy, compiled=COMPILED, interpreted=RUN)
+    moved, slow, fast = ([float(part) for part in line.split()] for line in printed)
     assert fast[1] == pytest.approx(2 * slow[1], rel=1e-6)
     assert slow[1] > 100
     assert moved == pytest.approx(fast, rel=1e-2)

@@ -108,6 +108,11 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
     )
 
 
+@lru_cache(maxsize=64)  # of a string that hangs from a block, every record asks
+def _table_of(sections: tuple[Section, ...]) -> Array:
+    return np.array(sections)
+
+
 @dataclass(frozen=True)
 class String:
     """A laid-out string, arrays from the top segment to the bit, shape (n,).
@@ -150,10 +155,10 @@ class String:
         longer = np.concatenate([self.length[:1] + by, self.length[1:]])
         return replace(self, bit_depth=self.bit_depth + by, length=longer)
 
-    @cached_property
+    @property
     def table(self) -> Array:
         """The sections (k, ...), a column for each property."""
-        return np.array(self.sections)
+        return _table_of(self.sections)
 
     @cached_property
     def _contacts(self) -> tuple[NDArray[np.bool_], Array, Array]:

@@ -11,20 +11,14 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String
-from fctd.model.string_rows import INNER, OUTER, YIELD_STRENGTH
 from fctd.results.buckling import Buckling
-from fctd.results.profile import Loads, at_contacts, place_in_words, von_mises
+from fctd.results.limits import LIMITS, Place, shares_of
+from fctd.results.profile import Loads, place_in_words
 
 Array = NDArray[np.float64]
 
-# The wall of the model is a spring.  Steel and rock yield by a millimetre or two; a contact point that is deeper in
-# the wall than a quarter of the clearance changes the string's shape and its buckling limits (∝ 1/√clearance) by a
-# tenth.  10 mm are 100 kN on one point of the default wall, ten times the force that wears casing; below 2 mm the share
-# of a stabiliser's small clearance is no criterion.
-SHARE_OF_CLEARANCE, LEAST_PENETRATION, MOST_PENETRATION = 0.25, 0.002, 0.010
 # Energy error of a run as a share of the work: above the first there is a note, above the second the status is
 # ``inaccurate``.
 DOUBTFUL, INACCURATE = 0.01, 0.10
@@ -53,15 +47,7 @@ class Meaning(NamedTuple):
 
 
 MEANINGS: Final = {
-    "penetration": Meaning(
-        "the string is pressed deep into the wall", "check friction factor, bends and the wall's stiffness"
-    ),
-    "yield": Meaning(
-        "the steel is stressed beyond its yield strength", "check friction factor, bends and yield_strength"
-    ),
-    "tensile_capacity": Meaning(
-        "the hook load exceeds the capacity of the uppermost pipe", "check friction factor, bends and yield_strength"
-    ),
+    **{limit.code: Meaning(limit.headline, limit.remedy) for limit in LIMITS},
     "buckling": Meaning(
         "the string is buckled, and its segments are too long to bend that way", "use shorter segments there"
     ),
@@ -172,88 +158,25 @@ def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:
 def string_notes(
     string: String, loads: Loads, hookload: float, walls: Walls, radius: Array, *, in_hole: bool = True
 ) -> tuple[Note, ...]:
-    """Notes on a string: penetration of the wall, stress, and hook load against the capacity of the uppermost pipe.
+    """Notes on a string beyond a limit of ``LIMITS``.
 
     hookload [N]; walls : beside the n contact points; radius (n,) : of the contact points [m]; in_hole : whether
     there is a wall.
     """
-    penetration = np.sqrt((walls.offset**2).sum(axis=1)) - (walls.radius - radius)
-    if not could_have_notes(
-        float(penetration.max()) if in_hole else 0.0, float(np.abs(loads.tension).max()), loads.bit_tension,
-        float(np.abs(loads.torque).max()), loads.bit_torque, float(loads.bending.max()), string.table,
-        int(string.component[0]), float(hookload),
-    ):  # fmt: skip
-        return ()
-    found = [
-        _penetration(walls, radius, penetration, string.bit_depth) if in_hole else None,
-        _stress(string, loads, walls),
-        _pull(string, hookload),
-    ]
-    return tuple(note for note in found if note is not None)
+    return limit_notes(shares_of(string, loads, hookload, walls, radius, in_hole), string, walls)
 
 
-stress_of = inlined(von_mises)
-
-
-@entry
-def could_have_notes(
-    penetration: float, tension: float, bit_tension: float, torque: float, bit_torque: float, bending: float,
-    sections: Array, top: int, hookload: float,
-) -> bool:  # fmt: skip
-    """Whether ``string_notes`` may find something, from the largest loads alone: most strings have no notes.
-
-    penetration of the wall [m]; tension, hookload [N], torque, bending [N m]; sections : a row for each component, the
-    uppermost in row ``top``.
-    """
-    capacity = sections[top, YIELD_STRENGTH] * np.pi * (sections[top, OUTER] ** 2 - sections[top, INNER] ** 2)
-    if penetration > LEAST_PENETRATION or hookload > capacity:
-        return True
-    tension, torque = max(tension, abs(bit_tension)), max(torque, abs(bit_torque))
-    for k in range(top + 1):
-        # The largest loads combined are an upper bound of the stress.
-        stress = stress_of(tension, torque, bending, sections[k, OUTER], sections[k, INNER])
-        if stress > sections[k, YIELD_STRENGTH]:
-            return True
-    return False
-
-
-def _penetration(walls: Walls, radius: Array, penetration: Array, bit_depth: float) -> Note | None:
-    clearance = walls.radius - radius
-    excess = penetration / np.clip(SHARE_OF_CLEARANCE * clearance, LEAST_PENETRATION, MOST_PENETRATION)
-    k = int(excess.argmax())
-    if not excess[k] > 1:
-        return None
-    where = place_in_words(walls.md[k], bit_depth)
-    text = (
-        f"a contact point at {where} is {1e3 * penetration[k]:.3g} mm deep in the wall, "
-        f"where the clearance is {1e3 * clearance[k]:.3g} mm"
-    )
-    return note_of("penetration", text, float(excess[k]), float(walls.md[k]))
-
-
-def _stress(string: String, loads: Loads, walls: Walls) -> Note | None:
-    def of(name: str) -> Array:
-        values = string.of(name)
-        return np.append(values[0], values)
-
-    stress = von_mises(*at_contacts(string, loads), of("outer"), of("inner"))
-    strength = of("yield_strength")
-    k = int((stress / strength).argmax())
-    if not stress[k] > strength[k]:
-        return None
-    place = float(walls.md[k - 1]) if k else string.top_md
-    where = place_in_words(place, string.bit_depth)
-    text = f"the stress at {where} is {stress[k] / 1e6:.0f} MPa, the yield strength {strength[k] / 1e6:.0f} MPa"
-    return note_of("yield", text, float(stress[k] / strength[k]), place)
-
-
-def _pull(string: String, hookload: float) -> Note | None:
-    top = string.sections[string.component[0]]
-    capacity = top.yield_strength * np.pi * (top.outer**2 - top.inner**2)
-    if not hookload > capacity:
-        return None
-    text = f"the hook load is {hookload / 1e3:.0f} kN, the uppermost pipe yields at {capacity / 1e3:.0f} kN"
-    return note_of("tensile_capacity", text, float(hookload / capacity), string.top_md)
+def limit_notes(worst: Array, string: String, walls: Walls) -> tuple[Note, ...]:
+    """``string_notes`` of a string whose largest shares of the limits, ``worst``, are known."""
+    found = []
+    for limit, (share, row, *at) in zip(LIMITS, worst.tolist(), strict=True):
+        if share > 1:
+            k = int(row)
+            place, section = (float(walls.md[k - 1]) if k else string.top_md), string.component[max(k - 1, 0)]
+            where = place_in_words(place, string.bit_depth)
+            text = limit.text(share, Place(*at), string.sections[section], where)
+            found.append(note_of(limit.code, text, share, place))
+    return tuple(found)
 
 
 def under_resolved(buckling: Buckling) -> Note | None:

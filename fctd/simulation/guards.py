@@ -24,10 +24,10 @@ from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
-from fctd.results.notes import Note, beyond_joints, could_have_notes, ledger_off, string_notes, under_resolved
+from fctd.results.notes import Note, beyond_joints, ledger_off, string_notes, under_resolved
 from fctd.results.profile import Loads
 from fctd.results.run_notes import OF_THE_WALL, SMALL_FLUTTER, brakes_turning, flutters, pushes
-from fctd.simulation.looks import LISTEN, is_sound, listen, may_have_notes
+from fctd.simulation.looks import LISTEN, is_sound, listen
 from fctd.simulation.run import Run
 
 lost_of = itemgetter(*LOSSES, "lost_bit_J")
@@ -48,14 +48,10 @@ class Guards:
         self.notes: dict[str, Note] = {}
         self.seconds = self.residual = self.work = 0.0
         self.swing = 0.0, 0.0
-        self._sections, self._of_sections = run.string.sections, run.string.table
-        self._in_hole = run.case.contact.enabled
         # Reading the compiled code from disk, or compiling it, is no part of the checks' time.
-        walls, n = walls_in(np.zeros((2, WALL_COLUMNS))), run.segments
-        none, component = np.zeros(2), run.string.component
+        n = run.segments
         is_sound(run.S, n)
-        may_have_notes(run.S, walls.offset, walls.radius, none, none, none, 0.0, 0.0, self._table(), component, 0.0)
-        could_have_notes(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, self._table(), 0, 0.0)
+        self._of_limits(Loads(*np.zeros((4, n))), walls_in(np.zeros((n, WALL_COLUMNS))), 0.0)
         listen(run.S, run.top.copy(), n, run.pipe.weight)
 
     def timed(self, check: Callable[P, R], *given: P.args, **more: P.kwargs) -> R:
@@ -81,14 +77,9 @@ class Guards:
         pull : mean hook load of the record, and the least of its steps [N]; turning : rotation at the top [rad/s] and
         mean torque [N m].
         """
-        run, string, in_hole = self.run, self.run.string, self._in_hole
-        if not in_hole or may_have_notes(
-            run.S, walls.offset, walls.radius, loads.tension, loads.torque, loads.bending, loads.bit_tension,
-            loads.bit_torque, self._table(), string.component, pull[0],
-        ):  # fmt: skip
-            radius = state.row(run.S, state.RADIUS, run.segments)
-            for note in string_notes(string, loads, pull[0], walls, radius, in_hole=in_hole):
-                self._keep(note, bit_depth)
+        run = self.run
+        for note in self._of_limits(loads, walls, pull[0]):
+            self._keep(note, bit_depth)
         self._keep(under_resolved(buckling), bit_depth)
         self._check_hookload(bit_depth, *pull)
         spin, torque = turning
@@ -116,12 +107,11 @@ class Guards:
         if amplitude > kept * SMALL_FLUTTER * weight and frequency > OF_THE_WALL * on_wall:
             self._keep(flutters(amplitude, frequency, on_wall, 1 / axial_period_of(run.laid_out), weight), bit_depth)
 
-    def _table(self) -> NDArray[np.float64]:
-        """The table of the string's sections, which are the same ones at most depths."""
-        string = self.run.string
-        if string.sections is not self._sections:
-            self._sections, self._of_sections = string.sections, string.table
-        return self._of_sections
+    def _of_limits(self, loads: Loads, walls: Walls, hookload: float) -> tuple[Note, ...]:
+        """The notes on the string's limits."""
+        run = self.run
+        radius = state.row(run.S, state.RADIUS, run.segments)
+        return string_notes(run.string, loads, hookload, walls, radius, in_hole=run.case.contact.enabled)
 
     def of_the_ledger(self) -> Note | None:
         """The note on a ledger that is off so far, as far as the run has turned over energy."""

@@ -9,16 +9,9 @@ import math
 from fctd.mechanics.faults import worst_of
 from fctd.mechanics.jit import entry
 from fctd.mechanics.readings import drain_swing
-from fctd.mechanics.state import K_WALL, RADIUS, WEIGHT, lateral_inverse_mass
+from fctd.mechanics.state import K_WALL, WEIGHT, lateral_inverse_mass
 from fctd.mechanics.topdrive import PULL_TIME, TOP_LENGTH
-from fctd.results.notes import (
-    LEAST_PENETRATION,
-    MOST_BEND,
-    MOST_PENETRATION,
-    MOST_TWIST,
-    SHARE_OF_CLEARANCE,
-    could_have_notes,
-)
+from fctd.results.notes import MOST_BEND, MOST_TWIST
 
 # Time [s] over which the flutter of the hook load is read; it counts where it lasts for two such times, as the jolt of
 # a start does not.
@@ -32,23 +25,6 @@ def is_sound(S, n):
     """Whether the state is finite and in the hole, and no joint of bodies 1..n is beyond its range."""
     finite, outside, bend, twist = worst_of(S, n)
     return finite and outside[0] <= 0 and bend[0] > COS_BEND and twist[0] > COS_HALF_TWIST
-
-
-@entry
-def may_have_notes(S, offset, hole, tension, torque, bending, bit_tension, bit_torque, sections, component, hookload):
-    """Whether ``notes.string_notes`` may find something.
-
-    offset (n, 3), hole (n,) : of the walls [m]; loads (n,) as in ``Loads``; sections : a row for each component, of
-    which ``component`` (n,) has that of each segment.
-    """
-    pull, twist, bend = 0.0, 0.0, 0.0
-    for j in range(len(hole)):
-        distance, radius = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2), S[RADIUS + 1 + j]
-        most = min(max(SHARE_OF_CLEARANCE * (hole[j] - radius), LEAST_PENETRATION), MOST_PENETRATION)
-        if distance - hole[j] + radius > 0.999 * most:  # string_notes, which rounds otherwise, decides
-            return True
-        pull, twist, bend = max(pull, abs(tension[j])), max(twist, abs(torque[j])), max(bend, bending[j])
-    return could_have_notes(0.0, pull, bit_tension, twist, bit_torque, bend, sections, component[0], hookload)
 
 
 @entry

@@ -221,15 +221,15 @@ def solve_rows(hole, strings, which, loads, S, P, G, R, D, A, U, W, owner, answe
         pipe = Pipe(stiffness[:n], weight[:n], radius[:n], length, middle[:n])
         solve_row(
             S, n, P, kinks, hole.pieces[which[r, 1]], hole, pipe, fed, length[0] if long_segment else 0.0,
-            strings.top_md, strings.bit_depth[k], strings.sections, component[0], loads[r], G, R, D, A, U, W, owner,
+            strings.top_md, strings.bit_depth[k], strings.sections, component, loads[r], G, R, D, A, U, W, owner,
             answers[r], joints[r, : n + 1], contacts[r, : n + 1], walls[r, 1 : n + 1],
         )  # fmt: skip
 
 
 @kernel
 def solve_row(
-    S, n, P, kinks, C, hole, pipe, fed, top_length, top_md, bit_depth, sections, top, loads, G, R, D, A, U, W, owner,
-    answer, joints, contacts, walls,
+    S, n, P, kinks, C, hole, pipe, fed, top_length, top_md, bit_depth, sections, component, loads, G, R, D, A, U, W,
+    owner, answer, joints, contacts, walls,
 ):  # fmt: skip
     """Fill the answer of one string, whose constants are in S; its pose is then in P."""
     pressing, torque = loads[WEIGHT_ON_BIT], loads[BIT_TORQUE]
@@ -257,6 +257,6 @@ def solve_row(
     answer[HOOKLOAD], answer[TORQUE], answer[IMBALANCE] = hookload, reaction, imbalance
     answer[TOP], answer[TOP + 1], answer[TOP + 2] = P[0, 0], P[0, 1], P[0, 2]
     read_shape(
-        C, hole.geometry, hole.with_wall != state.OPEN, hole.bends, top_md, pipe, sections, top, -pressing, torque,
-        hookload, owner[1 : n + 1], joints[1:], contacts[1:], walls, answer[SHAPE:],
+        C, hole.geometry, hole.with_wall != state.OPEN, hole.bends, top_md, pipe, sections, component, -pressing,
+        torque, hookload, owner[1 : n + 1], joints[1:], contacts[1:], walls, answer[SHAPE:],
     )  # fmt: skip

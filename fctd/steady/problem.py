@@ -247,7 +247,7 @@ class Problem:
         walls = np.empty((n, WALL_COLUMNS))
         read_shape(
             hole.pieces, hole.geometry, self.case.contact.enabled, hole.bends, float(string.top_md), self.laid.pipe,
-            string.table, int(string.component[0]), self.bit_tension(), self.bit_torque, found.hookload,
+            string.table, string.component, self.bit_tension(), self.bit_torque, found.hookload,
             self.work.owner[1 : n + 1], found.joints, found.contacts, walls, numbers[SHAPE:],
         )  # fmt: skip
         numbers[STEPS:TOP] = iterations, found.hookload, found.torque, found.imbalance, self.allowed

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from fctd.mechanics.jit import entry
 from fctd.mechanics.query import WALL_COLUMNS, query_walls
 from fctd.results.buckling import NEITHER, ROW_COLUMNS, find_buckling
-from fctd.results.notes import could_have_notes
+from fctd.results.limits import LIMITS, WORST, find_shares
+from fctd.results.profile import Loads
 from fctd.steady.tangent import (
     AXIAL_MOMENT,
     CONTACT_COLUMNS,
@@ -28,9 +29,9 @@ Array = NDArray[np.float64]
 SHAPE_COLUMNS = JOINT_COLUMNS, CONTACT_COLUMNS, WALL_COLUMNS
 # Numbers of a shape: sums of normal force [N], r F_t and r μ F_n [N m]; the first segment that is deeper in the wall
 # than the hole's radius, or 0; of ``find_buckling`` mode, measured depths of the first and the last buckled row [m],
-# longest segment that is too long, length needed [m], excess; whether there may be notes.
-SUM_NORMAL, SUM_R_FT, SUM_R_MU_FN, OUTSIDE, MODE, FROM_MD, TO_MD, LONGEST, NEEDED, EXCESS, NOTABLE = range(11)
-NUMBERS = 11
+# longest segment that is too long, length needed [m], excess; then the largest shares of limits, of ``find_shares``.
+SUM_NORMAL, SUM_R_FT, SUM_R_MU_FN, OUTSIDE, MODE, FROM_MD, TO_MD, LONGEST, NEEDED, EXCESS, SHARES = range(11)
+NUMBERS = SHARES + len(LIMITS) * WORST
 # Numbers of an answer: whether it is a stable balance of the first attempt, iterations, hook load [N], surface torque
 # [N m], largest force out of balance [N] and its allowed value [N], the place of the string's top [m], and then those
 # of its shape.
@@ -72,18 +73,18 @@ def read_top(S, n, P, kinks, C, owner, laws, R, pipe, top_length, axis, joints, 
 
 @entry
 def read_shape(
-    C, geometry, in_hole, bends, top_md, pipe, sections, top, bit_tension, bit_torque, hookload, owner, joints,
+    C, geometry, in_hole, bends, top_md, pipe, sections, component, bit_tension, bit_torque, hookload, owner, joints,
     contacts, walls, numbers,
 ):  # fmt: skip
     """Fill walls (n, WALL_COLUMNS) and numbers (NUMBERS,) of a string with loads joints (n, ...), contacts (n, ...).
 
-    bends : of the hole; pipe : ``buckling.Pipe``; sections : a row for each component, the uppermost in row ``top``;
-    owner (n,) : pieces of the hole near the contact points.
+    bends : of the hole; pipe : ``buckling.Pipe``; sections : a row for each component, component (n,) : that of each
+    segment; owner (n,) : pieces of the hole near the contact points.
     """
     n = len(joints)
     query_walls(C, geometry, contacts[:, :3].copy(), owner.copy(), walls)
     numbers[:] = 0.0
-    deepest, tension, torque, bending, least = 0.0, 0.0, 0.0, 0.0, bit_tension
+    least = bit_tension
     for j in range(n):
         numbers[SUM_NORMAL] += contacts[j, NORMAL_FORCE]
         numbers[SUM_R_FT] += contacts[j, R_FT]
@@ -92,14 +93,15 @@ def read_shape(
         # The limit of a string in motion (faults.py): deeper in the wall than the hole's radius.
         if numbers[OUTSIDE] == 0 and offset + pipe.radius[j] > 2 * walls[j, 3]:
             numbers[OUTSIDE] = j + 1
-        deepest = max(deepest, offset + pipe.radius[j] - walls[j, 3])
         least = min(least, joints[j, JOINT_TENSION])
-        tension = max(tension, abs(joints[j, JOINT_TENSION]))
-        torque = max(torque, abs(joints[j, JOINT_TORQUE]))
-        bending = max(bending, joints[j, JOINT_BENDING])
-    numbers[NOTABLE] = could_have_notes(
-        deepest if in_hole else 0.0, tension, bit_tension, torque, bit_torque, bending, sections, top, hookload
-    )
+    loads = Loads(
+        joints[:, JOINT_TENSION], joints[:, JOINT_TORQUE], joints[:, JOINT_BENDING], contacts[:, NORMAL_FORCE],
+        bit_tension, bit_torque,
+    )  # fmt: skip
+    find_shares(
+        loads, hookload, walls[:, :3], walls[:, 3], pipe.radius, in_hole, pipe.middle, component, sections,
+        numbers[SHARES:].reshape(-1, WORST),
+    )  # fmt: skip
     if not in_hole or least >= 0:
         return
     rows, md = np.empty((n + 1, ROW_COLUMNS)), walls[:, 6].copy()

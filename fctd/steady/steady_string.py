@@ -20,13 +20,14 @@ from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, html_table, load_rows
-from fctd.results.notes import Note, string_notes
+from fctd.results.limits import WORST
+from fctd.results.notes import Note, limit_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
 from fctd.steady.laid_string import LaidString
 from fctd.steady.pose import PLACE
-from fctd.steady.reading import NOTABLE, OUTSIDE, SHAPE, SUM_NORMAL, SUM_R_MU_FN, TOP, Answer
+from fctd.steady.reading import OUTSIDE, SHAPE, SHARES, SUM_NORMAL, SUM_R_MU_FN, TOP, Answer
 from fctd.steady.shape import Shape
 
 if TYPE_CHECKING:
@@ -123,11 +124,10 @@ class Equilibrium:
     @cached_property
     def notes(self) -> tuple[Note, ...]:
         """Warnings about the loads; empty where there are no loads."""
-        if not self.answered or not self._shape.numbers[NOTABLE]:
+        if not self.answered:
             return ()
-        shape, in_hole = self._shape, self.case.contact.enabled
-        string, radius = shape.laid.string, shape.radius
-        return string_notes(string, shape.loads, self.hookload, shape.walls, radius, in_hole=in_hole)
+        shape = self._shape
+        return limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), shape.laid.string, shape.walls)
 
 
 def steady_string(

@@ -1,5 +1,7 @@
 """Probabilities over the samples: of lock-up, of buckling, of no or a doubtful answer, and of exceeding limits.
 
+A limit of the string is an event where a sample has its note; other limits stand in the sweep file.
+
 Intervals of 95 % are Wilson's (1927), which are sound for no and for few events, too.
 """
 
@@ -11,6 +13,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from scipy import stats
 
+from fctd.results.buckling import BUCKLED, HELICAL, MODES
+from fctd.results.limits import LIMITS
 from fctd.results.status import ACCEPTABLE
 from fctd.sweep.limits import LimitSpec
 from fctd.sweep.percentiles import columns_of, places_of
@@ -18,7 +22,7 @@ from fctd.sweep.percentiles import columns_of, places_of
 if TYPE_CHECKING:
     import pandas as pd
 
-LOCKED_UP, BUCKLED, HELICAL, NO_ANSWER = "locked up", "buckled", "buckled helically", "no answer"
+LOCKED_UP, IS_BUCKLED, IS_HELICAL, NO_ANSWER = "locked up", "buckled", "buckled helically", "no answer"
 # Statuses of rows with an answer: of steady strings, of runs, of refinements.
 ANSWERED: Final = (
     "converged", "locked_up", "under_resolved", "unstable", "completed", "inaccurate", "within_tolerance",
@@ -61,9 +65,12 @@ def _events(rows: pd.DataFrame, limits: Sequence[LimitSpec]) -> Mapping[str, pd.
     if "buckling" in rows:
         events |= {
             LOCKED_UP: status == "locked_up",
-            BUCKLED: rows["buckling"].isin(["sinusoidal", "helical"]),
-            HELICAL: rows["buckling"] == "helical",
+            IS_BUCKLED: rows["buckling"].isin(BUCKLED),
+            IS_HELICAL: rows["buckling"] == MODES[HELICAL],
         }
+    if "notes" in rows:
+        noted = {limit.code: rows["notes"].astype(str).str.contains(rf"\b{limit.code}\b") for limit in LIMITS}
+        events |= {f"beyond {code.replace('_', ' ')}": beyond for code, beyond in noted.items() if beyond.any()}
     for i, limit in enumerate(limits):
         columns_of(rows, [limit.column], f"uncertainty.limits[{i}].column")
         values = rows[limit.column]

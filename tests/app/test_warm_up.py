@@ -23,7 +23,7 @@ from fctd.app.warm_up import warm_up
 from fctd.mechanics.compile_cache import KeptCode
 warm_up()
 # Compiled together with what calls them, and from Python called only where that fails, or in a run.
-inside = {"eliminate", "add_pseudo_mass", "take_step", "could_have_notes", "find_stiffness"}
+inside = {"eliminate", "add_pseudo_mass", "take_step", "find_shares", "find_stiffness"}
 for name in sys.argv[1:]:
     for key, value in vars(importlib.import_module(name)).items():
         if key not in inside and isinstance(getattr(value, "_cache", None), KeptCode) and not value.signatures:

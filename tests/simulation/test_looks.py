@@ -8,10 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fctd.mechanics import readings, state, topdrive
-from fctd.mechanics.query import walls_in
-from fctd.results.notes import MOST_BEND, MOST_TWIST, beyond_joints, string_notes
-from fctd.results.profile import Loads
-from fctd.simulation.looks import LISTEN, is_sound, listen, may_have_notes
+from fctd.results.notes import MOST_BEND, MOST_TWIST, beyond_joints
+from fctd.simulation.looks import LISTEN, is_sound, listen
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
 from tests.cases import make_case, pipe, rotation
@@ -48,44 +46,6 @@ def test_a_state_that_is_not_finite_or_outside_is_not_sound(spoil: dict[int, flo
     for offset, value in spoil.items():
         state.row(S, offset, 2)[1] = value
     assert not is_sound(S, 2)
-
-
-@given(
-    depth=st.floats(-0.05, 0.03), pull=st.floats(-6e6, 6e6), twist=st.floats(-2e5, 2e5), bend=st.floats(0, 3e5),
-    hookload=st.floats(-1e5, 9e6),
-)  # fmt: skip
-def test_the_look_at_walls_and_loads_misses_no_note(
-    depth: float, pull: float, twist: float, bend: float, hookload: float
-) -> None:
-    run = Simulation(make_case(BUILD, [pipe(None, 3)], [rotation(100, 2, ramp=1)])).run
-    string, radius = run.string, state.row(run.S, state.RADIUS, 3)
-    place = 0.108 - radius[0] + depth
-    walls = walls_in(np.array([[0.0, place, 0.0, 0.108, 1e7, 0.2, md] for md in (30.0, 60.0, 100.0)]))
-    loads = Loads(
-        tension=np.array([pull, 0.0, 0.0]), torque=np.array([0.0, twist, 0.0]), bending=np.array([0.0, 0.0, bend]),
-        normal=np.zeros(3),
-    )  # fmt: skip
-    found = string_notes(string, loads, hookload, walls, radius)
-    looked = may_have_notes(
-        run.S, walls.offset, walls.radius, loads.tension, loads.torque, loads.bending, 0.0, 0.0, string.table,
-        string.component, hookload,
-    )  # fmt: skip
-    assert looked or not found
-
-
-@pytest.mark.parametrize(("hole", "most"), [(0.108, 0.01), (0.0835, 0.005), (0.065, 0.002)])
-def test_the_look_at_walls_finds_what_is_deeper_than_the_note_allows(hole: float, most: float) -> None:
-    """A quarter of the clearance of pipe of 127 mm, from 2 to 10 mm; without loads."""
-    run, none = Simulation(make_case(BUILD, [pipe(None, 3)], [rotation(100, 2, ramp=1)])).run, np.zeros(3)
-    radius = state.row(run.S, state.RADIUS, 3)
-    assert radius[0] == pytest.approx(0.0635)
-    for depth, expected in ((0.99 * most, False), (1.001 * most, True)):
-        places = [0.0, hole - radius[0] + depth, 0.0]
-        walls = walls_in(np.array([[*place, hole, 1e7, 0.2, 30.0] for place in (np.zeros(3), places, np.zeros(3))]))
-        table, component = run.string.table, run.string.component
-        looked = may_have_notes(run.S, walls.offset, walls.radius, none, none, none, 0.0, 0.0, table, component, 0.0)
-        assert looked == expected
-        assert bool(string_notes(run.string, Loads(none, none, none, none), 0.0, walls, radius)) == expected
 
 
 def test_the_hook_load_is_heard_after_a_while_and_then_anew() -> None:

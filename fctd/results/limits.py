@@ -1,0 +1,163 @@
+"""Limits of a string: of each, which share of it a place of the string uses, what its note says, and what helps.
+
+A limit is one entry of ``LIMITS``.  Its share is plain arithmetic of the loads in a place and of the section there,
+compiled into one walk along the string (``find_shares``), which steady strings and the records of runs take.  Notes
+(notes.py), their headlines in charts and the probabilities of a sweep go through the same table.
+"""
+
+import math
+from collections.abc import Callable
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.query import Walls
+from fctd.model.drillstring import Section, String
+from fctd.model.string_rows import INNER, OUTER, YIELD_STRENGTH
+from fctd.results.profile import Loads, von_mises
+
+Array = NDArray[np.float64]
+
+# The wall of the model is a spring.  Steel and rock yield by a millimetre or two; a contact point that is deeper in
+# the wall than a quarter of the clearance changes the string's shape and its buckling limits (∝ 1/√clearance) by a
+# tenth.  10 mm are 100 kN on one point of the default wall, ten times the force that wears casing; below 2 mm the share
+# of a stabiliser's small clearance is no criterion.
+SHARE_OF_CLEARANCE, LEAST_PENETRATION, MOST_PENETRATION = 0.25, 0.002, 0.010
+
+
+class Place(NamedTuple):
+    """What the limits look at in one place, the top of a string or a contact point.
+
+    tension (effective) [N], torque, bending [N m]; penetration of the wall and clearance [m], 0 at the top; hookload
+    [N], 0 below the top.
+    """
+
+    tension: float
+    torque: float
+    bending: float
+    penetration: float
+    clearance: float
+    hookload: float
+
+
+class Limit(NamedTuple):
+    """A limit, of which a place of a string uses a share.
+
+    code, headline, remedy : of its note.  share : of a place and the row of its component in a table of sections, above
+    1 beyond the limit; compiled.  text : the note's sentence, by the share, the place, its section and where it is.
+    """
+
+    code: str
+    headline: str
+    remedy: str
+    share: Callable[[Any, Any], Any]
+    text: Callable[[float, Place, Section, str], str]
+
+
+stress_of = inlined(von_mises)
+LIMITS: Final[tuple[Limit, ...]] = (
+    Limit(
+        "penetration", "the string is pressed deep into the wall",
+        "check friction factor, bends and the wall's stiffness",
+        lambda at, section: (
+            at.penetration / min(max(SHARE_OF_CLEARANCE * at.clearance, LEAST_PENETRATION), MOST_PENETRATION)
+        ),
+        lambda share, at, section, where: (
+            f"a contact point at {where} is {1e3 * at.penetration:.3g} mm deep in the wall, "
+            f"where the clearance is {1e3 * at.clearance:.3g} mm"
+        ),
+    ),
+    Limit(
+        "yield", "the steel is stressed beyond its yield strength", "check friction factor, bends and yield_strength",
+        lambda at, section: (
+            stress_of(at.tension, at.torque, at.bending, section[OUTER], section[INNER]) / section[YIELD_STRENGTH]
+        ),
+        lambda share, at, section, where: (
+            f"the stress at {where} is {share * section.yield_strength / 1e6:.0f} MPa, "
+            f"the yield strength {section.yield_strength / 1e6:.0f} MPa"
+        ),
+    ),
+    Limit(
+        "tensile_capacity", "the hook load exceeds the capacity of the uppermost pipe",
+        "check friction factor, bends and yield_strength",
+        lambda at, section: (
+            at.hookload / (section[YIELD_STRENGTH] * np.pi * (section[OUTER] ** 2 - section[INNER] ** 2))
+        ),
+        lambda share, at, section, where: (
+            f"the hook load is {at.hookload / 1e3:.0f} kN, the uppermost pipe yields at "
+            f"{at.hookload / share / 1e3:.0f} kN"
+        ),
+    ),
+)  # fmt: skip
+# Columns of the largest shares (len(LIMITS), WORST): the share, the row of its place, 0 for the top, and the place.
+SHARE, ROW, PLACE = 0, 1, 2
+WORST = PLACE + len(Place._fields)
+
+
+@inlined
+def _nothing(at, section, row, worst):
+    return
+
+
+def _comparison(limits: tuple[Limit, ...]) -> Any:
+    """A function that updates the largest shares of limits by those of a place, compiled into its caller."""
+    if not limits:
+        return _nothing
+    others, share_of, k = _comparison(limits[:-1]), inlined(limits[-1].share), len(limits) - 1
+
+    @inlined
+    def compare(at, section, row, worst):
+        others(at, section, row, worst)
+        share = share_of(at, section)
+        if share > worst[k, SHARE]:
+            worst[k, SHARE], worst[k, ROW] = share, row
+            worst[k, PLACE:] = at
+
+    return compare
+
+
+compare = _comparison(LIMITS)
+
+
+@inlined
+def _beside(joints, end, middle, j):
+    """A load of the joints at contact point j, as ``profile.at_contacts`` has it."""
+    below = joints[j + 1] if j + 1 < len(joints) else end
+    return 0.5 * (joints[j] + below) if middle[j] else below
+
+
+@kernel
+def find_shares(loads, hookload, offset, hole, radius, in_hole, middle, component, sections, worst):
+    """Fill ``worst`` (limits, WORST) with the largest share of each limit along a string, 0 where it has none.
+
+    loads : ``profile.Loads``; hookload [N]; offset (n, 3), hole (n,) : of the walls, radius (n,) : of the string at the
+    contact points [m]; in_hole : whether there is a wall; middle, component (n,), sections : of the string.
+    """
+    worst[:] = 0.0
+    top = Place(loads.tension[0], loads.torque[0], loads.bending[0], 0.0, 0.0, hookload)
+    compare(top, sections[component[0]], 0, worst)
+    for j in range(len(hole)):
+        clearance = hole[j] - radius[j]
+        distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
+        here = Place(
+            _beside(loads.tension, loads.bit_tension, middle, j), _beside(loads.torque, loads.bit_torque, middle, j),
+            _beside(loads.bending, 0.0, middle, j), distance - clearance if in_hole else 0.0, clearance, 0.0,
+        )  # fmt: skip
+        compare(here, sections[component[j]], j + 1, worst)
+
+
+@entry
+def _find(loads, hookload, offset, hole, radius, in_hole, middle, component, sections, worst):
+    find_shares(loads, hookload, offset, hole, radius, in_hole, middle, component, sections, worst)
+
+
+def shares_of(string: String, loads: Loads, hookload: float, walls: Walls, radius: Array, in_hole: bool) -> Array:
+    """The largest shares (limits, WORST) along a string; see ``find_shares``."""
+    worst = np.empty((len(LIMITS), WORST))
+    _find(
+        loads, float(hookload), walls.offset, walls.radius, radius, in_hole, string.mid_contact(), string.component,
+        string.table, worst,
+    )  # fmt: skip
+    return worst

@@ -1,0 +1,65 @@
+"""Limits: the largest share of each along a string, by another way, and the bounds of the penetration."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fctd.mechanics.query import Walls, walls_in
+from fctd.model.drillstring import String, lay_out
+from fctd.results.limits import LIMITS, ROW, SHARE, shares_of
+from fctd.results.notes import string_notes
+from fctd.results.profile import Loads, at_contacts, von_mises
+from tests.cases import make_case, pipe
+
+PARTS = [pipe(2, 1, outer=0.165, contact_diameter=0.2, contact="point"), pipe(58, 4), pipe(None, 1, outer=0.11)]
+STRING = lay_out(make_case(components=PARTS), 100.0)
+N = STRING.segments
+
+
+def walls_of(string: String, depths: np.ndarray, hole: float = 0.108) -> Walls:
+    """Walls of a hole of a radius [m] beside points that are so deep in it (n,) [m]."""
+    rows = np.zeros((string.segments, 7))
+    rows[:, 1], rows[:, 3] = hole - string.contact_radius() + depths, hole
+    rows[:, 6] = np.linspace(10.0, 100.0, string.segments)
+    return walls_in(rows)
+
+
+@given(
+    pull=st.lists(st.floats(-6e6, 6e6), min_size=N, max_size=N), twist=st.floats(-2e5, 2e5), bend=st.floats(0, 3e5),
+    depth=st.lists(st.floats(-0.005, 0.03), min_size=N, max_size=N), bit=st.floats(-1e6, 0), hookload=st.floats(0, 9e6),
+    in_hole=st.booleans(),
+)  # fmt: skip
+def test_the_largest_shares_are_those_of_the_profile(
+    pull: list[float], twist: float, bend: float, depth: list[float], bit: float, hookload: float, in_hole: bool
+) -> None:
+    torque, bending = np.zeros(N), np.zeros(N)
+    torque[2], bending[3] = twist, bend
+    loads = Loads(np.array(pull), torque, bending, np.zeros(N), bit, 0.3 * twist)
+    walls, radius = walls_of(STRING, np.array(depth)), STRING.contact_radius()
+    worst = shares_of(STRING, loads, hookload, walls, radius, in_hole)
+    outer, inner = (np.append(STRING.of(name)[0], STRING.of(name)) for name in ("outer", "inner"))
+    stress = von_mises(*at_contacts(STRING, loads), outer, inner) / 931e6
+    deep = np.append(0.0, np.array(depth) / np.clip(0.25 * (0.108 - radius), 0.002, 0.01))
+    pulled = np.append(hookload / (931e6 * np.pi * (0.055**2 - 0.035**2)), np.zeros(N))
+    for k, shares in enumerate((deep if in_hole else 0 * deep, stress, pulled)):
+        assert worst[k, SHARE] == pytest.approx(max(shares.max(), 0.0), rel=1e-9, abs=1e-12)
+        assert shares[int(worst[k, ROW])] == pytest.approx(worst[k, SHARE], rel=1e-9, abs=1e-12)
+    found = string_notes(STRING, loads, hookload, walls, radius, in_hole=in_hole)
+    assert [note.code for note in found] == [LIMITS[k].code for k in range(len(LIMITS)) if worst[k, SHARE] > 1]
+    assert [note.excess for note in found] == [share for share in worst[:, SHARE] if share > 1]
+
+
+def test_loads_that_are_no_numbers_are_beyond_no_limit() -> None:
+    loads, walls = Loads(*np.full((4, N), np.nan)), walls_of(STRING, np.full(N, np.nan))
+    assert not shares_of(STRING, loads, np.nan, walls, STRING.contact_radius(), True)[:, SHARE].any()
+
+
+@pytest.mark.parametrize(("hole", "most"), [(0.108, 0.01), (0.0835, 0.005), (0.065, 0.002)])
+def test_a_note_on_what_is_deeper_than_a_quarter_of_the_clearance(hole: float, most: float) -> None:
+    """Of pipe of 127 mm, from 2 to 10 mm; without loads."""
+    string, none = lay_out(make_case(components=[pipe(None, 3)]), 100.0), np.zeros(3)
+    for depth, expected in ((0.99 * most, 0), (1.001 * most, 1)):
+        walls = walls_of(string, np.array([-0.001, depth, -0.001]), hole)
+        found = string_notes(string, Loads(none, none, none, none), 0.0, walls, string.contact_radius())
+        assert [(note.code, note.place) for note in found] == [("penetration", 55.0)] * expected
