@@ -10,7 +10,7 @@ from fctd.mechanics.rock import DRAG_BIT
 from fctd.model.operations import Phase, rad_per_s
 from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.tortuosity import resolving, shortfall
-from fctd.results import notes
+from fctd.results import run_notes
 from fctd.results.notes import Note
 from fctd.results.swings import Span, swing_of
 from fctd.results.tables import SimulationResult
@@ -34,10 +34,10 @@ def end_notes(
     history, spans = result.history, spans_of(run, phases)
     swing, frequency, depth = expected_ringing(run, phases).largest()
     bound = RINGING * float(history["hookload_N"].abs().mean())
-    ledger = notes.ledger_off(result.run["energy_error"])
+    ledger = run_notes.ledger_off(result.run["energy_error"])
     found = (
         ledger,
-        notes.rings(swing, frequency, depth, bound),
+        run_notes.rings(swing, frequency, depth, bound),
         torque_note(run, spans[-1], history),
         hookload_note(run, spans[-1], history, start_time),
         _whirl_note(run, spans, history),
@@ -77,10 +77,10 @@ def torque_note(run: Run, span: Span, history: "pd.DataFrame") -> Note | None:
     impulse = np.append(0.0, np.cumsum(torque * np.diff(time_s)))
     before, middle, end = np.interp(time_s[-1] - period * np.array([2.0, 1.0, 0.0]), time_s, impulse)
     means = (end - middle) / period, (middle - before) / period
-    swings = notes.torque_swings(float(torque[-1]), *means, period, float(history["hookload_N"].iloc[-1]))
+    swings = run_notes.torque_swings(float(torque[-1]), *means, period, float(history["hookload_N"].iloc[-1]))
     turned = np.append(0.0, np.cumsum(history["top_rpm"].to_numpy(float) * np.diff(time_s)))
     turns = float(np.diff(np.interp(time_s[-1] - period * np.array([1.0, 0.0]), time_s, turned))[0])
-    return swings or notes.turns_slowly(turns / period, span.rpm)
+    return swings or run_notes.turns_slowly(turns / period, span.rpm)
 
 
 def hookload_note(run: Run, span: Span, history: "pd.DataFrame", start_time: float) -> Note | None:
@@ -93,7 +93,7 @@ def hookload_note(run: Run, span: Span, history: "pd.DataFrame", start_time: flo
     last, before = (swing_of(time_s, history, "hookload", "N", one, period) for one in spans)
     string = run.laid_out
     weight = float((string.of("weight") * string.length).sum())
-    return notes.hookload_swings(max(last.swing, before.swing), last.mean, before.mean, period, weight)
+    return run_notes.hookload_swings(max(last.swing, before.swing), last.mean, before.mean, period, weight)
 
 
 def _whirl_note(run: Run, spans: Sequence[Span], history: "pd.DataFrame") -> Note | None:
@@ -109,7 +109,7 @@ def _whirl_note(run: Run, spans: Sequence[Span], history: "pd.DataFrame") -> Not
         share = surface / np.hypot(surface, operation.speed)
         sideways = float(np.sqrt((last["lateral_speed_m_per_s"] ** 2).mean()))
         torque, full = float(last["sum_r_ft_N_m"].mean()), float(last["sum_r_mu_fn_N_m"].mean())
-        found.append(notes.whirls(sideways, surface, torque, share * full))
+        found.append(run_notes.whirls(sideways, surface, torque, share * full))
     return max((note for note in found if note), key=lambda note: note.excess, default=None)
 
 
@@ -119,7 +119,7 @@ def _drilling_note(run: Run, history: "pd.DataFrame") -> Note | None:
     if rock.law != DRAG_BIT or "hole_made_m" not in history:
         return None
     made, weight = float(history["hole_made_m"].iloc[-1]), float(history["weight_on_bit_N"].max())
-    return notes.drilled_nothing(made, weight, rock.worn)
+    return run_notes.drilled_nothing(made, weight, rock.worn)
 
 
 def _limit_notes(run: Run) -> tuple[Note | None, ...]:
@@ -128,6 +128,6 @@ def _limit_notes(run: Run) -> tuple[Note | None, ...]:
     wanted = case.wellbore.tortuosity
     deepest = float(run.top[topdrive.TOP_PENETRATION])
     return (
-        notes.too_deep(deepest, case.contact.largest_penetration),
-        notes.winds_too_much(shortfall(wanted, longest), longest, resolving(wanted)),
+        run_notes.too_deep(deepest, case.contact.largest_penetration),
+        run_notes.winds_too_much(shortfall(wanted, longest), longest, resolving(wanted)),
     )

@@ -4,7 +4,7 @@
   (``faults.check``).
 - Contact points that are deep in the wall, stress and hook load (``notes.string_notes``), and segments that cannot bend
   as the buckled string does (``notes.under_resolved``).
-- Joints beyond the range of their law (``notes.beyond_joints``).
+- Joints beyond the range of their law (``run_notes.beyond_joints``).
 - The hook load: a string that is pushed down (``run_notes.pushes``), and one that flutters (``run_notes.flutters``).
 - The torque that the joints' own damping takes of a turning string (``run_notes.brakes_turning``).
 - The energy ledger so far, by which a run that ends early is judged.
@@ -24,9 +24,17 @@ from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
-from fctd.results.notes import Note, beyond_joints, ledger_off, string_notes, under_resolved
+from fctd.results.notes import Note, string_notes, under_resolved
 from fctd.results.profile import Loads
-from fctd.results.run_notes import OF_THE_WALL, SMALL_FLUTTER, brakes_turning, flutters, pushes
+from fctd.results.run_notes import (
+    OF_THE_WALL,
+    SMALL_FLUTTER,
+    beyond_joints,
+    brakes_turning,
+    flutters,
+    ledger_off,
+    pushes,
+)
 from fctd.simulation.looks import LISTEN, is_sound, listen
 from fctd.simulation.run import Run
 

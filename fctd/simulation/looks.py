@@ -11,12 +11,12 @@ from fctd.mechanics.jit import entry
 from fctd.mechanics.readings import drain_swing
 from fctd.mechanics.state import K_WALL, WEIGHT, lateral_inverse_mass
 from fctd.mechanics.topdrive import PULL_TIME, TOP_LENGTH
-from fctd.results.notes import MOST_BEND, MOST_TWIST
+from fctd.results.run_notes import MOST_BEND, MOST_TWIST
 
 # Time [s] over which the flutter of the hook load is read; it counts where it lasts for two such times, as the jolt of
 # a start does not.
 LISTEN = 1.0
-# Cosines within which ``notes.beyond_joints`` has no note; where rounding could matter, it decides.
+# Cosines within which ``run_notes.beyond_joints`` has no note; where rounding could matter, it decides.
 COS_BEND, COS_HALF_TWIST = math.cos(0.999 * MOST_BEND), math.cos(0.999 * MOST_TWIST / 2)
 
 

@@ -14,8 +14,8 @@ from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
-from fctd.results import notes
 from fctd.results.pacing import Clocks
+from fctd.results.run_notes import INACCURATE
 from fctd.results.status import RunStatus
 from fctd.results.swings import operations_table
 from fctd.results.tables import SimulationResult
@@ -301,7 +301,7 @@ class Simulation(Iterator[Record]):
         """The result of a completed run, with the notes of its end, and its final status."""
         ledger, ended = end_notes(self.run, self.phases, result, self.recorder.start_time)
         found = (*ended, *result.notes)
-        if ledger is not None and not result.run["energy_error"] <= notes.INACCURATE:
+        if ledger is not None and not result.run["energy_error"] <= INACCURATE:
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
         return replace(result, message="; ".join(map(str, found)), notes=found)
 

@@ -1,8 +1,11 @@
-"""Notes on the hook load of a run: each bound from both sides."""
+"""Notes on a run: each bound from both sides."""
 
 import pytest
 
+from fctd import simulate
+from fctd.results import ledger, run_notes
 from fctd.results.run_notes import brakes_turning, flutters, pushes
+from tests.cases import make_case, rotation, trip
 
 
 @pytest.mark.parametrize(
@@ -53,3 +56,126 @@ def test_joint_damping_that_brakes_a_turning_string() -> None:
     assert (note.code, note.excess) == ("joint_damping", pytest.approx(5.0))
     assert "takes 50 N m of the torque of the turning string, 5 % of it" in note.text
     assert brakes_turning(0.0, 0.0) is None
+
+
+def test_a_ledger_that_is_off_is_noted_and_beyond_a_tenth_inaccurate() -> None:
+    """A rotation that begins within three steps: the step does not resolve it."""
+    result = simulate(make_case(operations=[rotation(1000, 0.01)]))
+    assert result.run["energy_error"] > 0.1
+    assert result.status == "inaccurate"
+    assert result.message == str(result.notes[0])
+    assert result.notes[0].code == "ledger"
+    assert len(result.history) > 0
+    slower = simulate(make_case(operations=[trip(900, 899.9, ramp=0.2)]))
+    assert slower.status == "completed", slower.run["energy_error"]
+
+
+@pytest.mark.parametrize(
+    ("error", "noted"), [(0.0099, False), (0.0101, True), (0.5, True), (float("nan"), True), (float("inf"), True)]
+)
+def test_the_ledger_is_doubted_beyond_one_per_cent(error: float, noted: bool) -> None:
+    assert (run_notes.ledger_off(error) is not None) == noted
+
+
+@pytest.mark.parametrize(("error", "status"), [(0.02, "completed"), (0.099, "completed"), (0.101, "inaccurate")])
+def test_a_run_is_inaccurate_beyond_a_tenth_of_the_work(
+    error: float, status: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ledger, "error", lambda energy: error)
+    result = simulate(make_case(operations=[rotation(1000, 0.1)]))
+    assert (result.status, result.notes[0].code) == (status, "ledger")
+
+
+def test_how_far_a_ledger_is_off() -> None:
+    note = run_notes.ledger_off(0.05)
+    assert note is not None
+    assert (note.code, note.text, note.place) == ("ledger", "the energy ledger is off by 5 %", None)
+    assert note.excess == pytest.approx(5.0)
+
+
+def test_ringing_beyond_its_bound() -> None:
+    assert run_notes.rings(1e3, 2.5, 1500.0, 1e3) is None
+    assert run_notes.rings(float("nan"), 2.5, 1500.0, 1e3) is None
+    note = run_notes.rings(3e3, 2.5, 1500.0, 1e3)
+    assert note is not None
+    assert (note.code, note.excess) == ("ringing", 3.0)
+    for number in ("2.50 Hz", "near 1500 m", "±3 kN"):
+        assert number in note.text
+
+
+@pytest.mark.parametrize(
+    ("last", "mean", "before", "excess"),
+    [
+        (10.4e3, 10e3, 10e3, None),  # within 5 %
+        (11.1e3, 10e3, 10e3, 2.2),  # the last record is 11 % above its mean
+        (10e3, 10e3, 8e3, 4.0),  # still winding up
+        (12.0, 8.0, 2.0, None),  # noise: a lever of less than 1 mm of 500 kN
+    ],
+)
+def test_a_torque_that_is_not_steady(last: float, mean: float, before: float, excess: float | None) -> None:
+    note = run_notes.torque_swings(last, mean, before, 3.64, 5e5)
+    if excess is None:
+        assert note is None
+        return
+    assert note is not None
+    assert note.excess == pytest.approx(excess)
+    assert f"{last / 1e3:.3g} kN·m, its mean over the last torsional period of 3.64 s 10 kN·m" in note.text
+    assert "mean of its operation" in note.remedy
+
+
+@pytest.mark.parametrize(
+    ("swing", "mean", "before", "excess"),
+    [
+        (24e3, 500e3, 498e3, None),  # within 5 %
+        (50e3, 500e3, 500e3, 2.0),  # swings on
+        (5e3, 500e3, 400e3, 4.0),  # still rising
+        (4e3, 20e3, 20e3, None),  # a fifth of the hook load, but nothing beside the weight of 800 kN
+        (16e3, 20e3, 20e3, 2.0),
+    ],
+)
+def test_a_hook_load_that_is_not_steady(swing: float, mean: float, before: float, excess: float | None) -> None:
+    note = run_notes.hookload_swings(swing, mean, before, 1.56, 800e3)
+    if excess is None:
+        assert note is None
+        return
+    assert note is not None
+    assert (note.code, note.excess) == ("hookload", pytest.approx(excess))
+    assert f"swings by ±{swing / 1e3:.3g} kN" in note.text
+    assert "axial period of 1.56 s" in note.text
+    assert "mean of its operation" in note.remedy
+
+
+def test_a_string_whirls_where_it_moves_sideways_and_hardly_slides() -> None:
+    """At half the speed of its surface, with a tenth of the torque of sliding."""
+    note = run_notes.whirls(1.0, 2.0, 500.0, 5000.0)
+    assert note is not None
+    assert (note.code, note.excess) == ("whirl", pytest.approx(0.5 / run_notes.SIDEWAYS))
+    assert "50 % of the speed of its surface, and friction has 10 % of the torque" in note.text
+    assert run_notes.whirls(0.2, 2.0, 500.0, 5000.0) is None  # hardly sideways
+    assert run_notes.whirls(1.0, 2.0, 4800.0, 5000.0) is None  # slides
+    assert run_notes.whirls(1.0, 2.0, 0.0, 0.0) is None  # without friction
+
+
+def test_a_run_deeper_in_the_wall_than_its_step_holds_for_gets_a_note() -> None:
+    assert run_notes.too_deep(0.005, 0.005) is None
+    note = run_notes.too_deep(0.0075, 0.005)
+    assert note is not None
+    assert (note.code, note.excess) == ("wall", pytest.approx(1.5))
+    assert "7.5 mm deep" in str(note)
+    assert "largest_penetration" in str(note)
+
+
+def test_a_bit_that_drills_nothing_is_told_what_its_wear_flats_carry() -> None:
+    note = run_notes.drilled_nothing(0.0, 40e3, 54e3)
+    assert note is not None
+    assert "at most 40 kN" in note.text
+    assert "up to 54 kN" in note.text
+    assert run_notes.drilled_nothing(1e-6, 40e3, 54e3) is None
+    assert run_notes.drilled_nothing(0.0, 60e3, 54e3) is None  # it had no time to
+
+
+def test_segments_too_long_for_a_winding_hole_get_a_note() -> None:
+    assert run_notes.winds_too_much("", 1.0, 1.25) is None
+    note = run_notes.winds_too_much("segments are too long", 2.5, 1.25)
+    assert note is not None
+    assert (note.code, note.excess) == ("tortuosity", 2.0)

@@ -8,7 +8,7 @@ import pytest
 from fctd import SimulationResult, simulate
 from fctd.mechanics import state
 from fctd.results import ledger
-from fctd.results.notes import MOST_BEND, MOST_TWIST, beyond_joints
+from fctd.results.run_notes import MOST_BEND, MOST_TWIST, beyond_joints
 from fctd.simulation.simulate import Simulation
 from tests.cases import make_case, pipe, rotation, trip
 from tests.simulation.kept import BUILD, tripping

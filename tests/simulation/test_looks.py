@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fctd.mechanics import readings, state, topdrive
-from fctd.results.notes import MOST_BEND, MOST_TWIST, beyond_joints
+from fctd.results.run_notes import MOST_BEND, MOST_TWIST, beyond_joints
 from fctd.simulation.looks import LISTEN, is_sound, listen
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
