@@ -13,8 +13,8 @@ from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.specs import RigSpec
-from fctd.model.drillstring import section_of
 from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
+from fctd.model.section import section_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString

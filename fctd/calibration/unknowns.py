@@ -16,7 +16,7 @@ from fctd.case.errors import MISSING, InputError, join_key, nearest, show
 from fctd.case.friction import KINDS
 from fctd.case.load import Case
 from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension, Number, Quantity
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 
 
 class Form(NamedTuple):

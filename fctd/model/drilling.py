@@ -6,8 +6,9 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics.drive import BY_SPEED, STIFF, Driller, Drive, least_inertia
 from fctd.mechanics.rock import DRAG_BIT, GIVEN_LOADS, NO_ROCK, NOTHING, Rock
-from fctd.model.drillstring import Section, String
+from fctd.model.drillstring import String
 from fctd.model.operations import rad_per_s
+from fctd.model.section import Section
 from fctd.model.strokes import Pace
 from fctd.model.torsion import axial_period_of
 

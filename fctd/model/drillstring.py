@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,101 +10,20 @@ from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
-from fctd.mechanics.topdrive import GRAVITY, PerMetre
 from fctd.model.default_layout import DefaultLayout
-from fctd.model.mud import hole_radius, steady_resistance
-from fctd.model.pieces import RADIUS, TO_MD
-from fctd.model.string_rows import fill_rows, find_contacts, find_stiffness
-from fctd.model.wellbore import Wellbore
+from fctd.model.section import Section, section_of
+from fctd.model.string_rows import find_contacts, find_stiffness
 
 Array = NDArray[np.float64]
 
-# A long segment hangs straight: where it lies the hole must be this close to vertical [rad], and it must be
-# this long [m].
-LONG_SEGMENT_TILT = np.radians(1.0)
+# A long segment must be this long [m].
 SHORTEST_LONG_SEGMENT = 10.0
 # Largest error of a length in a layout [m].
 SAME_LENGTH = 1e-6
-# Shortest segment that can be computed with [m]: the stiffness of a joint grows with the third power of 1/length, and
-# below a millimetre its rounding makes stable strings unstable, or forces infinite.
-SHORTEST_SEGMENT = 1e-3
 
 
 class LongSegmentError(InputError):
     """The long segment cannot be fed: its hole is not vertical, it is too short, or its component ends."""
-
-
-class Section(NamedTuple):
-    """Properties of a component per metre of its length.
-
-    mass [kg/m], weight (buoyed) [N/m], axial_inertia and tilt_inertia [kg m], EA [N], GJ, EI [N m^2],
-    shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa], eccentricity of the mass [m]; point : 1 for
-    a component that touches at a point, 0 for a sleeve; compressibility : strain along by pressure on all sides [1/Pa].
-    """
-
-    mass: float
-    weight: float
-    axial_inertia: float
-    tilt_inertia: float
-    EA: float
-    GJ: float
-    EI: float
-    shear: float
-    outer: float
-    inner: float
-    contact_radius: float
-    yield_strength: float
-    eccentricity: float = 0.0
-    point: float = 0.0
-    compressibility: float = 0.0
-
-
-def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
-    """Timoshenko's κ of a hollow circle (Eq. 20 as Hutchinson 2001 has it, with (1 + ν)²)."""
-    a, b, nu = inner, outer, poisson
-    top = 6 * (a * a + b * b) ** 2 * (1 + nu) ** 2
-    rest = 7 * a**4 + 34 * a**2 * b**2 + 7 * b**4
-    rest += nu * (12 * a**4 + 48 * a**2 * b**2 + 12 * b**4)
-    rest += nu**2 * (4 * a**4 + 16 * a**2 * b**2 + 4 * b**4)
-    return top / rest
-
-
-@lru_cache(maxsize=256)  # a chart lays out the same components at every depth
-def section_of(component: ComponentSpec, outside: float, inside: float | None = None) -> Section:
-    """Properties of a component per metre, with fluids of these densities [kg/m³] outside and inside.
-
-    The steel displaces the fluid outside (buoyancy factor, Eq. 25), and the bore contains that inside, by default the
-    same, in its place.  Inertia is that of the steel.
-    """
-    inside = outside if inside is None else inside
-    b, a = 0.5 * component.outer_diameter, 0.5 * component.inner_diameter
-    area = np.pi * (b * b - a * a)
-    second = np.pi / 4 * (b**4 - a**4)
-    modulus = component.youngs_modulus
-    shear_modulus = modulus / (2 * (1 + component.poisson_ratio))
-    kappa = shear_coefficient(b, a, component.poisson_ratio)
-    mass = component.linear_mass if component.linear_mass is not None else component.density * area
-
-    def given(value: float | None, computed: float) -> float:
-        return computed if value is None else value
-
-    return Section(
-        mass=mass,
-        weight=mass * GRAVITY * (1 - outside / component.density) + (inside - outside) * GRAVITY * np.pi * a * a,
-        axial_inertia=0.5 * mass * (a * a + b * b),
-        tilt_inertia=0.25 * mass * (a * a + b * b),
-        EA=given(component.axial_stiffness, modulus * area),
-        GJ=given(component.torsional_stiffness, shear_modulus * 2 * second),
-        EI=given(component.bending_stiffness, modulus * second),
-        shear=given(component.shear_stiffness, kappa * shear_modulus * area),
-        outer=b,
-        inner=a,
-        contact_radius=0.5 * component.contact_diameter,
-        yield_strength=component.yield_strength,
-        eccentricity=component.eccentricity,
-        point=float(component.contact == "point"),
-        compressibility=(1 - 2 * component.poisson_ratio) / modulus,
-    )
 
 
 @lru_cache(maxsize=64)  # of a string that hangs from a block, every record asks
@@ -308,82 +226,3 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
         return [whole / count] * count
     count = max(int(take / nominal + 0.5), 1)
     return [nominal] * (count - 1) + [take - nominal * (count - 1)]
-
-
-def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
-    """Raise InputError for a string that is wider than its hole.
-
-    Also for a long segment outside vertical hole, and for a segment that is too short to compute with.
-    deepest : greatest bit depth of the run [m].
-    """
-    shortest = int(np.argmin(string.length))
-    if string.length[shortest] < SHORTEST_SEGMENT:
-        raise InputError(
-            f"segments of at least {SHORTEST_SEGMENT:g} m",
-            key=f"string.components[{int(string.component[shortest])}]",
-            value=f"{string.length[shortest]:.3g} m of it in one segment",
-        )
-    fed = deepest - string.bit_depth if string.long_segment else 0.0
-    if max(section.contact_radius for section in string.sections) > hole.intervals[:, RADIUS].min():
-        bottom = string.top_md + np.cumsum(string.lengthened(fed).length)
-        check_clearance(string, hole, string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]]), bottom)
-    if string.long_segment:
-        length = float(string.length[0]) + fed
-        if hole.steepest_above(string.top_md + length) < LONG_SEGMENT_TILT:  # as of most wells: no need to look closer
-            return
-        md = np.linspace(string.top_md, string.top_md + length, 200)
-        tilt = hole.inclination(md).max()
-        if tilt > LONG_SEGMENT_TILT:
-            raise LongSegmentError(
-                "a hole within 1 deg of vertical along the top segment (a shorter trip, or more segments)",
-                key=f"string.components[{int(string.component[0])}]",
-                value=f"{length:.4g} m at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
-            )
-
-
-def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -> None:
-    """Raise InputError for a string that is wider than its hole.
-
-    top, bottom : (n,) highest and lowest measured depth that each segment reaches [m].
-    """
-    radius = string.of("contact_radius")
-    starts = np.concatenate([[0.0], hole.intervals[:-1, TO_MD]])
-    for start, (to_md, wall) in zip(starts, hole.intervals[:, [TO_MD, RADIUS]], strict=True):
-        tight = (start < bottom) & (to_md > top) & (radius > wall)
-        if tight.any():
-            k = int(np.argmax(tight))
-            raise InputError(
-                f"at most the hole's {2e3 * wall:.6g} mm",
-                key=f"string.components[{int(string.component[k])}].contact_diameter",
-                value=f"{2e3 * radius[k]:.6g} mm",
-            )
-
-
-def fill(S: Array, string: String, case: Case, hole: Wellbore) -> PerMetre:
-    """Write the string into a fresh buffer; returns the pipe fed at the top.
-
-    Mud that moves sideways with the string is left out; ``fctd.simulation.carried_mud.take_along`` adds it.
-    """
-    # Absurd masses and stiffnesses overflow; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
-    pipe: PerMetre = fill_rows(
-        S, string.length, string.component, string.table, string.long_segment, damping_of(case, string),
-        pressure_of(case, string, hole), case.wellbore.stiffness_per_length is not None,
-    )  # fmt: skip
-    return pipe
-
-
-def pressure_of(case: Case, string: String, hole: Wellbore) -> Array:
-    """Pressure of the mud [Pa] at the middle of every segment (n,), inside and outside alike; 0 above the table."""
-    middle = string.top_md + np.cumsum(string.length) - 0.5 * string.length
-    depth = np.interp(middle, hole.md, hole.points[:, 2])
-    return np.asarray(case.mud.density * GRAVITY * np.maximum(depth, 0.0))
-
-
-def damping_of(case: Case, string: String) -> Array:
-    """Damping by the mud per metre of every segment (n, 3): along, across [N s/m²] and about the axis [N s]."""
-    mud, damping = case.mud, np.empty((string.segments, 3))
-    damping[:] = mud.axial_damping or 0.0, mud.lateral_damping or 0.0, mud.rotational_damping or 0.0
-    if mud.viscosity:
-        hole = hole_radius(case, string.top_md, string.length)
-        damping[:, 0], damping[:, 2] = steady_resistance(case, string.of("outer"), hole)
-    return damping

@@ -16,7 +16,7 @@ from fctd.case.load import Case
 from fctd.case.specs import ComponentSpec
 from fctd.model import survey
 from fctd.model.default_layout import AT_MOVING_BIT, DefaultLayout
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 
 Array = NDArray[np.float64]
 Components = tuple[ComponentSpec, ...]

@@ -16,7 +16,7 @@ from fctd.case.surveys.stations import StationKey
 from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import mean_curvature
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES, Part, Template, TemplateName
 from fctd.model.torsion import torsional_period
 

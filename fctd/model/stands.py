@@ -12,7 +12,9 @@ from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import DefaultLayout
-from fctd.model.drillstring import String, check_clearance, check_lengths, check_segments, section_of
+from fctd.model.drillstring import String, check_lengths, check_segments
+from fctd.model.section import section_of
+from fctd.model.string_in_hole import check_clearance
 from fctd.model.wellbore import Wellbore
 
 Array = NDArray[np.float64]

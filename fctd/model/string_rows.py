@@ -1,14 +1,14 @@
 """The segments of a string as rows of the engine's buffer: masses, arms, contact points, damping, stiffness (§5.1).
 
 A string is given by the length [m] and the component (n,) of its segments, from the top down, and a table of
-``drillstring.Section``, a row for each component.  Sums and products are rounded as in numpy.
+``section.Section``, a row for each component.  Sums and products are rounded as in numpy.
 """
 
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry, rounded
 from fctd.mechanics.topdrive import PerMetre, set_long_segment
 
-# Columns of a table of sections: the fields of ``drillstring.Section``.
+# Columns of a table of sections: the fields of ``section.Section``.
 MASS, WEIGHT, AXIAL_INERTIA, TILT_INERTIA, EA, GJ, EI, SHEAR, OUTER, INNER, CONTACT_RADIUS, YIELD_STRENGTH = range(12)
 ECCENTRICITY, POINT, COMPRESSIBILITY = 12, 13, 14
 

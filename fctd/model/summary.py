@@ -11,7 +11,9 @@ from fctd.case.load import Case
 from fctd.case.text import counted
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model import survey
-from fctd.model.drillstring import String, check_fit, lay_out, section_of
+from fctd.model.drillstring import String, lay_out
+from fctd.model.section import section_of
+from fctd.model.string_in_hole import check_fit
 from fctd.model.wellbore import build_wellbore
 
 Array = NDArray[np.float64]

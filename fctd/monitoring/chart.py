@@ -12,8 +12,8 @@ from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet
 from fctd.case.load import Case
 from fctd.case.operations import KINDS as OPERATIONS
-from fctd.model.drillstring import section_of
 from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, weight_indicator
+from fctd.model.section import section_of
 from fctd.model.wellbore import build_wellbore
 from fctd.monitoring.stretches import OF_KIND, Mode
 from fctd.steady.equilibrium import Solver

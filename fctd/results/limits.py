@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.query import Walls
-from fctd.model.drillstring import Section, String
+from fctd.model.drillstring import String
+from fctd.model.section import Section
 from fctd.model.string_rows import INNER, OUTER, YIELD_STRENGTH
 from fctd.results.profile import Loads, von_mises
 

@@ -17,9 +17,10 @@ from fctd.mechanics.wall_law import tangent_over_linear
 from fctd.model.bent_housings import put_bends
 from fctd.model.derrick import with_derrick
 from fctd.model.drilling import check_weight, driller_of, drive_of, pace_of, rock_of
-from fctd.model.drillstring import LongSegmentError, String, check_fit, fill, lay_out
+from fctd.model.drillstring import LongSegmentError, String, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
+from fctd.model.string_in_hole import check_fit, fill
 from fctd.model.strokes import stand_schedule
 from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.wellbore import Wellbore, build_wellbore

@@ -16,8 +16,8 @@ from fctd.mechanics.moving_string import Sums
 from fctd.mechanics.query import Walls
 from fctd.mechanics.readings import Readings
 from fctd.mechanics.rock import NO_ROCK
-from fctd.model.drillstring import pressure_of
 from fctd.model.operations import drive_torque, weight_indicator
+from fctd.model.string_in_hole import pressure_of
 from fctd.results import ledger
 from fctd.results.buckling import (
     HELICAL_LIMIT,

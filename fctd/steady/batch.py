@@ -20,8 +20,8 @@ from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry, kernel
 from fctd.mechanics.law_names import CODES
-from fctd.model.drillstring import damping_of, pressure_of
 from fctd.model.operations import SteadyRates
+from fctd.model.string_in_hole import damping_of, pressure_of
 from fctd.model.string_rows import EI, WEIGHT, fill_rows, find_contacts
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Pipe

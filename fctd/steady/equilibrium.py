@@ -14,8 +14,9 @@ import numpy as np
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
-from fctd.model.drillstring import check_fit, lay_out
+from fctd.model.drillstring import lay_out
 from fctd.model.operations import SteadyRates, steady_rates
+from fctd.model.string_in_hole import check_fit
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.status import SteadyStatus

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from fctd.case.load import Case
 from fctd.mechanics.topdrive import PerMetre
-from fctd.model.drillstring import String, fill
+from fctd.model.drillstring import String
+from fctd.model.string_in_hole import fill
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Pipe, pipe_of
 

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics.topdrive import Motion
-from fctd.model.drillstring import Section, lay_out, section_of
+from fctd.model.drillstring import lay_out
 from fctd.model.operations import schedule
+from fctd.model.section import Section, section_of
 from references.beams.elements import Beam, Surroundings, relaxed, statics
 from references.beams.planar_hole import PlanarHole
 

@@ -10,7 +10,7 @@ import elastica
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.model.drillstring import Section
+from fctd.model.section import Section
 from fctd.model.wellbore import Wellbore
 
 Array = NDArray[np.float64]

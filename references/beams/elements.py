@@ -18,7 +18,7 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 from skfem import Basis, ElementLineP2, ElementVector, MeshLine
 
-from fctd.model.drillstring import Section
+from fctd.model.section import Section
 from references.beams.planar_hole import PlanarHole
 
 Array = NDArray[np.float64]

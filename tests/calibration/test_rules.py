@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fctd.calibration.rules import left_out_by_rule, stretch_at_reversal
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from tests.calibration.wells import blank_rows, well
 from tests.cases import make_case, pipe
 

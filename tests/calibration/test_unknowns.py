@@ -15,7 +15,7 @@ from fctd.calibration.unknowns import (
     with_values,
 )
 from fctd.case.errors import InputError
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from tests.calibration.wells import well
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from fctd import simulate
 from fctd.mechanics import state
-from fctd.model.drillstring import section_of
 from fctd.model.operations import rad_per_s
+from fctd.model.section import section_of
 from fctd.simulation.preparation import prepare
 from fctd.simulation.settling import settle
 from references.soft_string.integration import soft_string

@@ -9,7 +9,8 @@ from fctd import Case, simulate
 from fctd.mechanics import state, topdrive, waves
 from fctd.mechanics.stability import stable_step, stiffest_mode
 from fctd.mechanics.topdrive import PerMetre
-from fctd.model.drillstring import fill, lay_out
+from fctd.model.drillstring import lay_out
+from fctd.model.string_in_hole import fill
 from fctd.model.wellbore import build_wellbore
 from tests.cases import make_case, pipe, rotation, trip
 from validation.parts.long_string import chain, chain_frequencies

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from fctd import InputError
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
-from fctd.model.drillstring import fill
 from fctd.model.stands import Tally, hang, lay_out_stands
+from fctd.model.string_in_hole import fill
 from fctd.model.wellbore import build_wellbore
 from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation, trip

@@ -3,7 +3,8 @@
 import numpy as np
 
 from fctd.model import string_rows
-from fctd.model.drillstring import Section, String, lay_out
+from fctd.model.drillstring import String, lay_out
+from fctd.model.section import Section
 from tests.cases import make_case, pipe
 
 

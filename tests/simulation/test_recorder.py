@@ -9,7 +9,7 @@ import pytest
 from fctd import open_result, simulate
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import GRAVITY, Motion
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.notes import MEANINGS
 from fctd.simulation.preparation import prepare

@@ -58,7 +58,7 @@ def test_mud_torque_is_the_damper_times_the_spin() -> None:
 def test_rotating_hook_load_is_the_vertical_weight() -> None:
     """Contact forces of a rotating string have no component along the hole, whatever their size."""
     case = build_case(ROTATE)
-    section = fctd.model.drillstring.section_of(case.string.components[0], 0.0)
+    section = fctd.model.section.section_of(case.string.components[0], 0.0)
     radius = 450 / (np.pi / 2)
     assert steady(simulate(case)).hookload_N == pytest.approx(section.weight * (100 + radius), rel=3e-3)
 
@@ -69,7 +69,7 @@ def test_coulomb_rotation_climbs_the_wall_by_the_friction_angle() -> None:
     result = simulate(case)
     part = result.profile[(result.profile.md_m > 900) & (result.profile.md_m < 980)]
     np.testing.assert_allclose(part.contact_angle_deg, 180 - np.degrees(np.arctan(0.2)), atol=0.1)
-    weight = fctd.model.drillstring.section_of(case.string.components[0], 0.0).weight * 25
+    weight = fctd.model.section.section_of(case.string.components[0], 0.0).weight * 25
     np.testing.assert_allclose(part.contact_force_N, weight / np.sqrt(1.04), rtol=5e-3)
 
 
@@ -115,7 +115,7 @@ def test_mud_resists_all_of_a_long_segment(operation: dict) -> None:
     middle = result.history[(result.history.time_s > 20) & (result.history.time_s < 35)].mean(numeric_only=True)
     depth, turning = middle.bit_depth_m, operation["kind"] == "rotate_off_bottom"
     rate = 2 * np.pi if turning else 0.2
-    weight = fctd.model.drillstring.section_of(case.string.components[0], 0.0).weight
+    weight = fctd.model.section.section_of(case.string.components[0], 0.0).weight
     expected = (weight * depth, depth * rate) if turning else ((weight - 40 * rate) * depth, 0.0)
     assert middle.hookload_N == pytest.approx(expected[0], rel=1e-3)
     assert (middle.surface_torque_N_m, middle.mud_torque_N_m) == pytest.approx((expected[1],) * 2, rel=1e-3, abs=1e-6)
@@ -145,7 +145,7 @@ def test_fed_pipe_brings_its_strain_energy() -> None:
     """Lowering a vertical string: each metre enters with T²/2EA and, half of it lumped, with ¼ m v²."""
     case = make_case(operations=[trip(900, 960, speed=0.5)], components=[pipe(800, 16), pipe(None, 1)])
     result = simulate(case)
-    section = fctd.model.drillstring.section_of(case.string.components[1], 0.0)
+    section = fctd.model.section.section_of(case.string.components[1], 0.0)
     long = result.history.bit_depth_m - 800
     tension = result.history.hookload_N - 0.5 * section.weight * long
     expected = 60 * ((tension**2).mean() / (2 * section.EA) + 0.25 * section.mass * 0.5**2)
@@ -216,7 +216,7 @@ def test_a_hole_that_turns_back_upwards(inclination: float, geometry: str) -> No
     stations = [[0, 0, 0], [500, 0, 0], [1500, inclination, 0], [2300, inclination, 0]]
     smooth = {"geometry": geometry, "intervals": [{"to_md": 2300, "diameter": 0.2159, "friction": 0.0}]}
     case = make_case(stations, [pipe(2200, 88)], [rotation(2200, 20)], wellbore=smooth)
-    weight = fctd.model.drillstring.section_of(case.string.components[0], 0.0).weight
+    weight = fctd.model.section.section_of(case.string.components[0], 0.0).weight
     depth = fctd.build_wellbore(case).at(np.array([2200.0]))[0][0, 2]
     assert steady(simulate(case), 5).hookload_N == pytest.approx(weight * depth, abs=1e-3 * weight * 2200)
 

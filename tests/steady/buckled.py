@@ -3,8 +3,8 @@
 import numpy as np
 
 from fctd.case.load import Case
-from fctd.model.drillstring import section_of
 from fctd.model.operations import steady_rates
+from fctd.model.section import section_of
 from fctd.steady.equilibrium import Solver
 from fctd.steady.problem import Problem
 from tests.cases import make_case, pipe

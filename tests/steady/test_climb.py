@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from fctd.steady.climb import LOW, Climb, Step, climb, close, lock_up
 from fctd.steady.problem import Share
 from tests.steady.buckled import level_case, problem_of

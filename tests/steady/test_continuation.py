@@ -6,7 +6,8 @@ from scipy.spatial.transform import Rotation
 
 from fctd.mechanics import state
 from fctd.mechanics.law_names import CODES
-from fctd.model.drillstring import fill, lay_out
+from fctd.model.drillstring import lay_out
+from fctd.model.string_in_hole import fill
 from fctd.model.wellbore import build_wellbore
 from fctd.steady import continuation
 from fctd.steady.continuation import (

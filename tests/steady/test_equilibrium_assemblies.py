@@ -9,7 +9,7 @@ import pytest
 import fctd
 from fctd import Case
 from fctd.mechanics.topdrive import GRAVITY
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from tests.cases import make_case, pipe
 from validation.studies import beam_in_hole
 

@@ -7,8 +7,9 @@ from scipy.spatial.transform import Rotation
 from fctd import Case
 from fctd.mechanics import state
 from fctd.mechanics.law_names import CODES
-from fctd.model.drillstring import fill, lay_out
+from fctd.model.drillstring import lay_out
 from fctd.model.operations import steady_rates
+from fctd.model.string_in_hole import fill
 from fctd.model.wellbore import build_wellbore
 from fctd.steady.equilibrium import Solver
 from fctd.steady.first_guess import MD, OFFSET, TENSION, TORQUE, guess

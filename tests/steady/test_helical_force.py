@@ -6,8 +6,8 @@ import pytest
 import fctd
 from fctd.case.load import Case
 from fctd.mechanics import state
-from fctd.model.drillstring import Section, section_of
 from fctd.model.operations import steady_rates
+from fctd.model.section import Section, section_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.equilibrium import Solver

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from fctd.steady.climb import creep_of
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.helix import LOWER_ENERGY, Helix

@@ -5,7 +5,7 @@ import pytest
 
 from fctd import Equilibrium, equilibrium
 from fctd.case.load import Case
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from tests.cases import make_case
 
 INCH, FOOT, POUND = 0.0254, 0.3048, 4.4482216152605

@@ -9,7 +9,8 @@ import pytest
 from fctd import torque_drag
 from fctd.case.load import Case
 from fctd.mechanics import state
-from fctd.model.drillstring import fill, lay_out
+from fctd.model.drillstring import lay_out
+from fctd.model.string_in_hole import fill
 from fctd.model.wellbore import build_wellbore
 from fctd.steady import equilibrium
 from fctd.steady.laid_string import LaidString

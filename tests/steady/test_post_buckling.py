@@ -6,8 +6,8 @@ import pytest
 import fctd
 from fctd.case.load import Case
 from fctd.mechanics import state
-from fctd.model.drillstring import section_of
 from fctd.model.operations import steady_rates
+from fctd.model.section import section_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import TOO_FINE, TOO_MUCH, Solver
 from fctd.steady.steady_string import AT_FULL

@@ -8,7 +8,7 @@ import pytest
 from scipy import stats
 
 from fctd.case.errors import InputError
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import Dataset, begin_dataset
 from fctd.sweep.run import prepare, sample_of

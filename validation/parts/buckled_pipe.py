@@ -11,8 +11,8 @@ from fctd import Case, Equilibrium
 from fctd.case.specs import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.rotations import rotation_columns
-from fctd.model.drillstring import section_of
 from fctd.model.operations import steady_rates
+from fctd.model.section import section_of
 from fctd.model.wellbore import hole_frame
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver

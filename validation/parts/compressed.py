@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fctd import Case, Equilibrium
-from fctd.model.drillstring import section_of
 from fctd.model.operations import SteadyRates, steady_rates
+from fctd.model.section import section_of
 from fctd.results.buckling import HANGING_SINUSOIDAL
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from fctd import Case
 from fctd.mechanics import state, waves
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from fctd.simulation.preparation import prepare
 from validation.cases import load
 

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, build_wellbore, simulate
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from fctd.model.wellbore import hole_frame
 from references.beams.cosserat import rest
 from validation.cases import load, rotation

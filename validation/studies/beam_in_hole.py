@@ -8,7 +8,7 @@ import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium
 from fctd.case.specs import ComponentSpec
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from validation.harness.study import Check, Context, Outcome, Study
 
 HOLE = 0.3  # [m] diameter

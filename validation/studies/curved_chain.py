@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import simulate
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from references.soft_string.integration import soft_string
 from validation.cases import load, rotation
 from validation.harness.study import Check, Context, Outcome, Study

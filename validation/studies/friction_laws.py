@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case
-from fctd.model.drillstring import section_of
 from fctd.model.operations import rad_per_s, steady_rates
+from fctd.model.section import section_of
 from fctd.steady.equilibrium import Solver
 from fctd.steady.steady_string import Equilibrium
 from references.soft_string.closed_forms import hold

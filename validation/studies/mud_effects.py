@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from fctd import Case, equilibrium, simulate
 from fctd.mechanics.topdrive import GRAVITY
-from fctd.model.drillstring import lay_out, section_of
+from fctd.model.drillstring import lay_out
 from fctd.model.mud import resistance
+from fctd.model.section import section_of
 from references.soft_string.integration import soft_string
 from validation.cases import load, rotation
 from validation.harness.study import Check, Context, Outcome, Study

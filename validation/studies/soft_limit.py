@@ -6,8 +6,8 @@ from typing import Any
 import pandas as pd
 
 from fctd import Case
-from fctd.model.drillstring import section_of
 from fctd.model.operations import steady_rates
+from fctd.model.section import section_of
 from fctd.steady.equilibrium import Solver
 from references.soft_string.closed_forms import Loads, bend_in_parts, hold, side_turn, sum_up, vertical
 from references.soft_string.integration import soft_string_ode

@@ -5,8 +5,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import Case, simulate
-from fctd.model.drillstring import section_of
 from fctd.model.operations import rad_per_s
+from fctd.model.section import section_of
 from validation.harness.study import Check, Context, Outcome, Study
 
 LENGTH, RADIUS, FRICTION = 1000.0, 0.0635, 0.2  # of the string [m]; its contact radius [m]

@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from fctd import Case
-from fctd.model.drillstring import section_of
 from fctd.model.operations import rad_per_s
+from fctd.model.section import section_of
 from fctd.simulation.preparation import prepare
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.swinging_bit import RAMP, SAMPLE, bit_spin, growth, threshold

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from fctd.model.survey import along_courses, minimum_curvature
 from fctd.steady.torque_drag import chart_rows
 from fctd.sweep.chunk import as_table

@@ -15,8 +15,8 @@ import pandas as pd
 from fctd import Case, equilibrium
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
-from fctd.model.drillstring import pressure_of
 from fctd.model.operations import Phase
+from fctd.model.string_in_hole import pressure_of
 from fctd.results.notes import codes_of
 from fctd.simulation.intervals import Interval, Window, within
 from fctd.simulation.run import Run

@@ -10,8 +10,8 @@ from scipy.linalg import eigh
 
 from fctd import Case, Simulation, equilibrium, simulate
 from fctd.mechanics import state
-from fctd.model.drillstring import section_of
 from fctd.model.mud import added_mass
+from fctd.model.section import section_of
 from validation.cases import rotation
 from validation.harness.study import Check, Context, Outcome, Study
 

@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("skfem")
 
 from fctd.case.surveys.stations import to_radians
-from fctd.model.drillstring import Section
+from fctd.model.section import Section
 from references.beams.dynamics import generalised_alpha, lower
 from references.beams.elements import Beam, Surroundings
 from references.beams.planar_hole import PlanarHole

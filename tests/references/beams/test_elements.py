@@ -10,7 +10,7 @@ from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
 from skfem import BilinearForm, LinearForm
 
 from fctd.case.surveys.stations import to_radians
-from fctd.model.drillstring import Section
+from fctd.model.section import Section
 from references.beams.elements import Beam, ConvergenceError, Surroundings, newton, statics
 from references.beams.planar_hole import PlanarHole
 

@@ -9,7 +9,7 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from references.soft_string import closed_forms
 from references.soft_string.closed_forms import (
     SideChangeError,

@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.model import survey
-from fctd.model.drillstring import check_fit, lay_out, section_of
+from fctd.model.drillstring import lay_out
+from fctd.model.section import section_of
+from fctd.model.string_in_hole import check_fit
 from fctd.model.wellbore import build_wellbore
 from references.soft_string.integration import SoftString, soft_string, soft_string_ode
 from tests.cases import make_case, pipe, trip

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from references.soft_string.integration import soft_string
 from references.soft_string.torsion import twisted
 from tests.cases import make_case, pipe, rotation

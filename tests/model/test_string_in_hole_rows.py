@@ -8,7 +8,8 @@ import pytest
 from fctd import Case
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
-from fctd.model.drillstring import fill, lay_out
+from fctd.model.drillstring import lay_out
+from fctd.model.string_in_hole import fill
 from fctd.model.wellbore import build_wellbore
 from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation

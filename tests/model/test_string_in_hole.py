@@ -8,7 +8,8 @@ from pydantic import ValidationError
 
 from fctd.case.errors import InputError
 from fctd.mechanics.state import MAX_SEGMENTS
-from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, check_fit, lay_out
+from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, lay_out
+from fctd.model.string_in_hole import check_fit
 from fctd.model.wellbore import build_wellbore
 from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation, trip

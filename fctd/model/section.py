@@ -1,0 +1,82 @@
+"""Components of a string per metre of their length: mass, stiffness, and the weight in their fluids (§3.2, 5.1)."""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from fctd.case.specs import ComponentSpec
+from fctd.mechanics.topdrive import GRAVITY
+
+
+class Section(NamedTuple):
+    """Properties of a component per metre of its length.
+
+    mass [kg/m], weight (buoyed) [N/m], axial_inertia and tilt_inertia [kg m], EA [N], GJ, EI [N m^2],
+    shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa], eccentricity of the mass [m]; point : 1 for
+    a component that touches at a point, 0 for a sleeve; compressibility : strain along by pressure on all sides [1/Pa].
+    """
+
+    mass: float
+    weight: float
+    axial_inertia: float
+    tilt_inertia: float
+    EA: float
+    GJ: float
+    EI: float
+    shear: float
+    outer: float
+    inner: float
+    contact_radius: float
+    yield_strength: float
+    eccentricity: float = 0.0
+    point: float = 0.0
+    compressibility: float = 0.0
+
+
+def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
+    """Timoshenko's κ of a hollow circle (Eq. 20 as Hutchinson 2001 has it, with (1 + ν)²)."""
+    a, b, nu = inner, outer, poisson
+    top = 6 * (a * a + b * b) ** 2 * (1 + nu) ** 2
+    rest = 7 * a**4 + 34 * a**2 * b**2 + 7 * b**4
+    rest += nu * (12 * a**4 + 48 * a**2 * b**2 + 12 * b**4)
+    rest += nu**2 * (4 * a**4 + 16 * a**2 * b**2 + 4 * b**4)
+    return top / rest
+
+
+@lru_cache(maxsize=256)  # a chart lays out the same components at every depth
+def section_of(component: ComponentSpec, outside: float, inside: float | None = None) -> Section:
+    """Properties of a component per metre, with fluids of these densities [kg/m³] outside and inside.
+
+    The steel displaces the fluid outside (buoyancy factor, Eq. 25), and the bore contains that inside, by default the
+    same, in its place.  Inertia is that of the steel.
+    """
+    inside = outside if inside is None else inside
+    b, a = 0.5 * component.outer_diameter, 0.5 * component.inner_diameter
+    area = np.pi * (b * b - a * a)
+    second = np.pi / 4 * (b**4 - a**4)
+    modulus = component.youngs_modulus
+    shear_modulus = modulus / (2 * (1 + component.poisson_ratio))
+    kappa = shear_coefficient(b, a, component.poisson_ratio)
+    mass = component.linear_mass if component.linear_mass is not None else component.density * area
+
+    def given(value: float | None, computed: float) -> float:
+        return computed if value is None else value
+
+    return Section(
+        mass=mass,
+        weight=mass * GRAVITY * (1 - outside / component.density) + (inside - outside) * GRAVITY * np.pi * a * a,
+        axial_inertia=0.5 * mass * (a * a + b * b),
+        tilt_inertia=0.25 * mass * (a * a + b * b),
+        EA=given(component.axial_stiffness, modulus * area),
+        GJ=given(component.torsional_stiffness, shear_modulus * 2 * second),
+        EI=given(component.bending_stiffness, modulus * second),
+        shear=given(component.shear_stiffness, kappa * shear_modulus * area),
+        outer=b,
+        inner=a,
+        contact_radius=0.5 * component.contact_diameter,
+        yield_strength=component.yield_strength,
+        eccentricity=component.eccentricity,
+        point=float(component.contact == "point"),
+        compressibility=(1 - 2 * component.poisson_ratio) / modulus,
+    )

@@ -1,0 +1,100 @@
+"""A string in its hole: whether it fits, and its rows in the engine's buffer, with the mud around it."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.mechanics.topdrive import GRAVITY, PerMetre
+from fctd.model.drillstring import LongSegmentError, String
+from fctd.model.mud import hole_radius, steady_resistance
+from fctd.model.pieces import RADIUS, TO_MD
+from fctd.model.string_rows import fill_rows
+from fctd.model.wellbore import Wellbore
+
+Array = NDArray[np.float64]
+
+# A long segment hangs straight: where it lies the hole must be this close to vertical [rad].
+LONG_SEGMENT_TILT = np.radians(1.0)
+# Shortest segment that can be computed with [m]: the stiffness of a joint grows with the third power of 1/length, and
+# below a millimetre its rounding makes stable strings unstable, or forces infinite.
+SHORTEST_SEGMENT = 1e-3
+
+
+def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
+    """Raise InputError for a string that is wider than its hole.
+
+    Also for a long segment outside vertical hole, and for a segment that is too short to compute with.
+    deepest : greatest bit depth of the run [m].
+    """
+    shortest = int(np.argmin(string.length))
+    if string.length[shortest] < SHORTEST_SEGMENT:
+        raise InputError(
+            f"segments of at least {SHORTEST_SEGMENT:g} m",
+            key=f"string.components[{int(string.component[shortest])}]",
+            value=f"{string.length[shortest]:.3g} m of it in one segment",
+        )
+    fed = deepest - string.bit_depth if string.long_segment else 0.0
+    if max(section.contact_radius for section in string.sections) > hole.intervals[:, RADIUS].min():
+        bottom = string.top_md + np.cumsum(string.lengthened(fed).length)
+        check_clearance(string, hole, string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]]), bottom)
+    if string.long_segment:
+        length = float(string.length[0]) + fed
+        if hole.steepest_above(string.top_md + length) < LONG_SEGMENT_TILT:  # as of most wells: no need to look closer
+            return
+        md = np.linspace(string.top_md, string.top_md + length, 200)
+        tilt = hole.inclination(md).max()
+        if tilt > LONG_SEGMENT_TILT:
+            raise LongSegmentError(
+                "a hole within 1 deg of vertical along the top segment (a shorter trip, or more segments)",
+                key=f"string.components[{int(string.component[0])}]",
+                value=f"{length:.4g} m at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
+            )
+
+
+def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -> None:
+    """Raise InputError for a string that is wider than its hole.
+
+    top, bottom : (n,) highest and lowest measured depth that each segment reaches [m].
+    """
+    radius = string.of("contact_radius")
+    starts = np.concatenate([[0.0], hole.intervals[:-1, TO_MD]])
+    for start, (to_md, wall) in zip(starts, hole.intervals[:, [TO_MD, RADIUS]], strict=True):
+        tight = (start < bottom) & (to_md > top) & (radius > wall)
+        if tight.any():
+            k = int(np.argmax(tight))
+            raise InputError(
+                f"at most the hole's {2e3 * wall:.6g} mm",
+                key=f"string.components[{int(string.component[k])}].contact_diameter",
+                value=f"{2e3 * radius[k]:.6g} mm",
+            )
+
+
+def fill(S: Array, string: String, case: Case, hole: Wellbore) -> PerMetre:
+    """Write the string into a fresh buffer; returns the pipe fed at the top.
+
+    Mud that moves sideways with the string is left out; ``fctd.simulation.carried_mud.take_along`` adds it.
+    """
+    # Absurd masses and stiffnesses overflow; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
+    pipe: PerMetre = fill_rows(
+        S, string.length, string.component, string.table, string.long_segment, damping_of(case, string),
+        pressure_of(case, string, hole), case.wellbore.stiffness_per_length is not None,
+    )  # fmt: skip
+    return pipe
+
+
+def pressure_of(case: Case, string: String, hole: Wellbore) -> Array:
+    """Pressure of the mud [Pa] at the middle of every segment (n,), inside and outside alike; 0 above the table."""
+    middle = string.top_md + np.cumsum(string.length) - 0.5 * string.length
+    depth = np.interp(middle, hole.md, hole.points[:, 2])
+    return np.asarray(case.mud.density * GRAVITY * np.maximum(depth, 0.0))
+
+
+def damping_of(case: Case, string: String) -> Array:
+    """Damping by the mud per metre of every segment (n, 3): along, across [N s/m²] and about the axis [N s]."""
+    mud, damping = case.mud, np.empty((string.segments, 3))
+    damping[:] = mud.axial_damping or 0.0, mud.lateral_damping or 0.0, mud.rotational_damping or 0.0
+    if mud.viscosity:
+        hole = hole_radius(case, string.top_md, string.length)
+        damping[:, 0], damping[:, 2] = steady_resistance(case, string.of("outer"), hole)
+    return damping
