@@ -12,7 +12,7 @@ from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.specs import RigSpec
+from fctd.case.rig import RigSpec
 from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
 from fctd.model.section import section_of
 from fctd.results.status import SteadyStatus

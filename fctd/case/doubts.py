@@ -14,9 +14,12 @@ import numpy as np
 
 from fctd.case.drilling import BitSpec, DriveSpec
 from fctd.case.friction import FrictionSet
+from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
-from fctd.case.specs import ComponentSpec, MudSpec, RigSpec, SolverSpec, StringSpec, WellboreSpec
+from fctd.case.rig import MudSpec, RigSpec
+from fctd.case.solver import SolverSpec
+from fctd.case.string import ComponentSpec, StringSpec
 from fctd.case.units import FASTEST, MOST_RPM, Slip, looks_like
 from fctd.case.wall import ContactSpec
 

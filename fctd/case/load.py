@@ -18,18 +18,13 @@ from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, explain, join_key, look_up, nearest, set_key, split_key
 from fctd.case.friction import pick, scaled_static
+from fctd.case.hole import FileName, WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
-from fctd.case.specs import (
-    FileName,
-    MudSpec,
-    RecordSpec,
-    RigSpec,
-    SolverSpec,
-    StringSpec,
-    WellboreSpec,
-)
+from fctd.case.rig import MudSpec, RigSpec
+from fctd.case.solver import RecordSpec, SolverSpec
+from fctd.case.string import StringSpec
 from fctd.case.text import is_utf8
 from fctd.case.wall import ContactSpec, check_friction
 

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case.load import Case
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore, hole_frame

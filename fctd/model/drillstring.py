@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.section import Section, section_of

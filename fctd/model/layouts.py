@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from fctd.model import survey
 from fctd.model.default_layout import AT_MOVING_BIT, DefaultLayout
 from fctd.model.section import section_of

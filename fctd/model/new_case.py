@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from fctd.case.surveys import reading as surveys
 from fctd.case.surveys.headers import NoUnitError, Wanted
 from fctd.case.surveys.stations import StationKey

@@ -8,7 +8,7 @@ import numpy as np
 from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case
 from fctd.case.operations import KINDS, Operation, RotateOffBottom
-from fctd.case.specs import RigSpec
+from fctd.case.rig import RigSpec
 from fctd.case.units import FASTEST, MOST_RPM, ROTATION, SPEED, argument
 from fctd.mechanics.topdrive import Motion
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from fctd.mechanics.topdrive import GRAVITY
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 from fctd.case.operations import Operation, RotateOffBottom
-from fctd.case.specs import RigSpec
+from fctd.case.rig import RigSpec
 from fctd.mechanics.drive import BY_SPEED, TARING, Driller
 from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import Part, Phase, check_duration, rad_per_s, rotating, travelling

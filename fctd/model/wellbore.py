@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
+from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case, naming_file
-from fctd.case.specs import WellboreSpec
 from fctd.case.wall import IntervalSpec
 from fctd.mechanics import contact
 from fctd.mechanics.query import WALL_COLUMNS, Walls, query_walls, walls_in

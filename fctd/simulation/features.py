@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fctd.case.errors import InputError
-from fctd.case.specs import SolverSpec
+from fctd.case.solver import SolverSpec
 from fctd.mechanics.law_names import STICKING
 from fctd.mechanics.rock import NO_ROCK
 from fctd.simulation.run import Run

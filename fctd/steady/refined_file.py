@@ -11,7 +11,7 @@ import tomlkit
 from fctd.case.errors import InputError, look_up, split_key
 from fctd.case.input_file import read_text
 from fctd.case.load import LARGEST_FILE, Case, apply_override, load_case
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from fctd.case.text import is_utf8
 from fctd.results.whole_file import whole_file
 from fctd.steady.refine import Refinement

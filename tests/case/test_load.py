@@ -2,7 +2,6 @@
 
 import copy
 import math
-import pickle
 from pathlib import Path
 from typing import Any
 
@@ -60,11 +59,6 @@ def test_a_case_is_frozen(case_file: Path) -> None:
 
 def test_operations_may_be_absent(case_file: Path) -> None:
     assert load_case(case_file, {"operations": None}).operations == ()
-
-
-def test_inline_stations_are_checked_and_served(case_file: Path) -> None:
-    hole = load_case(case_file, {"wellbore.stations": [[0, 0, 0], [0, 0, 0], [2000, 60, 45]]}).wellbore
-    assert hole.trajectory.tolist() == [[0, 0, 0], [2000, math.radians(60), math.radians(45)]]
 
 
 # --- overrides -------------------------------------------------------------------------------------
@@ -189,63 +183,6 @@ def test_overridden_survey_is_first_sought_in_the_current_directory(
     assert load_case(case_file, USE_SURVEY).wellbore.survey == case_file.parent / "survey.csv"
     (here / "survey.csv").write_text(SURVEY)
     assert load_case(case_file, USE_SURVEY).wellbore.survey == here / "survey.csv"
-
-
-def test_survey_with_columns(case_file: Path) -> None:
-    (case_file.parent / "survey.csv").write_text("Depth ( ft ),I ( deg ),A ( rad )\n0,0,0\n8000,30,1\n")
-    columns = {"md": "Depth ( ft )", "inc": "I ( deg )", "azi": "A ( rad )"}
-    case = load_case(case_file, USE_SURVEY | {"wellbore.columns": columns})
-    assert case.wellbore.trajectory[1] == pytest.approx([2438.4, math.radians(30), 1], rel=1e-14)
-
-
-@pytest.mark.parametrize(
-    "overrides",
-    [
-        {"wellbore.columns": {"md": {"header": "DEPTH", "unit": "m"}}},
-        {"wellbore.columns": {"md": {"header": "depth", "unit": "metres"}, "azi": "AZIM", "inc": {"unit": "deg"}}},
-        {"wellbore.columns.md.unit": "m"},
-    ],
-)
-def test_a_survey_whose_headers_have_no_units(case_file: Path, overrides: dict[str, object]) -> None:
-    """The public survey that took six edits."""
-    (case_file.parent / "survey.csv").write_text("DEPTH,DEVI,AZIM\n0,0,0\n2000,30,90\n")
-    case = load_case(case_file, USE_SURVEY | overrides)
-    assert case.wellbore.trajectory[1] == pytest.approx([2000, math.radians(30), math.pi / 2], rel=1e-14)
-    assert Case.model_validate_json(case.model_dump_json()) == case
-
-
-def test_the_keys_of_a_survey_are_read_again(case_file: Path) -> None:
-    """Stations are kept for the keys that they were read with."""
-    (case_file.parent / "survey.csv").write_text(SURVEY)
-    hole = load_case(case_file, USE_SURVEY).wellbore
-    feet = load_case(case_file, USE_SURVEY | {"wellbore.columns.md.unit": "ft", "operations": None}).wellbore
-    assert hole.trajectory[1, 0] == 2000
-    assert hole.model_copy(update={"columns": feet.columns}).trajectory[1, 0] == pytest.approx(609.6, rel=1e-14)
-
-
-def test_a_case_holds_its_stations_but_does_not_show_them(case_file: Path) -> None:
-    """Read once; no part of what is stored, compared or hashed, and not kept where the survey is another one."""
-    survey = case_file.parent / "survey.csv"
-    survey.write_text(SURVEY)
-    case = load_case(case_file, USE_SURVEY)
-    asked = case.wellbore.trajectory
-    stored = Case.model_validate_json(case.model_dump_json())
-    survey.unlink()
-    assert stored == case
-    assert stored.model_dump() == case.model_dump()
-    assert "trajectory" not in case.model_dump_json()
-    assert case.depths == (0.0, 2000.0)
-    moved = case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"overlap": 0.1})})
-    assert moved.wellbore.trajectory is asked
-    assert pickle.loads(pickle.dumps(case)) == case
-    assert pickle.loads(pickle.dumps(case)).wellbore.trajectory.tobytes() == asked.tobytes()
-    with pytest.raises(InputError, match="a survey file that can be read"):
-        _ = stored.wellbore.trajectory
-    other = case.wellbore.model_copy(update={"survey": None, "stations": ((0.0, 0.0, 0.0), (900.0, 0.0, 0.0))})
-    assert other.trajectory[-1, 0] == 900.0
-    assert case.wellbore.trajectory is asked
-    with pytest.raises(ValueError, match="read-only"):
-        asked[0, 0] = 1.0
 
 
 def test_a_wrong_survey_is_named_instead_of_the_case(case_file: Path) -> None:

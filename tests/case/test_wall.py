@@ -26,6 +26,11 @@ def test_without_a_static_factor_it_is_the_kinetic_one() -> None:
     assert case_of({"friction": 0.0, "static_friction": 0.0}).wellbore.intervals[0].static_excess == 0
 
 
+def test_defaults() -> None:
+    contact = make_case().contact
+    assert (contact.friction_law, contact.damping, contact.helical_force) == ("coulomb", 1e5, "none")
+
+
 def test_the_wall_is_linear_unless_the_case_says_otherwise() -> None:
     assert case_of({}).contact.wall_law[0] == 1.0
     assert case_of({}, contact={"law": "power"}).contact.wall_law == (1.5, 0.001)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from fctd import Case
 from fctd.case.errors import InputError
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from fctd.model.drillstring import lay_out
 from fctd.model.layouts import (
     LAYOUTS,

@@ -8,7 +8,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import Case, Equilibrium
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.rotations import rotation_columns
 from fctd.model.operations import steady_rates

@@ -8,7 +8,7 @@ import pandas as pd
 
 from fctd.calibration.rows import Row
 from fctd.case.load import Case
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from validation.harness.study import Context
 from validation.parts.volve_f4 import ABSOLUTE, FIT_B, JUDGED_B
 from validation.parts.volve_f4_fits import Frozen, fit, freeze, setup_of_b

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium
-from fctd.case.specs import ComponentSpec
+from fctd.case.string import ComponentSpec
 from fctd.model.section import section_of
 from validation.harness.study import Check, Context, Outcome, Study
 

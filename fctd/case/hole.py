@@ -1,0 +1,193 @@
+"""The table of a case file for the hole: its path, of which the survey is read once, its size and its wall.
+
+In all tables of a case every float is SI once validated.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BeforeValidator, Field, PrivateAttr, ValidationInfo, field_validator, model_validator
+
+from fctd.case import units
+from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
+from fctd.case.input_warnings import InputWarning
+from fctd.case.surveys import doubts
+from fctd.case.surveys.columns import Column, ColumnSpec, wanted
+from fctd.case.surveys.headers import accepted_units, unit_of
+from fctd.case.surveys.reading import read_survey
+from fctd.case.surveys.smoothing import smooth
+from fctd.case.surveys.stations import UNITS, StationKey, Survey, Written, check
+from fctd.case.text import is_utf8
+from fctd.case.wall import IntervalSpec, TortuositySpec
+
+
+def _as_path(raw: object) -> object:
+    """A file name as a path; pydantic would refuse a string that is not UTF-8, which a file name may be."""
+    return Path(raw) if isinstance(raw, str) and not is_utf8(raw) else raw
+
+
+FileName = Annotated[Path, BeforeValidator(_as_path)]
+
+
+@dataclass
+class _Trajectory:
+    """Stations and warnings, cached, and the keys they come from; all are equal, so that holes compare by keys."""
+
+    source: tuple[object, ...] = field(default=(), compare=False)
+    stations: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)), compare=False)
+    warnings: tuple[InputWarning, ...] = field(default=(), compare=False)
+
+
+class WellboreSpec(Table):
+    """Path, diameter and wall stiffness of the hole.
+
+    One of `survey` and `stations` is set; so is one of `cylinder_length` [m] and `chord_tolerance` [m],
+    and one of `stiffness` [N/m per contact point] and `stiffness_per_length` [N/m/m].
+
+    `columns` and `sheet` say what a survey file does not. With `survey_smoothing` the direction of each station may
+    turn by that angle, so that rounded stations make no false dog-legs.
+
+    With `geometry` "arcs" the hole follows the circular arcs between the stations. With "cylinders" it is cut into
+    straight pieces of `cylinder_length`, or so short that their chords deviate from the arc by at most
+    `chord_tolerance`; neighbouring cylinders overlap by `overlap` [m]. Where the diameter of the hole changes, arcs
+    use `overlap` as the length of the shoe.
+    """
+
+    survey: FileName | None = Field(
+        default=None, description="the name of a file, relative to the case file: text in columns, xlsx or WITSML"
+    )
+    stations: tuple[tuple[units.MeasuredDepth, units.Bare, units.Bare], ...] | None = Field(
+        default=None, description="a list of [measured depth in m, or '40 ft', inclination in deg, azimuth in deg]"
+    )
+    columns: dict[StationKey, Column] | None = Field(
+        default=None,
+        description='headers of the survey, or their units: {md = {header = "DEPTH", unit = "m"}, inc = "I_deg"}',
+    )
+    sheet: str | None = Field(
+        default=None, description="the sheet of a workbook, or the trajectory of a WITSML file, that has several"
+    )
+    survey_smoothing: units.Smoothing | None = None
+    tortuosity: TortuositySpec | None = None
+    survey_method: Literal["average_angle", "minimum_curvature"] = "minimum_curvature"
+    geometry: Literal["cylinders", "arcs"] = "cylinders"
+    cylinder_length: units.PositiveLength | None = None
+    chord_tolerance: units.PositiveLength | None = Field(
+        default_factory=lambda given: 0.002 if given["cylinder_length"] is None else None
+    )
+    overlap: units.Length = 0.2
+    stiffness_per_length: units.PositiveStiffnessPerLength | None = None
+    stiffness: units.PositiveStiffness | None = Field(
+        default_factory=lambda given: 1e7 if given["stiffness_per_length"] is None else None
+    )
+    intervals: tuple[IntervalSpec, ...] = Field(description="tables [[wellbore.intervals]]")
+    _trajectory: _Trajectory = PrivateAttr(default_factory=_Trajectory)
+
+    @field_validator("columns", mode="before")
+    @classmethod
+    def _check_columns(cls, raw: Any) -> Any:
+        return known_keys(raw, get_args(StationKey)) if isinstance(raw, Mapping) else raw
+
+    @field_validator("columns")
+    @classmethod
+    def _check_units(cls, columns: dict[StationKey, ColumnSpec] | None) -> dict[StationKey, ColumnSpec] | None:
+        for key, column in (columns or {}).items():
+            if column.unit is not None and unit_of(column.unit) not in UNITS[key]:
+                raise InputError(accepted_units(key), key=f"{key}.unit", value=column.unit)
+        return columns
+
+    @field_validator("survey")
+    @classmethod
+    def _find_survey(cls, survey: Path | None, info: ValidationInfo) -> Path | None:
+        """The survey, relative to the folder of the case file while one is loaded."""
+        if survey is None or info.context is None:
+            return survey
+        path: Path = info.context["folder"] / survey
+        if not os.path.exists(path):  # Path.exists raises on names too long for the file system
+            raise InputError(f"a survey file that exists, looked for {path}")
+        return path
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        exclusive(self, "survey", "stations", required=True)
+        exclusive(self, "cylinder_length", "chord_tolerance")
+        exclusive(self, "stiffness", "stiffness_per_length")
+        for key in ("columns", "sheet"):
+            if getattr(self, key) is not None and self.survey is None:
+                raise InputError(f"{key} only beside survey", key=key)
+        if self.tortuosity is not None and self.survey_method != "minimum_curvature":
+            raise InputError("minimum_curvature beside tortuosity", key="survey_method", value=self.survey_method)
+        if self.geometry == "arcs" and self.survey_method != "minimum_curvature":
+            raise InputError("cylinders, since arcs need survey_method minimum_curvature", key="geometry")
+        if self.stations is not None:
+            self._resolve()
+        if not self.intervals:
+            raise InputError("at least one", key="intervals")
+        kinds = ("stiffness", "stiffness_per_length")
+        kind, other = kinds if self.stiffness is not None else reversed(kinds)
+        for i, interval in enumerate(self.intervals):
+            if getattr(interval, other) is not None:
+                raise InputError(f"{kind}, the kind of the whole wellbore", key=f"intervals[{i}].{other}")
+        for i, (above, here) in enumerate(pairwise(self.intervals), start=1):
+            if here.to_md <= above.to_md:
+                raise InputError(f"a depth below the interval above, {above.to_md:g} m", key=f"intervals[{i}].to_md")
+        return self
+
+    @property
+    def trajectory(self) -> NDArray[np.float64]:
+        """Stations (n, 3) of survey file or case: measured depth [m], inclination and unwrapped azimuth [rad].
+
+        The survey file is read once, at the first access, so that a stored case can be read without it; copies made
+        afterwards share the stations.  Raises InputError for a file that cannot be used.
+        """
+        return self._read_trajectory().stations
+
+    @property
+    def survey_warnings(self) -> tuple[InputWarning, ...]:
+        """Probable mistakes in the stations of survey file or case; read and kept as `trajectory` is."""
+        return self._read_trajectory().warnings
+
+    def share_trajectory(self, other: WellboreSpec) -> None:
+        """Take the stations that another hole has read, if it has; they count where the keys of both are the same."""
+        self._trajectory = other._trajectory
+
+    def _read_trajectory(self) -> _Trajectory:
+        source = (self.survey, self.columns, self.sheet, self.stations, self.survey_smoothing)
+        if self._trajectory.source != source:
+            survey, angle = self._resolve(), self.survey_smoothing
+            warnings = doubts.find(survey, smoothed=angle is not None)
+            stations = survey.stations if angle is None else smooth(survey.stations, angle)
+            stations.flags.writeable = False
+            self._trajectory = _Trajectory(source, stations, warnings)
+        return self._trajectory
+
+    def read_from(self, copy: Path) -> Self:
+        """The same hole, with the stations of a copy of its survey file."""
+        read, here = self.model_copy(update={"survey": copy})._read_trajectory(), self.model_copy()
+        here._trajectory = _Trajectory((self.survey, *read.source[1:]), read.stations, read.warnings)
+        return here
+
+    def _resolve(self) -> Survey:
+        if self.survey is not None:
+            columns = {key: wanted(column) for key, column in (self.columns or {}).items()}
+            return read_survey(self.survey, columns, self.sheet)
+        values = np.array(self.stations or (), dtype=float).reshape(-1, 3)
+        place = Written(
+            values,
+            ("m", "deg", "deg"),
+            lambda row, column: (f"[{row}][{column}]", MISSING),
+            range(len(values)),
+            "wellbore.stations[{}]",
+            "wellbore.stations[{}] to [{}]",
+        )
+        try:
+            return check(place)
+        except InputError as error:
+            raise error.at("stations") from None

@@ -1,0 +1,80 @@
+"""The tables of a case file for what the rig brings: mud, block and drive."""
+
+from __future__ import annotations
+
+from typing import Literal, Self
+
+from pydantic import StrictBool, model_validator
+
+from fctd.case import units
+from fctd.case.drilling import DriveSpec
+from fctd.case.errors import InputError, Table
+from fctd.case.wall import CakeSpec
+
+# Viscosity of mud whose case gives none [Pa s]; it acts on motion that changes alone: steady loads do not depend on it.
+UNSTEADY = 0.02
+
+
+class MudSpec(Table):
+    """Density [kg/m^3], viscosity [Pa*s]; damping per metre of string: axial and lateral [N*s/m^2], rotational [N*s].
+
+    A string that moves in time takes mud along, and the mud damps its waves along itself and its motion sideways, by
+    default with a viscosity of 20 mPa*s. A `viscosity` that is given damps the string along and around itself too, in
+    steady states as well; 0 turns all of it off. A damping that is given replaces the one that follows from the
+    viscosity.
+    """
+
+    density: units.Density = 0.0
+    viscosity: units.Viscosity | None = None
+    axial_damping: units.DampingPerLength | None = None
+    lateral_damping: units.DampingPerLength | None = None
+    rotational_damping: units.RotationalDamping | None = None
+    cake: CakeSpec | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.viscosity and not self.density:
+            raise InputError("0, or a mud.density above 0 beside it", key="viscosity")
+        return self
+
+    @property
+    def unsteady(self) -> float:
+        """The viscosity of motion that changes in time [Pa s], 0 where the string takes no mud along."""
+        return (self.viscosity if self.viscosity is not None else UNSTEADY) if self.density else 0.0
+
+
+class RigSpec(Table):
+    """What the rig's sensors read in addition to the loads of the string, and how the rig trips.
+
+    Block weight [N], friction in the guides of the block [N], torque offset [N*m], and `torque_per_rpm`, a torque that
+    grows with the rotation [N*m for each rev/min].  Friction in the guides acts against the block's motion: it adds to
+    the weight indicator while the block is hoisted.  Friction in the sheaves divides the weight indicator by
+    `sheave_efficiency` while the block is lowered, and multiplies it by `sheave_efficiency` while the block is hoisted.
+
+    A simulation with `feed` "stands" moves the block: stands of `stand_length` [m], within `derrick_height` [m],
+    are added and racked back, and the string hangs in the slips for `connection_time` [s] each time. With
+    "long_segment" the upper end stands still and the top segment grows, as in the paper. "auto" is "long_segment" where
+    a long segment fits: the hole is vertical along it, and it is of one component; elsewhere it is "stands".
+
+    In a run in time a "stiff" `drive` turns the top as planned whatever the torque; "speed_control" and "impedance" are
+    motors with inertia and a controller, whose settings are in `control`. With an `autodriller` the block follows
+    `bit.weight_on_bit`, by the hook load, in place of the `speed` of a drilling operation, which gives its duration.
+    """
+
+    block_weight: units.Force = 0.0
+    guide_friction: units.Force = 0.0
+    sheave_efficiency: units.Efficiency = 1.0
+    torque_offset: units.Torque = 0.0
+    torque_per_rpm: units.Torque = 0.0
+    feed: Literal["auto", "long_segment", "stands"] = "auto"
+    stand_length: units.PositiveLength = 28.5
+    connection_time: units.PositiveTime = 60.0
+    derrick_height: units.PositiveLength = 40.0
+    drive: Literal["stiff", "speed_control", "impedance"] = "stiff"
+    control: DriveSpec = DriveSpec()
+    autodriller: StrictBool = False
+
+    @property
+    def push(self) -> float:
+        """The largest push on the string [N]: the block's weight without what its guides hold back."""
+        return self.block_weight - self.guide_friction

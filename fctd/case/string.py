@@ -1,0 +1,99 @@
+"""The table of a case file for the string: its components, from the bit upwards."""
+
+from __future__ import annotations
+
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from fctd.case import units
+from fctd.case.errors import InputError, Table, exclusive
+
+# A component is short, as stabilisers, reamers and bits are, up to so many times the diameter with which it touches.
+SHORT = 12.0
+
+
+class ComponentSpec(Table):
+    """Pipe or a tool of one kind. `segments` or `segment_length` [m] sets the length of its segments; without either
+    they are short in bends and near the bit, and longer elsewhere.
+
+    `outer_diameter` and `inner_diameter` are those of the pipe body; `contact_diameter` is that of tool joints or
+    stabilisers, which touch the wall first. `linear_mass` (with tool joints) and the stiffnesses EA
+    (`axial_stiffness`), EI (`bending_stiffness`), GJ (`torsional_stiffness`) and κGA (`shear_stiffness`) are computed
+    from the pipe body where they are not given. The default `yield_strength` is that of S-135.
+
+    A "sleeve" touches with its `contact_diameter` along its length, both ends included; beside a narrower neighbour
+    the joint has the larger diameter. A "point" touches at its middle, the bit at its end; elsewhere it is no wider
+    than the sleeves beside it. Without `contact` a component is a point up to a length of 12 contact diameters. Its
+    segments, and those of its neighbours, do not matter.
+
+    A bent housing has its `bend` [rad] at the upper end, where the component is tilted against the one above
+    it towards `toolface` [rad], which counts from the high side clockwise looking downhole.
+
+    `eccentricity` [m] is the distance of the centre of mass from the axis; it acts in time alone.
+    """
+
+    name: str = Field(description="a name in quotes")
+    length: units.PositiveLength | None = None
+    outer_diameter: units.Diameter
+    inner_diameter: units.Bore
+    contact_diameter: units.Diameter = Field(default_factory=lambda given: given["outer_diameter"])
+    contact: Literal["point", "sleeve"] = Field(
+        default_factory=lambda given: (
+            "point" if given["length"] and given["length"] <= SHORT * given["contact_diameter"] else "sleeve"
+        )
+    )
+    segments: units.Count | None = None
+    segment_length: units.PositiveLength | None = None
+    linear_mass: units.PositiveLinearMass | None = None
+    youngs_modulus: units.PositiveStress = 206.8e9
+    poisson_ratio: units.PoissonRatio = 0.3
+    density: units.PositiveDensity = 7850.0
+    yield_strength: units.PositiveStress = 931e6  # of S-135, the strongest grade of API 5DP
+    axial_stiffness: units.PositiveAxialStiffness | None = None  # EA
+    bending_stiffness: units.PositiveBendingStiffness | None = None  # EI
+    torsional_stiffness: units.PositiveBendingStiffness | None = None  # GJ
+    shear_stiffness: units.PositiveAxialStiffness | None = None  # κGA
+    bend: units.Bend = 0.0
+    toolface: units.Angle = 0.0
+    eccentricity: units.Length = 0.0
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        exclusive(self, "segments", "segment_length")
+        if self.inner_diameter >= self.outer_diameter:
+            raise InputError("a diameter below outer_diameter", key="inner_diameter")
+        if self.eccentricity >= 0.5 * self.outer_diameter:
+            raise InputError("less than half of outer_diameter", key="eccentricity")
+        if self.contact_diameter < self.outer_diameter:
+            raise InputError(f"at least outer_diameter, {self.outer_diameter:g} m", key="contact_diameter")
+        if self.contact == "point" and self.length is None:
+            raise InputError("sleeve, for a component without a length", key="contact", value=self.contact)
+        return self
+
+    @property
+    def cut_by_default(self) -> bool:
+        """Whether neither `segments` nor `segment_length` is given."""
+        return self.segments is None and self.segment_length is None
+
+    @property
+    def long_segment(self) -> bool:
+        """Whether the component is one segment up to the top of the string, the paper's long segment."""
+        return self.length is None and self.segments == 1
+
+
+class StringSpec(Table):
+    """The string, from the bit upwards. Without a length the last component reaches `top_md` [m]."""
+
+    top_md: units.Length = 0.0
+    components: tuple[ComponentSpec, ...] = Field(description="tables [[string.components]]")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not self.components:
+            raise InputError("at least one", key="components")
+        for i, component in enumerate(self.components[:-1]):
+            if component.length is None:
+                expected = "a length, which only the last may omit, as components run from the bit up"
+                raise InputError(expected, key=f"components[{i}].length")
+        return self
