@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from itertools import accumulate
+from operator import attrgetter
 from typing import Final, NamedTuple, Protocol
 
 import numpy as np
@@ -49,38 +50,66 @@ class Well(Protocol):
     def bare_lengths(self) -> Sequence[str]: ...
 
 
-class Range(NamedTuple):
-    """Values that a key has in practice, as SI numbers and in words, and what others look like."""
+class Usual(NamedTuple):
+    """The values that a key has in practice, as SI numbers and in words, and what others look like.
 
+    code, what : of the warning about another value.
+    """
+
+    code: str
+    what: str
     unit: str
     low: float
     high: float
-    usual: str
-    slips: tuple[Slip, ...]
+    words: str
+    slips: tuple[Slip, ...] = ()
 
 
+# Values other than 0.  A segment on its wall spring is damped critically by 1e5 N*s/m; mud of 2 Pa*s damps a metre of
+# string by 1e3 N*s/m^2 and its rotation by 1 N*s; 3 ms of the shape end all chatter.
+IN_MUD: Final = Usual("damping", "a damping", "N*s/m^2", 0, 1e4, "up to 10 kN*s/m^2")
+IN_JOINTS: Final = Usual("damping", "a damping", "s", 0, 0.1, "up to 100 ms", (Slip(0.1, 100, " ms"),))
+USUAL: Final = {
+    # Foam and the lightest oil to mud weighted with barite or galena.
+    "mud.density": Usual(
+        "mud_density", "a mud", "kg/m^3", 600, 2600, "0.6 to 2.6 sg",
+        (Slip(0.6, 2.6, " sg"), Slip(5, 22, " ppg"), Slip(37, 165, " lb/ft^3")),
+    ),
+    "contact.damping": Usual("damping", "a damping", "N*s/m", 0, 1e7, "up to 10 MN*s/m"),
+    "mud.axial_damping": IN_MUD,
+    "mud.lateral_damping": IN_MUD,
+    "mud.rotational_damping": Usual("damping", "a damping", "N*s", 0, 10, "up to 10 N*s"),
+    "solver.joint_damping": IN_JOINTS,
+    "solver.shape_damping": IN_JOINTS,
+    # Composite, aluminium, titanium, steel; tungsten weights.
+    "string.components.density": Usual(
+        "pipe_density", "a pipe", "kg/m^3", 1200, 20_000, "1.2 to 20 g/cm^3", (Slip(1.2, 20, " g/cm^3"),)
+    ),
+    "string.components.youngs_modulus": Usual(
+        "youngs_modulus", "a modulus", "Pa", 10e9, 450e9, "10 to 450 GPa",
+        (Slip(10, 450, " GPa"), Slip(10e3, 450e3, " MPa")),
+    ),
+    "string.components.yield_strength": Usual(
+        "yield_strength", "a strength", "Pa", 50e6, 3e9, "50 to 3000 MPa", (Slip(50, 3000, " MPa"),)
+    ),
+    # Below, a weight in kN or t or a torque in kN*m was written as a bare number; above, in a unit a thousand times too
+    # large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.
+    "bit.weight_on_bit": Usual(
+        "bit_load", "a weight on bit", "N", 1e3, 2e6, "1 to 2000 kN", (Slip(1, 999, " kN"), Slip(1, 99, " klbf"))
+    ),
+    "bit.torque": Usual("bit_load", "a bit torque", "N*m", 20, 200e3, "0.02 to 200 kN·m", (Slip(0.5, 19.99, " kN*m"),)),
+    "bit.rock.wear_flat": Usual("wear_flat", "wear flats", "m", 1e-4, 0.05, "0.1 to 50 mm", (Slip(0.1, 50, " mm"),)),
+    "rig.block_weight": Usual(
+        "rig_load", "a block weight", "N", 1e3, 5e6, "1 to 5000 kN", (Slip(10, 999, " kN"), Slip(5, 250, " klbf"))
+    ),
+    "rig.guide_friction": Usual(
+        "rig_load", "friction of the guides", "N", 100, 200e3, "0.1 to 200 kN", (Slip(0.1, 99, " kN"),)
+    ),
+    "rig.torque_offset": Usual(
+        "rig_load", "a torque offset", "N*m", 5, 50e3, "0.005 to 50 kN·m", (Slip(0.1, 4.99, " kN*m"),)
+    ),
+}  # fmt: skip
 DEEP: Final = 500.0  # [m]: a string this long hangs in mud, unless the case says that it does not
-# Foam and the lightest oil to mud weighted with barite or galena.
-SLIPS_OF_MUD: Final = (Slip(0.6, 2.6, " sg"), Slip(5, 22, " ppg"), Slip(37, 165, " lb/ft^3"))
-MUD: Final = Range("kg/m^3", 600, 2600, "0.6 to 2.6 sg", SLIPS_OF_MUD)
-# Composite, aluminium, titanium, steel; tungsten weights.
-PIPE: Final = Range("kg/m^3", 1200, 20_000, "1.2 to 20 g/cm^3", (Slip(1.2, 20, " g/cm^3"),))
-YOUNG: Final = Range("Pa", 10e9, 450e9, "10 to 450 GPa", (Slip(10, 450, " GPa"), Slip(10e3, 450e3, " MPa")))
-YIELD: Final = Range("Pa", 50e6, 3e9, "50 to 3000 MPa", (Slip(50, 3000, " MPa"),))
-# Below, a weight in kN or t or a torque in kN*m was written as a bare number; above, in a unit a thousand times too
-# large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.
-BIT_LOAD: Final = Range("N", 1e3, 2e6, "1 to 2000 kN", (Slip(1, 999, " kN"), Slip(1, 99, " klbf")))
-BIT_TORQUE: Final = Range("N*m", 20, 200e3, "0.02 to 200 kN·m", (Slip(0.5, 19.99, " kN*m"),))
-WEAR: Final = Range("m", 1e-4, 0.05, "0.1 to 50 mm", (Slip(0.1, 50, " mm"),))
-BLOCK: Final = Range("N", 1e3, 5e6, "1 to 5000 kN", (Slip(10, 999, " kN"), Slip(5, 250, " klbf")))
-GUIDES: Final = Range("N", 100, 200e3, "0.1 to 200 kN", (Slip(0.1, 99, " kN"),))
-OFFSET: Final = Range("N*m", 5, 50e3, "0.005 to 50 kN·m", (Slip(0.1, 4.99, " kN*m"),))
-# A segment on its wall spring is damped critically by 1e5 N*s/m; mud of 2 Pa*s damps a metre of string by 1e3 N*s/m^2
-# and its rotation by 1 N*s; 3 ms of the shape end all chatter.
-AT_CONTACTS: Final = Range("N*s/m", 0, 1e7, "up to 10 MN*s/m", ())
-IN_MUD: Final = Range("N*s/m^2", 0, 1e4, "up to 10 kN*s/m^2", ())
-TURNING: Final = Range("N*s", 0, 10, "up to 10 N*s", ())
-IN_JOINTS: Final = Range("s", 0, 0.1, "up to 100 ms", (Slip(0.1, 100, " ms"),))
 ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
 NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
 UNDERREAMED: Final = 1.5  # an under-reamer opens the hole below a shoe to some 1.3 times its diameter
@@ -113,16 +142,14 @@ def warnings_of(
         *wider_below(case.wellbore),
         *rough_wall(case.wellbore, frictions),
         *no_mud(case.mud, float(stations[-1, 0])),
-        *mud_density(case.mud),
-        *dampings(case.contact, case.mud, case.solver),
-        *materials(case.string),
+        *unusual(case),
         *light_string(case.string, case.mud),
         *bit_size(case.string, case.wellbore, float(stations[-1, 0])),
         *bent_along_gauge(case.string, case.wellbore),
         *does_not_drift(case.string, case.wellbore, min(float(stations[-1, 0]), case.wellbore.intervals[-1].to_md)),
         *bare_lengths(case.bare_lengths),
-        *bit_load(case, {*kinds, *(operation.kind for operation in case.operations)}),
-        *rig_loads(case.rig),
+        *no_bit_load(case, {*kinds, *(operation.kind for operation in case.operations)}),
+        *sheaves_and_drive(case.rig),
         *no_block(case.rig, indicator),
         *rates(case.operations, kinds, speed, rpm),
     )
@@ -189,28 +216,19 @@ def no_mud(mud: MudSpec, td: float) -> Doubts:
         )  # fmt: skip
 
 
-def mud_density(mud: MudSpec) -> Doubts:
-    """A density that no mud has."""
-    yield from _outside("mud_density", "mud.density", mud.density, "a mud", MUD)
-
-
-def dampings(contact: ContactSpec, mud: MudSpec, solver: SolverSpec) -> Doubts:
-    """Dampings far above what walls, mud and joints have, or in a wrong unit."""
-    yield from _outside("damping", "contact.damping", contact.damping, "a damping", AT_CONTACTS)
-    yield from _outside("damping", "mud.axial_damping", mud.axial_damping or 0.0, "a damping", IN_MUD)
-    yield from _outside("damping", "mud.lateral_damping", mud.lateral_damping or 0.0, "a damping", IN_MUD)
-    yield from _outside("damping", "mud.rotational_damping", mud.rotational_damping or 0.0, "a damping", TURNING)
-    yield from _outside("damping", "solver.joint_damping", solver.joint_damping, "a damping", IN_JOINTS)
-    yield from _outside("damping", "solver.shape_damping", solver.shape_damping, "a damping", IN_JOINTS)
-
-
-def materials(string: StringSpec) -> Doubts:
-    """Properties that no pipe has."""
-    for i, component in enumerate(string.components):
-        key = f"string.components[{i}]"
-        yield from _outside("pipe_density", f"{key}.density", component.density, "a pipe", PIPE)
-        yield from _outside("youngs_modulus", f"{key}.youngs_modulus", component.youngs_modulus, "a modulus", YOUNG)
-        yield from _outside("yield_strength", f"{key}.yield_strength", component.yield_strength, "a strength", YIELD)
+def unusual(case: Well) -> Doubts:
+    """Values outside the range that is usual, most of them in a wrong unit."""
+    for key, usual in USUAL.items():
+        table, name = key.rsplit(".", 1)
+        holders = [(table, attrgetter(table)(case))]
+        if table == "string.components":
+            holders = [(f"{table}[{i}]", part) for i, part in enumerate(case.string.components)]
+        for place, holder in holders:
+            value = abs(getattr(holder, name, None) or 0.0)  # there may be no rock, and no damping
+            if value != 0 and not usual.low <= value <= usual.high:
+                text = f"{usual.what} of {value:g} {usual.unit}{looks_like(value, usual.slips)}"
+                remedy = f"write it with its unit; usual is {usual.words}"
+                yield InputWarning(usual.code, f"{place}.{name}", text, remedy)
 
 
 def light_string(string: StringSpec, mud: MudSpec) -> Doubts:
@@ -316,25 +334,18 @@ def no_block(rig: RigSpec, indicator: bool) -> Doubts:
         )  # fmt: skip
 
 
-def bit_load(case: Well, kinds: set[str]) -> Doubts:
-    """Drilling without weight on bit, and bit loads in a wrong unit."""
+def no_bit_load(case: Well, kinds: set[str]) -> Doubts:
+    """Drilling without weight on bit."""
     drilling = sorted(kind for kind in kinds if kind in KINDS and KINDS[kind].on_bottom)
     if drilling and case.bit.weight_on_bit == 0:
         yield InputWarning(
             "no_bit_load", "bit.weight_on_bit", f"{' and '.join(drilling)} without weight on bit",
             'give bit.weight_on_bit, such as "80 kN"',
         )  # fmt: skip
-    yield from _outside("bit_load", "bit.weight_on_bit", case.bit.weight_on_bit, "a weight on bit", BIT_LOAD)
-    yield from _outside("bit_load", "bit.torque", case.bit.torque, "a bit torque", BIT_TORQUE)
-    if case.bit.rock is not None:
-        yield from _outside("wear_flat", "bit.rock.wear_flat", case.bit.rock.wear_flat, "wear flats", WEAR)
 
 
-def rig_loads(rig: RigSpec) -> Doubts:
-    """Block weight, friction and torque offset in a wrong unit, sheaves that lose too much, a drive without a motor."""
-    yield from _outside("rig_load", "rig.block_weight", rig.block_weight, "a block weight", BLOCK)
-    yield from _outside("rig_load", "rig.guide_friction", rig.guide_friction, "friction of the guides", GUIDES)
-    yield from _outside("rig_load", "rig.torque_offset", abs(rig.torque_offset), "a torque offset", OFFSET)
+def sheaves_and_drive(rig: RigSpec) -> Doubts:
+    """Sheaves that lose too much, a stiff drive with the settings of a motor."""
     if rig.sheave_efficiency < LEAST_EFFICIENCY:
         yield InputWarning(
             "sheave_efficiency", "rig.sheave_efficiency", f"an efficiency of {rig.sheave_efficiency:g}",
@@ -368,14 +379,6 @@ def _rates(where: str, kind: str, speed: float, rpm: float) -> Doubts:
     if FASTEST_ROTATION < rpm <= MOST_RPM:
         text = f"{rpm:g} rev/min, where top drives turn at up to {FASTEST_ROTATION:g}"
         yield InputWarning("rotation", f"{where}rpm", text, "check the rotation of the string")
-
-
-def _outside(code: str, key: str, value: float, what: str, usual: Range) -> Doubts:
-    """A warning for a value other than 0 outside its usual range."""
-    if value != 0 and not usual.low <= value <= usual.high:
-        guess = looks_like(value, usual.slips)
-        text = f"{what} of {value:g} {usual.unit}{guess}"
-        yield InputWarning(code, key, text, f"write it with its unit; usual is {usual.usual}")
 
 
 def _name(component: ComponentSpec) -> str:
