@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from fctd.case.doubts import USUAL
+from fctd.case.doubts.usual import USUAL
 from fctd.case.errors import InputError
 from fctd.case.load import KINDS, load_case
 from fctd.cli import main
@@ -335,7 +335,7 @@ def test_every_note_has_its_line() -> None:
 
 
 def test_every_warning_has_its_line() -> None:
-    source = (ROOT / "fctd" / "case" / "doubts.py").read_text(encoding="utf-8")
+    source = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "fctd" / "case" / "doubts").glob("*.py"))
     codes = set(re.findall(r'InputWarning\(\s*"(\w+)"', source)) | {usual.code for usual in USUAL.values()}
     assert len(codes) > 15
     guide = (ROOT / "docs" / "well.md").read_text(encoding="utf-8")

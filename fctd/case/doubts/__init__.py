@@ -1,0 +1,49 @@
+"""Probable mistakes of a case: input that can be used and is probably not what the user meant, a function for each.
+
+Every bound lies beyond what wells and rigs have, so that a warning is worth reading.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from fctd.case.doubts.hole import hole_size, rough_wall, shoe_below_td, wider_below
+from fctd.case.doubts.rig import no_bit_load, no_block, no_mud, rates, sheaves_and_drive
+from fctd.case.doubts.string import bent_along_gauge, bit_size, does_not_drift, light_string
+from fctd.case.doubts.usual import Well, bare_lengths, unusual
+from fctd.case.friction import FrictionSet
+from fctd.case.input_warnings import InputWarning
+
+
+def warnings_of(
+    case: Well,
+    kinds: Sequence[str] = (),
+    speed: float | None = None,
+    rpm: float | None = None,
+    frictions: Sequence[FrictionSet] = (),
+    indicator: bool = False,
+) -> tuple[InputWarning, ...]:
+    """The probable mistakes of a case, and of what is asked for: kinds of operation, rates [m/s], [rev/min], friction.
+
+    indicator : whether readings of the weight indicator are asked for, which include the block.  Reads the survey;
+    raises InputError where it cannot be used.
+    """
+    stations = case.wellbore.trajectory
+    return (
+        *case.wellbore.survey_warnings,
+        *shoe_below_td(case.wellbore, float(stations[-1, 0])),
+        *hole_size(case.wellbore),
+        *wider_below(case.wellbore),
+        *rough_wall(case.wellbore, frictions),
+        *no_mud(case.mud, float(stations[-1, 0])),
+        *unusual(case),
+        *light_string(case.string, case.mud),
+        *bit_size(case.string, case.wellbore, float(stations[-1, 0])),
+        *bent_along_gauge(case.string, case.wellbore),
+        *does_not_drift(case.string, case.wellbore, min(float(stations[-1, 0]), case.wellbore.intervals[-1].to_md)),
+        *bare_lengths(case.bare_lengths),
+        *no_bit_load(case, {*kinds, *(operation.kind for operation in case.operations)}),
+        *sheaves_and_drive(case.rig),
+        *no_block(case.rig, indicator),
+        *rates(case.operations, kinds, speed, rpm),
+    )

@@ -1,0 +1,70 @@
+"""Probable mistakes in the hole: its depths, sizes and friction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from fctd.case.doubts.usual import Doubts
+from fctd.case.friction import FrictionSet
+from fctd.case.hole import WellboreSpec
+from fctd.case.input_warnings import InputWarning
+from fctd.case.units import Slip, looks_like
+
+ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
+NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
+UNDERREAMED: Final = 1.5  # an under-reamer opens the hole below a shoe to some 1.3 times its diameter
+BELOW_TD: Final = 30.0  # [m]: the last station is some way above the bit
+FOOT: Final = 0.3048
+
+
+def shoe_below_td(hole: WellboreSpec, td: float) -> Doubts:
+    """A casing shoe or a change of hole size below the last station [m], or an end of the hole in feet."""
+    last = len(hole.intervals) - 1
+    feet = abs(hole.intervals[-1].to_md * FOOT / td - 1) < 0.02
+    for i, interval in enumerate(hole.intervals):
+        below = interval.to_md - td
+        in_hole = below < 0 if i < last else below <= BELOW_TD or not (feet or interval.kind == "cased")
+        if not in_hole:
+            yield InputWarning(
+                "shoe_below_td", f"wellbore.intervals[{i}].to_md",
+                f"the interval ends at {interval.to_md:g} m, the survey at {td:g} m",
+                f"write '{interval.to_md:g} ft' if these are feet" if feet else "check depth and unit of both",
+            )  # fmt: skip
+
+
+def hole_size(hole: WellboreSpec) -> Doubts:
+    """A hole so wide or narrow that its diameter is probably in another unit."""
+    inches = (Slip(WIDEST, 5, " in"),)
+    for i, interval in enumerate(hole.intervals):
+        if not NARROWEST <= interval.diameter <= WIDEST:
+            yield InputWarning(
+                "hole_size", f"wellbore.intervals[{i}].diameter",
+                f"a hole of {interval.diameter:g} m" + looks_like(interval.diameter, inches),
+                "write the diameter with its unit",
+            )  # fmt: skip
+
+
+def wider_below(hole: WellboreSpec) -> Doubts:
+    """A hole that is far wider below a shoe than above it."""
+    for i, (above, here) in enumerate(zip(hole.intervals[:-1], hole.intervals[1:], strict=True), start=1):
+        if here.diameter > UNDERREAMED * above.diameter:
+            yield InputWarning(
+                "wider_below", f"wellbore.intervals[{i}].diameter",
+                f"the hole widens downwards, from {1e3 * above.diameter:g} to {1e3 * here.diameter:g} mm",
+                "list the intervals from the surface down",
+            )  # fmt: skip
+
+
+def rough_wall(hole: WellboreSpec, frictions: Sequence[FrictionSet]) -> Doubts:
+    """A friction factor beyond that of dry rock: the largest of those asked for, or without them of the case."""
+    factors = {f"wellbore.intervals[{i}].friction": interval.friction for i, interval in enumerate(hole.intervals)}
+    if frictions:
+        factors = {"friction": max(factor for one in frictions for factor in one.factors)}
+    key = max(factors, key=lambda key: factors[key])
+    if factors[key] > ROUGH:
+        yield InputWarning(
+            "friction", key,
+            f"a friction factor of {factors[key]:g}, where casing has 0.15 to 0.3 and open hole 0.2 to 0.5",
+            "check it; 30 % is written 0.3",
+        )  # fmt: skip

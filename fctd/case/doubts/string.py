@@ -1,0 +1,112 @@
+"""Probable mistakes in the string: its masses and sizes, and where it cannot have passed."""
+
+from __future__ import annotations
+
+import re
+from itertools import accumulate
+from typing import Final
+
+import numpy as np
+
+from fctd.case.doubts.usual import Doubts
+from fctd.case.hole import WellboreSpec
+from fctd.case.input_warnings import InputWarning
+from fctd.case.rig import MudSpec
+from fctd.case.string import ComponentSpec, StringSpec
+
+LIGHT, HEAVY = 0.85, 2.5  # mass over that of the pipe body: spiral collars have 0.95, tool joints add up to 0.6
+IN_GAUGE: Final = 0.9  # of the hole's diameter: a bit that drilled the hole, or runs in it
+
+
+def light_string(string: StringSpec, mud: MudSpec) -> Doubts:
+    """A linear mass that floats in the mud, or that does not go with the pipe's body."""
+    for i, part in enumerate(string.components):
+        area = 0.25 * np.pi * (part.outer_diameter**2 - part.inner_diameter**2)
+        key, mass = f"string.components[{i}].linear_mass", part.linear_mass
+        if mass is None:
+            continue
+        body, displaced = float(part.density * area), float(mud.density * area)
+        if mass < displaced:
+            text = f"{_name(part)} weighs {mass:.4g} kg/m, less than the mud in its place, {displaced:.4g} kg/m"
+            yield InputWarning("floating_string", key, text, _REMEDY_OF_MASS)
+        elif not LIGHT * body <= mass <= HEAVY * body:
+            text = f"{_name(part)} weighs {mass:.4g} kg/m, its body alone {body:.4g} kg/m"
+            yield InputWarning("linear_mass", key, text, _REMEDY_OF_MASS)
+
+
+_REMEDY_OF_MASS: Final = "write linear_mass with its unit, such as '19.5 lb/ft', and check diameters and density"
+
+
+def bit_size(string: StringSpec, hole: WellboreSpec, td: float) -> Doubts:
+    """A bit that is smaller than the string above it, or that is not the first component.
+
+    A bit that fits the hole at the end of the well [m] is below pipe of any size that stays in the wider hole above.
+    """
+    first, *others = string.components
+    bits = [_is_bit(part) for part in string.components]
+    compared = list(string.components)
+    if first.contact_diameter >= IN_GAUGE * hole.intervals[-1].diameter:
+        above = hole.intervals[-2].to_md if len(hole.intervals) > 1 else 0.0
+        below = accumulate((part.length or np.inf for part in string.components), initial=0.0)
+        compared = [part for part, length in zip(compared, below, strict=False) if td - length > above or part is first]
+    widest = max(compared, key=lambda part: part.contact_diameter)
+    if bits[0] and widest.contact_diameter > first.contact_diameter:
+        yield InputWarning(
+            "bit_size", "string.components[0].outer_diameter",
+            f"{_name(first)} has {1e3 * first.contact_diameter:.6g} mm, {_name(widest)} above it "
+            f"{1e3 * widest.contact_diameter:.6g} mm",
+            "check both diameters",
+        )  # fmt: skip
+    elif others and any(bits) and not bits[0]:
+        yield InputWarning(
+            "bit_not_first", f"string.components[{bits.index(True)}]",
+            f"{_name(string.components[bits.index(True)])} is above {_name(first)}",
+            "list the components from the bit up",
+        )  # fmt: skip
+
+
+def bent_along_gauge(string: StringSpec, hole: WellboreSpec) -> Doubts:
+    """A bent component whose stabiliser is given as if it were as long as the component.
+
+    The end of a straight tool of length L, tilted by β against the string above, lies βL aside.  Where its hole leaves
+    less, and its body does not touch, the wall has to bend the tool straight.
+    """
+    wide = hole.intervals[-1].diameter
+    for i, part in enumerate(string.components):
+        gauge = part.contact_diameter > part.outer_diameter or part.contact_diameter >= IN_GAUGE * wide
+        if part.contact != "sleeve" or part.length is None or not gauge:
+            continue
+        aside, room = part.bend * part.length, max(wide - part.contact_diameter, 0.0)
+        if aside > room:
+            yield InputWarning(
+                "bent_along_gauge", f"string.components[{i}].contact_diameter",
+                f"{_name(part)} touches along all of its {part.length:.4g} m, is bent by "
+                f"{1e3 * aside:.3g} mm over this length, and has {1e3 * room:.3g} mm of room in the hole",
+                "give its stabiliser sleeve, the part up to the bend and the body above it as components of their own",
+            )  # fmt: skip
+
+
+def does_not_drift(string: StringSpec, hole: WellboreSpec, deepest: float) -> Doubts:
+    """A component that, with the bit at its greatest depth [m], is below a narrower part of the hole than it is."""
+    below = accumulate((part.length or np.inf for part in string.components), initial=0.0)
+    for i, (part, length) in enumerate(zip(string.components, below, strict=False)):
+        passed = [interval for interval in hole.intervals if interval.to_md < deepest - length]
+        tight = min(passed, key=lambda interval: interval.diameter, default=None)
+        if tight is not None and part.contact_diameter > tight.diameter * (1 + 1e-9):
+            key = "contact_diameter" if "contact_diameter" in part.model_fields_set else "outer_diameter"
+            yield InputWarning(
+                "does_not_drift", f"string.components[{i}].{key}",
+                f"{_name(part)} has {1e3 * part.contact_diameter:.6g} mm and cannot have passed the hole of "
+                f"{1e3 * tight.diameter:.6g} mm above {tight.to_md:g} m",
+                "check both diameters; of a tool that opens below a shoe only the rows below are meant",
+            )  # fmt: skip
+
+
+def _name(component: ComponentSpec) -> str:
+    return f'"{component.name}"'
+
+
+def _is_bit(component: ComponentSpec) -> bool:
+    """Whether a component is named as a bit, and not as the sub above one."""
+    name = component.name.lower()
+    return re.search(r"\bbit\b", name) is not None and "sub" not in name
