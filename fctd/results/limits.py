@@ -12,7 +12,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String
 from fctd.model.section import Section
@@ -97,15 +97,10 @@ SHARE, ROW, PLACE = 0, 1, 2
 WORST = PLACE + len(Place._fields)
 
 
-@inlined
-def _nothing(at, section, row, worst):
-    return
-
-
 def _comparison(limits: tuple[Limit, ...]) -> Any:
     """A function that updates the largest shares of limits by those of a place, compiled into its caller."""
     if not limits:
-        return _nothing
+        return inlined(lambda at, section, row, worst: None)
     others, share_of, k = _comparison(limits[:-1]), inlined(limits[-1].share), len(limits) - 1
 
     @inlined
@@ -129,7 +124,7 @@ def _beside(joints, end, middle, j):
     return 0.5 * (joints[j] + below) if middle[j] else below
 
 
-@kernel
+@entry
 def find_shares(loads, hookload, offset, hole, radius, in_hole, middle, component, sections, worst):
     """Fill ``worst`` (limits, WORST) with the largest share of each limit along a string, 0 where it has none.
 
@@ -149,15 +144,10 @@ def find_shares(loads, hookload, offset, hole, radius, in_hole, middle, componen
         compare(here, sections[component[j]], j + 1, worst)
 
 
-@entry
-def _find(loads, hookload, offset, hole, radius, in_hole, middle, component, sections, worst):
-    find_shares(loads, hookload, offset, hole, radius, in_hole, middle, component, sections, worst)
-
-
 def shares_of(string: String, loads: Loads, hookload: float, walls: Walls, radius: Array, in_hole: bool) -> Array:
     """The largest shares (limits, WORST) along a string; see ``find_shares``."""
     worst = np.empty((len(LIMITS), WORST))
-    _find(
+    find_shares(
         loads, float(hookload), walls.offset, walls.radius, radius, in_hole, string.mid_contact(), string.component,
         string.table, worst,
     )  # fmt: skip

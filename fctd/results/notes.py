@@ -4,6 +4,7 @@ A note does not change the status.  The numbers are those of the model, in a sta
 well or that would damage the string.
 """
 
+import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any, Final, NamedTuple
@@ -104,6 +105,11 @@ class Note:
 def note_of(code: str, text: str, excess: float, place: float | None = None) -> Note:
     """A note with the remedy of its code."""
     return Note(code, text, MEANINGS[code].remedy, place, excess)
+
+
+def note_beyond(code: str, text: str, value: float, bound: float) -> Note | None:
+    """A note where a value is beyond its bound; NaN is not."""
+    return note_of(code, text, value / bound if bound else math.inf) if value > bound else None
 
 
 def worst(notes: Iterable[Note]) -> tuple[Note, ...]:

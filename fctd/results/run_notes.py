@@ -1,10 +1,8 @@
 """Notes on a run in time: its hook load, torque and swings, its joints and walls, its bit, its ledger."""
 
-import math
-
 import numpy as np
 
-from fctd.results.notes import Note, note_of
+from fctd.results.notes import Note, note_beyond, note_of
 
 # The push of a single step counts where it exceeds what the block can give by this share of the string's weight: waves
 # of starts and stops pass the top of a light string with less.
@@ -54,11 +52,9 @@ def flutters(amplitude: float, frequency: float, on_wall: float, axial: float, w
     amplitude : of its fast part, weight : of the string [N]; frequency : of the fast part, on_wall : the lowest of a
     segment on its wall spring, axial : the slowest axial one of the string [Hz].
     """
-    bound = SMALL_FLUTTER * weight
-    if not (amplitude > bound and frequency > max(OF_THE_WALL * on_wall, OF_THE_STRING * axial)):
-        return None
+    fast = amplitude if frequency > max(OF_THE_WALL * on_wall, OF_THE_STRING * axial) else 0.0
     text = f"the hook load flutters for seconds by ±{amplitude / 1e3:.3g} kN at some {frequency:.2g} Hz"
-    return note_of("flutter", text, amplitude / bound)
+    return note_beyond("flutter", text, fast, SMALL_FLUTTER * weight)
 
 
 def brakes_turning(taken: float, torque: float) -> Note | None:
@@ -67,21 +63,17 @@ def brakes_turning(taken: float, torque: float) -> Note | None:
     A bent string that turns is bent to and fro in its own frame.  taken, torque : that of the damping and that at
     surface [N m].
     """
-    if not taken > OF_THE_TORQUE * abs(torque):
-        return None
     share = f"{100 * taken / abs(torque):.2g} %" if torque else "all"
     text = f"the joints' own damping takes {taken:.3g} N m of the torque of the turning string, {share} of it"
-    return note_of("joint_damping", text, taken / (OF_THE_TORQUE * abs(torque)) if torque else math.inf)
+    return note_beyond("joint_damping", text, taken, OF_THE_TORQUE * abs(torque))
 
 
 def too_deep(penetration: float, largest: float) -> Note | None:
     """A note where a run went deeper into the wall than its time step is stable for, both [m]."""
-    if not penetration > largest:
-        return None
     text = (
         f"a contact point was {1e3 * penetration:.3g} mm deep in the wall, the step is stable to {1e3 * largest:.3g} mm"
     )
-    return note_of("wall", text, penetration / largest)
+    return note_beyond("wall", text, penetration, largest)
 
 
 def beyond_joints(bend: float, twist: float, joint: tuple[int, int]) -> Note | None:
@@ -90,8 +82,6 @@ def beyond_joints(bend: float, twist: float, joint: tuple[int, int]) -> Note | N
     bend, twist [rad]; joint : the lower segment of each.
     """
     excess = bend / MOST_BEND, twist / MOST_TWIST
-    if max(excess) <= 1:
-        return None
     does, angle, most, j = (
         ("bends", bend, MOST_BEND, joint[0]) if excess[0] >= excess[1] else ("twists", twist, MOST_TWIST, joint[1])
     )
@@ -99,7 +89,7 @@ def beyond_joints(bend: float, twist: float, joint: tuple[int, int]) -> Note | N
         f"segment {j} {does} by {np.degrees(angle):.0f}° against the one above, where {np.degrees(most):.0f}° are "
         "within the range of the joint"
     )
-    return note_of("joint", text, max(excess))
+    return note_beyond("joint", text, max(excess), 1.0)
 
 
 def drilled_nothing(made: float, weight: float, worn: float) -> Note | None:
@@ -130,14 +120,13 @@ def torque_swings(last: float, mean: float, before: float, period: float, hooklo
     hookload [N].
     """
     bound = UNSTEADY * max(abs(mean), abs(before))
-    off = max(abs(last - mean), abs(mean - before))
-    if bound < UNSTEADY * LEVER * abs(hookload) or not off > bound:
+    if bound < UNSTEADY * LEVER * abs(hookload):
         return None
     text = (
         f"the surface torque of the last record is {last / 1e3:.3g} kN·m, its mean over the last torsional period of "
         f"{period:.3g} s {mean / 1e3:.3g} kN·m, and over the one before {before / 1e3:.3g} kN·m"
     )
-    return note_of("torque", text, off / bound)
+    return note_beyond("torque", text, max(abs(last - mean), abs(mean - before)), bound)
 
 
 def turns_slowly(rpm: float, planned: float) -> Note | None:
@@ -145,14 +134,11 @@ def turns_slowly(rpm: float, planned: float) -> Note | None:
 
     rpm : mean over the last torsional period; planned [rev/min].
     """
-    bound = UNSTEADY * planned
-    if not planned - rpm > bound:
-        return None
     text = (
         f"the top turns at {rpm:.3g} of {planned:g} rev/min in the last torsional period: the drive has not caught up "
         "with its plan, or stands at its torque limit"
     )
-    return note_of("torque", text, (planned - rpm) / bound)
+    return note_beyond("torque", text, planned - rpm, UNSTEADY * planned)
 
 
 def hookload_swings(swing: float, mean: float, before: float, period: float, weight: float) -> Note | None:
@@ -162,14 +148,11 @@ def hookload_swings(swing: float, mean: float, before: float, period: float, wei
     weight : of the string [N]; period [s].
     """
     bound = max(UNSTEADY * max(abs(mean), abs(before)), SMALL_SWING * weight)
-    off = max(swing, abs(mean - before))
-    if not off > bound:
-        return None
     text = (
         f"the hook load still swings by ±{swing / 1e3:.3g} kN at the end of the run; its mean over the last axial "
         f"period of {period:.3g} s is {mean / 1e3:.4g} kN, and over the one before {before / 1e3:.4g} kN"
     )
-    return note_of("hookload", text, off / bound)
+    return note_beyond("hookload", text, max(swing, abs(mean - before)), bound)
 
 
 def whirls(sideways: float, surface: float, friction_torque: float, of_sliding: float) -> Note | None:
@@ -193,13 +176,11 @@ def rings(swing: float, frequency: float, depth: float, bound: float) -> Note | 
 
     swing, bound [N]; frequency [Hz]; depth of the bit [m].
     """
-    if not swing > bound:
-        return None
     text = (
         f"the string slides over the seams between the hole's cylinders at its natural frequency, {frequency:.2f} Hz: "
         f"near {depth:.0f} m they make the hook load swing by about ±{swing / 1e3:.2g} kN"
     )
-    return note_of("ringing", text, swing / bound)
+    return note_beyond("ringing", text, swing, bound)
 
 
 def winds_too_much(shortfall: str, longest: float, wanted: float) -> Note | None:
