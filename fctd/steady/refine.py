@@ -16,11 +16,9 @@ at least a tenth fewer segments.
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,20 +28,16 @@ from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.units import LENGTH, argument, bare
 from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import layouts
-from fctd.model.drillstring import lay_out
-from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.model.operations import rates_of_all
 from fctd.results.notes import Note, worst
-from fctd.results.status import RefineStatus, SteadyStatus
+from fctd.results.status import RefineStatus
 from fctd.steady.chords import largest_chord, shorter_cylinders
-from fctd.steady.equilibrium import Solver
-from fctd.steady.steady_string import Equilibrium
+from fctd.steady.levels import Level, Progress, Task, counts, errors_of, is_judged, largest_error, solve_level
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Array = NDArray[np.float64]
-# Called before every level with a text that names the level.
-Progress = Callable[[str], None]
 
 # Segments of the first string, and of the strings with which the hole is refined.
 FIRST, IN_HOLE = 16, (128, 512)
@@ -51,16 +45,12 @@ FIRST, IN_HOLE = 16, (128, 512)
 HALVINGS = 6
 # Share of the tolerance for the error of the cylinders.
 SHARE_OF_HOLE = 0.25
-# Roache's factor of a grid convergence index (1994).
-SAFETY = 1.25
 # Largest number of segments beside those of a buckled stretch: each level takes seconds.
 MOST_BESIDE = 512
 # Solved levels that an estimate needs, and unsolved finer levels after which the refinement stops.
 ANSWERS, UNANSWERED = 3, 2
 # Segments of a graded string over those of a uniform one, at most.
 WORTH = 0.9
-# The error of a load near zero is relative to this share of its parts (weight, Σ r μ F_n).
-SHARE_OF_WHOLE = 0.1
 
 
 @dataclass(frozen=True)
@@ -116,15 +106,15 @@ def refine(
         kinds = _kinds(case, operation)
         depth = _depth(case, kinds[0], bit_depth)
         _check(case, tolerance, most, depth)
-        task = _Task(rates_of_all(case, kinds, speed, rpm), depth, most, progress)
+        task = Task(rates_of_all(case, kinds, speed, rpm), depth, most, progress)
         coarse = _with_buckling(case, "detect")
-        _solve(
+        solve_level(
             "string", "uniform", _cut(coarse, task, "uniform", layouts.divided_length(case, depth) / FIRST), task
         )  # compile
         resolving = case if "buckling" in case.solver.model_fields_set else _with_buckling(case, "resolve")
         # Chords change the loads of a string that lies too straight where it is buckled as they do those of any other.
         holes = _refine_hole(coarse, task, SHARE_OF_HOLE * tolerance)
-        error_of_hole = _error(holes) if holes else 0.0
+        error_of_hole = largest_error(holes) if holes else 0.0
         in_hole = resolving.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else resolving
         strings = _refine_string(in_hole, task, "uniform", tolerance - error_of_hole)
         found = _result(case, task, tolerance, error_of_hole, holes, strings)
@@ -135,72 +125,34 @@ def refine(
         return _better(found, _result(case, task, tolerance, error_of_hole, holes, strings))
 
 
-class _Task(NamedTuple):
-    """What every level solves: rates by kind of operation, bit depth [m], segments at most."""
-
-    rates: Mapping[str, SteadyRates]
-    bit_depth: float
-    most: int
-    progress: Progress | None
-
-
-class _Level(NamedTuple):
-    """The strings of one layout and fineness, each level twice as fine as the one before.
-
-    loads (operations, 2) : hook load [N] and torque [N m], NaN where a string was not solved; scales (operations, 2) :
-    the values errors are relative to; seconds (operations,); length : that the layout was asked for [m].
-    """
-
-    stage: str
-    layout: str
-    case: Case
-    segments: int
-    shortest: float
-    loads: Array
-    scales: Array
-    points: list[Equilibrium]
-    seconds: list[float]
-    length: float = 0.0
-
-    @property
-    def answered(self) -> bool:
-        """Whether every operation has its loads."""
-        return bool(np.isfinite(self.loads).all())
-
-    @property
-    def resolved(self) -> int:
-        """Segments of the longest string with a buckled stretch laid out by the solver, 0 without one."""
-        return max((len(point.profile) - 1 for point in self.points if point.shape != "none"), default=0)
-
-
-def _refine_hole(case: Case, task: _Task, allowed: float) -> list[_Level]:
+def _refine_hole(case: Case, task: Task, allowed: float) -> list[Level]:
     """Levels of ever shorter cylinders, until their error is allowed; empty for a hole without cylinders."""
-    levels: list[_Level] = []
+    levels: list[Level] = []
     if case.wellbore.geometry == "arcs" or not case.contact.enabled:
         return levels
     for segments in IN_HOLE:
         cut = _cut(case, task, "uniform", layouts.divided_length(case, task.bit_depth) / segments)
-        levels = [_solve("hole", "uniform", cut, task)]
+        levels = [solve_level("hole", "uniform", cut, task)]
         if levels[0].answered:
             break
-    while len(levels) <= HALVINGS and not (_error(levels) <= allowed):
+    while len(levels) <= HALVINGS and not (largest_error(levels) <= allowed):
         cut = shorter_cylinders(cut)
-        levels.append(_solve("hole", "uniform", cut, task))
+        levels.append(solve_level("hole", "uniform", cut, task))
     return levels
 
 
-def _refine_string(case: Case, task: _Task, layout: str, allowed: float) -> list[_Level]:
+def _refine_string(case: Case, task: Task, layout: str, allowed: float) -> list[Level]:
     """Levels of ever shorter segments, until their error is allowed or the next level has too many segments."""
-    levels: list[_Level] = []
+    levels: list[Level] = []
     length = layouts.divided_length(case, task.bit_depth) / FIRST
     while True:
         cut = _cut(case, task, layout, length, 2 ** len(levels))
         most = min(task.most, MOST_BESIDE) if levels and levels[-1].resolved else task.most
         if levels and layouts.segments_in_hole(cut, task.bit_depth) > most:
             return levels
-        levels.append(_solve("string", layout, cut, task)._replace(length=length))
+        levels.append(solve_level("string", layout, cut, task)._replace(length=length))
         answered = [k for k, level in enumerate(levels) if level.answered]
-        if len(answered) >= ANSWERS and _error(levels) <= allowed and _is_judged(case, levels[-1]):
+        if len(answered) >= ANSWERS and largest_error(levels) <= allowed and is_judged(case, levels[-1]):
             return levels
         if answered and len(levels) - answered[-1] > UNANSWERED:
             return levels
@@ -209,90 +161,8 @@ def _refine_string(case: Case, task: _Task, layout: str, allowed: float) -> list
         length /= 2
 
 
-def _solve(stage: str, layout: str, case: Case, task: _Task) -> _Level:
-    """Solve the strings of all operations."""
-    string = lay_out(case, task.bit_depth)
-    weight = float(string.of("weight") @ string.length)
-    if task.progress is not None:
-        task.progress(f"{stage}: {string.segments} segments")
-    points, seconds = [], []
-    began = time.perf_counter()
-    solver = Solver(case)
-    for kind, rates in task.rates.items():
-        points.append(solver.solve(kind, rates, task.bit_depth))
-        seconds.append(time.perf_counter() - began)
-        began = time.perf_counter()
-    loads = [_loads(p) if _counts(p, stage) else (np.nan, np.nan) for p in points]
-    scales = [_scales(p, weight, rates.spin) for p, rates in zip(points, task.rates.values(), strict=True)]
-    return _Level(
-        stage, layout, case, string.segments, float(string.length.min()), np.array(loads), np.array(scales), points,
-        seconds,
-    )  # fmt: skip
-
-
-def _is_judged(case: Case, level: _Level) -> bool:
-    """Whether a level may end the search: beside bent and short components of the case its segments are short."""
-    return level.length <= layouts.BESIDE_SHORT or not layouts.has_short(case)
-
-
-def _counts(point: Equilibrium, stage: str = "string") -> bool:
-    """Whether the loads of a string count; those of one that lies too straight count for the hole alone."""
-    by_hole = stage == "hole" and point.status == SteadyStatus.UNDER_RESOLVED
-    return point.answered and (point.status.acceptable or by_hole)
-
-
-def relative_difference(point: Equilibrium, other: Equilibrium, spin: float) -> tuple[float, float]:
-    """Differences in hook load and torque, relative to the loads of ``other`` as in a refinement.
-
-    spin : rotation of both strings [rad/s].
-    """
-    string = lay_out(other.case, other.bit_depth)
-    scales = _scales(other, float(string.of("weight") @ string.length), spin)
-    hookload, torque = np.abs(np.subtract(_loads(point), _loads(other))) / scales
-    return float(hookload), float(torque)
-
-
-def _loads(point: Equilibrium) -> tuple[float, float]:
-    return point.hookload, point.surface_torque
-
-
-def _scales(point: Equilibrium, weight: float, spin: float) -> tuple[float, float]:
-    """The values to which errors in hook load and torque are relative; weight : of the string in mud [N]."""
-    # Without friction torque is rounding alone.  In a string that only slides, chords cause a small torque of first
-    # order, negligible against the torque of rotation.
-    friction = max(point.sum_r_mu_fn, 1e-5 * weight) * (SHARE_OF_WHOLE if spin else 1.0)
-    return max(abs(point.hookload), SHARE_OF_WHOLE * weight), max(abs(point.surface_torque), friction)
-
-
-def _errors(levels: Sequence[_Level]) -> tuple[Array, Array]:
-    """Relative change since the previous solved level, and estimated error, of the last level: (operations, 2) each.
-
-    At first order the changes of doubled counts form a geometric series, and the remaining error equals the last
-    change.  Every earlier change predicts a remaining error in the same way; the largest counts.
-    """
-    last = levels[-1]
-    change, missing = np.full((2, *last.loads.shape), np.nan)
-    for k, column in np.ndindex(last.loads.shape):
-        answers = [i for i, level in enumerate(levels) if np.isfinite(level.loads[k, column])]
-        if len(answers) < 2 or answers[-1] != len(levels) - 1:
-            continue
-        changes = [abs(levels[j].loads[k, column] - levels[i].loads[k, column]) for i, j in pairwise(answers)]
-        left = [
-            step / (2.0 ** (j - i) - 1) * 0.5 ** (len(levels) - 1 - j)
-            for step, (i, j) in zip(changes, pairwise(answers), strict=True)
-        ]
-        change[k, column], missing[k, column] = changes[-1], max(left)
-    return change / last.scales, SAFETY * missing / last.scales
-
-
-def _error(levels: Sequence[_Level]) -> float:
-    """The largest estimated error of the last level; infinite while there is no estimate."""
-    worst = float(_errors(levels)[1].max())
-    return worst if np.isfinite(worst) else np.inf
-
-
 def _result(
-    case: Case, task: _Task, tolerance: float, error_of_hole: float, holes: list[_Level], strings: list[_Level]
+    case: Case, task: Task, tolerance: float, error_of_hole: float, holes: list[Level], strings: list[Level]
 ) -> Refinement:
     """The refinement that results from the levels."""
     import pandas as pd
@@ -310,19 +180,19 @@ def _result(
         )  # fmt: skip
 
     if not answered:
-        point = next(point for point in strings[-1].points if not _counts(point))
+        point = next(point for point in strings[-1].points if not counts(point))
         message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has a solution for "
         message += f"{point.operation} ({point.status}: {point.message})"
         return finish(RefineStatus.NO_ANSWER, message, case, np.inf, 0, np.nan)
     found = strings[answered[-1]]
-    error = error_of_hole + _error(strings[: answered[-1] + 1])
-    judged = _is_judged(case, found)
+    error = error_of_hole + largest_error(strings[: answered[-1] + 1])
+    judged = is_judged(case, found)
     if answered[-1] == len(strings) - 1 and error <= tolerance and len(answered) >= ANSWERS and judged:
         return finish(RefineStatus.WITHIN_TOLERANCE, "", found.case, error, found.segments, found.shortest)
     left = f"an error of {100 * error:.3g} %" if np.isfinite(error) else "an unknown error"
     message = f"{left} remains at {found.segments} segments, the largest number tried"
     if answered[-1] != len(strings) - 1:
-        lost = next(point for point in strings[-1].points if not _counts(point))
+        lost = next(point for point in strings[-1].points if not counts(point))
         why = f"{lost.operation}: {lost.status}"
         message = f"strings of more than {found.segments} segments have no solution ({why}); {left} remains"
     if not judged:
@@ -344,11 +214,11 @@ def _better(uniform: Refinement, graded: Refinement) -> Refinement:
     return replace(min(uniform, graded, key=merit), steps=steps)
 
 
-def _rows(task: _Task, levels: list[_Level]) -> list[dict[str, Any]]:
+def _rows(task: Task, levels: list[Level]) -> list[dict[str, Any]]:
     """A row per level and operation."""
     rows = []
     for k, level in enumerate(levels):
-        change, error = _errors(levels[: k + 1])
+        change, error = errors_of(levels[: k + 1])
         for i, kind in enumerate(task.rates):
             row = {
                 "stage": level.stage, "layout": level.layout, "level": k, "operation": kind,
@@ -366,7 +236,7 @@ def _with_buckling(case: Case, how: str) -> Case:
     return case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": how})})
 
 
-def _cut(case: Case, task: _Task, layout: str, length: float, least: int = 1) -> Case:
+def _cut(case: Case, task: Task, layout: str, length: float, least: int = 1) -> Case:
     return layouts.with_components(case, layouts.LAYOUTS[layout](case, task.bit_depth, length, least))
 
 

@@ -26,7 +26,7 @@ from fctd.model.templates import TEMPLATES, TemplateName
 from fctd.model.torsion import period_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
-from fctd.steady.refine import relative_difference
+from fctd.steady.levels import relative_difference
 
 EACH = pytest.mark.parametrize("name", TEMPLATES)
 BOTH = pytest.mark.parametrize("units", ["metric", "field"])

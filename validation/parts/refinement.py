@@ -11,7 +11,7 @@ from fctd.model.drillstring import lay_out
 from fctd.model.layouts import Components, graded, is_long, uniform, with_components
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
-from fctd.steady.refine import relative_difference
+from fctd.steady.levels import relative_difference
 from validation.harness.study import Check, Context, Outcome
 
 # A case, a bit depth [m] and the length of the shortest segments [m] to components.
