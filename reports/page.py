@@ -12,7 +12,7 @@ from typing import Any
 import jinja2
 
 from fctd.case.text import printable_lines
-from fctd.results.whole_file import left_by_dead
+from fctd.store.whole_file import left_by_dead
 from reports import chapters, figures, results, words
 from reports.claims import LOOKS, judged
 from reports.figures.leading import LEADING

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final, Self
 
 from fctd.case.errors import InputError
-from fctd.results.run_lock import HeldError, RunLock
+from fctd.store.lock import FolderLock, HeldError
 
 TOKEN: Final = re.compile(r"[A-Za-z0-9_-]{32,64}")
 HOST: Final = "127.0.0.1"
@@ -23,7 +23,7 @@ class Home:
     token : first part of every address; it lasts until ``new_token``.
     """
 
-    def __init__(self, folder: Path, lock: RunLock) -> None:
+    def __init__(self, folder: Path, lock: FolderLock) -> None:
         self.folder, self._lock = folder, lock
         token = _read(folder / "token")
         self.token = token if TOKEN.fullmatch(token) else self.new_token()
@@ -37,7 +37,7 @@ class Home:
         folder = user_folder() if folder is None else folder
         try:
             private_folder(folder)
-            lock = RunLock.take(folder)
+            lock = FolderLock.take(folder)
             (folder / "lock").chmod(0o600)
             return cls(folder, lock)
         except HeldError as held:

@@ -16,7 +16,7 @@ from typing import Any, Final
 from fctd.app.home import private_folder, write_private
 from fctd.app.sessions import Session
 from fctd.case.errors import InputError
-from fctd.results.run_folder import progress_of, run_path, writer_of
+from fctd.store.run_folder import progress_of, run_path, writer_of
 
 MOST_RUNS: Final = 2  # at a time
 LONGEST: Final = "1 h"

@@ -19,11 +19,11 @@ from fctd.case.load import Case, load_case
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.model.wellbore import Wellbore, build_wellbore
-from fctd.results.run_folder import numbered, run_path
 from fctd.results.tables import open_result
 from fctd.results.unit_systems import System, shown
 from fctd.simulation.chunks import NUMBER, read_chunk
 from fctd.simulation.series import KEPT, SegmentSeries
+from fctd.store.run_folder import numbered, run_path
 from fctd.view.quantities import quantity_of
 from fctd.view.strings import of_records
 

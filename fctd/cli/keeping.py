@@ -17,8 +17,8 @@ from fctd.case.text import printable
 from fctd.case.units import TIME
 from fctd.cli.options import messages, read_quantity
 from fctd.results.origin import changes, files_of, origin_of
-from fctd.results.run_folder import RunFolder, about_of, numbered, progress_of, run_path, taken, writer_of
-from fctd.simulation.limits import Limits
+from fctd.store.limits import Limits
+from fctd.store.run_folder import RunFolder, about_of, numbered, progress_of, run_path, taken, writer_of
 
 # Longest time between two checkpoints of a run, and between two chunks of a chart [s].
 EVERY_RUN, EVERY_CHART = 60.0, 5.0

@@ -27,11 +27,11 @@ from fctd.case.load import Case
 from fctd.case.text import counted
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, as_metadata, from_metadata
-from fctd.results.parquet import read_table
 from fctd.results.status import RunStatus
 from fctd.results.unit_systems import System, in_field_units
-from fctd.results.whole_file import check_file, left_overs, whole_file
-from fctd.results.whole_folder import PAUSE, check_folder, repair, whole_folder
+from fctd.store.parquet import read_table
+from fctd.store.whole_file import check_file, left_overs, whole_file
+from fctd.store.whole_folder import PAUSE, check_folder, repair, whole_folder
 
 if TYPE_CHECKING:
     import pandas as pd

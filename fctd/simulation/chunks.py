@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fctd.results.parquet import read_table
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.series import KEPT
+from fctd.store.parquet import read_table
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -12,13 +12,13 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.results.pacing import Clocks, Pace
-from fctd.results.run_folder import REPORTED_EVERY, Progress, RunFolder, cannot_keep, numbered
 from fctd.results.tables import SimulationResult
 from fctd.simulation.checkpoint import Checkpoint, capture, put_back
 from fctd.simulation.chunks import NAMES, Cursor, add_chunk, chunk_since, read_chunk, size_of, warm_up
 from fctd.simulation.disk import bytes_needed, check_disk
 from fctd.simulation.simulate import Simulation
+from fctd.store.run_folder import REPORTED_EVERY, Progress, RunFolder, cannot_keep, numbered
+from fctd.store.save_interval import Clocks, SaveInterval
 
 CHECKPOINT = "checkpoint.npz"
 # Checkpoints of a run, the last of which may be damaged.
@@ -40,7 +40,7 @@ class KeptRun:
     ) -> None:
         self.folder, self.csv, self.key, self.tell = folder, csv, key, tell
         self.kept, self._number, self._cursor = 0.0, 0, Cursor()
-        self._pace, self._reported = Pace(every), time.monotonic()
+        self._pace, self._reported = SaveInterval(every), time.monotonic()
         self._before, self._spent_before = 0.0, Clocks(0.0, 0.0)  # of the processes before
 
     @property

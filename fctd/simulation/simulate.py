@@ -15,7 +15,6 @@ from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
 from fctd.results import notes
-from fctd.results.pacing import Clocks
 from fctd.results.status import RunStatus
 from fctd.results.swings import operations_table
 from fctd.results.tables import SimulationResult
@@ -23,11 +22,12 @@ from fctd.simulation.ending import end_notes, spans_of
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.features import refuse
 from fctd.simulation.intervals import Interval, Window, prolonged, whole_schedule, within
-from fctd.simulation.limits import LimitReached
 from fctd.simulation.preparation import prepare
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.run import Run
 from fctd.simulation.settling import Settling, settle, start_from_rest
+from fctd.store.limits import LimitReached
+from fctd.store.save_interval import Clocks
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]

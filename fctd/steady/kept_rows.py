@@ -6,9 +6,9 @@ import zlib
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from fctd.results.pacing import Pace
-from fctd.results.run_folder import REPORTED_EVERY, Progress, RunFolder, cannot_keep, numbered
 from fctd.steady.torque_drag import Row
+from fctd.store.run_folder import REPORTED_EVERY, Progress, RunFolder, cannot_keep, numbered
+from fctd.store.save_interval import SaveInterval
 
 ROWS = "rows.jsonl"
 Description = tuple[Mapping[str, Any], Mapping[str, bytes]]
@@ -38,7 +38,7 @@ class KeptRows:
         folder.remove({name for number, name in chunks.items() if number > self._number})
         self.kept = sum(map(len, self.known))
         self._new: list[list[Row]] = []
-        self._pace, self._reported = Pace(every), time.monotonic()
+        self._pace, self._reported = SaveInterval(every), time.monotonic()
 
     _number = 0  # of the last chunk
 

@@ -18,10 +18,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
 from fctd.mechanics.compile_cache import hash_of_sources
-from fctd.results import run_lock
-from fctd.results.parquet import read_frame, read_table
 from fctd.results.tables import versions
-from fctd.results.whole_file import left_by_dead, whole_file
+from fctd.store.lock import NAME as LOCK
+from fctd.store.lock import FolderLock, HeldError
+from fctd.store.parquet import read_frame, read_table
+from fctd.store.whole_file import left_by_dead, whole_file
 from fctd.sweep.template import Template
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 ABOUT, SAMPLES, ROWS = "sweep.json", "samples.parquet", "rows"
-OURS: Final = (ABOUT, SAMPLES, ROWS, run_lock.NAME)
+OURS: Final = (ABOUT, SAMPLES, ROWS, LOCK)
 # Packages whose versions all rows of a dataset share.
 SAME: Final = ("fctd", "python", "numpy", "numba")
 _PART = "part-{:05d}.parquet"
@@ -186,16 +187,16 @@ def alone(folder: Path) -> Iterator[None]:
         if folder.exists() and any(name not in OURS and name[0] != "." for name in os.listdir(folder)):
             raise InputError("a folder for a sweep alone (this one has other files)", key="--out", value=folder)
         folder.mkdir(parents=True, exist_ok=True)
-        lock = run_lock.RunLock.take(folder)
+        lock = FolderLock.take(folder)
     except OSError as error:
         raise InputError(f"a folder that can be written ({error.strerror})", key="--out", value=folder) from error
-    except run_lock.HeldError as held:
+    except HeldError as held:
         here = f"a folder that no other sweep works on (process {held.holder.process} does)"
         raise InputError(here, key="--out", value=folder) from None
     try:
         yield
     finally:
-        (folder / run_lock.NAME).unlink(missing_ok=True)
+        (folder / LOCK).unlink(missing_ok=True)
         lock.release()
 
 

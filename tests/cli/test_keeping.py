@@ -12,10 +12,9 @@ import pytest
 from fctd import open_result
 from fctd.cli import chart, main, simulate
 from fctd.cli.keeping import read_bytes
-from fctd.results import pacing, run_folder
-from fctd.results.run_folder import RunFolder, run_path
-from fctd.results.run_lock import RunLock
-from fctd.simulation import limits
+from fctd.store import limits, run_folder, save_interval
+from fctd.store.lock import FolderLock
+from fctd.store.run_folder import RunFolder, run_path
 from tests.cli.test_main import CASE, run
 from tests.simulation.kept import same
 
@@ -30,7 +29,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     Path("survey.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n300,0,0\n750,90,0\n900,90,0\n")
     stations = "stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]"
     Path("small.toml").write_text(CASE.replace(stations, 'survey = "survey.csv"'))
-    monkeypatch.setattr(pacing, "SHARE", 1e9)
+    monkeypatch.setattr(save_interval, "SHARE", 1e9)
 
 
 class Killed(BaseException):
@@ -102,7 +101,7 @@ def test_a_run_that_lasts_is_named_and_not_offered(
 ) -> None:
     """Another process computes: neither --resume nor --restart is a way out."""
     killed(monkeypatch, RUN)
-    lock = RunLock.take(run_path(Path("out")))
+    lock = FolderLock.take(run_path(Path("out")))
     (run_path(Path("out")) / "lock").write_text("[4242, 1e9]")
     for asked in (RUN, (*RUN, "--restart"), ("simulate", "--resume", "out")):
         capsys.readouterr()

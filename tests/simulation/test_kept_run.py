@@ -11,12 +11,13 @@ import pandas as pd
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.results import pacing, run_folder
-from fctd.results.run_folder import RunFolder, numbered, progress_of
 from fctd.results.tables import SimulationResult
 from fctd.simulation import kept_run
 from fctd.simulation.kept_run import CHECKPOINT, KeptRun, kept_so_far
 from fctd.simulation.simulate import Simulation, simulate
+from fctd.store import run_folder, save_interval
+from fctd.store.limits import LimitReached
+from fctd.store.run_folder import RunFolder, numbered, progress_of
 from tests.simulation.kept import same, tripping
 
 
@@ -49,7 +50,7 @@ def killed_after(folder: RunFolder, records: int, every: float = 0.0) -> KeptRun
 @pytest.fixture(autouse=True)
 def always_due(monkeypatch: pytest.MonkeyPatch) -> None:
     """A checkpoint at every record of a run with ``every`` 0, whatever it costs."""
-    monkeypatch.setattr(pacing, "SHARE", 1e9)
+    monkeypatch.setattr(save_interval, "SHARE", 1e9)
 
 
 @cache
@@ -74,9 +75,9 @@ def test_a_run_goes_on_in_another_process(folder: RunFolder) -> None:
 
 def test_it_is_written_when_it_is_time_to(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every two seconds; once writing takes long, less often: a hundredth of the time goes into it."""
-    monkeypatch.setattr(pacing, "SHARE", 0.01)
+    monkeypatch.setattr(save_interval, "SHARE", 0.01)
     now = [0.0]
-    monkeypatch.setattr(pacing.Clocks, "now", lambda: pacing.Clocks(now[0], now[0]))
+    monkeypatch.setattr(save_interval.Clocks, "now", lambda: save_interval.Clocks(now[0], now[0]))
     keeper = KeptRun(folder, 2.0)
     simulation, written, cost = Simulation(tripping()), [], 0.005
     real = keeper._write
@@ -198,3 +199,22 @@ def test_the_progress_is_reported(folder: RunFolder, tmp_path: Path) -> None:
     assert (progress.unit, progress.kept) == ("s", pytest.approx(at(25)))
     assert progress.done == pytest.approx(at(25))
     assert progress.total == Simulation(tripping()).end
+
+
+def test_a_run_that_reaches_a_limit_keeps_its_records() -> None:
+    def progress(now: float, total: float, factor: float) -> None:
+        if now >= 3:
+            raise LimitReached("the time limit of 3 s is reached")
+
+    result = simulate(tripping(), progress=progress)
+    assert (result.status, result.message) == ("stopped", "at 3 s: the time limit of 3 s is reached")
+    assert result.history["time_s"].iloc[-1] == pytest.approx(3.0)
+
+
+def test_a_limit_while_the_string_settles() -> None:
+    def settling(now: float, imbalance: float) -> None:
+        raise LimitReached("the time limit of 3 s is reached")
+
+    result = simulate(tripping(), settling=settling)
+    assert (result.status, len(result.history)) == ("stopped", 0)
+    assert result.message.startswith("before the start")

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fctd.results import pacing
-from fctd.results.run_folder import RunFolder, numbered, progress_of
 from fctd.steady import kept_rows
 from fctd.steady.kept_rows import ROWS, KeptRows
+from fctd.store import save_interval
+from fctd.store.run_folder import RunFolder, numbered, progress_of
 
 EVERY = {"operation": "trip_in", "hookload_N": np.float64(0.1) + np.float64(0.2), "torque": float("nan"), "n": 3}
 
@@ -22,8 +22,8 @@ def depth(k: int) -> list[dict[str, object]]:
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     now = [0.0]
     monkeypatch.setattr(kept_rows, "time", SimpleNamespace(monotonic=lambda: now[0], time=lambda: 1e9))
-    monkeypatch.setattr(pacing.Clocks, "now", lambda: pacing.Clocks(now[0], now[0]))
-    monkeypatch.setattr(pacing, "SHARE", 1.0)
+    monkeypatch.setattr(save_interval.Clocks, "now", lambda: save_interval.Clocks(now[0], now[0]))
+    monkeypatch.setattr(save_interval, "SHARE", 1.0)
     return now
 
 

@@ -21,7 +21,7 @@ import pandas as pd
 from pyarrow import parquet
 from pydantic import TypeAdapter
 
-from fctd.results.parquet import read_frame
+from fctd.store.parquet import read_frame
 from references.timing.stopwatch import cpu_name
 from validation.harness.fingerprint import Inputs
 from validation.harness.study import ROOT, Check

@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from fctd.cli.main import app
-from fctd.results import run_folder
-from fctd.results.run_folder import RunFolder, run_path
+from fctd.store import run_folder
+from fctd.store.run_folder import RunFolder, run_path
 from validation.harness.study import ROOT
 from validation.parts.killed_runs import Command, forked, tables_of, trip
 

@@ -13,10 +13,10 @@ import pandas as pd
 from fctd.case.load import load_case
 from fctd.cli.compile import compile_all
 from fctd.results import ledger
-from fctd.results.run_folder import RunFolder, numbered
 from fctd.results.tables import open_result
 from fctd.simulation.kept_run import KeptRun
 from fctd.simulation.simulate import simulate
+from fctd.store.run_folder import RunFolder, numbered
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.faults import FAULTS, SLOW, Ground, at_once
 from validation.parts.killed_runs import Command, Killed, chart, drill, kill_again_and_again, meshed, trip

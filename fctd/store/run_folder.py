@@ -1,6 +1,6 @@
 """The folder of a run that has not ended: ``.NAME-run`` beside the file or folder NAME that its result will be.
 
-- ``lock``: of the process that writes here (run_lock.py).
+- ``lock``: of the process that writes here (lock.py).
 - ``run.json``: what is computed, of which files, with which options (``describe``).
 - copies of the files that the run reads.
 - numbered chunks and checkpoints of the results so far (``write``), each complete or not there at all.
@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple, Self
 
 from fctd.case.errors import InputError
-from fctd.results.run_lock import HeldError, Holder, RunLock, holder_of
+from fctd.store.lock import FolderLock, HeldError, Holder, holder_of
 
 ABOUT, PROGRESS = "run.json", "progress.json"
 # Time between two reports of the progress of a run [s].
@@ -44,7 +44,7 @@ class Progress(NamedTuple):
 class RunFolder:
     """The folder of the run of a result, which this process alone writes to, from ``take`` until ``leave``."""
 
-    def __init__(self, target: Path, lock: RunLock) -> None:
+    def __init__(self, target: Path, lock: FolderLock) -> None:
         self.path, self._lock = run_path(target), lock
 
     @classmethod
@@ -59,7 +59,7 @@ class RunFolder:
             while True:
                 path.mkdir(parents=True, exist_ok=True)
                 with suppress(FileNotFoundError):  # another process has just removed the folder
-                    return cls(target, RunLock.take(path))
+                    return cls(target, FolderLock.take(path))
         except HeldError as held:
             raise taken(held.holder, target, key) from None
         except OSError as error:

@@ -11,9 +11,9 @@ import pytest
 
 from fctd import open_result
 from fctd.case.errors import InputError
-from fctd.results import whole_folder as whole_folder_module
 from fctd.results.tables import TABLES, own_files
-from fctd.results.whole_folder import check_folder, repair, whole_folder
+from fctd.store import whole_folder as whole_folder_module
+from fctd.store.whole_folder import check_folder, repair, whole_folder
 from tests.killed_saves import FOREIGN, earlier, result
 
 ROOT = Path(__file__).parents[2]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.results.run_folder import (
+from fctd.store.run_folder import (
     KEYS,
     Progress,
     RunFolder,

@@ -15,7 +15,7 @@ from itertools import count
 from pathlib import Path
 
 from fctd.case.errors import InputError
-from fctd.results.whole_file import check_new, left_by_dead
+from fctd.store.whole_file import check_new, left_by_dead
 
 Own = Callable[[Path], Collection[str]]
 """Names of the files that a new folder replaces; all other files are the user's and stay."""

@@ -1,5 +1,6 @@
-"""Limits of time and memory for a long run, which then ends early and keeps what it has."""
+"""What a machine has: processors, and limits of time and memory, at which a long run ends and keeps what it has."""
 
+import os
 import sys
 from dataclasses import dataclass, field
 from time import monotonic
@@ -23,6 +24,11 @@ class Limits:
             raise LimitReached(f"the time limit of {self.time:g} s is reached")
         if self.memory is not None and (used := largest_memory()) >= self.memory:
             raise LimitReached(f"{used / 1e6:.0f} MB of memory are in use, the limit is {self.memory / 1e6:g} MB")
+
+
+def cores() -> int:
+    """Number of processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def largest_memory() -> float:

@@ -32,7 +32,7 @@ class Clocks(NamedTuple):
         return Clocks(self.wall + more.wall, self.own + more.own)
 
 
-class Pace:
+class SaveInterval:
     """When a computation is kept, from now on.
 
     every : least time between two times [s].  spent : that keeping took so far.  By both clocks, keeping takes at most

@@ -12,11 +12,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from fctd.results.parquet import read_frame, read_table
+from fctd.store.parquet import read_frame, read_table
 
 THREADS = """
 import os, sys
-from fctd.results.parquet import read_frame, read_table
+from fctd.store.parquet import read_frame, read_table
 import pyarrow.parquet
 before = set(os.listdir("/proc/self/task"))
 with open(sys.argv[1], "rb") as source:

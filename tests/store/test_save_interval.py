@@ -2,8 +2,8 @@
 
 import pytest
 
-from fctd.results import pacing
-from fctd.results.pacing import SHARE, Clocks, Pace
+from fctd.store import save_interval
+from fctd.store.save_interval import SHARE, Clocks, SaveInterval
 
 
 class Machine:
@@ -13,7 +13,7 @@ class Machine:
         self.wall = self.own = 0.0
         monkeypatch.setattr(Clocks, "now", lambda: Clocks(self.wall, self.own))
 
-    def compute(self, pace: Pace, until: float, cost: tuple[float, float], busy: float = 1.0) -> list[float]:
+    def compute(self, pace: SaveInterval, until: float, cost: tuple[float, float], busy: float = 1.0) -> list[float]:
         """Compute in steps of 10 ms of the process's own time, and keep where it is due; the times of that."""
         kept = []
         while self.wall < until:
@@ -31,7 +31,7 @@ def machine(monkeypatch: pytest.MonkeyPatch) -> Machine:
 
 
 def test_it_is_due_as_often_as_wanted(machine: Machine) -> None:
-    kept = machine.compute(Pace(10.0), 101.0, (0.02, 0.01))
+    kept = machine.compute(SaveInterval(10.0), 101.0, (0.02, 0.01))
     assert kept == pytest.approx([10.0 + 10.02 * k for k in range(10)], abs=0.1)
 
 
@@ -42,7 +42,7 @@ def test_it_is_due_as_often_as_wanted(machine: Machine) -> None:
 )
 def test_it_takes_a_hundredth_of_either_clock_at_most(machine: Machine, cost: tuple[float, float], busy: float) -> None:
     """Kept as often as allowed.  On a busy machine a write is not interrupted, and the steps between two are."""
-    pace = Pace(0.0)
+    pace = SaveInterval(0.0)
     kept = machine.compute(pace, 1000.0, cost, busy)
     assert len(kept) > 5
     assert pace.spent.wall <= SHARE * machine.wall
@@ -53,7 +53,7 @@ def test_it_takes_a_hundredth_of_either_clock_at_most(machine: Machine, cost: tu
 
 def test_a_slow_disk_is_made_up_for(machine: Machine) -> None:
     """One time that takes twenty times as long is followed by none until the share is as before."""
-    pace = Pace(1.0)
+    pace = SaveInterval(1.0)
     machine.compute(pace, 10.0, (0.01, 0.001))
     machine.compute(pace, 12.0, (1.0, 0.001))
     before = machine.wall
@@ -63,10 +63,10 @@ def test_a_slow_disk_is_made_up_for(machine: Machine) -> None:
 
 
 def test_reports_count_and_put_nothing_off(machine: Machine) -> None:
-    pace = Pace(1.0)
+    pace = SaveInterval(1.0)
     machine.compute(pace, 3.5, (0.01, 0.01))
     expected = pace.spent.wall
     with pace.reporting():
         machine.wall += 0.002
     assert pace.spent.wall == pytest.approx(expected + 0.002)
-    assert pacing.FIRST > 0
+    assert save_interval.FIRST > 0
