@@ -16,8 +16,9 @@ from fctd.case.load import Case
 from fctd.case.text import printable
 from fctd.case.units import TIME
 from fctd.cli.options import messages, read_quantity
-from fctd.results.origin import changes, files_of, origin_of
+from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.store.limits import Limits
+from fctd.store.origin import changes, origin_of
 from fctd.store.run_folder import RunFolder, about_of, numbered, progress_of, run_path, taken, writer_of
 
 # Longest time between two checkpoints of a run, and between two chunks of a chart [s].
@@ -191,7 +192,7 @@ def resumed_folder(target: Path, program: str, *, accept_changes: bool) -> Itera
 
 def _refuse_changes(target: Path, about: Mapping[str, Any]) -> None:
     files = {name: Path(path) for name, path in about["files"].items()}
-    found = list(changes(about["origin"], origin_of(files)))
+    found = list(changes(about["origin"], origin_of(files, hash_of_sources())))
     if found:
         expected = (
             f"what the run began with: {'; '.join(found)}; put it back, go on with case and survey as they were by "
@@ -209,10 +210,16 @@ def description_of(
     copies = {} if survey is None else {f"survey{survey.suffix}": survey.read_bytes()}
     about = {
         "command": command, "program": program, "case": case.model_dump(mode="json"), "options": dict(options),
-        "files": {name: str(path) for name, path in files.items()}, "origin": origin_of(files),
+        "files": {name: str(path) for name, path in files.items()}, "origin": origin_of(files, hash_of_sources()),
         "copies": list(copies), "identity": identity,
     }  # fmt: skip
     return about, copies
+
+
+def files_of(case: Case) -> dict[str, Path]:
+    """The files that a case was read from, absolute, by what they are."""
+    files = {"case file": case.file, "survey": case.wellbore.survey}
+    return {name: path.absolute() for name, path in files.items() if path is not None}
 
 
 def case_of(folder: Path, about: Mapping[str, Any]) -> Case:

@@ -15,8 +15,9 @@ from fctd.case.load import Case, load_case, parse_override
 from fctd.case.text import printable, printable_lines
 from fctd.case.units import Dimension, typed
 from fctd.results.notes import Note
-from fctd.results.tables import own_files, table_files
+from fctd.results.tables import own_files
 from fctd.results.unit_systems import System, reworded
+from fctd.store.tables import table_files
 from fctd.store.whole_file import check_file
 from fctd.store.whole_folder import repair
 

@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
 from fctd.mechanics.compile_cache import hash_of_sources
-from fctd.results.tables import versions
 from fctd.store.lock import NAME as LOCK
 from fctd.store.lock import FolderLock, HeldError
+from fctd.store.origin import changes, versions, versions_alone
 from fctd.store.parquet import read_frame, read_table
 from fctd.store.whole_file import left_by_dead, whole_file
 from fctd.sweep.template import Template
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 
 ABOUT, SAMPLES, ROWS = "sweep.json", "samples.parquet", "rows"
 OURS: Final = (ABOUT, SAMPLES, ROWS, LOCK)
-# Packages whose versions all rows of a dataset share.
-SAME: Final = ("fctd", "python", "numpy", "numba")
 _PART = "part-{:05d}.parquet"
 
 
@@ -143,18 +141,10 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
         if found.about.get("identity") != identity:
             expected = "another folder, or that of the same sweep (this one has another sweep file, case or survey)"
             raise InputError(expected, key="--out", value=folder)
-        now = versions()
-        other = [
-            f"{name} {found.about['versions'].get(name)}"
-            for name in SAME
-            if found.about["versions"].get(name) != now[name]
-        ]
-        if found.about.get("sources") != hash_of_sources():
-            other.append(f"other sources of fctd (commit {found.about['versions'].get('commit', 'unknown')})")
+        before = versions_alone(found.about["versions"], found.about.get("sources", ""))
+        other = "; ".join(changes(before, versions_alone(versions(), hash_of_sources())))
         if other:
-            raise InputError(
-                f"another folder: its rows were computed with {', '.join(other)}", key="--out", value=folder
-            )
+            raise InputError(f"another folder: since its rows were computed, {other}", key="--out", value=folder)
         for place in (folder, folder / ROWS):
             for left, _ in left_by_dead(place, r"\.(?:part-\d+|samples|sweep)-PID\.(?:parquet|json)"):
                 left.unlink(missing_ok=True)
