@@ -283,7 +283,7 @@ def _kept_on_the_way_out(kept: KeptRows | None, target: Path | None, total: int)
         limit = isinstance(stop, LimitReached)
         if kept is not None and target is not None:
             if limit or kept.kept:
-                kept.write(total)
+                kept.write_new(total)
             say_how_to_go_on(target)
         if not limit:
             raise

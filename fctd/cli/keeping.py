@@ -19,11 +19,10 @@ from fctd.cli.options import messages, read_quantity
 from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.store.limits import Limits
 from fctd.store.origin import changes, origin_of
-from fctd.store.run_folder import RunFolder, about_of, numbered, progress_of, run_path, taken, writer_of
+from fctd.store.run_folder import RunFolder, about_of, chunks_of, progress_of, run_path, taken, writer_of
 
 # Longest time between two checkpoints of a run, and between two chunks of a chart [s].
 EVERY_RUN, EVERY_CHART = 60.0, 5.0
-KEPT_FILES = ("checkpoint.npz", "rows.jsonl")
 
 OptionalCase = Annotated[
     Path | None, typer.Argument(metavar="CASE", help="Case file (TOML); none with --resume.", show_default=False)
@@ -130,7 +129,7 @@ def kept_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder]
 
 def has_kept(target: Path) -> bool:
     """Whether there is something to go on with."""
-    return any(numbered(run_path(target), kind) for kind in KEPT_FILES)
+    return bool(chunks_of(run_path(target)).files)
 
 
 def refuse_unfinished(target: Path, key: str) -> None:

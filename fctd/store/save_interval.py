@@ -1,11 +1,13 @@
-"""How often a computation is kept on disk: as often as wanted, within a small share of its time."""
+"""How often a computation is saved on disk: as often as wanted, within a small share of its time."""
 
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
 
-# Of the time of a computation, at most this share goes into keeping it.
+from fctd.store.facts import Facts
+
+# Of the time of a computation, at most this share goes into saving it.
 SHARE = 0.01
 # The next time is expected to take so many times as long as the last one, since there may be more to write and the disk
 # may be busier; the first time, so long [s].
@@ -33,9 +35,9 @@ class Clocks(NamedTuple):
 
 
 class SaveInterval:
-    """When a computation is kept, from now on.
+    """When a computation is saved, from now on.
 
-    every : least time between two times [s].  spent : that keeping took so far.  By both clocks, keeping takes at most
+    every : least time between two times [s].  spent : that saving took so far.  By both clocks, saving takes at most
     ``SHARE`` of the time: on a busy machine that of the processor runs out first, with a slow disk that on the wall.
     """
 
@@ -45,16 +47,23 @@ class SaveInterval:
         self._last, self._expected = self._began.wall, Clocks(FIRST, FIRST)
 
     @property
-    def took(self) -> float:
-        """Time on the wall so far [s]."""
-        return Clocks.now().wall - self._began.wall
+    def passed(self) -> Clocks:
+        """The time of the computation so far."""
+        return Clocks.now().since(self._began)
+
+    def facts(self) -> Facts:
+        """The times so far, which another process goes on to count."""
+        return {"passed": self.passed, "spent": self.spent}
+
+    def restore(self, facts: Facts) -> None:
+        """Count on from the times of the process before."""
+        self._began, self.spent = Clocks.now().since(Clocks(*facts["passed"])), Clocks(*facts["spent"])
 
     def due(self) -> bool:
-        """Whether it is time to keep the computation."""
-        now = Clocks.now()
-        if now.wall - self._last < self.every:
+        """Whether it is time to save the computation."""
+        if Clocks.now().wall - self._last < self.every:
             return False
-        passed, then = now.since(self._began), self.spent.plus(self._expected)
+        passed, then = self.passed, self.spent.plus(self._expected)
         return then.wall <= SHARE * passed.wall and then.own <= SHARE * passed.own
 
     @contextmanager
@@ -67,8 +76,8 @@ class SaveInterval:
             self.spent = self.spent.plus(Clocks.now().since(before))
 
     @contextmanager
-    def keeping(self) -> Iterator[None]:
-        """The same where the computation is kept, which is due again later."""
+    def saving(self) -> Iterator[None]:
+        """The same where the computation is saved, which is due again later."""
         before = self.spent
         with self.reporting():
             yield

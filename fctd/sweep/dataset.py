@@ -20,6 +20,7 @@ from fctd.case.errors import InputError
 from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.store.lock import NAME as LOCK
 from fctd.store.lock import FolderLock, HeldError
+from fctd.store.log import Log
 from fctd.store.origin import changes, versions, versions_alone
 from fctd.store.parquet import read_frame, read_table
 from fctd.store.whole_file import left_by_dead, whole_file
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 
 ABOUT, SAMPLES, ROWS = "sweep.json", "samples.parquet", "rows"
 OURS: Final = (ABOUT, SAMPLES, ROWS, LOCK)
-_PART = "part-{:05d}.parquet"
 
 
 class Dataset:
@@ -39,16 +39,13 @@ class Dataset:
 
     def __init__(self, folder: Path, about: dict[str, Any], samples: pd.DataFrame) -> None:
         self.folder, self.about, self.samples = folder, about, samples
-        self.done: set[int] = set()
-        self._parts = 0
-        for path in self.parts:
-            self.done.update(_samples_in(path))
-            self._parts = max(self._parts, int(path.stem.partition("-")[2]) + 1)
+        self._log = Log(folder / ROWS, "part-", ".parquet", digits=5)
+        self.done = {number for path in self.parts for number in _samples_in(path)}
 
     @property
     def parts(self) -> list[Path]:
         """The files of rows."""
-        return sorted((self.folder / ROWS).glob("part-*.parquet"))
+        return list(self._log.files.values())
 
     @property
     def missing(self) -> list[int]:
@@ -71,12 +68,9 @@ class Dataset:
         columns = {"sample": table["sample"]} | {str(name): pa.array(values[name]) for name in values.columns}
         columns |= {name: table[name] for name in table.column_names if name not in columns}
         whole = pa.table(columns).replace_schema_metadata({"samples": json.dumps(ranges(has))})
-        path = self.folder / ROWS / _PART.format(self._parts)
-        with whole_file(path) as scratch, scratch.open("wb") as sink:
+        path = self._log.path(self._log.following)
+        with whole_file(path, lasting=True) as scratch, scratch.open("wb") as sink:
             pq.write_table(whole, sink, compression="zstd")
-            sink.flush()
-            os.fsync(sink.fileno())
-        self._parts += 1
         self.done.update(has)
         return path
 
@@ -160,7 +154,7 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
         "sources": hash_of_sources(),
     }
     (folder / ROWS).mkdir(parents=True, exist_ok=True)
-    with whole_file(folder / SAMPLES) as scratch, scratch.open("wb") as sink:
+    with whole_file(folder / SAMPLES, lasting=True) as scratch, scratch.open("wb") as sink:
         samples.to_parquet(sink, index=False)
     _write_about(folder, about)  # last: it says that the folder is a dataset
     return Dataset(folder, about, samples)
@@ -214,5 +208,5 @@ def _samples_in(path: Path) -> Iterator[int]:
 
 
 def _write_about(folder: Path, about: dict[str, Any]) -> None:
-    with whole_file(folder / ABOUT) as scratch:
+    with whole_file(folder / ABOUT, lasting=True) as scratch:
         scratch.write_text(json.dumps(about, indent=1), encoding="utf-8")

@@ -12,7 +12,7 @@ import pytest
 from fctd import open_result
 from fctd.cli import chart, main, simulate
 from fctd.cli.keeping import read_bytes
-from fctd.store import limits, run_folder, save_interval
+from fctd.store import limits, save_interval, whole_file
 from fctd.store.lock import FolderLock
 from fctd.store.run_folder import RunFolder, run_path
 from tests.cli.test_main import CASE, run
@@ -267,16 +267,15 @@ def test_a_chart_that_reaches_its_limit(monkeypatch: pytest.MonkeyPatch, capsys:
 def test_a_full_disk_ends_a_chart_with_what_it_has(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    real, writes = run_folder.open_file, []
+    real = whole_file.open_file
 
-    def full(path: Path) -> object:
-        writes.append(path)
-        if path.name == ".3-rows.jsonl":
+    def full(path: Path, mode: int) -> object:
+        if path.name.startswith(".3-chunk-"):
             raise OSError(28, "No space left on device")
-        return real(path)
+        return real(path, mode)
 
     with monkeypatch.context() as patched:
-        patched.setattr(run_folder, "open_file", full)
+        patched.setattr(whole_file, "open_file", full)
         assert run(monkeypatch, *CHART, "--quiet", "--checkpoint-every", "0 s") == 2
     assert "No space left on device): make room there, and go on with --resume from 4 rows" in capsys.readouterr().err
     assert run(monkeypatch, "chart", "--resume", "chart.csv", "--quiet") == 0

@@ -1,11 +1,15 @@
 """What a machine has: processors, time and memory, and what is said where they are spent."""
 
+import shutil
 import sys
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from fctd.case.errors import InputError
 from fctd.store import limits
-from fctd.store.limits import LimitReached, Limits, cores, largest_memory
+from fctd.store.limits import LimitReached, Limits, check_disk, cores, largest_memory
 
 
 def test_the_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -29,3 +33,11 @@ def test_the_memory_limit() -> None:
 
 def test_there_is_a_processor() -> None:
     assert cores() >= 1
+
+
+def test_a_disk_that_is_too_small_is_refused_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=1e8))
+    check_disk(tmp_path / "not" / "yet", 0.9e8, "--out")
+    with pytest.raises(InputError, match=r"150 MB free \(this one has 100 MB\)") as refused:
+        check_disk(tmp_path / "not" / "yet", 1.5e8, "--out")
+    assert refused.value.key == "--out"

@@ -22,6 +22,7 @@ from pyarrow import parquet
 from pydantic import TypeAdapter
 
 from fctd.store.parquet import read_frame
+from fctd.store.whole_file import replaced
 from references.timing.stopwatch import cpu_name
 from validation.harness.fingerprint import Inputs
 from validation.harness.study import ROOT, Check
@@ -144,9 +145,8 @@ def judge_again(record: Record, recorded: Mapping[str, str], results: Path) -> R
     if checks == record.checks:
         return record
     judged_again = replace(record, checks=checks)
-    scratch = results / record.study / ".verdict.json"
-    _write_verdict(judged_again, scratch)
-    scratch.replace(scratch.with_name("verdict.json"))
+    with replaced(results / record.study / "verdict.json") as scratch:
+        _write_verdict(judged_again, scratch)
     return judged_again
 
 

@@ -21,7 +21,7 @@ from fctd.cli.main import app, run
 from fctd.results.tables import TABLES, open_result
 from fctd.store import save_interval
 from fctd.store.parquet import read_frame
-from fctd.store.run_folder import PROGRESS, about_of, numbered, run_path
+from fctd.store.run_folder import PROGRESS, about_of, chunks_of, run_path
 from references.__main__ import app as references
 
 # Processes for each kill, after which a command counts as one that ends before it can be killed.
@@ -318,7 +318,7 @@ def _identity(result: Path) -> str:
 
 
 def _chunks(result: Path) -> int:
-    return max((len(numbered(run_path(result), kind)) for kind in ("history.parquet", "rows.jsonl")), default=0)
+    return len(chunks_of(run_path(result)).files)
 
 
 def tables_of(result: Path) -> dict[str, bytes]:
