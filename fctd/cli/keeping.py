@@ -1,6 +1,5 @@
 """How ``fctd simulate`` and ``fctd chart`` keep what they compute, and go on with it: options, refusals, limits."""
 
-import os
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -19,7 +18,7 @@ from fctd.cli.options import messages, read_quantity
 from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.store.limits import Limits
 from fctd.store.origin import changes, origin_of
-from fctd.store.run_folder import RunFolder, about_of, chunks_of, progress_of, run_path, taken, writer_of
+from fctd.store.run_folder import RunFolder, about_of, chunks_of, progress_of, run_path
 
 # Longest time between two checkpoints of a run, and between two chunks of a chart [s].
 EVERY_RUN, EVERY_CHART = 60.0, 5.0
@@ -115,12 +114,15 @@ def kept_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder]
     Raises InputError where another process computes the same result, and where there is an unfinished run, unless it
     is dropped by ``restart``.
     """
-    if not restart:
-        refuse_unfinished(target, key)
     folder = RunFolder.take(target, key)
     try:
-        if not restart:
-            refuse_unfinished(target, key)
+        about = None if restart else about_of(target)
+        if about is not None and has_kept(target):
+            expected = (
+                f"a result without an unfinished run ({how_far(target)}): `{way_on(target, about)}` goes on with it, "
+                "--restart drops it and begins anew"
+            )
+            raise InputError(expected, key=key, value=target)
         folder.clear()
         yield folder
     finally:
@@ -130,20 +132,6 @@ def kept_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder]
 def has_kept(target: Path) -> bool:
     """Whether there is something to go on with."""
     return bool(chunks_of(run_path(target)).files)
-
-
-def refuse_unfinished(target: Path, key: str) -> None:
-    """Raise InputError where a process computes a result, or, with both ways out, where its run has not ended."""
-    writer, about = writer_of(target), about_of(target)
-    if writer is not None and writer.process != os.getpid():
-        raise taken(writer, target, key)
-    if about is None or not has_kept(target):
-        return
-    expected = (
-        f"a result without an unfinished run ({how_far(target)}): `{way_on(target, about)}` goes on with it, --restart "
-        "drops it and begins anew"
-    )
-    raise InputError(expected, key=key, value=target)
 
 
 def how_far(target: Path) -> str:

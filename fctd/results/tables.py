@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import time
-from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -151,25 +150,22 @@ def open_result(folder: str | os.PathLike[str], pause: float = PAUSE) -> Simulat
 
 
 def _read(folder: Path) -> SimulationResult:
+    if not folder.is_dir():
+        reason = "this is a file" if folder.exists() else "there is none"
+        raise InputError(f"a folder that fctd simulate wrote ({reason})", value=folder)
     tables, origins = {}, {}
-    with ExitStack() as stack:
+    for name, file in zip(TABLES, result_files(csv=False), strict=True):
         try:
-            # The folder is opened once: another process may give its name to a new folder between two tables.
-            place = os.open(folder, os.O_RDONLY)
-        except OSError as error:
-            raise InputError(f"a folder that fctd simulate wrote ({error.strerror})", value=folder) from error
-        stack.callback(os.close, place)
-        for name, file in zip(TABLES, result_files(csv=False), strict=True):
-            try:
-                check_regular(folder / file)
-                with open(file, "rb", opener=lambda path, flags: os.open(path, flags, dir_fd=place)) as source:
-                    table = read_table(source)
-                tables[name], origins[name] = table.to_pandas(use_threads=False), table.schema.metadata or {}
-            except InputError as error:
-                raise error.in_file(folder / file) from None
-            except (OSError, ValueError) as error:
-                expected = f"a table that fctd simulate wrote ({getattr(error, 'strerror', None) or error})"
-                raise InputError(expected, value=folder / file) from error
+            check_regular(folder / file)
+            with (folder / file).open("rb") as source:
+                table = read_table(source)
+            tables[name], origins[name] = table.to_pandas(use_threads=False), table.schema.metadata or {}
+        except InputError as error:
+            raise error.in_file(folder / file) from None
+        except (OSError, ValueError) as error:
+            expected = f"a table that fctd simulate wrote ({getattr(error, 'strerror', None) or error})"
+            raise InputError(expected, value=folder / file) from error
+    # Another process may have given the folder's name to a new one between two tables.
     runs = {name: origin.get(b"identity", b"").decode() for name, origin in origins.items()}
     if len(set(runs.values())) > 1:
         found = ", ".join(f"{name}: {identity[:8] or 'none'}" for name, identity in runs.items())

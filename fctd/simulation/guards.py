@@ -71,11 +71,9 @@ class Guards(Restorable):
         listen(run.S, run.top.copy(), n, run.pipe.weight)
 
     def facts(self) -> Facts:
-        """See ``Restorable.facts``."""
         return super().facts() | {"notes": as_metadata(self.notes.values())}
 
     def restore(self, facts: Facts) -> None:
-        """See ``Restorable.restore``."""
         super().restore(facts)
         self.notes = {note.code: note for note in from_metadata(facts["notes"])}
 

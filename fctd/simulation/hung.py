@@ -56,6 +56,9 @@ class Hung(UpperEnd):
     speed_ratio: float = 1.0
     begun: int = 0
 
+    def __post_init__(self) -> None:
+        self.longest = self.tally.whole
+
     def start(self, S: Array, top: Array, bit_depth: float, hole: Wellbore) -> String:
         """Write the string with its bit at a depth [m] into fresh buffers; returns it unstretched, as it is laid."""
         self.write(S, self.stands)
@@ -83,44 +86,25 @@ class Hung(UpperEnd):
             found[whole.component[k], whole.length[k]] = S
         return list(found.values())
 
-    @property
-    def longest(self) -> String:
-        """See ``UpperEnd.longest``."""
-        return self.tally.whole
-
-    def begin(self, run: MovingString) -> None:
-        """See ``UpperEnd.begin``."""
-        self.start_depth = self.bit_depth(run)
-
     def bit_depth(self, run: MovingString) -> float:
-        """See ``UpperEnd.bit_depth``."""
         height = float(run.top[topdrive.BLOCK_HEIGHT])
         return float(self.tally.reach[self.stands]) - height / (1 + self.strain)
 
-    def string(self, run: MovingString) -> String:
-        """See ``UpperEnd.string``."""
+    def laid_out(self, run: MovingString) -> String:
         return self.tally.string(self.stands, self.bit_depth(run))
 
-    def laid_out(self, run: MovingString) -> String:
-        """See ``UpperEnd.laid_out``."""
-        return self.string(run)
-
     def at_depth(self, bit_depth: float, run: MovingString, probe: Array) -> String:
-        """See ``UpperEnd.at_depth``."""
         stands = self.tally.stands_for(bit_depth)
         self.write(probe, stands)
         return self.tally.string(stands, bit_depth)
 
     def direction(self, kind: str) -> int:
-        """See ``UpperEnd.direction``."""
         return self.last_direction
 
     def columns(self, run: MovingString) -> dict[str, Any]:
-        """See ``UpperEnd.columns``."""
         return {"block_position_m": float(run.top[topdrive.BLOCK_HEIGHT]), "in_slips": self.in_slips}
 
     def moved(self, run: MovingString, motion: Motion) -> Motion:
-        """See ``UpperEnd.moved``; the strokes that begin now begin before."""
         while self.begun < len(self.strokes) and self.strokes[self.begun].start <= run.time + 0.5 * run.step:
             self.begun += 1
             self._begin(run, self.strokes[self.begun - 1])
@@ -129,14 +113,12 @@ class Hung(UpperEnd):
         return motion._replace(feed_from=self.speed_ratio * motion.feed_from, feed_to=self.speed_ratio * motion.feed_to)
 
     def drills_on(self, run: MovingString, motion: Motion) -> bool | None:
-        """See ``UpperEnd.drills_on``."""
         stroke = self.strokes[self.begun - 1] if self.begun else None
         if stroke is None or not stroke.by_weight or not motion.bit_from == motion.bit_to == 1:
             return None
         return bool(run.top[topdrive.BLOCK_HEIGHT] > stroke.target * (1 + self.strain))
 
     def delay(self, by: float) -> None:
-        """See ``UpperEnd.delay``."""
         later = [stroke._replace(start=stroke.start + by) for stroke in self.strokes[self.begun :]]
         self.strokes = self.strokes[: self.begun] + later
 

@@ -1,8 +1,8 @@
 """A run that is kept while it lasts, in its folder: chunks of records, checkpoints, and how far it is."""
 
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
@@ -37,24 +37,24 @@ class KeptRun(Saver):
         self._checkpoints, self._cursor = checkpoints_of(folder.path), Cursor()
 
     def begin(self, simulation: Simulation) -> None:
-        """Put a run into the state of the last checkpoint; InputError where the disk is too small for a new one."""
+        """Put a run into the state of the last checkpoint that can be read.
+
+        Raises InputError where it does not fit, and where the disk is too small for a new run.
+        """
         warm_up()
-        there = _complete(self.folder.path)
-        for number in there:
-            try:
-                self.interval.restore(_restore(self.folder.path, simulation, number)["interval"])
-                self.number, self.kept = number, simulation.run.time
-                break
-            except Exception as error:  # the checkpoint before may do
-                self.tell(f"checkpoint {number} cannot be used ({getattr(error, 'strerror', None) or error})")
-        for kind in (self.chunks, self._checkpoints):  # of those that a process began to write or that cannot be read
-            kind.drop_after(self.number)
-        if there:
-            self._cursor = Cursor.at_end(simulation.recorder) if self.number else Cursor()
-            self.tell(f"the run goes on from {self.kept:.4g} s" if self.number else "the run begins anew")
+        folder = self.folder.path
+        if found := _last(folder, self.tell):
+            self.number, checkpoint, chunks = found
+            _restore(simulation, checkpoint, chunks, folder)
+            self.interval.restore(checkpoint["interval"])
+            self.kept, self._cursor = simulation.run.time, Cursor.at_end(simulation.recorder)
+            self.tell(f"the run goes on from {self.kept:.4g} s")
+        elif self.chunks.files:
+            self.tell("the run begins anew")
         else:
-            needed = bytes_needed(simulation.run, len(simulation.intervals), self.csv)
-            check_disk(self.folder.path, needed, self.key)
+            check_disk(folder, bytes_needed(simulation.run, len(simulation.intervals), self.csv), self.key)
+        for files in (self.chunks, self._checkpoints):  # that a process began to write, or that cannot be read
+            files.drop_after(self.number)
         simulation.saving = self.interval.spent
 
     def keep(self, simulation: Simulation, *, now: bool = False) -> None:
@@ -80,36 +80,38 @@ def checkpoints_of(folder: Path) -> Log:
     return Log(folder, tail="-checkpoint.zip")
 
 
-def _complete(folder: Path) -> list[int]:
-    """Numbers of the checkpoints whose chunk has been written too, the last one first."""
-    chunks = chunks_of(folder).files
-    return [number for number in reversed(checkpoints_of(folder).files) if number in chunks]
-
-
 def kept_so_far(folder: Path, case: Case) -> SimulationResult:
     """What a run that has not ended has kept in its folder, to which another process may be writing.
 
     Raises InputError where nothing is kept.
     """
-    simulation = Simulation(case)
     for _ in range(ATTEMPTS):
-        for number in _complete(folder):
-            with suppress(Exception):  # damaged, or removed by the run meanwhile
-                _restore(folder, simulation, number)
-                return simulation.result()
+        if found := _last(folder):
+            simulation = Simulation(case)
+            _restore(simulation, *found[1:], folder)
+            return simulation.result()
     raise InputError("a run of which something has been kept (fctd status says how far it is)", value=folder)
 
 
-def _restore(folder: Path, simulation: Simulation, number: int) -> Facts:
-    """Put a run into the state of a checkpoint, with its records; returns the facts of the checkpoint.
+def _last(folder: Path, tell: Callable[[str], None] = lambda _: None) -> tuple[int, Facts, list[dict[str, Any]]] | None:
+    """The last checkpoint that can be read: its number, itself, and the tables of all chunks up to it."""
+    checkpoints, chunks = checkpoints_of(folder), chunks_of(folder)
+    for number in sorted(checkpoints.files.keys() & chunks.files.keys(), reverse=True):
+        try:
+            checkpoint = facts.unpack(log.read(checkpoints.path(number)))
+            return number, checkpoint, [read_chunk(log.read(chunks.path(k))) for k in range(1, number + 1)]
+        except Exception as error:  # what is damaged raises nearly anything; the checkpoint before may do
+            tell(f"checkpoint {number} cannot be used ({getattr(error, 'strerror', None) or error})")
+    return None
 
-    Raises OSError, ValueError or LookupError where a file is missing or damaged, or belongs to another run, which stays
-    as it was.
-    """
-    checkpoint = facts.unpack(log.read(checkpoints_of(folder).path(number)))
-    chunks = [read_chunk(log.read(chunks_of(folder).path(k))) for k in range(1, number + 1)]
-    simulation.check_facts(checkpoint)
-    simulation.restore(checkpoint)  # once all has been read
-    for chunk in chunks:
-        add_chunk(simulation.recorder, chunk)
-    return checkpoint
+
+def _restore(simulation: Simulation, checkpoint: Facts, chunks: list[dict[str, Any]], folder: Path) -> None:
+    """Put a run into the state of a checkpoint, with its records; InputError where it does not fit."""
+    try:
+        simulation.restore(checkpoint)
+        for chunk in chunks:
+            add_chunk(simulation.recorder, chunk)
+    except (LookupError, ValueError) as error:
+        other = f"no {error}" if isinstance(error, LookupError) else error
+        expected = f"a run of this version of fctd (its checkpoint has {other}): go on with that one, or --restart"
+        raise InputError(expected, value=folder) from error

@@ -37,11 +37,9 @@ class Run(MovingString, Restorable):
         return self.upper_end.bit_depth(self)
 
     def advance(self, motion: Motion, duration: float, laws: state.Laws | None = None) -> None:
-        """See ``MovingString.advance``; the upper end moves as it can."""
         super().advance(motion if motion is STILL else self.upper_end.moved(self, motion), duration, laws)
 
     def refresh(self) -> None:
-        """See ``MovingString.refresh``."""
         super().refresh()
         self.string = self.upper_end.string(self)
 
@@ -69,17 +67,12 @@ class Run(MovingString, Restorable):
         used = np.flatnonzero((rows.view(np.int64) != fresh.view(np.int64)).any(axis=0))
         return super().facts() | {"step": self.step, "S": rows[:, : used.max(initial=-1) + 1]}
 
-    def check_facts(self, facts: Facts) -> None:
-        """See ``Restorable.check_facts``."""
-        super().check_facts(facts)
-        sizes = len(facts["S"]), facts["top"].shape, facts["owner"].shape
-        if sizes != (state.ROWS, self.top.shape, self.owner.shape) or facts["step"] != self.step:
-            raise ValueError("the checkpoint belongs to another string or step")
-
     def restore(self, facts: Facts) -> None:
-        """See ``Restorable.restore``."""
-        super().restore(facts)
         S = facts["S"]
+        sizes = len(S), facts["top"].shape, facts["owner"].shape
+        if sizes != (state.ROWS, self.top.shape, self.owner.shape) or facts["step"] != self.step:
+            raise ValueError("another string or step")
+        super().restore(facts)
         self.S[:] = state.new_state(1)
         self.S.reshape(state.ROWS, state.STRIDE)[:, : S.shape[1]] = S
         self.string = self.upper_end.string(self)

@@ -28,7 +28,6 @@ from fctd.simulation.run import Run
 from fctd.simulation.settling import Settling, settle, start_from_rest
 from fctd.store.facts import Facts, Restorable
 from fctd.store.limits import LimitReached
-from fctd.store.save_interval import Clocks
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
@@ -126,7 +125,7 @@ class Simulation(Iterator[Record], Restorable):
         self.late = 0.0  # by which a stroke of an autodriller is longer than planned [s]
         self.shifts: list[Shift] = []  # by an autodriller so far
         self.wall_s = 0.0  # wall-clock time since the start
-        self.saving = Clocks(0.0, 0.0)  # time that a keeper has spent beside it
+        self.saving = np.zeros(2)  # time that a keeper has spent beside it, by clock and processor [s]
         self.settling_residual = float("nan")
         self.stepper: Stepper = self.run
         self._engine, self._settling = engine, settling
@@ -146,11 +145,6 @@ class Simulation(Iterator[Record], Restorable):
     def facts(self) -> Facts:
         """See ``Restorable.facts``; of a run that has started."""
         return super().facts() | {"shifts": self.shifts, "recorder": self.recorder.facts()}
-
-    def check_facts(self, facts: Facts) -> None:
-        """See ``Restorable.check_facts``."""
-        super().check_facts(facts)
-        Recorder(self.run).check_facts(facts["recorder"])
 
     def restore(self, facts: Facts) -> None:
         """Start where another process stopped, without its records."""
@@ -284,7 +278,7 @@ class Simulation(Iterator[Record], Restorable):
             return Recorder(self.run).result(self.status, self.message, 0.0, float("nan"))
         message = f"at {self.run.time:.4g} s" if self.status == RunStatus.INTERRUPTED else self.message
         result = self._recorder.result(self.status, message, self.wall_s, self.settling_residual)
-        result.run["checkpoints_s"], result.run["checkpoints_wall_s"] = self.saving.own, self.saving.wall
+        result.run["checkpoints_wall_s"], result.run["checkpoints_s"] = map(float, self.saving)
         table = operations_table(
             result.history, self._recorder.start_time, self.run.upper_end.start_depth, spans_of(self.run, self.phases)
         )

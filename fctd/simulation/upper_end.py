@@ -21,38 +21,35 @@ Array = NDArray[np.float64]
 class UpperEnd(Restorable, ABC):
     """What holds the upper end of a string that moves, and what of the string is there.
 
+    longest : string of the run, which has the slowest waves, as far as its segments are known.
     start_depth : of the bit where the records begin [m].  in_slips : whether the string hangs in them.
     """
 
     in_derrick: ClassVar[bool]
     """Whether the string reaches above the rotary table."""
+    longest: String
     start_depth: float
     in_slips = False
 
-    @property
-    @abstractmethod
-    def longest(self) -> String:
-        """The longest string of the run, as far as its segments are known: it has the slowest waves."""
-
-    @abstractmethod
     def begin(self, run: MovingString) -> None:
         """The records of a run begin now."""
+        self.start_depth = self.bit_depth(run)
 
     @abstractmethod
     def bit_depth(self, run: MovingString) -> float:
         """Unstretched length of the string below the rotary table [m]."""
 
     @abstractmethod
-    def string(self, run: MovingString) -> String:
-        """The string whose segments the buffers of a run hold, each as long as it is there."""
-
-    @abstractmethod
     def laid_out(self, run: MovingString) -> String:
-        """The string at its present depth, with what has been fed at its top."""
+        """The string at its present depth, with what has been fed at its top or the stands added since the start."""
 
     @abstractmethod
     def at_depth(self, bit_depth: float, run: MovingString, probe: Array) -> String:
         """The string with its bit at another depth [m], whose constants are written into a state buffer."""
+
+    def string(self, run: MovingString) -> String:
+        """The string as the segments in the buffers of a run were laid out; what was fed since is no part of it."""
+        return self.laid_out(run)
 
     def moved(self, run: MovingString, motion: Motion) -> Motion:
         """The motion of the upper end in a part of the schedule that begins now."""
@@ -84,35 +81,23 @@ class Fed(UpperEnd):
     FACTS = ("start_depth", "_start_length")
 
     def __init__(self, string: String) -> None:
-        self._string, self._laid = string, float(string.length[0]) if string.long_segment else 0.0
-
-    @property
-    def longest(self) -> String:
-        """See ``UpperEnd.longest``."""
-        return self._string
+        self.longest, self._laid = string, float(string.length[0]) if string.long_segment else 0.0
 
     def begin(self, run: MovingString) -> None:
-        """See ``UpperEnd.begin``."""
         self._start_length = float(run.top[topdrive.TOP_LENGTH])
-        self.start_depth = self._string.bit_depth + (self._start_length - self._laid)
+        self.start_depth = self.longest.bit_depth + (self._start_length - self._laid)
 
     def bit_depth(self, run: MovingString) -> float:
-        """See ``UpperEnd.bit_depth``."""
         return self.start_depth + float(run.top[topdrive.TOP_LENGTH]) - self._start_length
 
-    def string(self, run: MovingString) -> String:
-        """See ``UpperEnd.string``; the top segment as it was laid out."""
-        return self._string
-
     def laid_out(self, run: MovingString) -> String:
-        """See ``UpperEnd.laid_out``."""
-        if not self._string.long_segment:
-            return self._string
-        return self._string.lengthened(float(run.top[topdrive.TOP_LENGTH]) - self._laid)
+        return self.longest.lengthened(float(run.top[topdrive.TOP_LENGTH]) - self._laid)
+
+    def string(self, run: MovingString) -> String:
+        return self.longest
 
     def at_depth(self, bit_depth: float, run: MovingString, probe: Array) -> String:
-        """See ``UpperEnd.at_depth``."""
-        string = self._string.lengthened(bit_depth - self._string.bit_depth)
+        string = self.longest.lengthened(bit_depth - self.longest.bit_depth)
         if string.long_segment:
             topdrive.put_long_segment(probe, string.length[0], run.pipe)
         return string

@@ -25,15 +25,11 @@ class Restorable:
         values = {name: getattr(self, name) for name in self.FACTS}
         return {name: value.facts() if isinstance(value, Restorable) else value for name, value in values.items()}
 
-    def check_facts(self, facts: Facts) -> None:
-        """Raise LookupError or ValueError for facts that ``restore`` cannot take; nothing changes."""
-        for name in self.FACTS:
-            part, found = getattr(self, name), facts[name]
-            if isinstance(part, Restorable):
-                part.check_facts(found)
-
     def restore(self, facts: Facts) -> None:
-        """Put the values back that ``facts`` has given, perhaps in another process."""
+        """Put the values back that ``facts`` has given, perhaps in another process.
+
+        Raises LookupError or ValueError where they do not fit; some are then put back and some are not.
+        """
         for name in self.FACTS:
             part, found = getattr(self, name), facts[name]
             if isinstance(part, Restorable):

@@ -64,7 +64,8 @@ class RunFolder:
                 with suppress(FileNotFoundError):  # another process has just removed the folder
                     return cls(target, FolderLock.take(path))
         except HeldError as held:
-            raise taken(held.holder, target, key) from None
+            here = f"no other run writes to (process {held.holder.process} does, since {clock(held.holder.since)})"
+            raise InputError(f"a place that {here}: wait for it, or name another", key=key, value=target) from None
         except OSError as error:
             expected = f"a place beside which the run can be kept ({error.strerror or error})"
             raise InputError(expected, key=key, value=target) from error
@@ -94,12 +95,6 @@ class RunFolder:
                 self.clear()
                 shutil.rmtree(self.path)
         self._lock.release()
-
-
-def taken(writer: Holder, target: Path, key: str) -> InputError:
-    """The refusal of a result that another process computes."""
-    here = f"no other run writes to (process {writer.process} does, since {clock(writer.since)})"
-    return InputError(f"a place that {here}: wait for it, or name another", key=key, value=target)
 
 
 def run_path(target: Path) -> Path:

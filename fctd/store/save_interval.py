@@ -3,9 +3,11 @@
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import NamedTuple
 
-from fctd.store.facts import Facts
+import numpy as np
+from numpy.typing import NDArray
+
+from fctd.store.facts import Restorable
 
 # Of the time of a computation, at most this share goes into saving it.
 SHARE = 0.01
@@ -14,66 +16,49 @@ SHARE = 0.01
 DEARER, FIRST = 2.0, 0.02
 
 
-class Clocks(NamedTuple):
-    """Times [s]: wall, which runs on while a process waits for the disk; own, that of the processor spent on it."""
-
-    wall: float
-    own: float
-
-    @classmethod
-    def now(cls) -> "Clocks":
-        """Both clocks, from moments of their own."""
-        return cls(time.monotonic(), time.process_time())
-
-    def since(self, before: "Clocks") -> "Clocks":
-        """The times from one moment to this one."""
-        return Clocks(self.wall - before.wall, self.own - before.own)
-
-    def plus(self, more: "Clocks") -> "Clocks":
-        """The sums."""
-        return Clocks(self.wall + more.wall, self.own + more.own)
+def clocks() -> NDArray[np.float64]:
+    """Times (2,) [s]: on the wall, which runs on while a process waits for the disk, and of the processor."""
+    return np.array([time.monotonic(), time.process_time()])
 
 
-class SaveInterval:
+class SaveInterval(Restorable):
     """When a computation is saved, from now on.
 
-    every : least time between two times [s].  spent : that saving took so far.  By both clocks, saving takes at most
-    ``SHARE`` of the time: on a busy machine that of the processor runs out first, with a slow disk that on the wall.
+    every : least time between two times [s].  passed, spent (2,) : time of the computation so far, and that of saving
+    it.  By both clocks, saving takes at most ``SHARE`` of the time: on a busy machine that of the processor runs out
+    first, with a slow disk that on the wall.  A process that goes on with a computation counts on.
     """
 
+    FACTS = ("passed", "spent")
+
     def __init__(self, every: float) -> None:
-        self.every, self.spent = every, Clocks(0.0, 0.0)
-        self._began = Clocks.now()
-        self._last, self._expected = self._began.wall, Clocks(FIRST, FIRST)
+        self.every, self.spent = every, np.zeros(2)
+        self.passed = np.zeros(2)
+        self._last, self._expected = clocks()[0], np.full(2, FIRST)
 
     @property
-    def passed(self) -> Clocks:
-        """The time of the computation so far."""
-        return Clocks.now().since(self._began)
+    def passed(self) -> NDArray[np.float64]:
+        """Time of the computation so far."""
+        return clocks() - self._began
 
-    def facts(self) -> Facts:
-        """The times so far, which another process goes on to count."""
-        return {"passed": self.passed, "spent": self.spent}
-
-    def restore(self, facts: Facts) -> None:
-        """Count on from the times of the process before."""
-        self._began, self.spent = Clocks.now().since(Clocks(*facts["passed"])), Clocks(*facts["spent"])
+    @passed.setter
+    def passed(self, passed: NDArray[np.float64]) -> None:
+        self._began = clocks() - passed
 
     def due(self) -> bool:
         """Whether it is time to save the computation."""
-        if Clocks.now().wall - self._last < self.every:
+        if clocks()[0] - self._last < self.every:
             return False
-        passed, then = self.passed, self.spent.plus(self._expected)
-        return then.wall <= SHARE * passed.wall and then.own <= SHARE * passed.own
+        return bool((self.spent + self._expected <= SHARE * self.passed).all())
 
     @contextmanager
     def reporting(self) -> Iterator[None]:
         """Add the time of what is done within."""
-        before = Clocks.now()
+        before = clocks()
         try:
             yield
         finally:
-            self.spent = self.spent.plus(Clocks.now().since(before))
+            self.spent = self.spent + clocks() - before
 
     @contextmanager
     def saving(self) -> Iterator[None]:
@@ -81,5 +66,4 @@ class SaveInterval:
         before = self.spent
         with self.reporting():
             yield
-        took = self.spent.since(before)
-        self._last, self._expected = Clocks.now().wall, Clocks(DEARER * took.wall, DEARER * took.own)
+        self._last, self._expected = clocks()[0], DEARER * (self.spent - before)

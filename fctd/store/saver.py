@@ -40,5 +40,5 @@ class Saver:
         if now or time.monotonic() - self._reported >= REPORTED_EVERY:
             self._reported = time.monotonic()
             with self.interval.reporting():
-                progress = RunProgress(done, total, self.unit, self.kept, self.interval.passed.wall, time.time())
+                progress = RunProgress(done, total, self.unit, self.kept, float(self.interval.passed[0]), time.time())
                 self.folder.report(progress)

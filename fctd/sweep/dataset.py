@@ -1,7 +1,7 @@
 """The folder of a sweep: its samples, and the rows of their results in parts that are written whole or not at all.
 
 ``sweep.json`` says what was swept, ``samples.parquet`` has a row for each sample, ``rows/part-NNNNN.parquet`` the rows
-of the samples that its metadata names.  A part is written beside and renamed, so that what a killed sweep leaves is
+of some samples.  A part is written beside and renamed, so that what a killed sweep leaves is
 complete as far as it goes; only one sweep at a time works on a folder.
 """
 
@@ -23,7 +23,7 @@ from fctd.store.lock import FolderLock, HeldError
 from fctd.store.log import Log
 from fctd.store.origin import changes, versions, versions_alone
 from fctd.store.parquet import read_frame, read_table
-from fctd.store.whole_file import left_by_dead, whole_file
+from fctd.store.whole_file import whole_file
 from fctd.sweep.template import Template
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class Dataset:
     def __init__(self, folder: Path, about: dict[str, Any], samples: pd.DataFrame) -> None:
         self.folder, self.about, self.samples = folder, about, samples
         self._log = Log(folder / ROWS, "part-", ".parquet", digits=5)
-        self.done = {number for path in self.parts for number in _samples_in(path)}
+        self.done = {number for table in self._tables(["sample"]) for number in table["sample"].to_pylist()}
 
     @property
     def parts(self) -> list[Path]:
@@ -63,15 +63,13 @@ class Dataset:
         table = table.take(pa.array(np.argsort(numbers, kind="stable")))
         numbers = table["sample"].to_numpy()
         values = self.samples.drop(columns="sample").iloc[numbers]
-        has = sorted(set(numbers.tolist()))
         # The column of a key goes before one of that name in the results: "friction" has the same values in both.
         columns = {"sample": table["sample"]} | {str(name): pa.array(values[name]) for name in values.columns}
         columns |= {name: table[name] for name in table.column_names if name not in columns}
-        whole = pa.table(columns).replace_schema_metadata({"samples": json.dumps(ranges(has))})
         path = self._log.path(self._log.following)
         with whole_file(path, lasting=True) as scratch, scratch.open("wb") as sink:
-            pq.write_table(whole, sink, compression="zstd")
-        self.done.update(has)
+            pq.write_table(pa.table(columns), sink, compression="zstd")
+        self.done.update(numbers.tolist())
         return path
 
     def statuses(self) -> dict[str, int]:
@@ -139,9 +137,6 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
         other = "; ".join(changes(before, versions_alone(versions(), hash_of_sources())))
         if other:
             raise InputError(f"another folder: since its rows were computed, {other}", key="--out", value=folder)
-        for place in (folder, folder / ROWS):
-            for left, _ in left_by_dead(place, r"\.(?:part-\d+|samples|sweep)-PID\.(?:parquet|json)"):
-                left.unlink(missing_ok=True)
         return found
     about = {
         "name": template.spec.name,
@@ -182,29 +177,6 @@ def alone(folder: Path) -> Iterator[None]:
     finally:
         (folder / LOCK).unlink(missing_ok=True)
         lock.release()
-
-
-def ranges(numbers: Sequence[int]) -> list[list[int]]:
-    """Rising numbers as first and last of each run of successive ones."""
-    found: list[list[int]] = []
-    for number in numbers:
-        if found and number == found[-1][1] + 1:
-            found[-1][1] = number
-        else:
-            found.append([number, number])
-    return found
-
-
-def _samples_in(path: Path) -> Iterator[int]:
-    import pyarrow.parquet as pq
-
-    try:
-        with path.open("rb") as source:
-            metadata = pq.read_schema(source).metadata or {}
-        for first, last in json.loads(metadata[b"samples"]):
-            yield from range(first, last + 1)
-    except (OSError, ValueError, KeyError) as error:
-        raise InputError(f"a part that fctd sweep wrote ({error})", value=path) from error
 
 
 def _write_about(folder: Path, about: dict[str, Any]) -> None:

@@ -12,7 +12,7 @@ import pytest
 from fctd import open_result
 from fctd.cli import chart, main, simulate
 from fctd.cli.keeping import read_bytes
-from fctd.store import limits, save_interval, whole_file
+from fctd.store import limits, save_interval
 from fctd.store.lock import FolderLock
 from fctd.store.run_folder import RunFolder, run_path
 from tests.cli.test_main import CASE, run
@@ -262,23 +262,6 @@ def test_a_chart_that_reaches_its_limit(monkeypatch: pytest.MonkeyPatch, capsys:
     assert "stopped: the time limit of 1e-09 s is reached" in message
     assert "fctd chart --resume chart.csv" not in message  # no depth was complete
     assert not run_path(Path("chart.csv")).exists()
-
-
-def test_a_full_disk_ends_a_chart_with_what_it_has(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    real = whole_file.open_file
-
-    def full(path: Path, mode: int) -> object:
-        if path.name.startswith(".3-chunk-"):
-            raise OSError(28, "No space left on device")
-        return real(path, mode)
-
-    with monkeypatch.context() as patched:
-        patched.setattr(whole_file, "open_file", full)
-        assert run(monkeypatch, *CHART, "--quiet", "--checkpoint-every", "0 s") == 2
-    assert "No space left on device): make room there, and go on with --resume from 4 rows" in capsys.readouterr().err
-    assert run(monkeypatch, "chart", "--resume", "chart.csv", "--quiet") == 0
 
 
 def test_an_estimate_beyond_the_disk_is_refused_before(

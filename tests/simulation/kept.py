@@ -62,7 +62,6 @@ def stopped(simulation: Simulation, after: int, chunk: int = 7) -> tuple[Facts, 
 def gone_on(case: Case, facts: Facts, chunks: list[dict[str, bytes]], contact: Any = None) -> Simulation:
     """A new run in the state of a checkpoint."""
     simulation = Simulation(case, contact)
-    simulation.check_facts(facts)
     simulation.restore(facts)
     for chunk in chunks:
         add_chunk(simulation.recorder, read_chunk(chunk))

@@ -80,7 +80,7 @@ def test_a_run_goes_on_in_another_process(folder: RunFolder, tmp_path: Path) -> 
     assert said == [f"the run goes on from {at(25):.4g} s"]
     assert list(checkpoints_of(folder.path).files) == [again.number - 1, again.number]
     assert list(chunks_of(folder.path).files) == list(range(1, len(undisturbed().history) + 1))
-    assert found.run["checkpoints_s"] == again.interval.spent.own > before.interval.spent.own
+    assert found.run["checkpoints_s"] == again.interval.spent[1] > before.interval.spent[1]
 
 
 def test_a_clock_that_jumps_changes_nothing(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -172,18 +172,18 @@ def test_a_field_that_an_owner_adds_is_kept(
     assert (number, array.tolist()) == (2, [np.pi, np.pi])
 
 
-def test_a_checkpoint_without_a_fact_is_not_used(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As that of a version that had no such field: the run begins anew, from the state in which it was prepared."""
+def test_a_checkpoint_without_a_fact_is_refused(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As that of a version that had no such field: it is named, and nothing is dropped."""
     killed_after(folder, 5)
+    before = {path.name for path in folder.path.iterdir()}
     monkeypatch.setattr(Guards, "FACTS", (*Guards.FACTS, "added"))
     monkeypatch.setattr(Guards, "added", 0, raising=False)
-    said: list[str] = []
-    same(simulate(tripping(), keeper=KeptRun(folder, 1e9, tell=said.append)), undisturbed())
-    assert said == [
-        "checkpoint 5 cannot be used ('added')",
-        "checkpoint 4 cannot be used ('added')",
-        "the run begins anew",
-    ]
+    refused = r"a run of this version of fctd \(its checkpoint has no 'added'\)"
+    with pytest.raises(InputError, match=refused):
+        simulate(tripping(), keeper=KeptRun(folder, 0.0))
+    with pytest.raises(InputError, match=refused):
+        kept_so_far(folder.path, tripping())
+    assert {path.name for path in folder.path.iterdir()} == before
 
 
 def test_a_run_that_reaches_a_limit_keeps_its_records() -> None:

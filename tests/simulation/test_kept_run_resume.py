@@ -120,4 +120,4 @@ def test_a_checkpoint_of_another_string_is_refused() -> None:
     next(simulation)
     other = Simulation(make_case(BUILD, [pipe(None, 13)], [rotation(500, 3, ramp=1)]))
     with pytest.raises(ValueError, match="another string"):
-        other.check_facts(simulation.facts())
+        other.restore(simulation.facts())

@@ -20,7 +20,7 @@ def depth(k: int) -> list[dict[str, object]]:
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     now = [0.0]
     monkeypatch.setattr("time.monotonic", lambda: now[0])
-    monkeypatch.setattr(save_interval.Clocks, "now", lambda: save_interval.Clocks(now[0], now[0]))
+    monkeypatch.setattr(save_interval, "clocks", lambda: np.array([now[0], now[0]]))
     monkeypatch.setattr(save_interval, "SHARE", 1.0)
     return now
 

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from fctd.case.errors import InputError
 from fctd.store import save_interval, saver, whole_file
 from fctd.store.log import read
 from fctd.store.run_folder import RunFolder, progress_of
-from fctd.store.save_interval import Clocks
 from fctd.store.saver import Saver
 
 PARTS = {"rows.json": b"[1, 2]"}
@@ -22,7 +22,7 @@ PARTS = {"rows.json": b"[1, 2]"}
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """A clock that is moved by hand."""
     now = [0.0]
-    monkeypatch.setattr(save_interval.Clocks, "now", lambda: Clocks(now[0], now[0]))
+    monkeypatch.setattr(save_interval, "clocks", lambda: np.array([now[0], now[0]]))
     monkeypatch.setattr(saver.time, "monotonic", lambda: now[0])
     return now
 
@@ -41,7 +41,7 @@ def test_chunks_follow_each_other_and_their_time_is_spent(saving: Saver, clock: 
 
     for number in (1, 2):
         saving.write(3.0 * number, parts)
-        assert (saving.number, saving.kept, saving.interval.spent.wall) == (number, 3.0 * number, 0.25 * number)
+        assert (saving.number, saving.kept, saving.interval.spent[0]) == (number, 3.0 * number, 0.25 * number)
     assert [read(path) for path in saving.chunks.files.values()] == [PARTS, PARTS]
 
 

@@ -327,3 +327,11 @@ def test_the_new_folder_is_beside_the_old_one_until_it_is_whole(tmp_path: Path) 
         assert new.parent == tmp_path
         assert not (tmp_path / "out").exists()
     assert (tmp_path / "out").is_dir()
+
+
+def test_without_names_a_folder_is_replaced_with_all_that_is_in_it(tmp_path: Path) -> None:
+    for name in ("old", "new"):
+        with whole_folder(tmp_path / "out") as new:
+            (new / name).mkdir()
+            (new / name / "page.html").write_text(name)
+    assert [str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*.*")] == ["out/new/page.html"]
