@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import fctd
 from fctd import plots
-from fctd.results.parquet import read_frame
+from fctd.store.parquet import read_frame
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import sweep
 from fctd.sweep.spec import read_sweep

@@ -11,7 +11,7 @@ from fctd.cli.keeping import AcceptChanges, CheckpointEvery, Keeping, OptionalCa
 from fctd.cli.main import run
 from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, changes_of, screen
 from fctd.cli.simulate import Shown, simulate_file
-from fctd.results.run_folder import about_of
+from fctd.store.run_folder import about_of
 from references import contact, engines
 from references.contact import ContactMethod, build
 from references.registry import absent

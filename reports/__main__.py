@@ -3,6 +3,7 @@
 import typer
 from grimp.exceptions import SourceSyntaxError
 
+from fctd.case.errors import InputError
 from fctd.case.text import degrade_output, printable_lines
 from fctd.cli.interrupts import as_interrupts
 from validation.harness import fingerprint, runner, study
@@ -33,9 +34,8 @@ def main() -> None:
         changes = runner.changes(STUDIES, study.RESULTS, sources)
         questions = {name: runner.question_of(name) for name in STUDIES}
         problems = page.render(study.RESULTS, STUDIES, OUT, changes, questions=questions)
-    except OSError as error:
-        message = f"error: {OUT}: expected a folder that can be written ({error})"
-        typer.echo(printable_lines(message), err=True)
+    except InputError as error:
+        typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
     for problem in problems:
         typer.echo(printable_lines(problem), err=True)

@@ -1,8 +1,5 @@
 """From stored results to pages: the first page with its chapters, the claims, and a page for every study."""
 
-import os
-import re
-import shutil
 import sys
 import traceback
 from collections.abc import Iterable, Mapping
@@ -12,13 +9,12 @@ from typing import Any
 import jinja2
 
 from fctd.case.text import printable_lines
-from fctd.results.whole_file import left_by_dead
+from fctd.store.whole_folder import whole_folder
 from reports import chapters, figures, results, words
 from reports.claims import LOOKS, judged
 from reports.figures.leading import LEADING
 from reports.sections import Picture, Section, anchor, draw, section_of
 from validation.claims.ledger import CLAIMS
-from validation.harness import store
 
 TEMPLATES = Path(__file__).parent / "templates"
 LONG_CELL = 40  # letters of a text in a table that is broken into lines
@@ -40,16 +36,8 @@ def render(
     are judged by these results.  changes : study -> what has changed since its result was stored.  questions : study ->
     its question, for those that have not been run.
     """
-    out.parent.mkdir(parents=True, exist_ok=True)
-    scratch = out.with_name(f".{out.name}-{os.getpid()}")
-    for left, _ in left_by_dead(out.parent, rf"\.{re.escape(out.name)}-PID"):
-        shutil.rmtree(left, ignore_errors=True)
-    try:
-        problems = _render(stored, studies, scratch / "new", changes or {}, ledger, questions or {})
-        store.put(scratch / "new", out)
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
-    return problems
+    with whole_folder(out) as new:
+        return _render(stored, studies, new, changes or {}, ledger, questions or {})
 
 
 def _render(

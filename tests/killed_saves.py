@@ -17,7 +17,7 @@ import pyarrow.parquet as pq
 
 from fctd.results import tables
 from fctd.results.tables import SimulationResult, own_files
-from fctd.results.whole_folder import repair
+from fctd.store.whole_folder import repair
 from tests.cases import make_case
 
 STEPS = [(os, "mkdir"), (os, "rename"), (os, "replace"), (os, "unlink"), (os, "rmdir"), (pq, "write_table")]

@@ -114,10 +114,6 @@ print(sorted(name for name in sys.modules if name == "numba" or name.startswith(
     assert done.stdout.strip() == "[]"
 
 
-def test_versions_name_what_the_numbers_depend_on() -> None:
-    assert {"fctd", "python", "numpy", "numba"} <= fctd.results.tables.versions().keys()
-
-
 def test_no_name_hides_a_module() -> None:
     """A package that offers a function under a module's name would hide the module from ``import package.name``."""
     for found in pkgutil.walk_packages(fctd.__path__, "fctd."):

@@ -6,6 +6,7 @@ import typer
 from grimp.exceptions import SourceSyntaxError
 from rich.console import Console
 
+from fctd.case.errors import InputError
 from fctd.case.text import degrade_output, printable_lines
 from fctd.cli.interrupts import as_interrupts
 from validation.claims import judgement, ledger
@@ -72,9 +73,8 @@ def main(
                 sources=sources,
                 console=console,
             )
-    except OSError as error:  # of the results folder: what a study fails at is its own result
-        message = f"error: {study.RESULTS}: expected a folder that can be written ({error})"
-        typer.echo(printable_lines(message), err=True)
+    except InputError as error:  # of the results folder: what a study fails at is its own result
+        typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
     if claims and code != runner.INTERRUPTED:
         code = max(code, judgement.run(study.RESULTS, console, ledger.CLAIMS))

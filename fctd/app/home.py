@@ -4,15 +4,17 @@ import os
 import re
 import secrets
 import stat
-from contextlib import suppress
 from html import escape
 from pathlib import Path
 from typing import Final, Self
 
 from fctd.case.errors import InputError
-from fctd.results.run_lock import HeldError, RunLock
+from fctd.store.lock import NAME as LOCK
+from fctd.store.lock import FolderLock, HeldError
+from fctd.store.whole_file import write_whole
 
 TOKEN: Final = re.compile(r"[A-Za-z0-9_-]{32,64}")
+PRIVATE: Final = 0o600  # of files that this user alone can read
 HOST: Final = "127.0.0.1"
 FIRST_PORT: Final = 8522  # of a new home; the next free one where another program has it
 
@@ -23,7 +25,7 @@ class Home:
     token : first part of every address; it lasts until ``new_token``.
     """
 
-    def __init__(self, folder: Path, lock: RunLock) -> None:
+    def __init__(self, folder: Path, lock: FolderLock) -> None:
         self.folder, self._lock = folder, lock
         token = _read(folder / "token")
         self.token = token if TOKEN.fullmatch(token) else self.new_token()
@@ -37,8 +39,8 @@ class Home:
         folder = user_folder() if folder is None else folder
         try:
             private_folder(folder)
-            lock = RunLock.take(folder)
-            (folder / "lock").chmod(0o600)
+            lock = FolderLock.take(folder)
+            (folder / LOCK).chmod(PRIVATE)
             return cls(folder, lock)
         except HeldError as held:
             expected = f"no other fctd app of this user (process {held.holder.process} serves one): end it first"
@@ -53,7 +55,7 @@ class Home:
     def new_token(self) -> str:
         """Replace the token: addresses with the old one lead nowhere."""
         self.token = secrets.token_urlsafe(24)
-        write_private(self.folder / "token", self.token.encode())
+        write_whole(self.folder / "token", self.token.encode(), mode=PRIVATE)
         return self.token
 
     @property
@@ -64,7 +66,7 @@ class Home:
 
     @port.setter
     def port(self, port: int) -> None:
-        write_private(self.folder / "port", str(port).encode())
+        write_whole(self.folder / "port", str(port).encode(), mode=PRIVATE)
 
     @property
     def prefix(self) -> str:
@@ -75,7 +77,7 @@ class Home:
         """A page that leads to an address: a browser is given its name, which does not show the token to others."""
         path = self.folder / "open.html"
         text = f'<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="refresh" content="0; url={escape(address)}">'
-        write_private(path, text.encode())
+        write_whole(path, text.encode(), mode=PRIVATE)
         return path
 
 
@@ -98,18 +100,6 @@ def private_folder(folder: Path) -> None:
         if found.st_uid != os.geteuid():
             raise PermissionError(None, "it belongs to another user", str(folder))
         folder.chmod(0o700)
-
-
-def write_private(path: Path, content: bytes) -> None:
-    """Write a file that only this user can read, 0600, completely or not at all.  Raises OSError."""
-    scratch = path.with_name(f".{path.name}-{secrets.token_hex(4)}")
-    try:
-        with open(os.open(scratch, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
-            file.write(content)
-        os.replace(scratch, path)
-    finally:
-        with suppress(OSError):
-            scratch.unlink()
 
 
 def _read(path: Path) -> str:

@@ -17,7 +17,7 @@ from fctd.app.home import private_folder
 from fctd.app.sessions import Source
 from fctd.case.errors import InputError
 from fctd.results.unit_systems import System
-from fctd.results.whole_file import left_by_dead
+from fctd.store.whole_file import left_by_dead
 
 LONGEST: Final = 20.0  # of reading and solving [s]
 WORKERS: Final = 2  # so that a file that takes its time holds up no other

@@ -1,6 +1,5 @@
 """Runs in time that pages have begun: each is a process of ``fctd simulate`` in the folder of its session."""
 
-import json
 import os
 import shutil
 import signal
@@ -13,10 +12,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
-from fctd.app.home import private_folder, write_private
+from fctd.app.home import PRIVATE, private_folder
 from fctd.app.sessions import Session
 from fctd.case.errors import InputError
-from fctd.results.run_folder import progress_of, run_path, writer_of
+from fctd.store.run_folder import progress_of, writer_of
+from fctd.store.whole_file import write_whole
 
 MOST_RUNS: Final = 2  # at a time
 LONGEST: Final = "1 h"
@@ -73,10 +73,10 @@ class Runs:
             folder = session.folder / "run"
             shutil.rmtree(folder, ignore_errors=True)
             private_folder(folder)
-            write_private(folder / "case.toml", text.encode())
+            write_whole(folder / "case.toml", text.encode(), mode=PRIVATE)
             if survey_name:
-                write_private(folder / survey_name, survey)
-            with open(os.open(folder / "log", os.O_WRONLY | os.O_CREAT, 0o600), "wb") as log:
+                write_whole(folder / survey_name, survey, mode=PRIVATE)
+            with open(os.open(folder / "log", os.O_WRONLY | os.O_CREAT, PRIVATE), "wb") as log:
                 process = subprocess.Popen(
                     command(), cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                     start_new_session=os.name == "posix", umask=0o077 if os.name == "posix" else -1,
@@ -152,11 +152,10 @@ def target_of(folder: Path) -> Path:
 
 def _kept(target: Path) -> str:
     """A word that changes when there is something new to show."""
-    try:
-        progress = json.loads((run_path(target) / "progress.json").read_bytes())
-        return f"{progress[3]}"
-    except (OSError, ValueError, IndexError):
-        return "result" if (target / "history.parquet").exists() else ""
+    progress = progress_of(target)
+    if progress is not None:
+        return f"{progress.kept}"
+    return "result" if (target / "history.parquet").exists() else ""
 
 
 def _tail(path: Path) -> str:

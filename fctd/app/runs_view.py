@@ -19,11 +19,12 @@ from fctd.case.load import Case, load_case
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.model.wellbore import Wellbore, build_wellbore
-from fctd.results.run_folder import numbered, run_path
 from fctd.results.tables import open_result
 from fctd.results.unit_systems import System, shown
-from fctd.simulation.chunks import NUMBER, read_chunk
+from fctd.simulation.chunks import HISTORY, NUMBER, SEGMENTS, read_chunk
 from fctd.simulation.series import KEPT, SegmentSeries
+from fctd.store import log
+from fctd.store.run_folder import chunks_of, run_path
 from fctd.view.quantities import quantity_of
 from fctd.view.strings import of_records
 
@@ -58,17 +59,13 @@ def _kept(target: Path) -> tuple[pd.DataFrame, pd.DataFrame, str]:
         return result.history, result.segments, f"{result.status}{message}"
     path, none = run_path(target), pd.DataFrame()
     with suppress(OSError, ValueError):  # removed, as the run has just ended
-        # A chunk's history is written before its segments: read after them, it has their times.
-        last = max(numbered(path, "segments.parquet").items(), default=None)
-        segments = none if last is None else _segments(_read(path / last[1], "segments"), _hole(target)[1])
-        parts = [_read(path / name, "history").to_pandas() for name in numbered(path, "history.parquet").values()]
+        files = list(chunks_of(path).files.values())
+        parts = [read_chunk(log.read(file, HISTORY))[HISTORY].to_pandas() for file in files]
         if parts:
+            last = next(filter(None, (log.read(file, SEGMENTS) for file in reversed(files))), None)
+            segments = none if last is None else _segments(read_chunk(last)[SEGMENTS], _hole(target)[1])
             return pd.concat(parts, ignore_index=True), segments, ""
     return pd.DataFrame(columns=["time_s", *COLUMNS]), none, ""
-
-
-def _read(file: Path, name: str) -> Any:
-    return read_chunk({name: file.read_bytes()})[name]
 
 
 def _segments(table: Any, hole: Wellbore) -> pd.DataFrame:

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
-from fctd.app.home import private_folder, write_private
+from fctd.app.home import PRIVATE, private_folder
+from fctd.store.whole_file import write_whole
 
 KEY: Final = re.compile(r"[A-Za-z0-9_-]{12}")
 MOST_SESSIONS: Final = 20  # kept; the one that was used longest ago goes first
@@ -62,8 +63,8 @@ class Session:
     def put(self, source: Source) -> None:
         """Take a case in place of the one before, whose settings and measured rows are dropped."""
         with self._lock:
-            write_private(self.folder / "survey", source.survey)
-            write_private(self.folder / "case.toml", source.text.encode("utf-8", "backslashreplace"))
+            write_whole(self.folder / "survey", source.survey, mode=PRIVATE)
+            write_whole(self.folder / "case.toml", source.text.encode("utf-8", "backslashreplace"), mode=PRIVATE)
             self._source = source
             self._write({"survey": source.survey_name})
 
@@ -79,7 +80,7 @@ class Session:
 
     def _write(self, settings: dict[str, Any]) -> None:
         self.settings = settings
-        write_private(self.folder / "settings.json", json.dumps(settings).encode())
+        write_whole(self.folder / "settings.json", json.dumps(settings).encode(), mode=PRIVATE)
 
 
 class Sessions:

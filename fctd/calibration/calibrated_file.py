@@ -13,8 +13,8 @@ from fctd.case import spellings
 from fctd.case.errors import InputError, look_up, set_key, split_key
 from fctd.case.text import counted
 from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension
-from fctd.results.whole_file import whole_file
 from fctd.steady.refined_file import changed_document, survey_from
+from fctd.store.whole_file import whole_file
 
 _DIMENSIONS: dict[str, Dimension | None] = {
     "block_weight": FORCE, "guide_friction": FORCE, "torque_offset": TORQUE, "torque_per_rpm": TORQUE,

@@ -18,7 +18,7 @@ from fctd.calibration.unknowns import Unknown
 from fctd.case.errors import InputError, Table, explain
 from fctd.case.input_file import read_text
 from fctd.case.load import Case
-from fctd.results.whole_file import whole_file
+from fctd.store.whole_file import whole_file
 
 Array = NDArray[np.float64]
 

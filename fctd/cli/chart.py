@@ -73,11 +73,11 @@ from fctd.plots.loads import ChartLook
 from fctd.results.measured import read_measured
 from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
-from fctd.results.tables import write_table
-from fctd.simulation.limits import LimitReached
 from fctd.steady.equilibrium import Solver
 from fctd.steady.kept_rows import KeptRows
 from fctd.steady.torque_drag import Row, chart_rows, with_friction
+from fctd.store.limits import LimitReached
+from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -283,7 +283,7 @@ def _kept_on_the_way_out(kept: KeptRows | None, target: Path | None, total: int)
         limit = isinstance(stop, LimitReached)
         if kept is not None and target is not None:
             if limit or kept.kept:
-                kept.write(total)
+                kept.write_new(total)
             say_how_to_go_on(target)
         if not limit:
             raise

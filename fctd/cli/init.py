@@ -16,7 +16,7 @@ from fctd.cli.manners import Silent
 from fctd.cli.options import check_target, messages, screen, tell
 from fctd.model.new_case import Plan, Quantities, UnitSystem, from_survey, from_template, read_survey
 from fctd.model.templates import TEMPLATES, TemplateName
-from fctd.results.whole_file import whole_file
+from fctd.store.whole_file import whole_file
 
 DEPTHS = 10  # from shoe to end, at most, in the chart that is proposed
 

@@ -1,6 +1,5 @@
 """How ``fctd simulate`` and ``fctd chart`` keep what they compute, and go on with it: options, refusals, limits."""
 
-import os
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -16,13 +15,13 @@ from fctd.case.load import Case
 from fctd.case.text import printable
 from fctd.case.units import TIME
 from fctd.cli.options import messages, read_quantity
-from fctd.results.origin import changes, files_of, origin_of
-from fctd.results.run_folder import RunFolder, about_of, numbered, progress_of, run_path, taken, writer_of
-from fctd.simulation.limits import Limits
+from fctd.mechanics.compile_cache import hash_of_sources
+from fctd.store.limits import Limits
+from fctd.store.origin import changes, origin_of
+from fctd.store.run_folder import RunFolder, about_of, chunks_of, progress_of, run_path
 
 # Longest time between two checkpoints of a run, and between two chunks of a chart [s].
 EVERY_RUN, EVERY_CHART = 60.0, 5.0
-KEPT_FILES = ("checkpoint.npz", "rows.jsonl")
 
 OptionalCase = Annotated[
     Path | None, typer.Argument(metavar="CASE", help="Case file (TOML); none with --resume.", show_default=False)
@@ -115,12 +114,15 @@ def kept_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder]
     Raises InputError where another process computes the same result, and where there is an unfinished run, unless it
     is dropped by ``restart``.
     """
-    if not restart:
-        refuse_unfinished(target, key)
     folder = RunFolder.take(target, key)
     try:
-        if not restart:
-            refuse_unfinished(target, key)
+        about = None if restart else about_of(target)
+        if about is not None and has_kept(target):
+            expected = (
+                f"a result without an unfinished run ({how_far(target)}): `{way_on(target, about)}` goes on with it, "
+                "--restart drops it and begins anew"
+            )
+            raise InputError(expected, key=key, value=target)
         folder.clear()
         yield folder
     finally:
@@ -129,21 +131,7 @@ def kept_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder]
 
 def has_kept(target: Path) -> bool:
     """Whether there is something to go on with."""
-    return any(numbered(run_path(target), kind) for kind in KEPT_FILES)
-
-
-def refuse_unfinished(target: Path, key: str) -> None:
-    """Raise InputError where a process computes a result, or, with both ways out, where its run has not ended."""
-    writer, about = writer_of(target), about_of(target)
-    if writer is not None and writer.process != os.getpid():
-        raise taken(writer, target, key)
-    if about is None or not has_kept(target):
-        return
-    expected = (
-        f"a result without an unfinished run ({how_far(target)}): `{way_on(target, about)}` goes on with it, --restart "
-        "drops it and begins anew"
-    )
-    raise InputError(expected, key=key, value=target)
+    return bool(chunks_of(run_path(target)).files)
 
 
 def how_far(target: Path) -> str:
@@ -191,7 +179,7 @@ def resumed_folder(target: Path, program: str, *, accept_changes: bool) -> Itera
 
 def _refuse_changes(target: Path, about: Mapping[str, Any]) -> None:
     files = {name: Path(path) for name, path in about["files"].items()}
-    found = list(changes(about["origin"], origin_of(files)))
+    found = list(changes(about["origin"], origin_of(files, hash_of_sources())))
     if found:
         expected = (
             f"what the run began with: {'; '.join(found)}; put it back, go on with case and survey as they were by "
@@ -209,10 +197,16 @@ def description_of(
     copies = {} if survey is None else {f"survey{survey.suffix}": survey.read_bytes()}
     about = {
         "command": command, "program": program, "case": case.model_dump(mode="json"), "options": dict(options),
-        "files": {name: str(path) for name, path in files.items()}, "origin": origin_of(files),
+        "files": {name: str(path) for name, path in files.items()}, "origin": origin_of(files, hash_of_sources()),
         "copies": list(copies), "identity": identity,
     }  # fmt: skip
     return about, copies
+
+
+def files_of(case: Case) -> dict[str, Path]:
+    """The files that a case was read from, absolute, by what they are."""
+    files = {"case file": case.file, "survey": case.wellbore.survey}
+    return {name: path.absolute() for name, path in files.items() if path is not None}
 
 
 def case_of(folder: Path, about: Mapping[str, Any]) -> Case:

@@ -43,7 +43,7 @@ class Command(TyperCommand):
 def _print_version(wanted: bool) -> None:
     if wanted:
         from fctd.mechanics.compile_cache import hash_of_sources
-        from fctd.results.tables import versions
+        from fctd.store.origin import versions
 
         known = versions()
         commit = f"commit {known['commit']}, " if "commit" in known else ""

@@ -15,10 +15,11 @@ from fctd.case.load import Case, load_case, parse_override
 from fctd.case.text import printable, printable_lines
 from fctd.case.units import Dimension, typed
 from fctd.results.notes import Note
-from fctd.results.tables import own_files, table_files
+from fctd.results.tables import own_files
 from fctd.results.unit_systems import System, reworded
-from fctd.results.whole_file import check_file
-from fctd.results.whole_folder import repair
+from fctd.store.tables import table_files
+from fctd.store.whole_file import check_file
+from fctd.store.whole_folder import repair
 
 # Units of bare numbers of options with ``--units field``, by SI unit.
 BARE_FIELD_UNITS = {"m": "ft", "m/s": "ft/min"}

@@ -22,7 +22,7 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import check_table, file_option
-from fctd.results.tables import write_table
+from fctd.store.tables import write_table
 
 
 def predict_command(

@@ -9,7 +9,7 @@ import typer
 from fctd.case.schema import case_schema
 from fctd.cli.manners import Silent
 from fctd.cli.options import check_target, print_written
-from fctd.results.whole_file import whole_file
+from fctd.store.whole_file import whole_file
 
 
 def schema_command(

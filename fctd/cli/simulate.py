@@ -54,7 +54,6 @@ from fctd.cli.options import (
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.results.buckling import MODES
 from fctd.results.columns import BUCKLED, COLUMNS
-from fctd.results.run_folder import RunFolder
 from fctd.results.status import RunStatus
 from fctd.results.swings import ENOUGH_PERIODS
 from fctd.results.tables import SimulationResult, check_result_folder, identity_of, own_files, result_files
@@ -63,6 +62,7 @@ from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.kept_run import KeptRun
 from fctd.simulation.preparation import LONGEST_SETTLING
 from fctd.simulation.simulate import simulate
+from fctd.store.run_folder import RunFolder
 
 ShownUnits = Annotated[
     System, typer.Option("--units", help="Units of screen and CSV files; the Parquet files are in SI units.")

@@ -13,9 +13,9 @@ from fctd.cli.manners import Silent
 from fctd.cli.options import screen
 from fctd.cli.pictures import PICTURES
 from fctd.cli.steady import TABLES
-from fctd.results.run_folder import about_of, clock, progress_of, run_path, writer_of
-from fctd.results.run_lock import holder_of
 from fctd.results.tables import open_result, result_files
+from fctd.store.lock import holder_of
+from fctd.store.run_folder import about_of, clock, progress_of, run_path, writer_of
 
 SWEEP = "sweep.json"  # of the folder of a sweep
 

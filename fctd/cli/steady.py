@@ -16,8 +16,8 @@ from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import segments_in_words
-from fctd.results.tables import versions
 from fctd.results.unit_systems import System, in_field_units, shown
+from fctd.store.origin import versions
 
 if TYPE_CHECKING:
     import pandas as pd

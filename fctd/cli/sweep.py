@@ -23,7 +23,7 @@ from fctd.case.errors import InputError
 from fctd.case.text import counted, file_name, printable
 from fctd.cli.options import FAILED, Quiet, messages, screen
 from fctd.results.status import ACCEPTABLE
-from fctd.steady.batch import cores
+from fctd.store.limits import cores
 from fctd.sweep.chunk import NO_ROWS
 from fctd.sweep.cluster import Where, encrypted
 from fctd.sweep.run import SchedulerLostError, Summary, sweep

@@ -31,10 +31,10 @@ from fctd.cli.options import (
 from fctd.cli.pictures import check_package
 from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive
 from fctd.model.depths import read_depths, usual_depths
-from fctd.results.run_folder import about_of, run_path
 from fctd.results.tables import open_result, result_files
 from fctd.results.unit_systems import System
 from fctd.simulation.kept_run import kept_so_far
+from fctd.store.run_folder import about_of, run_path
 from fctd.view.quantities import QUANTITIES, quantity_of
 from fctd.view.strings import Strings, of_chart, of_run
 

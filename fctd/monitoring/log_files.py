@@ -13,7 +13,7 @@ from fctd.case.errors import InputError
 from fctd.case.xml_file import child, read_xml, tag, text_of
 from fctd.monitoring.quantities import QUANTITIES, check_columns, find_columns
 from fctd.monitoring.rows import to_si
-from fctd.results.parquet import read_frame
+from fctd.store.parquet import read_frame
 
 Said = Mapping[str, tuple[str, str | None]]
 

@@ -39,8 +39,8 @@ from fctd.results.columns import COLUMNS, DEPTH
 from fctd.results.series import Series, frictions_of, series_of
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
-from fctd.results.whole_file import whole_file
 from fctd.steady.steady_string import Equilibrium
+from fctd.store.whole_file import whole_file
 
 # Plotly's names of the markers and dashes of pictures.
 SYMBOLS: Final = {

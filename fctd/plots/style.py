@@ -15,7 +15,7 @@ from matplotlib.typing import RcKeyType
 from fctd.case.text import printable
 from fctd.plots.labels import SIZE, width_of
 from fctd.plots.palette import DARK, QUIET
-from fctd.results.whole_file import whole_file
+from fctd.store.whole_file import whole_file
 
 RC: dict[RcKeyType, Any] = {
     "font.family": "sans-serif",

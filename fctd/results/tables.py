@@ -1,24 +1,14 @@
-"""The result of a simulation, and the files of all results: tables with case, versions and commit as metadata."""
+"""The result of a simulation, and its folder: tables with case, versions and commit as metadata."""
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import os
-import platform
-import subprocess
 import time
-from collections.abc import Callable, Mapping
-from contextlib import ExitStack
 from dataclasses import dataclass, field
-from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 from uuid import uuid4
-
-import numba
-import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.input_file import check_regular
@@ -27,16 +17,17 @@ from fctd.case.load import Case
 from fctd.case.text import counted
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.notes import Note, as_metadata, from_metadata
-from fctd.results.parquet import read_table
 from fctd.results.status import RunStatus
 from fctd.results.unit_systems import System, in_field_units
-from fctd.results.whole_file import check_file, left_overs, whole_file
-from fctd.results.whole_folder import PAUSE, check_folder, repair, whole_folder
+from fctd.store.origin import versions
+from fctd.store.parquet import read_table
+from fctd.store.tables import to_csv, to_parquet
+from fctd.store.whole_file import check_file, left_overs
+from fctd.store.whole_folder import PAUSE, check_folder, repair, whole_folder
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Rows = list[dict[str, Any]]
 TABLES = ("history", "profile", "energy", "operations", "segments")
 ATTEMPTS = 20  # to read a folder that another process may be replacing
 
@@ -109,9 +100,9 @@ class SimulationResult:
         with whole_folder(folder, own_files) as new:
             for name in TABLES:
                 frame: pd.DataFrame = getattr(self, name)
-                _to_parquet(frame, new / f"{name}.parquet", metadata)
+                to_parquet(frame, new / f"{name}.parquet", metadata)
                 if csv:
-                    _to_csv(in_field_units(frame) if units == "field" else frame, new / f"{name}.csv")
+                    to_csv(in_field_units(frame) if units == "field" else frame, new / f"{name}.csv")
         return [folder / name for name in result_files(csv)]
 
 
@@ -159,25 +150,22 @@ def open_result(folder: str | os.PathLike[str], pause: float = PAUSE) -> Simulat
 
 
 def _read(folder: Path) -> SimulationResult:
+    if not folder.is_dir():
+        reason = "this is a file" if folder.exists() else "there is none"
+        raise InputError(f"a folder that fctd simulate wrote ({reason})", value=folder)
     tables, origins = {}, {}
-    with ExitStack() as stack:
+    for name, file in zip(TABLES, result_files(csv=False), strict=True):
         try:
-            # The folder is opened once: another process may give its name to a new folder between two tables.
-            place = os.open(folder, os.O_RDONLY)
-        except OSError as error:
-            raise InputError(f"a folder that fctd simulate wrote ({error.strerror})", value=folder) from error
-        stack.callback(os.close, place)
-        for name, file in zip(TABLES, result_files(csv=False), strict=True):
-            try:
-                check_regular(folder / file)
-                with open(file, "rb", opener=lambda path, flags: os.open(path, flags, dir_fd=place)) as source:
-                    table = read_table(source)
-                tables[name], origins[name] = table.to_pandas(use_threads=False), table.schema.metadata or {}
-            except InputError as error:
-                raise error.in_file(folder / file) from None
-            except (OSError, ValueError) as error:
-                expected = f"a table that fctd simulate wrote ({getattr(error, 'strerror', None) or error})"
-                raise InputError(expected, value=folder / file) from error
+            check_regular(folder / file)
+            with (folder / file).open("rb") as source:
+                table = read_table(source)
+            tables[name], origins[name] = table.to_pandas(use_threads=False), table.schema.metadata or {}
+        except InputError as error:
+            raise error.in_file(folder / file) from None
+        except (OSError, ValueError) as error:
+            expected = f"a table that fctd simulate wrote ({getattr(error, 'strerror', None) or error})"
+            raise InputError(expected, value=folder / file) from error
+    # Another process may have given the folder's name to a new one between two tables.
     runs = {name: origin.get(b"identity", b"").decode() for name, origin in origins.items()}
     if len(set(runs.values())) > 1:
         found = ", ".join(f"{name}: {identity[:8] or 'none'}" for name, identity in runs.items())
@@ -215,94 +203,3 @@ def _metadata(path: Path) -> dict[bytes, bytes]:
         return dict(pq.read_schema(path).metadata or {})
     except (OSError, ValueError):
         return {}
-
-
-def write_table(table: pd.DataFrame | Rows, path: Path, metadata: Mapping[str, Any]) -> list[Path]:
-    """Write a table as CSV, Parquet or Excel's workbook, whichever the suffix says; returns the files written.
-
-    table : a data frame, or rows that have the same columns; rows as CSV need no pandas, which is slow to import.
-    Parquet and workbook carry the metadata themselves; beside a CSV, which any reader must find a plain table, it goes
-    into a JSON file of its own: ``chart.csv.json``.  Raises InputError where a file cannot be written.
-    """
-    files = table_files(path)
-    with whole_file(path) as scratch:
-        if path.suffix.lower() == ".csv":
-            _to_csv(table, scratch)
-        else:
-            import pandas as pd
-
-            _WRITERS[path.suffix.lower()](pd.DataFrame(table), scratch, metadata)
-    for beside in files[1:]:
-        with whole_file(beside) as scratch:
-            scratch.write_text(json.dumps(metadata, indent=1), encoding="utf-8")
-    return files
-
-
-def table_files(path: Path) -> list[Path]:
-    """The files that ``write_table`` writes for a path."""
-    return [path, path.with_name(path.name + ".json")] if path.suffix.lower() == ".csv" else [path]
-
-
-def _to_csv(table: pd.DataFrame | Rows, path: Path) -> None:
-    """Write a table with one row of headers; NaN is an empty cell."""
-    if not isinstance(table, list):
-        table.to_csv(path, index=False)
-        return
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, list(table[0]), lineterminator=os.linesep)
-        writer.writeheader()
-        for row in table:
-            writer.writerow({name: "" if value != value else value for name, value in row.items()})
-
-
-def _to_parquet(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
-    """Write a table; the metadata are added to those of pandas, texts as they are and other values as JSON."""
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-
-    table = pa.Table.from_pandas(frame, preserve_index=False)
-    kept = dict(table.schema.metadata or {})
-    for key, value in metadata.items():
-        kept[key.encode()] = (value if isinstance(value, str) else json.dumps(value)).encode()
-    with path.open("wb") as sink:  # pyarrow opens only names in UTF-8
-        pq.write_table(table.replace_schema_metadata(kept), sink)
-
-
-def _to_workbook(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:
-    """Write a table as the first sheet of a workbook and its metadata as the second; needs xlsxwriter."""
-    import pandas as pd
-
-    about = pd.DataFrame(
-        [(key, value if isinstance(value, str) else json.dumps(value)) for key, value in metadata.items()],
-        columns=["key", "value"],
-    )
-    # A text is a text, also where it looks like a formula or an address.  The package packs a file while it writes it:
-    # a disk that becomes full meanwhile would leave it in the middle.
-    options = {"strings_to_formulas": False, "strings_to_urls": False, "in_memory": True}
-    content = io.BytesIO()
-    with pd.ExcelWriter(content, engine="xlsxwriter", engine_kwargs={"options": options}) as book:
-        for name, table in (("table", frame), ("about", about)):
-            table.to_excel(book, sheet_name=name, index=False, freeze_panes=(1, 0))
-            book.sheets[name].autofit()
-    path.write_bytes(content.getvalue())
-
-
-_WRITERS: Final[dict[str, Callable[[pd.DataFrame, Path, Mapping[str, Any]], None]]] = {
-    ".parquet": _to_parquet,
-    ".xlsx": _to_workbook,
-}
-
-
-def versions() -> dict[str, str]:
-    """Versions of the engine and of the packages that its numbers depend on, and the commit of the checkout if any."""
-    found = {"fctd": version("fctd"), "python": platform.python_version()}
-    found |= {"numpy": np.__version__, "numba": numba.__version__}
-    try:
-        git = subprocess.run(
-            ["git", "-C", str(Path(__file__).parent), "rev-parse", "--short", "HEAD"],
-            capture_output=True, text=True, timeout=5, check=True,
-        )  # fmt: skip
-        found["commit"] = git.stdout.strip()
-    except (OSError, subprocess.SubprocessError):
-        pass  # an installed wheel has no checkout: the version stands alone
-    return found

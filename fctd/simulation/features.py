@@ -101,7 +101,7 @@ def _bit_loads(run: Run) -> Use:
 
 
 def _stands(run: Run) -> Use:
-    return None if run.hoist is None else ("rig.feed", run.case.rig.feed)
+    return None if not run.upper_end.in_derrick else ("rig.feed", run.case.rig.feed)
 
 
 def _feed(run: Run) -> Use:

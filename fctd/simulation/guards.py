@@ -24,7 +24,7 @@ from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
-from fctd.results.notes import Note, string_notes, under_resolved
+from fctd.results.notes import Note, as_metadata, from_metadata, string_notes, under_resolved
 from fctd.results.profile import Loads
 from fctd.results.run_notes import (
     OF_THE_WALL,
@@ -37,6 +37,7 @@ from fctd.results.run_notes import (
 )
 from fctd.simulation.looks import LISTEN, is_sound, listen
 from fctd.simulation.run import Run
+from fctd.store.facts import Facts, Restorable
 
 lost_of = itemgetter(*LOSSES, "lost_bit_J")
 Array = NDArray[np.float64]
@@ -44,12 +45,14 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 
-class Guards:
+class Guards(Restorable):
     """The checks of a run: its notes so far by code, each where it was worst, and the time that they took.
 
     seconds : by the process's own clock.  residual, work : the largest so far of the ledger [J].  swing : amplitude [N]
     and frequency [Hz] of the fast part of the hook load when it was last read.
     """
+
+    FACTS = ("seconds", "residual", "work", "swing")
 
     def __init__(self, run: Run) -> None:
         self.run = run
@@ -61,6 +64,13 @@ class Guards:
         is_sound(run.S, n)
         self._of_limits(Loads(*np.zeros((4, n))), walls_in(np.zeros((n, WALL_COLUMNS))), 0.0)
         listen(run.S, run.top.copy(), n, run.pipe.weight)
+
+    def facts(self) -> Facts:
+        return super().facts() | {"notes": as_metadata(self.notes.values())}
+
+    def restore(self, facts: Facts) -> None:
+        super().restore(facts)
+        self.notes = {note.code: note for note in from_metadata(facts["notes"])}
 
     def timed(self, check: Callable[P, R], *given: P.args, **more: P.kwargs) -> R:
         """Call one of the checks below, and add its time."""

@@ -26,8 +26,9 @@ from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.simulation.external_contact import QueriedWall, WallQuery
 from fctd.simulation.features import ASKED, OWN, refuse
-from fctd.simulation.hoist import Hoist
+from fctd.simulation.hung import Hung
 from fctd.simulation.run import Run
+from fctd.simulation.upper_end import Fed, UpperEnd
 
 Array = NDArray[np.float64]
 LONGEST_SETTLING = 400.0  # [s] simulated
@@ -61,8 +62,7 @@ def _driven(run: Run, phase: Phase) -> Phase:
     """A phase with the drive and the driller of a run."""
     motion = phase.motion._replace(drive=run.drive)
     if run.case.operations[phase.operation].on_bottom and motion.bit_from + motion.bit_to > 0:
-        string = run.string if run.hoist is None else run.hoist.tally.whole  # the longest has the slowest waves
-        motion = motion._replace(driller=driller_of(run.case, string, run.laws.rock))
+        motion = motion._replace(driller=driller_of(run.case, run.upper_end.longest, run.laws.rock))
     return Phase(motion, phase.operation)
 
 
@@ -111,7 +111,7 @@ def _fed(case: Case, hole: Wellbore, string: String, longer: float, shorter: flo
             topdrive.put_long_segment(probe, length, pipe)
     phases = schedule(case.operations)
     rate = _layer_rate(case, string.lengthened(shorter))
-    return _run(case, hole, string, S, top, pipe, probes, phases, rate), phases
+    return _run(case, hole, string, Fed(string), S, top, pipe, probes, phases, rate), phases
 
 
 def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: float) -> tuple[Run, list[Phase]]:
@@ -127,20 +127,16 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     _unbalance(buffer, whole)
     put_bends(buffer, case, whole)
     stands = tally.stands_for(first)
-    hoist = Hoist(tally=tally, buffer=buffer, strokes=strokes, table=hole.at(np.zeros(1))[0][0], stands=stands)
-    string = hoist.start(S, top, first, hole)
+    upper_end = Hung(tally=tally, buffer=buffer, strokes=strokes, table=hole.at(np.zeros(1))[0][0], stands=stands)
+    string = upper_end.start(S, top, first, hole)
     lie_on_axis(S, string, hole)
     put_bends(S, case, string, hole)
-    run = _run(
-        case, hole, string, S, top, pipe, [(buffer, whole.segments), *((probe, 1) for probe in hoist.clamped())],
-        phases, _layer_rate(case, whole),
-    )  # fmt: skip
-    run.hoist = hoist
-    return run, phases
+    probes = [(buffer, whole.segments), *((probe, 1) for probe in upper_end.clamped())]
+    return _run(case, hole, string, upper_end, S, top, pipe, probes, phases, _layer_rate(case, whole)), phases
 
 
 def _run(
-    case: Case, hole: Wellbore, string: String, S: Array, top: Array, pipe: PerMetre,
+    case: Case, hole: Wellbore, string: String, upper_end: UpperEnd, S: Array, top: Array, pipe: PerMetre,
     probes: list[tuple[Array, int]], phases: list[Phase], layer_rate: float,
 ) -> Run:  # fmt: skip
     """The run of a string that lies in its hole.
@@ -180,10 +176,12 @@ def _run(
     # A walk from the top would stop at the first slab that contains a point; past 90° that may be a distant piece.
     owner = np.zeros(most + 2, np.int64)
     owner[1 : n + 1] = hole.owners(contact_points(S, n))
-    return Run(
-        case=case, hole=hole, string=string, pipe=pipe, S=S, top=top, owner=owner, segments=n, step=step, laws=laws,
-        wall=own_wall(case, hole), drive=drive_of(case, string, spring, damper, step),
+    run = Run(
+        case=case, hole=hole, string=string, upper_end=upper_end, pipe=pipe, S=S, top=top, owner=owner, segments=n,
+        step=step, laws=laws, wall=own_wall(case, hole), drive=drive_of(case, string, spring, damper, step),
     )  # fmt: skip
+    upper_end.begin(run)
+    return run
 
 
 def _wall_laws(case: Case) -> dict[str, float]:

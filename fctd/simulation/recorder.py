@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case.operations import KINDS
 from fctd.mechanics import readings, state, topdrive
 from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.joints import find_bends
@@ -36,6 +35,7 @@ from fctd.simulation.guards import Guards
 from fctd.simulation.preparation import contact_points
 from fctd.simulation.run import Run
 from fctd.simulation.series import SegmentSeries
+from fctd.store.facts import Restorable
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -45,20 +45,21 @@ Array = NDArray[np.float64]
 SAME_DEPTH = 1e-3  # [m]: the schedule reaches its depths to the rounding of a step
 
 
-class Recorder:
+class Recorder(Restorable):
     """Reads a settled run at its start and after every record interval, without changing it.
 
-    time : at the start [s]; energy : returns the string's energy, by default that of the run.
+    time : at the start [s]; energy : returns the string's energy, by default that of the run.  A checkpoint keeps what
+    the next record needs, and chunks the records.
     """
+
+    FACTS = ("start", "start_time", "last_time", "wanted", "mean", "guards", "series")
 
     def __init__(self, run: Run, time: float = 0.0, energy: Callable[[], Energy] | None = None) -> None:
         self.run = run
         self.energy = energy or run.energy
         self.start = self.energy()
-        self.start_length = float(run.top[topdrive.TOP_LENGTH])
-        fed = self.start_length - float(run.string.length[0]) if run.string.long_segment else 0.0
-        self.start_depth = run.string.bit_depth + fed if run.hoist is None else run.bit_depth
         self.start_time = self.last_time = time
+        self.mean = Sums._make((np.zeros(0),) * 6 + (0.0,) * 4)  # of the last record
         self.history: list[dict[str, Any]] = []
         self.ledger: list[dict[str, float]] = []
         self.profiles: dict[float, pd.DataFrame] = {}  # by time
@@ -70,19 +71,12 @@ class Recorder:
         """One quantity of every segment (n,)."""
         return state.row(self.run.S, offset, self.run.segments)
 
-    @property
-    def bit_depth(self) -> float:
-        """Unstretched length below the rotary table [m]."""
-        if self.run.hoist is not None:
-            return self.run.bit_depth
-        return self.start_depth + float(self.run.top[topdrive.TOP_LENGTH]) - self.start_length
-
     def record(self, operation: int, sums: Sums) -> None:
         """Append a row of history and ledger, and a profile at a depth of ``record.profile_at``.
 
         sums : drained from the run, over the time since the last record.
         """
-        case = self.run.case
+        case, upper_end = self.run.case, self.run.upper_end
         self.mean = mean = sums.over(self.run.time - self.last_time)
         hookload, torque = mean.hookload, mean.top_torque
         span, self.last_time = self.run.time - self.last_time, self.run.time
@@ -90,27 +84,20 @@ class Recorder:
         kind = case.operations[operation].kind
         spin = float(np.linalg.norm(self.run.S[[state.GX, state.GY, state.GZ]]))  # of the top drive, row 0
         steps = readings.drain(self.run.top)
-        indicator = weight_indicator(case.rig, KINDS[kind].direction, hookload)
-        drive = drive_torque(case.rig, spin, torque)
-        block: dict[str, Any] = {}
-        if (hoist := self.run.hoist) is not None:
-            in_slips = hoist.in_slips
-            indicator = weight_indicator(case.rig, hoist.direction, 0.0 if in_slips else hookload)
-            drive = drive_torque(case.rig, spin, 0.0 if in_slips else torque)
-            block = {"block_position_m": float(self.run.top[topdrive.BLOCK_HEIGHT]), "in_slips": in_slips}
-        before = self.history[-1]["bit_depth_m"] if self.history else self.start_depth
+        pull, turn = (0.0, 0.0) if upper_end.in_slips else (hookload, torque)  # of the string on block and drive
+        before = self.history[-1]["bit_depth_m"] if self.history else upper_end.start_depth
         loads, (_, walls) = self._loads(), self._walls()
         limits, buckling = self._buckling(loads, walls)
         self.history.append(
             {
                 "time_s": self.last_time,
                 "operation": kind,
-                "bit_depth_m": self.bit_depth,
+                "bit_depth_m": self.run.bit_depth,
                 "bit_md_m": self._bit_md(),
                 "hookload_N": hookload,
                 "surface_torque_N_m": torque,
-                "weight_indicator_N": indicator,
-                "drive_torque_N_m": drive,
+                "weight_indicator_N": weight_indicator(case.rig, upper_end.direction(kind), pull),
+                "drive_torque_N_m": drive_torque(case.rig, spin, turn),
                 "sum_r_ft_N_m": float(mean.friction_torque.sum()),
                 "sum_r_mu_fn_N_m": float(mean.r_mu_normal.sum()),
                 "mud_torque_N_m": float(mean.mud_torque.sum()),
@@ -119,16 +106,16 @@ class Recorder:
                 **buckling.columns(),
                 **_of_steps(steps, hookload, torque, span),
                 "lateral_speed_m_per_s": float(np.sqrt((self._lateral_speeds() ** 2).mean())),
-                **block,
+                **upper_end.columns(self.run),
                 **self._bit(),
             }
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
-        pull, turning = (hookload, self.history[-1]["hookload_min_N"]), (spin, torque)
-        self.guards.timed(self.guards.check_record, self.bit_depth, pull, loads, walls, buckling, row, turning)
+        pulls, turning = (hookload, self.history[-1]["hookload_min_N"]), (spin, torque)
+        self.guards.timed(self.guards.check_record, self.run.bit_depth, pulls, loads, walls, buckling, row, turning)
         self._keep_segments(loads, walls, limits)
-        low, high = sorted((before, self.bit_depth))
+        low, high = sorted((before, self.run.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]
         if passed:
             self.wanted = [depth for depth in self.wanted if depth not in passed]
@@ -221,7 +208,7 @@ class Recorder:
         rows = np.full((n + 1, ROW_COLUMNS), np.nan) if limits is None else limits
         mode = np.zeros(n) if limits is None else limits[1:, MODE]
         self.series.add(
-            self.last_time, self.bit_depth, walls.md, (tension, twist, loads.normal, bending, stress),
+            self.last_time, self.run.bit_depth, walls.md, (tension, twist, loads.normal, bending, stress),
             walls.radius - string.contact_radius(), rows[1:, [SINUSOIDAL_LIMIT, HELICAL_LIMIT]], mode, walls.offset,
         )  # fmt: skip
 
@@ -251,7 +238,7 @@ class Recorder:
         top = run.S[[state.X, state.Y, state.Z]]
         table = profile_table(run.hole, run.string, run.case.mud.density, top, points, walls, self._loads())
         table.insert(0, "operation", self.history[-1]["operation"])
-        table.insert(0, "bit_depth_m", self.bit_depth)
+        table.insert(0, "bit_depth_m", self.run.bit_depth)
         return table
 
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.mechanics import contact, state, topdrive, waves
+from fctd.mechanics import contact, state, waves
 from fctd.model.drillstring import String
 from fctd.model.operations import Phase
 from fctd.model.wellbore import Wellbore
@@ -91,7 +91,7 @@ def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
             reached = np.zeros(MODES, complex)
             for k in range(strides):
                 middle = depth + (k + 0.5) / strides * fed
-                string = _string_at(run, middle, probe)
+                string = run.upper_end.at_depth(middle, run, probe)
                 if string.segments <= MODES:
                     continue
                 modes = _modes(string, probe, run.laws)
@@ -126,18 +126,6 @@ def cylinder_tilt(hole: Wellbore) -> Tilt:
     tilt = (1 - share) * chords[above] + share * chords[i]
     tilt -= np.stack([np.interp(md, middle, part) for part in chords.T], axis=1)
     return Tilt(float(ends[0]), step, np.vstack([np.zeros(3), np.cumsum(step * tilt, axis=0)]))
-
-
-def _string_at(run: Run, bit_depth: float, probe: Array) -> String:
-    """The string of a run with its bit at a depth [m], whose constants it writes into a state buffer."""
-    if run.hoist is not None:
-        stands = run.hoist.tally.stands_for(bit_depth)
-        run.hoist.write(probe, stands)
-        return run.hoist.tally.string(stands, bit_depth)
-    string = run.string.lengthened(bit_depth - run.string.bit_depth)
-    if string.long_segment:
-        topdrive.put_long_segment(probe, string.length[0], run.pipe)
-    return string
 
 
 def _modes(string: String, probe: Array, laws: state.Laws) -> Modes:

@@ -2,66 +2,77 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from fctd.case.load import Case
 from fctd.case.operations import Operation
-from fctd.mechanics import state, topdrive
+from fctd.mechanics import state
 from fctd.mechanics.moving_string import STILL, MovingString
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore
 from fctd.simulation.carried_mud import take_along
-from fctd.simulation.hoist import Hoist
+from fctd.simulation.upper_end import UpperEnd
+from fctd.store.facts import Facts, Restorable
 
 
 @dataclass(kw_only=True)
-class Run(MovingString):
+class Run(MovingString, Restorable):
     """The string of a case in motion, with the case, the hole and the string it was built from.
 
-    hoist : where it hangs from a block that moves.  mud_at : bit depth [m], segments and rotation [rev/min] to
-    which the mud that moves along belongs.
+    upper_end : what feeds or holds it.  mud_at : bit depth [m], segments and rotation [rev/min] to which the mud that
+    moves along belongs.
     """
 
+    FACTS = ("top", "owner", "steps", "segments", "pipe", "mud_at", "upper_end")
     case: Case
     hole: Wellbore
     string: String
-    hoist: Hoist | None = None
+    upper_end: UpperEnd
     mud_at: tuple[float, int, float] | None = None
 
     @property
     def bit_depth(self) -> float:
         """Unstretched length of the string below the rotary table [m]."""
-        if self.hoist is not None:
-            return self.hoist.bit_depth(self)
-        fed = float(self.top[topdrive.TOP_LENGTH] - self.string.length[0]) if self.string.long_segment else 0.0
-        return self.string.bit_depth + fed
+        return self.upper_end.bit_depth(self)
 
     def advance(self, motion: Motion, duration: float, laws: state.Laws | None = None) -> None:
-        """See ``MovingString.advance``; where the string hangs from a block, stands are added and racked back."""
-        if self.hoist is not None and motion is not STILL:
-            motion = self.hoist.paced(self, motion)
-        super().advance(motion, duration, laws)
+        super().advance(motion if motion is STILL else self.upper_end.moved(self, motion), duration, laws)
 
     def refresh(self) -> None:
-        """See ``MovingString.refresh``."""
         super().refresh()
-        if self.hoist is not None:
-            self.string = self.hoist.string(self)
+        self.string = self.upper_end.string(self)
 
     @property
     def laid_out(self) -> String:
         """The string at its present depth, with what has been fed at its top or the stands added since the start."""
-        if self.hoist is not None:
-            return self.hoist.string(self)
-        if not self.string.long_segment:
-            return self.string
-        return self.string.lengthened(float(self.top[topdrive.TOP_LENGTH] - self.string.length[0]))
+        return self.upper_end.laid_out(self)
 
     def take_mud_along(self, operation: Operation) -> None:
         """Update what the mud does to motion that changes, by the present depth and the rotation of an operation."""
         now = self.bit_depth, self.segments, operation.rpm
         if self.case.mud.unsteady and now != self.mud_at:
-            string, in_derrick = self.laid_out, self.hoist is not None
             self.pipe = take_along(
-                self.S, self.case, string, self.pipe, operation.rpm, self.laws.layer_rate, in_derrick=in_derrick
-            )
+                self.S, self.case, self.laid_out, self.pipe, operation.rpm, self.laws.layer_rate,
+                in_derrick=self.upper_end.in_derrick,
+            )  # fmt: skip
             self.mud_at = now
+
+    def facts(self) -> Facts:
+        """See ``Restorable.facts``: what does not follow from the case, which is prepared anew.
+
+        S (ROWS, k) : the first columns of the state buffer, whose others are those of a fresh one.
+        """
+        rows, fresh = (S.reshape(state.ROWS, state.STRIDE) for S in (self.S, state.new_state(1)))
+        used = np.flatnonzero((rows.view(np.int64) != fresh.view(np.int64)).any(axis=0))
+        return super().facts() | {"step": self.step, "S": rows[:, : used.max(initial=-1) + 1]}
+
+    def restore(self, facts: Facts) -> None:
+        S = facts["S"]
+        sizes = len(S), facts["top"].shape, facts["owner"].shape
+        if sizes != (state.ROWS, self.top.shape, self.owner.shape) or facts["step"] != self.step:
+            raise ValueError("another string or step")
+        super().restore(facts)
+        self.S[:] = state.new_state(1)
+        self.S.reshape(state.ROWS, state.STRIDE)[:, : S.shape[1]] = S
+        self.string = self.upper_end.string(self)

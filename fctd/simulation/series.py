@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fctd.model.wellbore import Wellbore, hole_frame
 from fctd.results.buckling import MODES
+from fctd.store.facts import Restorable
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -25,12 +26,14 @@ COLUMNS = ("time_s", "bit_depth_m", "md_m", *LOADS, "clearance_m", *LIMITS)
 KEPT = (*COLUMNS, "mode", "offset_x_m", "offset_y_m", "offset_z_m")
 
 
-class SegmentSeries:
+class SegmentSeries(Restorable):
     """Rows of the segments at the records of a run; when they become too many, every second record is dropped.
 
     most_rows : kept at any time, but for the last two records.  every : of so many records one is kept; seen : records
-    so far.
+    so far.  A checkpoint keeps both, and chunks the rows.
     """
+
+    FACTS = ("every", "seen")
 
     def __init__(self, most_rows: int = MOST_ROWS) -> None:
         self._most, self.every, self.seen = most_rows, 1, 0

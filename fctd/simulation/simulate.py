@@ -14,7 +14,6 @@ from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import SAME_LENGTH
-from fctd.results.pacing import Clocks
 from fctd.results.run_notes import INACCURATE
 from fctd.results.status import RunStatus
 from fctd.results.swings import operations_table
@@ -23,11 +22,12 @@ from fctd.simulation.ending import end_notes, spans_of
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.features import refuse
 from fctd.simulation.intervals import Interval, Window, prolonged, whole_schedule, within
-from fctd.simulation.limits import LimitReached
 from fctd.simulation.preparation import prepare
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.run import Run
 from fctd.simulation.settling import Settling, settle, start_from_rest
+from fctd.store.facts import Facts, Restorable
+from fctd.store.limits import LimitReached
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
 Progress = Callable[[float, float, float], None]
@@ -84,7 +84,7 @@ class Keeper(Protocol):
         """Keep a run that has just recorded an interval, where it is time to, or now."""
 
 
-class Simulation(Iterator[Record]):
+class Simulation(Iterator[Record], Restorable):
     """A case's operations, one record at a time: ``for record in Simulation(case): ...``.
 
     contact : another contact method, built for the hole of this case, that finds the wall at every step;
@@ -95,7 +95,11 @@ class Simulation(Iterator[Record]):
     A record is a row of the history.  The string settles before the first one.  Ctrl-C leaves the iteration with its
     KeyboardInterrupt; ``record_part`` then records the elapsed part of a record interval.  ``result`` may be called at
     any time and returns the records so far.  Raises InputError for a case or a window that cannot be simulated.
+
+    What a checkpoint keeps follows from neither case nor window; a run that takes it goes on bitwise the same.
     """
+
+    FACTS = ("done", "late", "wall_s", "settling_residual", "run")
 
     def __init__(
         self,
@@ -121,7 +125,7 @@ class Simulation(Iterator[Record]):
         self.late = 0.0  # by which a stroke of an autodriller is longer than planned [s]
         self.shifts: list[Shift] = []  # by an autodriller so far
         self.wall_s = 0.0  # wall-clock time since the start
-        self.keeping = Clocks(0.0, 0.0)  # time that a keeper has spent beside it
+        self.saving = np.zeros(2)  # time that a keeper has spent beside it, by clock and processor [s]
         self.settling_residual = float("nan")
         self.stepper: Stepper = self.run
         self._engine, self._settling = engine, settling
@@ -138,9 +142,17 @@ class Simulation(Iterator[Record]):
         assert self._recorder is not None
         return self._recorder
 
-    def go_on(self, recorder: Recorder) -> None:
-        """Start where another process stopped: with the records of a run that has been put back (checkpoint.py)."""
-        self._recorder = recorder
+    def facts(self) -> Facts:
+        """See ``Restorable.facts``; of a run that has started."""
+        return super().facts() | {"shifts": self.shifts, "recorder": self.recorder.facts()}
+
+    def restore(self, facts: Facts) -> None:
+        """Start where another process stopped, without its records."""
+        for shift in facts["shifts"][len(self.shifts) :]:
+            self.shift(Shift(*shift))
+        super().restore(facts)
+        self._recorder = Recorder(self.run)
+        self._recorder.restore(facts["recorder"])
 
     @property
     def end(self) -> float:
@@ -170,6 +182,7 @@ class Simulation(Iterator[Record]):
         if self._engine is not None:
             with naming_file(self.case):
                 self.stepper = self._engine.begin(self.run)
+        self.run.upper_end.begin(self.run)
         self._recorder = Recorder(self.run, start, self.stepper.energy)
 
     def __next__(self) -> Record:
@@ -211,8 +224,8 @@ class Simulation(Iterator[Record]):
 
         Raises UnstableError where it takes ``SLOWEST`` times as long as the law of the bit says.
         """
-        hoist, now = self.run.hoist, self.intervals[self.done]
-        drills_on = None if hoist is None or self.window is not None else hoist.drills_on(self.run, now.motion)
+        now = self.intervals[self.done]
+        drills_on = None if self.window is not None else self.run.upper_end.drills_on(self.run, now.motion)
         if drills_on is None:
             return
         planned = self._planned(self.done)
@@ -229,14 +242,13 @@ class Simulation(Iterator[Record]):
             )
 
     def shift(self, shift: Shift) -> None:
-        """Move the rest of the schedule; another process does it again before it goes on (checkpoint.py)."""
+        """Move the rest of the schedule; another process does it again before it goes on."""
         done, longer, drills_on = shift
-        now, hoist = self.intervals[done], self.run.hoist
-        assert hoist is not None
+        now = self.intervals[done]
         self.shifts.append(shift)
         del self.intervals[done + 1 : done + 1 + len(self._planned(done))]
         self.intervals, self.phases = prolonged(self.intervals, self.phases, now.motion, longer)
-        hoist.strokes = [stroke._replace(start=stroke.start + longer) for stroke in hoist.strokes]
+        self.run.upper_end.delay(longer)
         if drills_on:
             motion = self.intervals[done].motion
             self.intervals.insert(done + 1, Interval(motion, now.operation, now.end + longer))
@@ -266,9 +278,9 @@ class Simulation(Iterator[Record]):
             return Recorder(self.run).result(self.status, self.message, 0.0, float("nan"))
         message = f"at {self.run.time:.4g} s" if self.status == RunStatus.INTERRUPTED else self.message
         result = self._recorder.result(self.status, message, self.wall_s, self.settling_residual)
-        result.run["checkpoints_s"], result.run["checkpoints_wall_s"] = self.keeping.own, self.keeping.wall
+        result.run["checkpoints_wall_s"], result.run["checkpoints_s"] = map(float, self.saving)
         table = operations_table(
-            result.history, self._recorder.start_time, self._recorder.start_depth, spans_of(self.run, self.phases)
+            result.history, self._recorder.start_time, self.run.upper_end.start_depth, spans_of(self.run, self.phases)
         )
         result = replace(result, operations=table)
         if self.status == RunStatus.COMPLETED:

@@ -5,7 +5,6 @@ not depend on the rows beside it, nor on the thread that solves it.  A row that 
 first attempt (balance.py) is left to the methods in Python.
 """
 
-import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -112,11 +111,6 @@ def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
 
 NO_ROOM = Workspace(0)
 UNSOLVED = Answer(np.zeros(ANSWER), *(np.zeros((0, k)) for k in SHAPE_COLUMNS))
-
-
-def cores() -> int:
-    """Number of processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def on_threads(solve: Callable[[Part], Found], parts: Iterable[Part], threads: int) -> Iterator[Found]:

@@ -13,8 +13,8 @@ from fctd.case.input_file import read_text
 from fctd.case.load import LARGEST_FILE, Case, apply_override, load_case
 from fctd.case.string import ComponentSpec
 from fctd.case.text import is_utf8
-from fctd.results.whole_file import whole_file
 from fctd.steady.refine import Refinement
+from fctd.store.whole_file import whole_file
 
 # Keys that a cut replaces, and keys that only a component's uppermost piece keeps; all others stay as written.
 CUT = ("length", "segments", "segment_length")

@@ -23,6 +23,7 @@ from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.reading import Answer
 from fctd.steady.steady_string import Equilibrium
+from fctd.store.limits import cores
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -93,7 +94,7 @@ def chart_rows(
         rates = rates_of_all(case, kinds, speed, rpm)
         sets = None if friction is None else friction_sets(friction)
         chart = _Chart(_solvers(case, build_wellbore(case), sets), kinds, rates)
-        threads = batch.cores() if threads is None else threads
+        threads = cores() if threads is None else threads
         parts = list(_parts(depths[len(known) :], max(1, ROWS // len(chart.loads)), threads))
         total = len(depths) * len(chart.loads)
         rows = list(known)

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
 from fctd.mechanics.compile_cache import hash_of_sources
-from fctd.steady.batch import cores
+from fctd.store.limits import cores
 
 if TYPE_CHECKING:
     from distributed import Client

@@ -1,7 +1,7 @@
 """The folder of a sweep: its samples, and the rows of their results in parts that are written whole or not at all.
 
 ``sweep.json`` says what was swept, ``samples.parquet`` has a row for each sample, ``rows/part-NNNNN.parquet`` the rows
-of the samples that its metadata names.  A part is written beside and renamed, so that what a killed sweep leaves is
+of some samples.  A part is written beside and renamed, so that what a killed sweep leaves is
 complete as far as it goes; only one sweep at a time works on a folder.
 """
 
@@ -18,10 +18,12 @@ from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
 from fctd.mechanics.compile_cache import hash_of_sources
-from fctd.results import run_lock
-from fctd.results.parquet import read_frame, read_table
-from fctd.results.tables import versions
-from fctd.results.whole_file import left_by_dead, whole_file
+from fctd.store.lock import NAME as LOCK
+from fctd.store.lock import FolderLock, HeldError
+from fctd.store.log import Log
+from fctd.store.origin import changes, versions, versions_alone
+from fctd.store.parquet import read_frame, read_table
+from fctd.store.whole_file import whole_file
 from fctd.sweep.template import Template
 
 if TYPE_CHECKING:
@@ -29,10 +31,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 ABOUT, SAMPLES, ROWS = "sweep.json", "samples.parquet", "rows"
-OURS: Final = (ABOUT, SAMPLES, ROWS, run_lock.NAME)
-# Packages whose versions all rows of a dataset share.
-SAME: Final = ("fctd", "python", "numpy", "numba")
-_PART = "part-{:05d}.parquet"
+OURS: Final = (ABOUT, SAMPLES, ROWS, LOCK)
 
 
 class Dataset:
@@ -40,16 +39,13 @@ class Dataset:
 
     def __init__(self, folder: Path, about: dict[str, Any], samples: pd.DataFrame) -> None:
         self.folder, self.about, self.samples = folder, about, samples
-        self.done: set[int] = set()
-        self._parts = 0
-        for path in self.parts:
-            self.done.update(_samples_in(path))
-            self._parts = max(self._parts, int(path.stem.partition("-")[2]) + 1)
+        self._log = Log(folder / ROWS, "part-", ".parquet", digits=5)
+        self.done = {number for table in self._tables(["sample"]) for number in table["sample"].to_pylist()}
 
     @property
     def parts(self) -> list[Path]:
         """The files of rows."""
-        return sorted((self.folder / ROWS).glob("part-*.parquet"))
+        return list(self._log.files.values())
 
     @property
     def missing(self) -> list[int]:
@@ -67,18 +63,13 @@ class Dataset:
         table = table.take(pa.array(np.argsort(numbers, kind="stable")))
         numbers = table["sample"].to_numpy()
         values = self.samples.drop(columns="sample").iloc[numbers]
-        has = sorted(set(numbers.tolist()))
         # The column of a key goes before one of that name in the results: "friction" has the same values in both.
         columns = {"sample": table["sample"]} | {str(name): pa.array(values[name]) for name in values.columns}
         columns |= {name: table[name] for name in table.column_names if name not in columns}
-        whole = pa.table(columns).replace_schema_metadata({"samples": json.dumps(ranges(has))})
-        path = self.folder / ROWS / _PART.format(self._parts)
-        with whole_file(path) as scratch, scratch.open("wb") as sink:
-            pq.write_table(whole, sink, compression="zstd")
-            sink.flush()
-            os.fsync(sink.fileno())
-        self._parts += 1
-        self.done.update(has)
+        path = self._log.path(self._log.following)
+        with whole_file(path, lasting=True) as scratch, scratch.open("wb") as sink:
+            pq.write_table(pa.table(columns), sink, compression="zstd")
+        self.done.update(numbers.tolist())
         return path
 
     def statuses(self) -> dict[str, int]:
@@ -142,21 +133,10 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
         if found.about.get("identity") != identity:
             expected = "another folder, or that of the same sweep (this one has another sweep file, case or survey)"
             raise InputError(expected, key="--out", value=folder)
-        now = versions()
-        other = [
-            f"{name} {found.about['versions'].get(name)}"
-            for name in SAME
-            if found.about["versions"].get(name) != now[name]
-        ]
-        if found.about.get("sources") != hash_of_sources():
-            other.append(f"other sources of fctd (commit {found.about['versions'].get('commit', 'unknown')})")
+        before = versions_alone(found.about["versions"], found.about.get("sources", ""))
+        other = "; ".join(changes(before, versions_alone(versions(), hash_of_sources())))
         if other:
-            raise InputError(
-                f"another folder: its rows were computed with {', '.join(other)}", key="--out", value=folder
-            )
-        for place in (folder, folder / ROWS):
-            for left, _ in left_by_dead(place, r"\.(?:part-\d+|samples|sweep)-PID\.(?:parquet|json)"):
-                left.unlink(missing_ok=True)
+            raise InputError(f"another folder: since its rows were computed, {other}", key="--out", value=folder)
         return found
     about = {
         "name": template.spec.name,
@@ -169,7 +149,7 @@ def begin_dataset(folder: Path, template: Template, samples: pd.DataFrame) -> Da
         "sources": hash_of_sources(),
     }
     (folder / ROWS).mkdir(parents=True, exist_ok=True)
-    with whole_file(folder / SAMPLES) as scratch, scratch.open("wb") as sink:
+    with whole_file(folder / SAMPLES, lasting=True) as scratch, scratch.open("wb") as sink:
         samples.to_parquet(sink, index=False)
     _write_about(folder, about)  # last: it says that the folder is a dataset
     return Dataset(folder, about, samples)
@@ -186,42 +166,19 @@ def alone(folder: Path) -> Iterator[None]:
         if folder.exists() and any(name not in OURS and name[0] != "." for name in os.listdir(folder)):
             raise InputError("a folder for a sweep alone (this one has other files)", key="--out", value=folder)
         folder.mkdir(parents=True, exist_ok=True)
-        lock = run_lock.RunLock.take(folder)
+        lock = FolderLock.take(folder)
     except OSError as error:
         raise InputError(f"a folder that can be written ({error.strerror})", key="--out", value=folder) from error
-    except run_lock.HeldError as held:
+    except HeldError as held:
         here = f"a folder that no other sweep works on (process {held.holder.process} does)"
         raise InputError(here, key="--out", value=folder) from None
     try:
         yield
     finally:
-        (folder / run_lock.NAME).unlink(missing_ok=True)
+        (folder / LOCK).unlink(missing_ok=True)
         lock.release()
 
 
-def ranges(numbers: Sequence[int]) -> list[list[int]]:
-    """Rising numbers as first and last of each run of successive ones."""
-    found: list[list[int]] = []
-    for number in numbers:
-        if found and number == found[-1][1] + 1:
-            found[-1][1] = number
-        else:
-            found.append([number, number])
-    return found
-
-
-def _samples_in(path: Path) -> Iterator[int]:
-    import pyarrow.parquet as pq
-
-    try:
-        with path.open("rb") as source:
-            metadata = pq.read_schema(source).metadata or {}
-        for first, last in json.loads(metadata[b"samples"]):
-            yield from range(first, last + 1)
-    except (OSError, ValueError, KeyError) as error:
-        raise InputError(f"a part that fctd sweep wrote ({error})", value=path) from error
-
-
 def _write_about(folder: Path, about: dict[str, Any]) -> None:
-    with whole_file(folder / ABOUT) as scratch:
+    with whole_file(folder / ABOUT, lasting=True) as scratch:
         scratch.write_text(json.dumps(about, indent=1), encoding="utf-8")

@@ -17,7 +17,7 @@ from fctd.case.text import printable
 from fctd.plots.tracks import side_force_unit
 from fctd.results.buckling import MODES
 from fctd.results.unit_systems import System, shown
-from fctd.results.whole_file import whole_file
+from fctd.store.whole_file import whole_file
 from fctd.view.hole import AROUND, AXIS_STEP, SIDES, Stations
 from fctd.view.quantities import QUANTITIES, quantity_of
 from fctd.view.scene import Look, caption_of, panel_layout, panel_traces, scene_layout, scene_traces

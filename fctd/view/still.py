@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from fctd.case.errors import InputError
-from fctd.results.whole_file import whole_file
+from fctd.store.whole_file import whole_file
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

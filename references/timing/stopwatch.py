@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from fctd.results.tables import versions
+from fctd.store.origin import versions
 from references import engines
 from references.contact import METHODS, installed_version, method_class
 from references.engines import ENGINES, engine_class

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from fctd.app.home import FIRST_PORT, TOKEN, Home, private_folder, user_folder, write_private
+from fctd.app.home import FIRST_PORT, TOKEN, Home, private_folder, user_folder
 from fctd.case.errors import InputError
 
 
@@ -62,16 +62,3 @@ def test_a_folder_that_cannot_be_used_is_refused(tmp_path: Path, monkeypatch: py
 def test_the_users_folder_is_where_the_system_keeps_state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
     assert user_folder() == tmp_path / "fctd" / "app"
-
-
-def test_a_file_is_written_completely_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write_private(tmp_path / "a", b"one")
-
-    def fail(*_: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", fail)
-    with pytest.raises(OSError, match="No space"):
-        write_private(tmp_path / "a", b"two")
-    assert [path.name for path in tmp_path.iterdir()] == ["a"]
-    assert (tmp_path / "a").read_bytes() == b"one"

@@ -9,17 +9,17 @@ import pytest
 
 from fctd.app.runs_view import records
 from fctd.case.load import load_case
-from fctd.results import pacing
-from fctd.results.run_folder import RunFolder
 from fctd.simulation.kept_run import KeptRun
 from fctd.simulation.simulate import simulate
+from fctd.store import save_interval
+from fctd.store.run_folder import RunFolder
 from fctd.view.strings import of_run
 from tests.app.made import SURVEY, TEXT
 from tests.app.test_well import unpacked
 
 
 def test_a_run_is_seen_from_its_first_chunk_to_its_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pacing, "SHARE", 1e9)  # a chunk a record
+    monkeypatch.setattr(save_interval, "SHARE", 1e9)  # a chunk a record
     target = tmp_path / "result"
     assert records(tmp_path, str(target), "si")["records"] == 0
     (tmp_path / "survey.csv").write_bytes(SURVEY)

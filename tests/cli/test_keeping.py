@@ -12,10 +12,9 @@ import pytest
 from fctd import open_result
 from fctd.cli import chart, main, simulate
 from fctd.cli.keeping import read_bytes
-from fctd.results import pacing, run_folder
-from fctd.results.run_folder import RunFolder, run_path
-from fctd.results.run_lock import RunLock
-from fctd.simulation import limits
+from fctd.store import limits, save_interval
+from fctd.store.lock import FolderLock
+from fctd.store.run_folder import RunFolder, run_path
 from tests.cli.test_main import CASE, run
 from tests.simulation.kept import same
 
@@ -30,7 +29,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     Path("survey.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n300,0,0\n750,90,0\n900,90,0\n")
     stations = "stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]"
     Path("small.toml").write_text(CASE.replace(stations, 'survey = "survey.csv"'))
-    monkeypatch.setattr(pacing, "SHARE", 1e9)
+    monkeypatch.setattr(save_interval, "SHARE", 1e9)
 
 
 class Killed(BaseException):
@@ -102,7 +101,7 @@ def test_a_run_that_lasts_is_named_and_not_offered(
 ) -> None:
     """Another process computes: neither --resume nor --restart is a way out."""
     killed(monkeypatch, RUN)
-    lock = RunLock.take(run_path(Path("out")))
+    lock = FolderLock.take(run_path(Path("out")))
     (run_path(Path("out")) / "lock").write_text("[4242, 1e9]")
     for asked in (RUN, (*RUN, "--restart"), ("simulate", "--resume", "out")):
         capsys.readouterr()
@@ -263,24 +262,6 @@ def test_a_chart_that_reaches_its_limit(monkeypatch: pytest.MonkeyPatch, capsys:
     assert "stopped: the time limit of 1e-09 s is reached" in message
     assert "fctd chart --resume chart.csv" not in message  # no depth was complete
     assert not run_path(Path("chart.csv")).exists()
-
-
-def test_a_full_disk_ends_a_chart_with_what_it_has(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    real, writes = run_folder.open_file, []
-
-    def full(path: Path) -> object:
-        writes.append(path)
-        if path.name == ".3-rows.jsonl":
-            raise OSError(28, "No space left on device")
-        return real(path)
-
-    with monkeypatch.context() as patched:
-        patched.setattr(run_folder, "open_file", full)
-        assert run(monkeypatch, *CHART, "--quiet", "--checkpoint-every", "0 s") == 2
-    assert "No space left on device): make room there, and go on with --resume from 4 rows" in capsys.readouterr().err
-    assert run(monkeypatch, "chart", "--resume", "chart.csv", "--quiet") == 0
 
 
 def test_an_estimate_beyond_the_disk_is_refused_before(

@@ -8,7 +8,7 @@ import typer
 
 from fctd.cli.main import COMMANDS, app
 from fctd.mechanics.compile_cache import hash_of_sources
-from fctd.results.tables import versions
+from fctd.store.origin import versions
 from tests.cli.test_main import CASE, run
 
 

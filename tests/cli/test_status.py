@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from fctd.cli import simulate
-from fctd.results import pacing
-from fctd.results.run_folder import RunFolder
+from fctd.store import save_interval
+from fctd.store.run_folder import RunFolder
 from fctd.sweep.chunk import as_table, without_answer
 from fctd.sweep.dataset import alone, begin_dataset
 from fctd.sweep.run import prepare, sample_of
@@ -20,7 +20,7 @@ from validation.parts.small_sweep import sweep_file
 @pytest.fixture(autouse=True)
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(pacing, "SHARE", 1e9)
+    monkeypatch.setattr(save_interval, "SHARE", 1e9)
     Path("small.toml").write_text(CASE)
 
 

@@ -12,7 +12,7 @@ from fctd.case.errors import InputError
 from fctd.cli import sweep as cli
 from fctd.cli.main import app
 from fctd.cli.sweep import where_of
-from fctd.steady.batch import cores
+from fctd.store.limits import cores
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import Summary
 from validation.parts import clusters

@@ -7,8 +7,8 @@ import pytest
 pytest.importorskip("plotly")
 
 from fctd.cli import chart as chart_of
-from fctd.results import pacing
-from fctd.results.run_folder import run_path
+from fctd.store import save_interval
+from fctd.store.run_folder import run_path
 from tests.cli.test_keeping import CHART, RUN, killed
 from tests.cli.test_main import CASE, run
 
@@ -50,7 +50,7 @@ def test_a_run_that_has_not_ended(
 ) -> None:
     """What it has kept is shown, and a whole result before it; the run goes on afterwards as if nobody had looked."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(pacing, "SHARE", 1e9)
+    monkeypatch.setattr(save_interval, "SHARE", 1e9)
     killed(monkeypatch, RUN)
     before = {path.name: path.read_bytes() for path in run_path(Path("out")).iterdir()}
     assert run(monkeypatch, "view", "out", "--out", "out.html") == 0

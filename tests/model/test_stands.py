@@ -130,7 +130,7 @@ def test_stands_are_moved_where_the_long_segment_does_not_fit() -> None:
     string = [pipe(None, None, segment_length=10.0)]
     for moves, hung in (([trip(200, 280)], False), ([trip(500, 900)], True), ([rotation(700, 5.0)], False)):
         run, _ = prepare(make_case(BUILD, string, moves))
-        assert (run.hoist is not None) == hung
+        assert run.upper_end.in_derrick == hung
     with pytest.raises(InputError, match=r"within 1 deg of vertical"):
         prepare(make_case(BUILD, [pipe(100, 10), pipe(None, 1)], [trip(500, 900)]))
 

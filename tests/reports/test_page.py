@@ -293,7 +293,7 @@ def test_a_long_table_is_folded_and_a_short_one_open(render, tmp_path):
 def test_an_interruption_leaves_the_pages_before(render, tmp_path, monkeypatch):
     render((replace(BLANK, checks=(judged(0.0),)), {}), studies=["overlap"])
     before = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}
-    left = tmp_path / ".out-4194304"  # of a process that has ended: beyond the ids that Linux gives
+    left = tmp_path / ".out-run-4194304"  # of a process that has ended: beyond the ids that Linux gives
     left.mkdir()
 
     def interrupted(*arguments):

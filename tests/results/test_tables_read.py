@@ -11,7 +11,7 @@ from fctd.case.errors import InputError
 from fctd.results import tables
 from fctd.results.tables import TABLES
 from tests.killed_saves import earlier, result
-from tests.results.test_whole_folder import value
+from tests.store.test_whole_folder import value
 
 
 def test_tables_of_two_runs_are_not_read(tmp_path: Path) -> None:

@@ -1,15 +1,14 @@
 """Runs that are kept, and gone on with: what the tests of checkpoints share."""
 
-import json
 from typing import Any
 
 import pandas as pd
 
 from fctd.case.load import Case
 from fctd.results.tables import TABLES, SimulationResult
-from fctd.simulation.checkpoint import Checkpoint, capture, put_back
 from fctd.simulation.chunks import Cursor, add_chunk, chunk_since, read_chunk
 from fctd.simulation.simulate import Simulation
+from fctd.store.facts import Facts, pack, unpack
 from tests.cases import make_case, pipe, rotation, trip
 
 BUILD = [[0, 0, 0], [150, 0, 0], [450, 60, 0], [1000, 60, 0]]
@@ -48,25 +47,24 @@ def drilling_on(geometry: str = "arcs") -> Case:
     )  # fmt: skip
 
 
-def stopped(simulation: Simulation, after: int, chunk: int = 7) -> tuple[Checkpoint, list[dict[str, bytes]]]:
-    """The checkpoint of a run after so many records, as it would be read back, and its chunks of so many records."""
-    cursor, chunks = Cursor(), []
+def stopped(simulation: Simulation, after: int, chunk: int = 7) -> tuple[Facts, list[dict[str, bytes]]]:
+    """The facts of a run after so many records more, as they would be read back, and its chunks of so many records."""
+    cursor, chunks = Cursor.at_end(simulation.recorder) if simulation.started else Cursor(), []
     for k, _ in enumerate(simulation, start=1):
         if k % chunk == 0 or k == after:
             chunks.append(chunk_since(simulation.recorder, cursor))
+            cursor = Cursor.at_end(simulation.recorder)
         if k == after:
             break
-    kept = capture(simulation)
-    return Checkpoint(kept.arrays, json.loads(json.dumps(kept.facts))), chunks
+    return unpack(pack(simulation.facts())), chunks
 
 
-def gone_on(case: Case, checkpoint: Checkpoint, chunks: list[dict[str, bytes]], contact: Any = None) -> Simulation:
+def gone_on(case: Case, facts: Facts, chunks: list[dict[str, bytes]], contact: Any = None) -> Simulation:
     """A new run in the state of a checkpoint."""
     simulation = Simulation(case, contact)
-    recorder = put_back(simulation, checkpoint)
+    simulation.restore(facts)
     for chunk in chunks:
-        add_chunk(recorder, read_chunk(chunk))
-    simulation.go_on(recorder)
+        add_chunk(simulation.recorder, read_chunk(chunk))
     return simulation
 
 

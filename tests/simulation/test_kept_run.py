@@ -1,22 +1,26 @@
 """A run in its folder: when it is written, what is read back, and what a damaged or failing disk costs."""
 
-import errno
-import io
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
-from typing import BinaryIO
 
+import numpy as np
 import pandas as pd
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.results import pacing, run_folder
-from fctd.results.run_folder import RunFolder, numbered, progress_of
 from fctd.results.tables import SimulationResult
-from fctd.simulation import kept_run
-from fctd.simulation.kept_run import CHECKPOINT, KeptRun, kept_so_far
+from fctd.simulation.guards import Guards
+from fctd.simulation.hung import Hung
+from fctd.simulation.kept_run import KeptRun, checkpoints_of, kept_so_far
+from fctd.simulation.recorder import Recorder
+from fctd.simulation.run import Run
+from fctd.simulation.series import SegmentSeries
 from fctd.simulation.simulate import Simulation, simulate
+from fctd.store import save_interval
+from fctd.store.facts import Restorable
+from fctd.store.limits import LimitReached
+from fctd.store.run_folder import RunFolder, chunks_of, progress_of
 from tests.simulation.kept import same, tripping
 
 
@@ -49,7 +53,7 @@ def killed_after(folder: RunFolder, records: int, every: float = 0.0) -> KeptRun
 @pytest.fixture(autouse=True)
 def always_due(monkeypatch: pytest.MonkeyPatch) -> None:
     """A checkpoint at every record of a run with ``every`` 0, whatever it costs."""
-    monkeypatch.setattr(pacing, "SHARE", 1e9)
+    monkeypatch.setattr(save_interval, "SHARE", 1e9)
 
 
 @cache
@@ -62,47 +66,27 @@ def at(record: int) -> float:
     return float(undisturbed().history["time_s"].iloc[record - 1])
 
 
-def test_a_run_goes_on_in_another_process(folder: RunFolder) -> None:
-    killed_after(folder, 25)
+def test_a_run_goes_on_in_another_process(folder: RunFolder, tmp_path: Path) -> None:
+    """Every record is a chunk; the progress that is reported and the times are those of the whole run."""
+    before = killed_after(folder, 25)
+    progress = progress_of(tmp_path / "out")
+    assert progress is not None
+    assert (progress.unit, progress.kept, progress.done) == ("s", at(25), at(25))
+    assert progress.total == Simulation(tripping()).end
     said: list[str] = []
     again = KeptRun(folder, 0.0, tell=said.append)
     found = simulate(tripping(), keeper=again)
     same(found, undisturbed())
     assert said == [f"the run goes on from {at(25):.4g} s"]
-    assert len(numbered(folder.path, CHECKPOINT)) == 2
-
-
-def test_it_is_written_when_it_is_time_to(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every two seconds; once writing takes long, less often: a hundredth of the time goes into it."""
-    monkeypatch.setattr(pacing, "SHARE", 0.01)
-    now = [0.0]
-    monkeypatch.setattr(pacing.Clocks, "now", lambda: pacing.Clocks(now[0], now[0]))
-    keeper = KeptRun(folder, 2.0)
-    simulation, written, cost = Simulation(tripping()), [], 0.005
-    real = keeper._write
-
-    def slow(of: Simulation) -> None:
-        real(of)
-        now[0] += cost
-        written.append(round(now[0], 2))
-
-    keeper._write = slow  # type: ignore[method-assign]
-    keeper.begin(simulation)
-    for k, _ in enumerate(simulation):
-        cost = 0.005 if k < 10 else 0.1
-        now[0] += 0.5
-        keeper.keep(simulation)
-        if k == 50:
-            break
-    assert written == pytest.approx([2.0, 4.01, 6.11], abs=0.01)
-    assert keeper.spent == pytest.approx((0.11, 0.11))
-    assert simulation.keeping == keeper.spent
+    assert list(checkpoints_of(folder.path).files) == [again.number - 1, again.number]
+    assert list(chunks_of(folder.path).files) == list(range(1, len(undisturbed().history) + 1))
+    assert found.run["checkpoints_s"] == again.interval.spent[1] > before.interval.spent[1]
 
 
 def test_a_clock_that_jumps_changes_nothing(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
     """The clock on the wall is set back by a day and on by a year; intervals are those of another clock."""
     jumps = iter([1e9, 1e9 - 86400, 1e9 + 3e7] * 1000)
-    monkeypatch.setattr(kept_run.time, "time", lambda: next(jumps))
+    monkeypatch.setattr("time.time", lambda: next(jumps))
     killed_after(folder, 25)
     same(simulate(tripping(), keeper=KeptRun(folder, 0.0, tell=lambda _: None)), undisturbed())
 
@@ -110,8 +94,8 @@ def test_a_clock_that_jumps_changes_nothing(folder: RunFolder, monkeypatch: pyte
 @pytest.mark.parametrize("damage", ["cut", "flipped", "gone"])
 def test_a_damaged_checkpoint_costs_what_came_after_the_one_before(folder: RunFolder, damage: str) -> None:
     killed_after(folder, 25)
-    number, name = list(numbered(folder.path, CHECKPOINT).items())[-1]
-    _damage(folder.path / name, damage)
+    number, path = list(checkpoints_of(folder.path).files.items())[-1]
+    _damage(path, damage)
     said: list[str] = []
     found = simulate(tripping(), keeper=KeptRun(folder, 1e9, tell=said.append))
     same(found, undisturbed())
@@ -124,11 +108,11 @@ def test_a_damaged_checkpoint_costs_what_came_after_the_one_before(folder: RunFo
 def test_a_damaged_chunk_is_never_read_as_another(folder: RunFolder, damage: str) -> None:
     """An early one is part of both checkpoints: the run begins anew, and says so."""
     killed_after(folder, 25)
-    _damage(folder.path / "3-history.parquet", damage)
+    _damage(chunks_of(folder.path).path(3), damage)
     said: list[str] = []
     same(simulate(tripping(), keeper=KeptRun(folder, 1e9, tell=said.append)), undisturbed())
     assert [line.partition(" cannot")[0] for line in said] == ["checkpoint 25", "checkpoint 24", "the run begins anew"]
-    assert numbered(folder.path, "history.parquet") == {}
+    assert chunks_of(folder.path).files == {}
 
 
 def _damage(path: Path, how: str) -> None:
@@ -151,8 +135,7 @@ def test_what_is_kept_so_far_can_be_looked_at(folder: RunFolder) -> None:
     killed_after(folder, 25)
     for damaged, records in ((False, 25), (True, 24)):
         if damaged:
-            (name,) = list(numbered(folder.path, CHECKPOINT).values())[-1:]
-            _damage(folder.path / name, "cut")
+            _damage(checkpoints_of(folder.path).path(25), "cut")
         before = {path.name: path.read_bytes() for path in folder.path.iterdir()}
         found = kept_so_far(folder.path, tripping())
         pd.testing.assert_frame_equal(found.history, undisturbed().history[:records], check_exact=True)
@@ -160,41 +143,63 @@ def test_what_is_kept_so_far_can_be_looked_at(folder: RunFolder) -> None:
         assert {path.name: path.read_bytes() for path in folder.path.iterdir()} == before
 
 
-class Failing(io.FileIO):
-    """A file on a disk that fails after so many bytes of all files."""
-
-    left = 0
-
-    def write(self, content: bytes) -> int:  # type: ignore[override]
-        Failing.left -= len(content)
-        if Failing.left < 0:
-            raise OSError(errno.EIO, "Input/output error")
-        return super().write(content)
+OWNERS: dict[type[Restorable], Callable[[Simulation], Restorable]] = {
+    Simulation: lambda simulation: simulation,
+    Run: lambda simulation: simulation.run,
+    Hung: lambda simulation: simulation.run.upper_end,
+    Recorder: lambda simulation: simulation.recorder,
+    Guards: lambda simulation: simulation.recorder.guards,
+    SegmentSeries: lambda simulation: simulation.recorder.series,
+}
 
 
-@pytest.mark.parametrize("after", [0, 40_000, 400_000])
-def test_a_disk_that_fails_costs_one_chunk(folder: RunFolder, after: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The run ends with a message; what had been written can be gone on with."""
+@pytest.mark.parametrize("owner", OWNERS)
+def test_a_field_that_an_owner_adds_is_kept(
+    owner: type[Restorable], folder: RunFolder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It names the field among its facts, and nothing else is changed: neither other owners nor what writes them."""
+    monkeypatch.setattr(owner, "FACTS", (*owner.FACTS, "added"))
+    monkeypatch.setattr(owner, "added", (0, np.zeros(1)), raising=False)
+    simulation, keeper = Simulation(tripping()), KeptRun(folder, 0.0)
+    keeper.begin(simulation)
+    for k in range(3):
+        next(simulation)
+        vars(OWNERS[owner](simulation))["added"] = (k, np.full(2, np.pi))
+        keeper.keep(simulation)
+    again = Simulation(tripping())
+    KeptRun(folder, 0.0, tell=lambda _: None).begin(again)
+    number, array = getattr(OWNERS[owner](again), "added")  # noqa: B009 (the class has no such name)
+    assert (number, array.tolist()) == (2, [np.pi, np.pi])
 
-    def failing(path: Path) -> BinaryIO:
-        return Failing(path, "wb")  # type: ignore[return-value]
 
-    Failing.left = after
-    with monkeypatch.context() as patched:
-        patched.setattr(run_folder, "open_file", failing)
-        with pytest.raises(InputError, match=r"Input/output error.*make room there") as refused:
-            simulate(tripping(), keeper=KeptRun(folder, 0.0, key="--out"))
-    kept = len(numbered(folder.path, "history.parquet"))
-    assert (kept > 0) == (after > 0)
-    assert ("go on with --resume" in str(refused.value)) == bool(numbered(folder.path, CHECKPOINT))
-    assert not [path for path in folder.path.iterdir() if path.name.startswith(".")]
-    same(simulate(tripping(), keeper=KeptRun(folder, 1e9, tell=lambda _: None)), undisturbed())
+def test_a_checkpoint_without_a_fact_is_refused(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As that of a version that had no such field: it is named, and nothing is dropped."""
+    killed_after(folder, 5)
+    before = {path.name for path in folder.path.iterdir()}
+    monkeypatch.setattr(Guards, "FACTS", (*Guards.FACTS, "added"))
+    monkeypatch.setattr(Guards, "added", 0, raising=False)
+    refused = r"a run of this version of fctd \(its checkpoint has no 'added'\)"
+    with pytest.raises(InputError, match=refused):
+        simulate(tripping(), keeper=KeptRun(folder, 0.0))
+    with pytest.raises(InputError, match=refused):
+        kept_so_far(folder.path, tripping())
+    assert {path.name for path in folder.path.iterdir()} == before
 
 
-def test_the_progress_is_reported(folder: RunFolder, tmp_path: Path) -> None:
-    killed_after(folder, 25)
-    progress = progress_of(tmp_path / "out")
-    assert progress is not None
-    assert (progress.unit, progress.kept) == ("s", pytest.approx(at(25)))
-    assert progress.done == pytest.approx(at(25))
-    assert progress.total == Simulation(tripping()).end
+def test_a_run_that_reaches_a_limit_keeps_its_records() -> None:
+    def progress(now: float, total: float, factor: float) -> None:
+        if now >= 3:
+            raise LimitReached("the time limit of 3 s is reached")
+
+    result = simulate(tripping(), progress=progress)
+    assert (result.status, result.message) == ("stopped", "at 3 s: the time limit of 3 s is reached")
+    assert result.history["time_s"].iloc[-1] == pytest.approx(3.0)
+
+
+def test_a_limit_while_the_string_settles() -> None:
+    def settling(now: float, imbalance: float) -> None:
+        raise LimitReached("the time limit of 3 s is reached")
+
+    result = simulate(tripping(), settling=settling)
+    assert (result.status, len(result.history)) == ("stopped", 0)
+    assert result.message.startswith("before the start")

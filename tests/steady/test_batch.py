@@ -5,7 +5,7 @@ import pytest
 
 from fctd.case.load import Case
 from fctd.model.operations import steady_rates
-from fctd.steady.batch import Batches, Row, cores, hole_of, on_threads, solve_batch
+from fctd.steady.batch import Batches, Row, hole_of, on_threads, solve_batch
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Workspace
@@ -85,7 +85,3 @@ def test_without_a_balance_there_is_no_answer() -> None:
     row = next(row for row in rows if row.operation == "drill_rotating")
     (answer,) = solve_batch(case, hole_of(case, [solver.hole]), [row._replace(friction=0)], Workspace(60))
     assert not answer.numbers[SOLVED]
-
-
-def test_there_is_a_processor() -> None:
-    assert cores() >= 1

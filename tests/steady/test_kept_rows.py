@@ -1,15 +1,13 @@
 """Rows of a chart in its folder: when they are written, and what is read back."""
 
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from fctd.results import pacing
-from fctd.results.run_folder import RunFolder, numbered, progress_of
-from fctd.steady import kept_rows
-from fctd.steady.kept_rows import ROWS, KeptRows
+from fctd.steady.kept_rows import KeptRows
+from fctd.store import save_interval
+from fctd.store.run_folder import RunFolder, chunks_of, progress_of
 
 EVERY = {"operation": "trip_in", "hookload_N": np.float64(0.1) + np.float64(0.2), "torque": float("nan"), "n": 3}
 
@@ -21,9 +19,9 @@ def depth(k: int) -> list[dict[str, object]]:
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     now = [0.0]
-    monkeypatch.setattr(kept_rows, "time", SimpleNamespace(monotonic=lambda: now[0], time=lambda: 1e9))
-    monkeypatch.setattr(pacing.Clocks, "now", lambda: pacing.Clocks(now[0], now[0]))
-    monkeypatch.setattr(pacing, "SHARE", 1.0)
+    monkeypatch.setattr("time.monotonic", lambda: now[0])
+    monkeypatch.setattr(save_interval, "clocks", lambda: np.array([now[0], now[0]]))
+    monkeypatch.setattr(save_interval, "SHARE", 1.0)
     return now
 
 
@@ -35,7 +33,7 @@ def test_rows_are_read_back_as_they_were(tmp_path: Path, clock: list[float]) -> 
         clock[0] += 0.5
         kept.keep(depth(k), 10)
     assert described == [1]
-    assert list(numbered(folder.path, ROWS)) == [1, 2]
+    assert list(chunks_of(folder.path).files) == [1, 2]
     again = KeptRows(folder, 2.0)
     plain = {"hookload_N": 0.1 + 0.2}
     assert repr(again.known) == repr([[row | plain for row in depth(k)] for k in range(8)])
@@ -44,9 +42,9 @@ def test_rows_are_read_back_as_they_were(tmp_path: Path, clock: list[float]) -> 
     assert progress is not None
     assert (progress.done, progress.total, progress.kept) == (10, 10, 8)
     again.keep(depth(8), 10)
-    again.write(10)
-    again.write(10)  # nothing is new
-    assert list(numbered(folder.path, ROWS)) == [1, 2, 3]
+    again.write_new(10)
+    again.write_new(10)  # nothing is new
+    assert list(chunks_of(folder.path).files) == [1, 2, 3]
     folder.leave(remove=True)
 
 
@@ -57,7 +55,7 @@ def test_a_damaged_chunk_ends_what_is_known(tmp_path: Path, clock: list[float], 
     for k in range(4):
         clock[0] += 1.0
         kept.keep(depth(k), 10)
-    path = folder.path / f"3-{ROWS}"
+    path = chunks_of(folder.path).path(3)
     content = path.read_bytes()
     changes = {"cut": content[:20], "flipped": content.replace(b'"n": 3', b'"n": 7')}
     path.unlink() if damage == "gone" else path.write_bytes(changes[damage])

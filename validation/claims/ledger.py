@@ -17,7 +17,7 @@ import pandas as pd
 from pydantic import Field, ValidationError, model_validator
 
 from fctd.case.errors import MISSING, InputError, Table, exclusive, explain, look_up
-from fctd.results.parquet import read_frame
+from fctd.store.parquet import read_frame
 from validation.harness import store
 from validation.harness.registry import STUDIES
 from validation.harness.store import Record

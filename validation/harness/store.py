@@ -1,19 +1,12 @@
 """What is kept of a run: ``verdict.json`` and one Parquet file per table, written whole or not at all."""
 
-import errno
 import json
 import math
 import os
-import platform
-import shutil
 import subprocess
-import tempfile
 from collections import Counter
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
-from importlib import metadata
-from itertools import count
 from pathlib import Path
 from typing import Any, Literal
 
@@ -21,7 +14,10 @@ import pandas as pd
 from pyarrow import parquet
 from pydantic import TypeAdapter
 
-from fctd.results.parquet import read_frame
+from fctd.store.origin import versions
+from fctd.store.parquet import read_frame
+from fctd.store.whole_file import whole_file
+from fctd.store.whole_folder import whole_folder
 from references.timing.stopwatch import cpu_name
 from validation.harness.fingerprint import Inputs
 from validation.harness.study import ROOT, Check
@@ -100,42 +96,27 @@ class Record:
 
 def provenance() -> Provenance:
     """The code and the machine that this process runs on."""
-    versions = {name: metadata.version(name) for name in ("fctd", "numpy", "numba")}
-    versions["python"] = platform.python_version()
-    return Provenance(_commit(), versions, cpu_name(), os.cpu_count() or 1)
+    found = versions()
+    commit = found.pop("commit", "unknown")  # outside a repository
+    if commit != "unknown" and subprocess.run(["git", "-C", str(ROOT), "diff", "--quiet", "HEAD"]).returncode:
+        commit += " with changes"
+    return Provenance(commit, found, cpu_name(), os.cpu_count() or 1)
 
 
 def write(record: Record, tables: dict[str, pd.DataFrame], results: Path, inputs: Inputs | None = None) -> Path:
     """Store a run and its inputs as ``results/STUDY/``, replacing the one before; return the folder.
 
-    Everything is written to a folder of its own first and then renamed, so that a run that is interrupted
-    leaves the earlier result or none, never half of one.
+    A run that is interrupted leaves the earlier result or none, never half of one.  Raises InputError where the folder
+    cannot be written.
     """
-    results.mkdir(parents=True, exist_ok=True)
     folder = results / record.study
-    with tempfile.TemporaryDirectory(prefix=f".{record.study}-", dir=results) as scratch:
-        new = Path(scratch) / "new"
-        new.mkdir()
+    with whole_folder(folder) as new:
         for name, table in tables.items():
             table.to_parquet(new / f"{name}.parquet", index=False)
         _write_verdict(record, new / "verdict.json")
         if inputs is not None:
             inputs.write(new)
-        put(new, folder)
     return folder
-
-
-def put(new: Path, folder: Path) -> None:
-    """Give a new folder the place of the one there, if any, which moves beside it; another run may do the same."""
-    for k in count():
-        with suppress(FileNotFoundError):
-            folder.rename(new.with_name(f"old-{k}"))
-        try:
-            new.rename(folder)
-            return
-        except OSError as error:  # the other run has stored its folder between the two renamings
-            if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
-                raise
 
 
 def judge_again(record: Record, recorded: Mapping[str, str], results: Path) -> Record:
@@ -144,9 +125,8 @@ def judge_again(record: Record, recorded: Mapping[str, str], results: Path) -> R
     if checks == record.checks:
         return record
     judged_again = replace(record, checks=checks)
-    scratch = results / record.study / ".verdict.json"
-    _write_verdict(judged_again, scratch)
-    scratch.replace(scratch.with_name("verdict.json"))
+    with whole_file(results / record.study / "verdict.json") as scratch:
+        _write_verdict(judged_again, scratch)
     return judged_again
 
 
@@ -205,15 +185,3 @@ def _to_json(record: Record) -> dict[str, Any]:
 def _number(value: float) -> float | str:
     """JSON has no word for nan and the infinities; ``float`` reads them back from text."""
     return float(value) if math.isfinite(value) else str(float(value))
-
-
-def _commit() -> str:
-    """The commit checked out, marked where tracked files differ from it; ``unknown`` outside a repository."""
-    if shutil.which("git") is None:
-        return "unknown"
-    git = ["git", "-C", str(ROOT)]
-    head = subprocess.run([*git, "rev-parse", "--short=12", "HEAD"], capture_output=True, text=True)
-    if head.returncode:
-        return "unknown"
-    changed = subprocess.run([*git, "diff", "--quiet", "HEAD"], capture_output=True).returncode
-    return head.stdout.strip() + (" with changes" if changed else "")

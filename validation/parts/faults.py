@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from fctd.cli.main import app
-from fctd.results import run_folder
-from fctd.results.run_folder import RunFolder, run_path
+from fctd.store import whole_file
+from fctd.store.run_folder import RunFolder, run_path
 from validation.harness.study import ROOT
 from validation.parts.killed_runs import Command, forked, tables_of, trip
 
@@ -124,7 +124,7 @@ def failing_disk(ground: Ground) -> Tried:
             return super().write(content) or 0
 
     def failing() -> None:
-        vars(run_folder)["open_file"] = lambda path: Failing(path, "wb")
+        vars(whole_file)["open_file"] = lambda path, mode: Failing(path, "wb")
 
     fault = "disk that fails halfway"
     tried = ground.judge(

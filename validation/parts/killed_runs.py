@@ -18,10 +18,10 @@ import pandas as pd
 
 from fctd.cli.keeping import has_kept
 from fctd.cli.main import app, run
-from fctd.results import pacing
-from fctd.results.parquet import read_frame
-from fctd.results.run_folder import PROGRESS, about_of, numbered, run_path
 from fctd.results.tables import TABLES, open_result
+from fctd.store import save_interval
+from fctd.store.parquet import read_frame
+from fctd.store.run_folder import PROGRESS, about_of, chunks_of, run_path
 from references.__main__ import app as references
 
 # Processes for each kill, after which a command counts as one that ends before it can be killed.
@@ -207,7 +207,7 @@ def _fork(program: Any, arguments: Sequence[str], log: Path, before: Callable[[]
         return child
     code = 70
     # A checkpoint may take any share of the time, so that there are many.
-    pacing.SHARE = 1.0
+    save_interval.SHARE = 1.0
     try:
         out = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
         os.dup2(out, 1)
@@ -318,7 +318,7 @@ def _identity(result: Path) -> str:
 
 
 def _chunks(result: Path) -> int:
-    return max((len(numbered(run_path(result), kind)) for kind in ("history.parquet", "rows.jsonl")), default=0)
+    return len(chunks_of(run_path(result)).files)
 
 
 def tables_of(result: Path) -> dict[str, bytes]:

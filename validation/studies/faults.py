@@ -13,10 +13,10 @@ import pandas as pd
 from fctd.case.load import load_case
 from fctd.cli.compile import compile_all
 from fctd.results import ledger
-from fctd.results.run_folder import RunFolder, numbered
 from fctd.results.tables import open_result
 from fctd.simulation.kept_run import KeptRun
 from fctd.simulation.simulate import simulate
+from fctd.store.run_folder import RunFolder, chunks_of
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.faults import FAULTS, SLOW, Ground, at_once
 from validation.parts.killed_runs import Command, Killed, chart, drill, kill_again_and_again, meshed, trip
@@ -110,7 +110,7 @@ def _shares(folder: Path) -> dict[str, float]:
     wall, own = time.perf_counter(), time.process_time()
     result = simulate(load_case(folder / "case.toml"), keeper=KeptRun(kept, 0.0, tell=lambda _: None))
     wall, own = time.perf_counter() - wall, time.process_time() - own
-    chunks = len(numbered(kept.path, "history.parquet"))
+    chunks = len(chunks_of(kept.path).files)
     kept.leave(remove=True)
     return {
         "records": len(result.history), "chunks": chunks, "whole_s": wall, "of_the_process_s": own,

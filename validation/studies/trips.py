@@ -18,6 +18,7 @@ from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.operations import Phase
 from fctd.model.string_in_hole import pressure_of
 from fctd.results.notes import codes_of
+from fctd.simulation.hung import Hung
 from fctd.simulation.intervals import Interval, Window, within
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
@@ -122,10 +123,11 @@ def recorded(phases: list[Phase], often: list[bool]) -> list[Interval]:
 
 def missing(run: Run) -> float:
     """What the columns of the string differ in mass and length from those of the tally, the larger share."""
-    assert run.hoist is not None
-    n, tally = run.segments, run.hoist.tally
+    hung = run.upper_end
+    assert isinstance(hung, Hung)
+    n, tally = run.segments, hung.tally
     squeeze = tally.whole.of("compressibility") * pressure_of(run.case, tally.whole, run.hole)
-    length = float(tally.reach[run.hoist.stands]) - float((tally.whole.length * squeeze)[-n:].sum())
+    length = float(tally.reach[hung.stands]) - float((tally.whole.length * squeeze)[-n:].sum())
     mass = float((tally.whole.of("mass") * tally.whole.length)[-n:].sum())
     arms = sum(float(state.row(run.S, row, n).sum()) for row in (state.ARM_TOP, state.ARM_BOTTOM))
     return max(abs(float(state.row(run.S, state.MASS, n).sum()) / mass - 1), abs(arms / length - 1))
@@ -183,12 +185,11 @@ def one(name: str, of: Trip) -> tuple[dict[str, Any], pd.DataFrame]:
         leaks.append(missing(simulation.run))
     result, run = simulation.result(), simulation.run
     strokes = pd.DataFrame(stroke_rows(case, of, simulation, result.history))
-    assert run.hoist is not None
     row = {
         "well": name, "begins_deg": float(np.degrees(run.hole.inclination(np.zeros(1))[0])),
         "status": str(result.status), "from_m": of.shallow, "to_m": of.deep,
         "connections": int((result.history["in_slips"].astype(int).diff() == 1).sum()),
-        "most_segments": run.hoist.tally.whole.segments, "hours_simulated": result.run["simulated_s"] / 3600,
+        "most_segments": run.upper_end.longest.segments, "hours_simulated": result.run["simulated_s"] / 3600,
         "seconds": result.run["wall_s"], "real_time_factor": result.run["real_time_factor"],
         "largest_off_percent_of_weight": float(strokes["off_percent_of_weight"].abs().max()),
         "energy_error_percent": 100 * result.run["energy_error"],

@@ -130,10 +130,10 @@ def test_a_disk_that_is_full(invoke, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(store, "write", full)
+    monkeypatch.setattr(store, "_write_verdict", full)
     answer = invoke("--all")
     assert answer.exit_code == 2
-    assert "results: expected a folder that can be written ([Errno 28] No space left on device)" in answer.output
+    assert "expected a folder that can be written (No space left on device)" in answer.output
 
 
 def test_worse_than_recorded(invoke, register):

@@ -3,9 +3,7 @@
 import json
 import math
 import os
-import shutil
 import signal
-from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -169,26 +167,6 @@ def test_a_result_whose_table_is_gone_or_cut_short_is_repeated(left, register, r
     assert "table forces cannot be read" in run("toy")[1]
     assert table.read_bytes() == whole
     assert "kept" in run("toy")[1]
-
-
-def test_two_runs_may_end_at_the_same_time(register, run, tmp_path, monkeypatch):
-    """The other run stores its result between this one's two renamings; the last to come stays."""
-    register("toy")
-    run("toy")
-    rename = Path.rename
-
-    def late(self, target):
-        moved = rename(self, target)
-        if target.name == "old-0":
-            shutil.copytree(target, self)
-        return moved
-
-    (tmp_path / "results" / "toy" / "inputs.json").unlink()
-    monkeypatch.setattr(Path, "rename", late)
-    code, text = run("toy")
-    assert code == 0, text
-    assert (tmp_path / "results" / "toy" / "inputs.json").exists()
-    assert [path.name for path in (tmp_path / "results").iterdir()] == ["toy"]
 
 
 def test_without_checks_the_notes_say_why(register, run):

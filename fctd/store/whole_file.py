@@ -6,30 +6,54 @@ import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import BinaryIO
 
 from fctd.case.errors import InputError
 
 
 @contextmanager
-def whole_file(path: Path) -> Iterator[Path]:
-    """A temporary file that replaces ``path`` once it is written completely; missing folders are made.
+def replaced(path: Path, *, lasting: bool = False) -> Iterator[Path]:
+    """A temporary file that takes the place of ``path`` when the block ends without an error.
 
-    A full disk or an interruption leaves the earlier file.  A symlink stays: the file it leads to is replaced.  Raises
-    InputError, which names ``path``, where the file cannot be written.
+    A full disk or an interruption leaves the earlier file.  A symlink stays: the file it leads to is replaced.
+    lasting : the new file outlasts a failure of power.  Raises OSError.
     """
     target = Path(os.path.realpath(path))
     scratch = _scratch(target)
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
         for left in left_overs(target):
             left.unlink(missing_ok=True)
         yield scratch
+        if lasting:
+            _sync(scratch)
         scratch.replace(target)
-    except OSError as error:
-        raise InputError(f"a file that can be written ({error.strerror or error})", value=path) from error
+        if lasting:
+            _sync(target.parent)
     finally:
         with suppress(OSError):
             scratch.unlink()
+
+
+@contextmanager
+def whole_file(path: Path, *, lasting: bool = False) -> Iterator[Path]:
+    """The same; missing folders are made, and InputError, which names ``path``, says that it cannot be written."""
+    try:
+        Path(os.path.realpath(path)).parent.mkdir(parents=True, exist_ok=True)
+        with replaced(path, lasting=lasting) as scratch:
+            yield scratch
+    except OSError as error:
+        raise InputError(f"a file that can be written ({error.strerror or error})", value=path) from error
+
+
+def write_whole(path: Path, content: bytes, *, lasting: bool = False, mode: int = 0o666) -> None:
+    """Write a file as ``replaced`` does; mode : of a new one, less what the user's mask forbids.  Raises OSError."""
+    with replaced(path, lasting=lasting) as scratch, open_file(scratch, mode) as file:
+        file.write(content)
+
+
+def open_file(path: Path, mode: int) -> BinaryIO:
+    """The file that ``write_whole`` writes to."""
+    return open(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, mode), "wb")
 
 
 def check_file(path: Path, key: str = "") -> None:
@@ -84,3 +108,12 @@ def _runs(process: int) -> bool:
 
 def _scratch(path: Path) -> Path:
     return path.with_stem(f".{path.stem}-{os.getpid()}")  # the suffix stays: it may say the format
+
+
+def _sync(path: Path) -> None:
+    """Make the contents of a file, or the names in a folder, outlast a failure of power."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

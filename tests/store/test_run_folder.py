@@ -1,18 +1,19 @@
 """The folder of an unfinished run: who may write there, what is in it, what is left of it."""
 
 import errno
+import json
 import os
 from pathlib import Path
 
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.results.run_folder import (
+from fctd.store.run_folder import (
     KEYS,
-    Progress,
     RunFolder,
+    RunProgress,
     about_of,
-    numbered,
+    chunks_of,
     progress_of,
     run_path,
     writer_of,
@@ -40,11 +41,11 @@ def test_what_is_described_is_there_until_it_is_cleared(tmp_path: Path) -> None:
     target = tmp_path / "out"
     assert about_of(target) is None
     folder = RunFolder.take(target)
-    folder.write("3-rows.jsonl", b"[]")
+    chunks_of(folder.path).write(3, {})
     folder.describe(ABOUT, {"survey.csv": b"0,0,0"})
     assert about_of(target) == ABOUT
     assert (folder.path / "survey.csv").read_bytes() == b"0,0,0"
-    assert numbered(folder.path, "rows.jsonl") == {}  # of an earlier run
+    assert chunks_of(folder.path).files == {}  # of an earlier run
     folder.leave(remove=False)
     assert about_of(target) == ABOUT
     folder = RunFolder.take(target)
@@ -54,29 +55,30 @@ def test_what_is_described_is_there_until_it_is_cleared(tmp_path: Path) -> None:
     folder.leave(remove=True)
 
 
-def test_a_description_that_another_program_wrote(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("{", "the description of a run"),
+        ("[]", "the description of a run"),
+        ('{"form": 2}', "the description of a run"),
+        (json.dumps(ABOUT), r"an unfinished run of this version.*go on with the version that began it, or .*--restart"),
+    ],
+    ids=["cut", "no table", "lacking", "of the release before"],
+)
+def test_a_description_that_another_program_or_version_wrote(text: str, expected: str, tmp_path: Path) -> None:
     (tmp_path / ".out-run").mkdir()
-    (tmp_path / ".out-run" / "run.json").write_text("{}")
-    with pytest.raises(InputError, match="the description of a run"):
+    (tmp_path / ".out-run" / "run.json").write_text(text)
+    with pytest.raises(InputError, match=expected):
         about_of(tmp_path / "out")
-
-
-def test_files_are_numbered_in_order(tmp_path: Path) -> None:
-    folder = RunFolder.take(tmp_path / "out")
-    for name in ("10-rows.jsonl", "9-rows.jsonl", "x-rows.jsonl", "9-rows.jsonl.bak", ".11-rows.jsonl"):
-        folder.write(name, b"")
-    assert numbered(folder.path, "rows.jsonl") == {9: "9-rows.jsonl", 10: "10-rows.jsonl"}
-    assert list(numbered(folder.path, "rows.jsonl")) == [9, 10]
-    folder.leave(remove=True)
 
 
 def test_the_progress_is_read_back_or_none(tmp_path: Path) -> None:
     folder = RunFolder.take(tmp_path / "out")
     assert progress_of(tmp_path / "out") is None
-    progress = Progress(1.5, 3.0, "s", 1.0, 60.0, 1e9)
+    progress = RunProgress(1.5, 3.0, "s", 1.0, 60.0, 1e9)
     folder.report(progress)
     assert progress_of(tmp_path / "out") == progress
-    (folder.path / "progress.json").write_text("[1")
+    (folder.path / "progress.json").write_text("[1]")  # as the release before did
     assert progress_of(tmp_path / "out") is None
     folder.leave(remove=True)
 

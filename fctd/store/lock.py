@@ -37,7 +37,7 @@ class HeldError(Exception):
         self.holder = holder
 
 
-class RunLock:
+class FolderLock:
     """A lock that this process holds, from ``take`` until ``release``."""
 
     def __init__(self, file: int) -> None:

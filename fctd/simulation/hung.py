@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from fctd.model.stands import Tally
 from fctd.model.strokes import Stroke
 from fctd.model.wellbore import Wellbore
 from fctd.results.ledger import LOSSES
+from fctd.simulation.upper_end import UpperEnd
 
 Array = NDArray[np.float64]
 
@@ -33,25 +35,29 @@ OF_JOINT = [*STIFFNESS, *KINK]
 
 
 @dataclass(kw_only=True)
-class Hoist:
-    """The block and the stands of a run.
+class Hung(UpperEnd):
+    """A string that hangs from a block, and its stands.
 
-    tally : all segments; buffer : a state buffer with all of them, not in motion; strokes : still to come; table (3,) :
-    where the axis of the hole crosses the rotary table [m]; stands : in the string; strain : stretch of the top stand
-    over its length; direction : of the block's last motion, 1 down, -1 up; in_slips : whether the string hangs in them;
-    pace : by how much a stroke is faster than planned, since pipe stretches; stroke : the present one.
+    tally : all segments; buffer : a state buffer with all of them, not in motion; strokes : of the schedule; begun : so
+    many of them, the last of which is the present one; table (3,) : where the axis of the hole crosses the rotary table
+    [m]; stands : in the string; strain : stretch of the top stand over its length; last_direction : of the block,
+    1 down, -1 up; speed_ratio : by how much a stroke is faster than planned, since pipe stretches.
     """
 
+    in_derrick = True
+    FACTS = ("start_depth", "stands", "strain", "last_direction", "in_slips", "speed_ratio", "begun")
     tally: Tally
     buffer: Array
     strokes: list[Stroke]
     table: Array
     stands: int
     strain: float = 0.0
-    direction: int = 0
-    in_slips: bool = False
-    pace: float = 1.0
-    stroke: Stroke | None = None
+    last_direction: int = 0
+    speed_ratio: float = 1.0
+    begun: int = 0
+
+    def __post_init__(self) -> None:
+        self.longest = self.tally.whole
 
     def start(self, S: Array, top: Array, bit_depth: float, hole: Wellbore) -> String:
         """Write the string with its bit at a depth [m] into fresh buffers; returns it unstretched, as it is laid."""
@@ -81,30 +87,43 @@ class Hoist:
         return list(found.values())
 
     def bit_depth(self, run: MovingString) -> float:
-        """Unstretched length of the string below the rotary table [m]."""
         height = float(run.top[topdrive.BLOCK_HEIGHT])
         return float(self.tally.reach[self.stands]) - height / (1 + self.strain)
 
-    def string(self, run: MovingString) -> String:
-        """The string as it hangs now."""
+    def laid_out(self, run: MovingString) -> String:
         return self.tally.string(self.stands, self.bit_depth(run))
 
-    def paced(self, run: MovingString, motion: Motion) -> Motion:
-        """The motion of the block in a part of the schedule, after the strokes that begin now."""
-        while self.strokes and self.strokes[0].start <= run.time + 0.5 * run.step:
-            self._begin(run, self.strokes.pop(0))
+    def at_depth(self, bit_depth: float, run: MovingString, probe: Array) -> String:
+        stands = self.tally.stands_for(bit_depth)
+        self.write(probe, stands)
+        return self.tally.string(stands, bit_depth)
+
+    def direction(self, kind: str) -> int:
+        return self.last_direction
+
+    def columns(self, run: MovingString) -> dict[str, Any]:
+        return {"block_position_m": float(run.top[topdrive.BLOCK_HEIGHT]), "in_slips": self.in_slips}
+
+    def moved(self, run: MovingString, motion: Motion) -> Motion:
+        while self.begun < len(self.strokes) and self.strokes[self.begun].start <= run.time + 0.5 * run.step:
+            self.begun += 1
+            self._begin(run, self.strokes[self.begun - 1])
         if self.in_slips:
             motion = motion._replace(drive=STIFF)  # the slips hold the string, not the drive
-        return motion._replace(feed_from=self.pace * motion.feed_from, feed_to=self.pace * motion.feed_to)
+        return motion._replace(feed_from=self.speed_ratio * motion.feed_from, feed_to=self.speed_ratio * motion.feed_to)
 
     def drills_on(self, run: MovingString, motion: Motion) -> bool | None:
-        """Whether an autodriller that moves the block has some way left to the end of its stroke; None for others."""
-        if self.stroke is None or not self.stroke.by_weight or not motion.bit_from == motion.bit_to == 1:
+        stroke = self.strokes[self.begun - 1] if self.begun else None
+        if stroke is None or not stroke.by_weight or not motion.bit_from == motion.bit_to == 1:
             return None
-        return bool(run.top[topdrive.BLOCK_HEIGHT] > self.stroke.target * (1 + self.strain))
+        return bool(run.top[topdrive.BLOCK_HEIGHT] > stroke.target * (1 + self.strain))
+
+    def delay(self, by: float) -> None:
+        later = [stroke._replace(start=stroke.start + by) for stroke in self.strokes[self.begun :]]
+        self.strokes = self.strokes[: self.begun] + later
 
     def _begin(self, run: MovingString, stroke: Stroke) -> None:
-        connected, self.stroke = self.in_slips, stroke
+        connected = self.in_slips
         run.top[topdrive.TOP_FEED] = 0.0
         if stroke.change:
             run.refresh()
@@ -118,8 +137,8 @@ class Hoist:
         if connected:
             self.strain = self._stretch(run)
         height = float(run.top[topdrive.BLOCK_HEIGHT])
-        self.pace = (height - stroke.target * (1 + self.strain)) / stroke.travel
-        self.direction = 1 if stroke.travel > 0 else -1
+        self.speed_ratio = (height - stroke.target * (1 + self.strain)) / stroke.travel
+        self.last_direction = 1 if stroke.travel > 0 else -1
 
     def _add(self, run: MovingString) -> None:
         """Screw the next stand onto the string; the block takes the load."""

@@ -10,25 +10,25 @@ from pathlib import Path
 
 import pytest
 
-from fctd.results.run_lock import HeldError, RunLock, holder_of
+from fctd.store.lock import FolderLock, HeldError, holder_of
 
 pytest.importorskip("fcntl")
 HOLD = (
-    "import sys, time; from pathlib import Path; from fctd.results.run_lock import RunLock\n"
-    "lock = RunLock.take(Path(sys.argv[1])); print('held', flush=True); time.sleep(60)\n"
+    "import sys, time; from pathlib import Path; from fctd.store.lock import FolderLock\n"
+    "lock = FolderLock.take(Path(sys.argv[1])); print('held', flush=True); time.sleep(60)\n"
 )
 
 
 def test_a_second_holder_is_refused_with_the_number_of_the_first(tmp_path: Path) -> None:
-    lock = RunLock.take(tmp_path)
+    lock = FolderLock.take(tmp_path)
     with pytest.raises(HeldError) as held:
-        RunLock.take(tmp_path)
+        FolderLock.take(tmp_path)
     assert held.value.holder.process == os.getpid()
     assert holder_of(tmp_path) == held.value.holder
     lock.release()
     lock.release()
     assert holder_of(tmp_path) is None
-    RunLock.take(tmp_path).release()
+    FolderLock.take(tmp_path).release()
 
 
 @pytest.mark.parametrize("room", [0, 1])
@@ -43,9 +43,9 @@ def test_a_full_disk_leaves_no_lock(room: int, tmp_path: Path, monkeypatch: pyte
 
     monkeypatch.setattr(os, "write", full)
     with pytest.raises(OSError, match=r"File too large|No space left"):
-        RunLock.take(tmp_path)
+        FolderLock.take(tmp_path)
     monkeypatch.undo()
-    RunLock.take(tmp_path).release()
+    FolderLock.take(tmp_path).release()
 
 
 def test_the_lock_of_a_killed_process_is_free(tmp_path: Path) -> None:
@@ -61,22 +61,22 @@ def test_the_lock_of_a_killed_process_is_free(tmp_path: Path) -> None:
     other.stdout.close()
     (tmp_path / "lock").write_text(json.dumps([os.getpid(), time.time()]))
     assert holder_of(tmp_path) is None
-    lock = RunLock.take(tmp_path)
+    lock = FolderLock.take(tmp_path)
     assert json.loads((tmp_path / "lock").read_text())[0] == os.getpid()
     lock.release()
 
 
 def test_a_lock_that_its_holder_removed_does_not_count(tmp_path: Path) -> None:
-    first = RunLock.take(tmp_path)
+    first = FolderLock.take(tmp_path)
     (tmp_path / "lock").unlink()
-    second = RunLock.take(tmp_path)
+    second = FolderLock.take(tmp_path)
     first.release()
     with pytest.raises(HeldError):
-        RunLock.take(tmp_path)
+        FolderLock.take(tmp_path)
     second.release()
 
 
 def test_no_folder_has_no_holder(tmp_path: Path) -> None:
     assert holder_of(tmp_path / "none") is None
     with pytest.raises(OSError, match="No such file"):
-        RunLock.take(tmp_path / "none")
+        FolderLock.take(tmp_path / "none")

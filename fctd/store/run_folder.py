@@ -1,9 +1,9 @@
 """The folder of a run that has not ended: ``.NAME-run`` beside the file or folder NAME that its result will be.
 
-- ``lock``: of the process that writes here (run_lock.py).
+- ``lock``: of the process that writes here (lock.py).
 - ``run.json``: what is computed, of which files, with which options (``describe``).
 - copies of the files that the run reads.
-- numbered chunks and checkpoints of the results so far (``write``), each complete or not there at all.
+- numbered chunks of the results so far (``chunks_of``), each complete or not there at all.
 - ``progress.json``: how far the process is.
 
 A process may be killed at any moment: what was written before stays as it was.
@@ -16,18 +16,21 @@ import time
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 from fctd.case.errors import InputError
-from fctd.results.run_lock import HeldError, Holder, RunLock, holder_of
+from fctd.store.lock import NAME as LOCK
+from fctd.store.lock import FolderLock, HeldError, Holder, holder_of
+from fctd.store.log import Log
+from fctd.store.whole_file import write_whole
 
 ABOUT, PROGRESS = "run.json", "progress.json"
-# Time between two reports of the progress of a run [s].
-REPORTED_EVERY = 1.0
+# Of the folder; one of another form is refused.
+FORM = 2
 KEYS = ("command", "program", "case", "options", "origin", "files", "copies", "identity")
 
 
-class Progress(NamedTuple):
+class RunProgress(NamedTuple):
     """How far a run is, in units of ``unit``; kept : what a process killed now would keep; took [s] so far.
 
     now : when this was written, seconds since the epoch.
@@ -44,7 +47,7 @@ class Progress(NamedTuple):
 class RunFolder:
     """The folder of the run of a result, which this process alone writes to, from ``take`` until ``leave``."""
 
-    def __init__(self, target: Path, lock: RunLock) -> None:
+    def __init__(self, target: Path, lock: FolderLock) -> None:
         self.path, self._lock = run_path(target), lock
 
     @classmethod
@@ -59,53 +62,31 @@ class RunFolder:
             while True:
                 path.mkdir(parents=True, exist_ok=True)
                 with suppress(FileNotFoundError):  # another process has just removed the folder
-                    return cls(target, RunLock.take(path))
+                    return cls(target, FolderLock.take(path))
         except HeldError as held:
-            raise taken(held.holder, target, key) from None
+            here = f"no other run writes to (process {held.holder.process} does, since {clock(held.holder.since)})"
+            raise InputError(f"a place that {here}: wait for it, or name another", key=key, value=target) from None
         except OSError as error:
             expected = f"a place beside which the run can be kept ({error.strerror or error})"
             raise InputError(expected, key=key, value=target) from error
 
     def describe(self, about: Mapping[str, Any], copies: Mapping[str, bytes]) -> None:
-        """Write what is computed, and copies of files by their names, in place of all that was here."""
+        """Write what is computed, and copies of files by their names, in place of all that was here; raises OSError."""
         self.clear()
         for name, content in copies.items():
-            self.write(name, content)
-        self.write(ABOUT, json.dumps(about).encode())
+            write_whole(self.path / name, content, lasting=True)
+        write_whole(self.path / ABOUT, json.dumps({"form": FORM, **about}).encode(), lasting=True)
 
-    def write(self, name: str, content: bytes, *, lasting: bool = True) -> None:
-        """Write a file completely or not at all; it outlasts a failure of power where it is ``lasting``.
-
-        Raises OSError.
-        """
-        scratch = self.path / f".{name}"
-        try:
-            with open_file(scratch) as file:
-                file.write(content)
-                file.flush()
-                if lasting:
-                    os.fsync(file.fileno())
-            os.replace(scratch, self.path / name)
-            if lasting:
-                _sync(self.path)
-        finally:
-            with suppress(OSError):
-                scratch.unlink()
-
-    def report(self, progress: Progress) -> None:
+    def report(self, progress: RunProgress) -> None:
         """Say how far the run is; a disk that is full does not stop it here."""
         with suppress(OSError):
-            self.write(PROGRESS, json.dumps(progress).encode(), lasting=False)
-
-    def remove(self, names: set[str]) -> None:
-        """Remove files, those that are there."""
-        for name in names:
-            (self.path / name).unlink(missing_ok=True)
+            write_whole(self.path / PROGRESS, json.dumps(progress._asdict()).encode())
 
     def clear(self) -> None:
         """Remove all files but the lock; the description first, without which there is no run here."""
-        (self.path / ABOUT).unlink(missing_ok=True)
-        self.remove({name for name in os.listdir(self.path) if name != "lock"})
+        for name in (ABOUT, *os.listdir(self.path)):
+            if name != LOCK:
+                (self.path / name).unlink(missing_ok=True)
 
     def leave(self, *, remove: bool) -> None:
         """Release the lock; remove : also the folder, of a run that has ended or has nothing to keep."""
@@ -116,50 +97,43 @@ class RunFolder:
         self._lock.release()
 
 
-def taken(writer: Holder, target: Path, key: str) -> InputError:
-    """The refusal of a result that another process computes."""
-    here = f"no other run writes to (process {writer.process} does, since {clock(writer.since)})"
-    return InputError(f"a place that {here}: wait for it, or name another", key=key, value=target)
-
-
-def cannot_keep(error: OSError, folder: RunFolder, key: str, kept: str) -> InputError:
-    """The refusal of a place where a run cannot be kept any longer; kept : what it has kept, in words."""
-    on = f", and go on with --resume from {kept}" if kept else ""
-    expected = f"a place where the run can be kept ({error.strerror or error}): make room there{on}"
-    return InputError(expected, key=key, value=folder.path)
-
-
-def open_file(path: Path) -> BinaryIO:
-    """The file that ``RunFolder.write`` writes to."""
-    return path.open("wb")
-
-
 def run_path(target: Path) -> Path:
     """Where the run of a result is kept; the result of a symlink is what it leads to."""
     target = Path(os.path.realpath(target))
     return target.parent / f".{target.name}-run"  # also of the root, which has no name
 
 
+def chunks_of(folder: Path) -> Log:
+    """What has been kept of the run in a folder."""
+    return Log(folder, tail="-chunk.zip")
+
+
 def about_of(target: Path) -> dict[str, Any] | None:
     """What is computed in the folder of a result's run; None where there is no run.
 
-    Raises InputError for a description that this program has not written.
+    Raises InputError for a description that this version of the program has not written.
     """
     path = run_path(target) / ABOUT
     try:
         found: dict[str, Any] = json.loads(path.read_bytes())
-        return {key: found[key] for key in KEYS}
+        if (form := found.get("form", 1)) == FORM:
+            return {key: found[key] for key in KEYS}
     except (FileNotFoundError, NotADirectoryError):
         return None
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         expected = f"the description of a run ({getattr(error, 'strerror', None) or error}): remove the folder"
         raise InputError(expected, value=path) from None
+    expected = (
+        f"an unfinished run of this version of fctd, form {FORM} (this one has form {form}): go on with the version "
+        "that began it, or drop it and begin anew with --restart"
+    )
+    raise InputError(expected, value=path)
 
 
-def progress_of(target: Path) -> Progress | None:
+def progress_of(target: Path) -> RunProgress | None:
     """How far the run of a result is; None where it has not begun."""
     try:
-        return Progress(*json.loads((run_path(target) / PROGRESS).read_bytes()))
+        return RunProgress(**json.loads((run_path(target) / PROGRESS).read_bytes()))
     except (OSError, ValueError, TypeError):
         return None
 
@@ -169,26 +143,6 @@ def writer_of(target: Path) -> Holder | None:
     return holder_of(run_path(target))
 
 
-def numbered(folder: Path, kind: str) -> dict[int, str]:
-    """The files ``N-KIND`` of a folder by their numbers."""
-    found = {}
-    with suppress(OSError):
-        for name in os.listdir(folder):
-            number, _, rest = name.partition("-")
-            if rest == kind and number.isdecimal():
-                found[int(number)] = name
-    return dict(sorted(found.items()))
-
-
 def clock(moment: float) -> str:
     """A moment, seconds since the epoch, in words."""
     return time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(moment))
-
-
-def _sync(folder: Path) -> None:
-    """Make the names in a folder outlast a failure of power."""
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

@@ -15,16 +15,14 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 
-def read_table(
-    source: str | os.PathLike[str] | IO[bytes], columns: Sequence[str] | None = None, *, checksums: bool = False
-) -> pa.Table:
-    """The table of a file, with all or some of its columns; checksums : compare those of pages that have them.
+def read_table(source: str | os.PathLike[str] | IO[bytes], columns: Sequence[str] | None = None) -> pa.Table:
+    """The table of a file, with all or some of its columns.
 
     Raises OSError or ValueError for a source that cannot be read.
     """
     from pyarrow.parquet import ParquetFile  # slow to import, and most commands need none
 
-    with ParquetFile(source, pre_buffer=False, page_checksum_verification=checksums) as file:
+    with ParquetFile(source, pre_buffer=False) as file:
         return file.read(columns=None if columns is None else list(columns), use_threads=False)
 
 

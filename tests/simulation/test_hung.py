@@ -13,6 +13,7 @@ from fctd.mechanics.derrick import read_joint
 from fctd.mechanics.energy import penetration
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.results.ledger import LOSSES
+from fctd.simulation.hung import Hung
 from fctd.simulation.preparation import contact_points, prepare
 from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest
@@ -46,15 +47,15 @@ def joint(run: Run, j: int) -> np.ndarray:
 def test_a_stand_joins_without_a_jolt() -> None:
     """At the table, with a torque in the string: no load of the string below changes, and the stand is at rest."""
     run = hanging(171.0)  # six stands
-    hoist = run.hoist
-    assert hoist is not None
+    hung = run.upper_end
+    assert isinstance(hung, Hung)
     assert run.top[topdrive.BLOCK_HEIGHT] == pytest.approx(0, abs=1e-9)
     run.advance(topdrive.Motion(0.0, 5.0, 0.0, 0.0, 0.0, 3.0)._replace(start=run.time), 5.0)  # the string is twisted
     run.refresh()
     n, before, energy = run.segments, [joint(run, j) for j in (1, 2, 3)], run.energy()
     place = at(run.S, 1, PLACE)
     assert abs(before[0][3]) > 10
-    hoist._add(run)
+    hung._add(run)
     run.refresh()
     m = run.segments - n
     assert m == 1
@@ -71,7 +72,7 @@ def test_a_stand_joins_without_a_jolt() -> None:
     assert run.bit_depth == pytest.approx(171.0, abs=1e-3)
     assert run.energy().gravity - energy.gravity == pytest.approx(AIR * 28.5 * 14.25, rel=1e-3)
     # Racked back, it is the string that it was.
-    hoist._rack(run)
+    hung._rack(run)
     run.refresh()
     assert run.segments == n
     assert run.top[topdrive.BLOCK_HEIGHT] == pytest.approx(0, abs=1e-9)
@@ -102,10 +103,10 @@ def test_in_and_out_is_the_same_string(parts: list[dict[str, Any]], stand: float
     """Length, mass and count grow by those of the stands, and shrink by the same; no loss is forgotten."""
     case = make_case(BUILD, parts, [trip(depth, depth + 4 * stand)], mud=MUD, rig=RIG | {"stand_length": stand})
     run, _ = prepare(case)
-    hoist, S = run.hoist, run.S
-    assert hoist is not None
+    hung, S = run.upper_end, run.S
+    assert isinstance(hung, Hung)
     run.refresh()
-    tally, before = hoist.tally, S.copy().reshape(state.ROWS, state.STRIDE)
+    tally, before = hung.tally, S.copy().reshape(state.ROWS, state.STRIDE)
     for k, row in enumerate(LOSSES.values()):
         state.row(S, row, run.segments)[:] = np.arange(run.segments) + k
     lost = [state.row(S, row, run.segments).sum() for row in LOSSES.values()]
@@ -113,8 +114,8 @@ def test_in_and_out_is_the_same_string(parts: list[dict[str, Any]], stand: float
     def check() -> None:
         run.refresh()
         string, n = run.string, run.segments
-        assert n == string.segments == tally.count[hoist.stands]
-        assert float(string.length.sum()) == pytest.approx(tally.reach[hoist.stands], abs=1e-6)
+        assert n == string.segments == tally.count[hung.stands]
+        assert float(string.length.sum()) == pytest.approx(tally.reach[hung.stands], abs=1e-6)
         mass = string.of("mass") * string.length
         np.testing.assert_allclose(state.row(S, state.MASS, n), mass)
         height = float(run.top[topdrive.BLOCK_HEIGHT])
@@ -126,10 +127,10 @@ def test_in_and_out_is_the_same_string(parts: list[dict[str, Any]], stand: float
         np.testing.assert_allclose(found, lost)
 
     for _ in range(moves):
-        hoist._add(run)
+        hung._add(run)
         check()
     for _ in range(moves):
-        hoist._rack(run)
+        hung._rack(run)
         check()
     n = run.segments
     for row in CONSTANTS:

@@ -11,9 +11,9 @@ import pytest
 
 from fctd import open_result
 from fctd.case.errors import InputError
-from fctd.results import whole_folder as whole_folder_module
 from fctd.results.tables import TABLES, own_files
-from fctd.results.whole_folder import check_folder, repair, whole_folder
+from fctd.store import whole_folder as whole_folder_module
+from fctd.store.whole_folder import check_folder, repair, whole_folder
 from tests.killed_saves import FOREIGN, earlier, result
 
 ROOT = Path(__file__).parents[2]
@@ -327,3 +327,11 @@ def test_the_new_folder_is_beside_the_old_one_until_it_is_whole(tmp_path: Path) 
         assert new.parent == tmp_path
         assert not (tmp_path / "out").exists()
     assert (tmp_path / "out").is_dir()
+
+
+def test_without_names_a_folder_is_replaced_with_all_that_is_in_it(tmp_path: Path) -> None:
+    for name in ("old", "new"):
+        with whole_folder(tmp_path / "out") as new:
+            (new / name).mkdir()
+            (new / name / "page.html").write_text(name)
+    assert [str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*.*")] == ["out/new/page.html"]

@@ -9,7 +9,6 @@ import pytest
 from fctd.case.load import Case
 from fctd.mechanics import state, waves
 from fctd.results.tables import SimulationResult
-from fctd.simulation.checkpoint import capture, put_back
 from fctd.simulation.simulate import Simulation
 from tests.cases import make_case, pipe, rotation, trip
 from tests.simulation.kept import BUILD, drilling, drilling_on, gone_on, same, stopped, tripping
@@ -76,22 +75,11 @@ def test_the_shifts_of_an_autodriller_are_made_again() -> None:
 def test_a_run_that_is_stopped_twice(name: str, first: int, then: int) -> None:
     case = CASES[name]()
     checkpoint, chunks = stopped(Simulation(case), first)
-    middle = gone_on(case, checkpoint, chunks)
-    more, rest = stopped_again(middle, then)
-    again = gone_on(case, more, [*chunks, rest])
+    more, rest = stopped(gone_on(case, checkpoint, chunks), then)
+    again = gone_on(case, more, [*chunks, *rest])
     for _ in again:
         pass
     same(again.result(), undisturbed(name, "arcs"))
-
-
-def stopped_again(simulation: Simulation, after: int) -> tuple[object, dict[str, bytes]]:
-    from fctd.simulation.chunks import Cursor, chunk_since
-
-    recorder = simulation.recorder
-    cursor = Cursor(len(recorder.history), len(recorder.profiles), recorder.series.seen)
-    for _ in range(after):
-        next(simulation)
-    return capture(simulation), chunk_since(recorder, cursor)
 
 
 def short() -> Case:
@@ -121,10 +109,10 @@ def test_capturing_changes_nothing_and_keeps_the_columns_that_are_used() -> None
     simulation = Simulation(short())
     next(simulation)
     before = simulation.run.S.copy()
-    checkpoint = capture(simulation)
+    kept = simulation.facts()
     np.testing.assert_array_equal(simulation.run.S, before)
-    assert 12 < checkpoint.arrays["S"].shape[1] <= 12 + 2 * state.LANES
-    assert checkpoint.time == pytest.approx(0.25)
+    assert 12 < kept["run"]["S"].shape[1] <= 12 + 2 * state.LANES
+    assert kept["recorder"]["last_time"] == pytest.approx(0.25)
 
 
 def test_a_checkpoint_of_another_string_is_refused() -> None:
@@ -132,4 +120,4 @@ def test_a_checkpoint_of_another_string_is_refused() -> None:
     next(simulation)
     other = Simulation(make_case(BUILD, [pipe(None, 13)], [rotation(500, 3, ramp=1)]))
     with pytest.raises(ValueError, match="another string"):
-        put_back(other, capture(simulation))
+        other.restore(simulation.facts())

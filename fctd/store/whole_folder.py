@@ -15,10 +15,10 @@ from itertools import count
 from pathlib import Path
 
 from fctd.case.errors import InputError
-from fctd.results.whole_file import check_new, left_by_dead
+from fctd.store.whole_file import check_new, left_by_dead
 
 Own = Callable[[Path], Collection[str]]
-"""Names of the files that a new folder replaces; all other files are the user's and stay."""
+"""Names of what a new folder replaces; all else is the user's and stays."""
 
 
 # Attempts to find a folder that another process is replacing, and the pause between them [s].
@@ -26,7 +26,7 @@ ATTEMPTS, PAUSE = 100, 0.01
 
 
 @contextmanager
-def whole_folder(folder: Path, own: Own) -> Iterator[Path]:
+def whole_folder(folder: Path, own: Own = os.listdir) -> Iterator[Path]:
     """A temporary folder that replaces ``folder``, or becomes it, when the block ends without an error.
 
     A failure or an interruption leaves the folder as it was.  Raises InputError, which names ``folder``, where the
@@ -132,10 +132,12 @@ def _hand_over(old: Path, folder: Path, own: Own) -> None:
         return
     replaced = own(old)
     for name in sorted(os.listdir(old)):
-        if name in replaced:
-            (old / name).unlink()
-        else:
+        if name not in replaced:
             _move(old / name, folder)
+        elif (old / name).is_dir():
+            shutil.rmtree(old / name)
+        else:
+            (old / name).unlink()
     with suppress(FileNotFoundError):
         old.rmdir()
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.results import whole_file as whole_file_module
-from fctd.results.whole_file import check_file, left_overs, whole_file
+from fctd.store import whole_file as whole_file_module
+from fctd.store.whole_file import check_file, left_overs, whole_file
 
 
 def test_the_new_file_takes_the_place_of_the_old(tmp_path: Path) -> None:
