@@ -6,7 +6,8 @@ import typer
 from rich.table import Table
 
 from fctd.case.errors import InputError
-from fctd.case.load import Case, load_case, parse_override
+from fctd.case.load import Case, load_case
+from fctd.case.raw_case import parse_override
 from fctd.cli.keeping import AcceptChanges, CheckpointEvery, Keeping, OptionalCase, Restart, Resume
 from fctd.cli.main import run
 from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, changes_of, screen

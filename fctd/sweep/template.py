@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from fctd.case.errors import InputError, set_key, split_key
-from fctd.case.load import Case, apply_override, make_case, read_raw
+from fctd.case.errors import InputError
+from fctd.case.load import Case, make_case, read_raw
+from fctd.case.raw_case import apply_override, set_key, split_key
 from fctd.sweep.design import Value, samples_of
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.survey_errors import erred
