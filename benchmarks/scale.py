@@ -17,7 +17,8 @@ import pandas as pd
 from fctd.sweep.chunk import as_stream, from_stream
 from fctd.sweep.cluster import Where, connected
 from fctd.sweep.dataset import begin_dataset
-from fctd.sweep.run import Summary, prepare, sample_of, sweep
+from fctd.sweep.design import sample_of
+from fctd.sweep.run import Summary, prepare, sweep
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.work import WORK
 
@@ -93,9 +94,7 @@ def shares(samples: int = ALONE) -> pd.DataFrame:
         dataset = begin_dataset(Path(folder) / "out", bench.template, table)
         tables = []
         for number in range(samples):
-            sample = sample_of(table, bench.keys, number)
-            values = dict(zip(bench.keys, sample.values, strict=True))
-            case = timed("making the case", partial(bench.template.case, number, values))
+            case = timed("making the case", partial(bench.template.case, *sample_of(table, number)))
             rows = timed("solving", partial(WORK["chart"], case, bench.task, lambda: None))
             named = [{"sample": number, **row} for row in rows]
             tables.append(timed("stream of the rows", partial(_through_a_stream, named)))

@@ -155,20 +155,16 @@ class Case(Table):
                 return InputError(error.expected, key=key, value=written, more=error.more)
         return error
 
-    def check_depths(self, raw: Mapping[str, Any] | None = None) -> None:
+    def check_depths(self) -> None:
         """Raise InputError for a bit depth above the top of the string, or below the end of survey or intervals.
 
         It reads the survey, so it is not part of validation: a stored case can be read without its files.
-        raw: the case as the user wrote it, to quote values from.
         """
         top, bottom = self.depths
         for i, operation in enumerate(self.operations):
             for key in (operation.start_key, operation.end_key):
                 md = getattr(operation, key)
-                written = look_up(raw, "operations", i, key)
-                check_bit_depth(
-                    md, top, bottom, f"operations[{i}].{key}", f"{md:g} m" if written is MISSING else written
-                )
+                check_bit_depth(md, top, bottom, f"operations[{i}].{key}", f"{md:g} m")
 
 
 @contextmanager
@@ -222,7 +218,10 @@ def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None
     case._written = _Written(without_stations(raw))
     if like is not None:
         case.wellbore.share_trajectory(like.wellbore)
-    case.check_depths(raw)
+    try:
+        case.check_depths()
+    except InputError as error:
+        raise case.quoting(error) from error.__cause__
     return case
 
 

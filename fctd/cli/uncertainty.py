@@ -19,6 +19,7 @@ from fctd.cli.sweep import SweepFile
 from fctd.results.tables import versions, write_table
 from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown
 from fctd.sweep.dataset import identity_of, open_dataset
+from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.indices import WITH_UNIT
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import template_of
@@ -76,7 +77,7 @@ def uncertainty_command(
         check_target(path, "--out", (".csv",))
     spec = read_sweep(sweep_file)
     dataset = open_dataset(folder if folder is not None else Path(file_name(spec.name, "-sweep")))
-    if dataset.about.get("identity") != identity_of(template_of(spec)):
+    if dataset.about.get("identity") != identity_of(template_of(spec, sample_of(samples_of(spec), 0))):
         raise InputError(
             "the folder of this sweep (its file, case or survey is another)", key="--from", value=dataset.folder
         )

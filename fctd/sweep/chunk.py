@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fctd.case.errors import InputError
 from fctd.mechanics.compile_cache import hash_of_sources
-from fctd.sweep.design import Value
+from fctd.sweep.design import Sample
 from fctd.sweep.template import Template
 from fctd.sweep.work import WORK, Row, Task, TooLongError, begin_run
 
@@ -31,13 +31,6 @@ OVERRUN, LAST = 2.0, 3.0
 BRIEF = 1.0
 # Pause between two looks at the clock of a sample [s], and before the end of a process, in which the news leaves it.
 LOOK, LEAVE = 0.05, 0.3
-
-
-class Sample(NamedTuple):
-    """A sample's number and the values of its keys."""
-
-    number: int
-    values: tuple[Value, ...]
 
 
 class Done(NamedTuple):
@@ -59,7 +52,6 @@ class Bench:
 
     template: Template
     task: Task
-    keys: tuple[str, ...]
     time_limit: float
 
     def rows_of(self, sample: Sample) -> list[Row]:
@@ -71,7 +63,7 @@ class Bench:
                 raise TooLongError
 
         try:
-            case = self.template.case(sample.number, dict(zip(self.keys, sample.values, strict=True)))
+            case = self.template.case(*sample)
             rows = WORK[self.task.spec.kind](case, self.task, tick)
         except TooLongError:
             rows = [without_answer(TIMED_OUT, f"more than {self.time_limit:g} s")]

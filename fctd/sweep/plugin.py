@@ -8,7 +8,8 @@ from typing import Any
 from distributed import get_worker
 from distributed.diagnostics.plugin import WorkerPlugin
 
-from fctd.sweep.chunk import Bench, Done, Sample
+from fctd.sweep.chunk import Bench, Done
+from fctd.sweep.design import Sample
 
 
 class Carrier(WorkerPlugin):

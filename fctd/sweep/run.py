@@ -19,15 +19,16 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
-from fctd.sweep.chunk import CRASHED, NO_ROWS, TIMED_OUT, Bench, Done, Sample, as_table, from_stream, without_answer
+from fctd.sweep.chunk import CRASHED, NO_ROWS, TIMED_OUT, Bench, Done, as_table, from_stream, without_answer
 from fctd.sweep.cluster import Where, check_sources, connected, worker_count
 from fctd.sweep.dataset import Dataset, alone, begin_dataset
-from fctd.sweep.design import samples_of
+from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.spec import SweepSpec, naming_file
 from fctd.sweep.template import Template, template_of
 from fctd.sweep.work import Task, misfit, task_of
 
 if TYPE_CHECKING:
+    import pandas as pd
     import pyarrow as pa
     from distributed import Client, Future
 
@@ -88,37 +89,36 @@ class Summary:
 Progress = Callable[[int, int, int], None]
 
 
-def prepare(spec: SweepSpec) -> tuple[Bench, Any]:
+def prepare(spec: SweepSpec) -> tuple[Bench, pd.DataFrame]:
     """What workers need, and the table of samples; raises InputError for a sweep that cannot be run as it is.
 
     The cases of some samples are made, among them those with the extremes of each parameter.
     """
     with naming_file(spec):
-        template = template_of(spec)
         samples = samples_of(spec)
-        keys = tuple(parameter.key for parameter in spec.parameters)
+        template = template_of(spec, sample_of(samples, 0))
         task = task_of(spec.work, template.base)
-        check_samples(template, samples, keys, task)
-    return Bench(template, task, keys, spec.time_limit), samples
+        check_samples(template, samples, task)
+    return Bench(template, task, spec.time_limit), samples
 
 
-def check_samples(template: Template, samples: Any, keys: Sequence[str], task: Task) -> None:
+def check_samples(template: Template, samples: pd.DataFrame, task: Task) -> None:
     """Raise InputError, which names sample and values, where one of some samples has no case; where such samples are to
     be rows, if none of them has one; and where string and hole fit at no depth of the first of them.
     """
     rows, first = template.spec.bad_samples == "rows", True
     refusal: InputError | None = None
     tried = {0, len(samples) - 1, *range(0, len(samples), max(len(samples) // TRIED, 1))}
-    for key in keys:
+    for key in template.units:
         numbers = samples[key]
         if numbers.dtype.kind in "if":
-            tried |= {int(numbers.idxmin()), int(numbers.idxmax())}
+            tried |= {int(numbers.argmin()), int(numbers.argmax())}
     for number in sorted(tried):
-        sample = sample_of(samples, keys, number)
+        sample = sample_of(samples, number)
         try:
-            case = template.case(number, dict(zip(keys, sample.values, strict=True)))
+            case = template.case(*sample)
         except InputError as error:
-            pairs = zip(keys, sample.values, strict=True)
+            pairs = sample.by_key.items()
             values = ", ".join(f"{key} = {value} {template.units[key]}".rstrip() for key, value in pairs)
             expected = "values that a case can have" + ("" if rows else ', or bad_samples = "rows"')
             refusal = InputError(f"{expected}; sample {number} has none: {error}", key="parameters", value=values)
@@ -132,12 +132,6 @@ def check_samples(template: Template, samples: Any, keys: Sequence[str], task: T
         first = False
     if first and refusal is not None:
         raise refusal
-
-
-def sample_of(samples: Any, keys: Sequence[str], number: int) -> Sample:
-    """A row of the table of samples."""
-    values = (samples[key].iat[number] for key in keys)
-    return Sample(number, tuple(value.item() if hasattr(value, "item") else value for value in values))
 
 
 def sweep(
@@ -275,7 +269,7 @@ class _Running:
     def _send(self, numbers: tuple[int, ...]) -> None:
         from fctd.sweep.plugin import run_chunk
 
-        samples = [sample_of(self.dataset.samples, self.bench.keys, number) for number in numbers]
+        samples = [sample_of(self.dataset.samples, number) for number in numbers]
         future = self.client.submit(run_chunk, self.name, samples, key=f"{self.name}-{next(self.numbers)}", pure=False)
         self.flying[future] = numbers
         future.add_done_callback(self.ended.put)

@@ -10,7 +10,8 @@ from fctd.results import pacing
 from fctd.results.run_folder import RunFolder
 from fctd.sweep.chunk import as_table, without_answer
 from fctd.sweep.dataset import alone, begin_dataset
-from fctd.sweep.run import prepare, sample_of
+from fctd.sweep.design import sample_of
+from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from tests.cli.test_keeping import CHART, RUN, killed
 from tests.cli.test_main import CASE, run
@@ -106,7 +107,7 @@ def test_of_a_sweep_while_it_runs_and_when_it_has_stopped(
     bench, samples = prepare(read_sweep(sweep_file(tmp_path)))
 
     def rows_of(*numbers: int) -> None:
-        sweep.write([as_table([row for k in numbers for row in bench.rows_of(sample_of(samples, bench.keys, k))])])
+        sweep.write([as_table([row for k in numbers for row in bench.rows_of(sample_of(samples, k))])])
 
     def lines() -> list[str]:
         capsys.readouterr()

@@ -6,8 +6,8 @@ import pytest
 
 pytest.importorskip("distributed")
 
-from fctd.sweep.chunk import Sample
 from fctd.sweep.cluster import Where, connected
+from fctd.sweep.design import Sample
 from fctd.sweep.plugin import Carrier, run_chunk, warm_up
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
@@ -17,7 +17,10 @@ from validation.parts.small_sweep import sweep_file
 @pytest.mark.slow
 def test_a_chunk_runs_on_a_worker_as_it_runs_here(tmp_path: Path) -> None:
     bench, _ = prepare(read_sweep(sweep_file(tmp_path)))
-    samples = [Sample(2, (0.3, 1.2)), Sample(5, (0.2, 1.0))]
+    samples = [
+        Sample(number, {"friction.open": friction, "mud.density": density})
+        for number, friction, density in ((2, 0.3, 1.2), (5, 0.2, 1.0))
+    ]
     with connected(Where(workers=1)) as client:
         client.register_plugin(Carrier(bench), name="here")
         done = client.submit(run_chunk, "here", samples).result()

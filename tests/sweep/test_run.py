@@ -14,6 +14,7 @@ from fctd.case.load import Case
 from fctd.sweep import run
 from fctd.sweep.cluster import Where
 from fctd.sweep.dataset import open_dataset
+from fctd.sweep.design import sample_of
 from fctd.sweep.run import prepare, sweep
 from fctd.sweep.spec import read_sweep
 from validation.parts.clusters import failing
@@ -29,7 +30,7 @@ def test_a_sweep_has_the_rows_of_its_samples_and_a_second_call_computes_nothing(
     found = sweep(spec, out, ONE, progress=lambda done, total, lacking: seen.append(done))
     table = open_dataset(out).rows()
     bench, samples = prepare(spec)
-    wanted = pd.DataFrame([row for k in range(12) for row in bench.rows_of(run.sample_of(samples, bench.keys, k))])
+    wanted = pd.DataFrame([row for k in range(12) for row in bench.rows_of(sample_of(samples, k))])
     pd.testing.assert_frame_equal(table[wanted.columns], wanted, check_exact=True, check_dtype=False)
     assert table["mud.density"].tolist() == samples["mud.density"].repeat(4).tolist()
     assert (found.samples, found.rows, found.without_answer) == (12, 48, {})
@@ -69,7 +70,7 @@ def test_samples_that_no_case_can_have_are_refused_or_rows(tmp_path: Path) -> No
     )
     bench, samples = prepare(rows)
     below = int(samples["friction.open"].idxmin())
-    (row,) = bench.rows_of(run.sample_of(samples, bench.keys, below))
+    (row,) = bench.rows_of(sample_of(samples, below))
     assert row["status"] == "failed"
     assert "at least 0" in row["reason"]
 
@@ -139,7 +140,7 @@ def test_a_chunk_whose_worker_died_is_halved_and_a_sample_is_given_up_after_thre
 def test_the_extremes_of_each_parameter_are_tried_before_the_work(extreme: str, tmp_path: Path) -> None:
     """Of a thousand samples some 64 are tried, and these."""
     bench, samples = prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 1000')))
-    for key in bench.keys:
+    for key in bench.template.units:
         bad = int(getattr(samples[key], extreme)())
         assert bad % (1000 // run.TRIED)
 
@@ -150,7 +151,7 @@ def test_the_extremes_of_each_parameter_are_tried_before_the_work(extreme: str, 
 
         template: Any = SimpleNamespace(spec=bench.template.spec, units=bench.template.units, case=case)
         with pytest.raises(InputError, match=f"sample {bad} has none"):
-            run.check_samples(template, samples, bench.keys, bench.task)
+            run.check_samples(template, samples, bench.task)
 
 
 def test_a_sweep_that_ends_before_its_workers_are_there_has_no_share() -> None:
