@@ -41,7 +41,7 @@ def made(
     spec = read_sweep(sweep_file(folder, head, body + WORK))
     bench, samples = prepare(spec)
     dataset = begin_dataset(folder / "out", bench.template, samples)
-    first = samples[bench.keys[0]]
+    first = samples[next(iter(bench.template.units))]
     rows = [
         {"sample": k, "operation": "trip_out", "bit_depth_m": depth, "hookload_N": 1e3 * depth * (1 + first.iloc[k]),
          "surface_torque_N_m": torque, "buckling": "none", "status": "converged"}
