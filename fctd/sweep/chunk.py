@@ -33,7 +33,7 @@ BRIEF = 1.0
 LOOK, LEAVE = 0.05, 0.3
 
 
-class Done(NamedTuple):
+class ChunkResult(NamedTuple):
     """A chunk's rows as an Arrow stream, with the time that its samples took and that of the chunk [s].
 
     sources : hash of those of the program that computed them; none of a program that is too old to say.
@@ -47,8 +47,8 @@ class Done(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Bench:
-    """What a worker needs for any sample of a sweep; time_limit [s] : of a sample."""
+class SampleRunner:
+    """Makes the rows of a sweep's samples, on any worker; time_limit [s] : of a sample."""
 
     template: Template
     task: Task
@@ -95,7 +95,7 @@ class Bench:
         except InputError:  # as of a case that only its samples complete
             return float("nan")
 
-    def run(self, samples: Sequence[Sample], too_long: Callable[[int], None]) -> Done:
+    def run(self, samples: Sequence[Sample], too_long: Callable[[int], None]) -> ChunkResult:
         """The rows of samples; too_long : called with a sample's number before this process ends over it."""
         began, rows, solving = time.perf_counter(), list[Row](), 0.0
         limit = max(self.time_limit, BRIEF)
@@ -107,7 +107,7 @@ class Bench:
                 solving += time.perf_counter() - start
         stream = as_stream(rows)
         elapsed = time.perf_counter() - began
-        return Done(tuple(s.number for s in samples), stream, solving, elapsed, hash_of_sources())
+        return ChunkResult(tuple(s.number for s in samples), stream, solving, elapsed, hash_of_sources())
 
 
 def without_answer(status: str, reason: str) -> Row:

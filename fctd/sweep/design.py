@@ -113,9 +113,9 @@ def _correlated(points: Array, spec: SweepSpec) -> Array:
     try:
         factor = np.linalg.cholesky(matrix)
     except np.linalg.LinAlgError:
-        told = ", ".join(f"{' and '.join(pair.keys)} {pair.coefficient:g}" for pair in spec.correlations)
+        pairs = ", ".join(f"{' and '.join(pair.keys)} {pair.coefficient:g}" for pair in spec.correlations)
         expected = "correlations above -1 and below 1 that random numbers can have together"
-        raise InputError(expected, key="correlations", value=told) from None
+        raise InputError(expected, key="correlations", value=pairs) from None
     scores = stats.norm.ppf(np.clip(points, _EDGE, 1 - _EDGE)) @ factor.T
     return np.asarray(stats.norm.cdf(scores))
 

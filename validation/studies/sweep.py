@@ -104,9 +104,9 @@ def swept(folder: Path, raw: dict[str, object]) -> tuple[SweepSpec, Dataset]:
     tells = {"percentiles": PERCENTILES, "columns": ["hookload_N", "weight_indicator_N"]}
     given = {"name": "inclined", "case": folder / "inclined.toml", "work": work, "uncertainty": tells}
     spec = SweepSpec.model_validate(given | raw)
-    bench, samples = prepare(spec)
-    dataset = begin_dataset(folder / "out", bench.template, samples)
-    rows = [row for k in range(len(samples)) for row in bench.rows_of(sample_of(samples, k))]
+    runner, samples = prepare(spec)
+    dataset = begin_dataset(folder / "out", runner.template, samples)
+    rows = [row for k in range(len(samples)) for row in runner.rows_of(sample_of(samples, k))]
     dataset.write([as_table(rows)])
     return spec, dataset
 
