@@ -9,7 +9,7 @@ import typer
 from fctd.case.errors import InputError
 from fctd.case.load import load_case
 from fctd.case.text import printable
-from fctd.cli.manners import Silent
+from fctd.cli.base_command import Silent
 from fctd.cli.options import messages, screen
 from fctd.results.unit_systems import System
 

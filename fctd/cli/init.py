@@ -12,7 +12,7 @@ from fctd.case.load import load_case
 from fctd.case.surveys.headers import KEYS, Wanted, accepted_units, unit_of
 from fctd.case.surveys.stations import UNITS, StationKey
 from fctd.case.text import is_utf8, printable
-from fctd.cli.manners import Silent
+from fctd.cli.base_command import Silent
 from fctd.cli.options import check_target, messages, screen, tell
 from fctd.model.new_case import Plan, Quantities, UnitSystem, from_survey, from_template, read_survey
 from fctd.model.templates import TEMPLATES, TemplateName
