@@ -219,8 +219,8 @@ def test_a_friction_law_is_one_file_and_one_line(copy: Path) -> None:
     (laws / "viscous.py").write_text(VISCOUS)
     add_line(
         laws.parent / "law_names.py",
-        '    "paper": "paper.LAW",',
-        '    "viscous": "viscous.LAW",',
+        '    "paper": NamedLaw("paper.LAW"),',
+        '    "viscous": NamedLaw("viscous.LAW"),',
     )
     (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 100") + ROTATE)
     printed = lines_of(copy, compiled=COMPILED, interpreted=RUN)

@@ -13,8 +13,8 @@ from fctd.mechanics.friction import Law
 from fctd.mechanics.jit import inlined
 
 
-def _law(place: str) -> Law:
-    module, name = place.split(".")
+def _law(named: law_names.NamedLaw) -> Law:
+    module, name = named.place.split(".")
     found: Law = getattr(import_module(f"{__name__}.{module}"), name)
     return found
 
