@@ -81,12 +81,20 @@ USUAL: Final = {
     # Below, a weight in kN or t or a torque in kN*m was written as a bare number; above, in a unit a thousand times too
     # large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.
     "bit.weight_on_bit": Usual(
-        "bit_load", "a weight on bit", "N", 1e3, 2e6, "1 to 2000 kN", (LikelyUnit(1, 999, " kN"), LikelyUnit(1, 99, " klbf"))
+        "bit_load", "a weight on bit", "N", 1e3, 2e6, "1 to 2000 kN",
+        (LikelyUnit(1, 999, " kN"), LikelyUnit(1, 99, " klbf")),
     ),
-    "bit.torque": Usual("bit_load", "a bit torque", "N*m", 20, 200e3, "0.02 to 200 kN·m", (LikelyUnit(0.5, 19.99, " kN*m"),)),
-    "bit.rock.wear_flat": Usual("wear_flat", "wear flats", "m", 1e-4, 0.05, "0.1 to 50 mm", (LikelyUnit(0.1, 50, " mm"),)),
+    "bit.torque": Usual(
+        "bit_load", "a bit torque", "N*m", 20, 200e3, "0.02 to 200 kN·m",
+        (LikelyUnit(0.5, 19.99, " kN*m"),),
+    ),
+    "bit.rock.wear_flat": Usual(
+        "wear_flat", "wear flats", "m", 1e-4, 0.05, "0.1 to 50 mm",
+        (LikelyUnit(0.1, 50, " mm"),),
+    ),
     "rig.block_weight": Usual(
-        "rig_load", "a block weight", "N", 1e3, 5e6, "1 to 5000 kN", (LikelyUnit(10, 999, " kN"), LikelyUnit(5, 250, " klbf"))
+        "rig_load", "a block weight", "N", 1e3, 5e6, "1 to 5000 kN",
+        (LikelyUnit(10, 999, " kN"), LikelyUnit(5, 250, " klbf")),
     ),
     "rig.guide_friction": Usual(
         "rig_load", "friction of the guides", "N", 100, 200e3, "0.1 to 200 kN", (LikelyUnit(0.1, 99, " kN"),)
