@@ -30,12 +30,16 @@ segment_length = 40
 """
 
 
+def copy_of_package(folder: Path) -> Path:
+    """The folder with a copy of the package and a case."""
+    shutil.copytree(ROOT / "fctd", folder / "fctd", ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "well.toml").write_text(WELL)
+    return folder
+
+
 @pytest.fixture
 def copy(tmp_path: Path) -> Path:
-    """A folder with a copy of the package and a case."""
-    shutil.copytree(ROOT / "fctd", tmp_path / "fctd", ignore=shutil.ignore_patterns("__pycache__"))
-    (tmp_path / "well.toml").write_text(WELL)
-    return tmp_path
+    return copy_of_package(tmp_path)
 
 
 def add_line(file: Path, after: str, line: str) -> None:
