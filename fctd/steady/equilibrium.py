@@ -24,7 +24,7 @@ from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, LARGEST_TURN, PATIENT, ba
 from fctd.steady.batch import Hole, Row, hole_of, solve_batch
 from fctd.steady.bisection import bisect, find_anew
 from fctd.steady.carried_shape import Carried, begin, carry
-from fctd.steady.climb import BEYOND, SOUND, Climb, climb, end_of, lock_up
+from fctd.steady.climb import LARGEST_PUSH, SOUND_PUSH, Climb, climb, end_of, lock_up
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.laid_string import LaidString
@@ -175,7 +175,11 @@ class Solver:
             return replace(wound, message=f"{wound.message}; {ANALYTIC}") if says else wound
         pushed = -wound.hookload > self.case.rig.push
         status = SteadyStatus.LOCKED_UP if pushed or added.endless else SteadyStatus.UNSTABLE
-        end = f"the push exceeds {BEYOND:g} times the string's weight" if added.endless else "no steady shape was found"
+        end = (
+            f"the push exceeds {LARGEST_PUSH:g} times the string's weight"
+            if added.endless
+            else "no steady shape was found"
+        )
         spent = "slack-off is spent, and " if pushed else ""
         return replace(wound.without_loads(), status=status, message=f"{spent}{end}; {ANALYTIC}")
 
@@ -197,7 +201,7 @@ class Solver:
             problem = self.problem(problem.operation, problem.rates, problem.laid)
             allowance = problem.allowance
         problem.at_axis = 1
-        coarse = climb(problem, most=SOUND)
+        coarse = climb(problem, most=SOUND_PUSH)
         return self.of_lower_energy(resolve(self.case, coarse, problem, lay_finer), iterations)
 
     def of_lower_energy(self, resolved: Resolved, iterations: int) -> Equilibrium:
