@@ -80,9 +80,10 @@ class TortuositySpec(Table):
 
 
 class CakeSpec(Table):
-    """Mud cake on permeable intervals: its final `thickness` [m], the `time` [s] in which it grows so thick below a
-    string at rest, its `friction` factor, which a static factor of the interval scales too, and for how long the string
-    has `rested` [s] when a simulation starts.
+    """Mud cake on permeable intervals.
+
+    Below a string at rest it grows to its final `thickness` [m] within `time` [s]. A static factor of the interval
+    scales its `friction` factor too. When a simulation starts, the string has `rested` [s].
     """
 
     thickness: units.PositiveLength = 0.002

@@ -23,7 +23,7 @@ def app_command(
     ] = None,
     port: Annotated[
         int | None,
-        typer.Option("--port", min=1024, max=65535, help="Of the address; default: that of the last time."),
+        typer.Option("--port", min=1024, max=65535, help="Port of the address; default: that of the last time."),
     ] = None,
     new_token: Annotated[
         bool, typer.Option("--new-token", help="A new secret in the address; earlier addresses lead nowhere.")

@@ -46,13 +46,15 @@ def init_command(
     sheet: Annotated[
         str | None,
         typer.Option(
-            "--sheet", help="Sheet of a workbook, or trajectory of a WITSML file, of several.", show_default=False
+            "--sheet",
+            help="Sheet of a workbook, or trajectory of a WITSML file, where it has several.",
+            show_default=False,
         ),
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="FILE", help="The case file, .toml.")] = Path("my_well.toml"),
     quiet: Silent = False,
 ) -> None:
-    """Write a commented case file that runs: of your survey, or of one of the templates."""
+    """Write a commented case file that runs, for your survey or for one of the templates."""
     check_target(out, "--out", (".toml",))
     if out.exists():
         raise InputError("a file that does not exist yet", key="--out", value=out)

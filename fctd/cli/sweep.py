@@ -44,7 +44,11 @@ def sweep_command(
     workers: Annotated[
         int | None,
         typer.Option(
-            "--workers", metavar="N", min=1, help="Local worker processes; default: one a core.", show_default=False
+            "--workers",
+            metavar="N",
+            min=1,
+            help="Local worker processes; default: one for each core.",
+            show_default=False,
         ),
     ] = None,
     scheduler: Annotated[
@@ -106,7 +110,7 @@ def cluster_choice(
         raise InputError("no number of workers beside a scheduler, which has its own", key="--workers", value=workers)
     most = MOST_WORKERS * cores()
     if workers is not None and workers > most:
-        expected = f"at most {most}, {MOST_WORKERS} for each core of this machine: one a core is fastest"
+        expected = f"at most {most}, {MOST_WORKERS} for each core of this machine: one for each core is fastest"
         raise InputError(expected, key="--workers", value=workers)
     names = ("--tls-ca", "--tls-cert", "--tls-key")
     given = {name: path for name, path in zip(names, tls, strict=True) if path is not None}

@@ -54,7 +54,9 @@ def uncertainty_command(
     ] = None,
     operation: Annotated[
         str | None,
-        typer.Option("--operation", metavar="KIND", help="Of tornado and map; default: the first.", show_default=False),
+        typer.Option(
+            "--operation", metavar="KIND", help="Operation of tornado and map; default: the first.", show_default=False
+        ),
     ] = None,
     plot_bands: Annotated[
         Path | None, file_option("--plot-bands", "Bands of loads over depth, .png, .svg, .pdf.")
@@ -68,7 +70,7 @@ def uncertainty_command(
     units: Units = "si",
     quiet: Quiet = False,
 ) -> None:
-    """Tell what the samples of a sweep say: bands of the loads, probabilities, and which parameter matters."""
+    """Summarise the samples of a sweep: bands of the loads, probabilities, and which parameter matters."""
     if (plot_map is None) != (map_keys is None):
         raise InputError("--plot-map and --map, both or none", key="--map", value=map_keys or "none")
     check_pictures({"--plot-bands": plot_bands, "--plot-tornado": plot_tornado, "--plot-map": plot_map}, DRAWN)
