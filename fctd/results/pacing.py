@@ -68,7 +68,7 @@ class Pace:
 
     @contextmanager
     def keeping(self) -> Iterator[None]:
-        """The same where the computation is kept, which is due again later."""
+        """Add the time of what is done within, which keeps the computation; it is due again later."""
         before = self.spent
         with self.reporting():
             yield

@@ -188,7 +188,7 @@ FEATURES: dict[str, Feature] = {
         _bit_loads,
     ),
     "stands": Feature(
-        "stands that a block adds", '"long_segment" where the long segment fits',
+        "stands that a block adds", '"long_segment"',
         ("rig.feed", "rig.stand_length", "rig.connection_time", "rig.derrick_height"), _stands,
     ),
     "feed": Feature(

@@ -65,7 +65,7 @@ class Solver:
         return self.solve_string(operation, rates, self.lay_out(bit_depth))
 
     def solve_string(self, operation: str, rates: SteadyRates, laid: LaidString) -> Equilibrium:
-        """The same of a string that has been laid out, which depends neither on operation nor on friction.
+        """The steady string of a laid-out string; the layout depends neither on operation nor on friction.
 
         Raises InputError when a resolved string has too many segments.
         """
@@ -82,7 +82,10 @@ class Solver:
         return point if point is not None else self.solve_problem(self.problem(operation, rates, laid))
 
     def first(self, operation: str, rates: SteadyRates, laid: LaidString, answer: Answer) -> Equilibrium | None:
-        """The same where no other method is needed, else None; several threads may call it."""
+        """The steady string of a row of a batch whose first attempt is the answer, else None.
+
+        Several threads may call it.
+        """
         if not answer.numbers[SOLVED]:
             return None
         point = steady_string(self.case, self.hole, operation, rates, laid, answer, CONVERGED, 0)
@@ -96,8 +99,9 @@ class Solver:
     # Of an iteration that diverged only the status is used; its numbers may overflow.
     @np.errstate(over="ignore", invalid="ignore")
     def solve_problem(self, problem: Problem, above: Carried | None = None) -> Equilibrium:
-        """The same of a problem, which then has the pose of the answer, but for resolved strings.
+        """The steady string of a problem, by whatever methods it needs.
 
+        The problem then has the pose of the answer, except for a resolved string, whose segments are others.
         above : the shapes of the row above, with which a resolved string begins.
         """
         point = self.settle(problem, above)
