@@ -39,7 +39,7 @@ WATCH: Final = """(ids) => {
 }"""
 
 
-class Served:
+class PageServer:
     """``fctd app`` of a case, as a process."""
 
     def __init__(self, address: str, process: int) -> None:
@@ -134,7 +134,7 @@ def case_in(folder: Path, segments: tuple[int, int]) -> None:
 
 
 @contextmanager
-def served(segments: int) -> Iterator[Served]:
+def served(segments: int) -> Iterator[PageServer]:
     """The page of the paper's well in so many segments."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
@@ -144,13 +144,13 @@ def served(segments: int) -> Iterator[Served]:
         process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.PIPE, text=True)
         try:
             assert process.stdout is not None
-            yield Served(process.stdout.readline().split()[-1], process.pid)
+            yield PageServer(process.stdout.readline().split()[-1], process.pid)
         finally:
             process.send_signal(signal.SIGINT)
             process.communicate(timeout=60)
 
 
-def answers(server: Served, moves: int) -> None:
+def answers(server: PageServer, moves: int) -> None:
     """Print how long the server takes for moves, and for sliders that rest."""
     for coarse, words in ((True, "every third depth"), (False, "all depths")):
         for k in range(3):
@@ -161,7 +161,7 @@ def answers(server: Served, moves: int) -> None:
         say(f"  answer, {words}", took, f"processor {1e3 * spent:.0f} ms each")
 
 
-def at_once(server: Served) -> None:
+def at_once(server: PageServer) -> None:
     """Print how long ten sessions wait that move at the same time."""
     case, survey = (CASES / "paper_well.toml").read_bytes(), (CASES / "paper_well.csv").read_bytes()
     paths = [server.begin(case + b"# %d" % k, survey) for k in range(SESSIONS)]
@@ -176,7 +176,7 @@ def at_once(server: Served) -> None:
     say(f"  {SESSIONS} moves at once", took)
 
 
-def painted(server: Served, moves: int) -> None:
+def painted(server: PageServer, moves: int) -> None:
     """Print the time from a key to each painted picture."""
     if browser_path() is None:
         print("  no browser: nothing is painted")

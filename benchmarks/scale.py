@@ -15,9 +15,10 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from fctd.sweep.chunk import as_stream, from_stream
-from fctd.sweep.cluster import Where, connected
+from fctd.sweep.cluster import ClusterChoice, connected
 from fctd.sweep.dataset import begin_dataset
-from fctd.sweep.run import Summary, prepare, sample_of, sweep
+from fctd.sweep.design import sample_of
+from fctd.sweep.run import Summary, prepare, sweep
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.work import WORK
 
@@ -55,12 +56,12 @@ def the_sweep(samples: int = SAMPLES) -> SweepSpec:
 def swept(workers: int, samples: int = SAMPLES) -> Summary:
     """A whole sweep on local workers."""
     with tempfile.TemporaryDirectory() as folder:
-        return sweep(the_sweep(samples), Path(folder) / "out", Where(workers=workers))
+        return sweep(the_sweep(samples), Path(folder) / "out", ClusterChoice(workers=workers))
 
 
 def served(workers: int, work: float) -> float:
     """Tasks a second that sleeping workers end, each task of some work [s], after a first round."""
-    with connected(Where(workers=workers)) as client:
+    with connected(ClusterChoice(workers=workers)) as client:
         client.gather(client.map(time.sleep, [0.0] * 4 * workers, pure=False))
         count = max(round(SPAN * workers / work), 4 * workers) if work else MOST_TASKS
         count = min(count, MOST_TASKS)
@@ -79,8 +80,8 @@ def shares(samples: int = ALONE) -> pd.DataFrame:
 
     A row for each part of the work, with its time [ms] and its share; ``solving`` includes layout and rows.
     """
-    bench, table = prepare(the_sweep(samples))
-    bench.warm_up()
+    runner, table = prepare(the_sweep(samples))
+    runner.warm_up()
     spent = dict.fromkeys(("making the case", "solving", "stream of the rows", "writing"), 0.0)
 
     def timed(part: str, act: Callable[[], Any]) -> Any:
@@ -90,13 +91,11 @@ def shares(samples: int = ALONE) -> pd.DataFrame:
         return found
 
     with tempfile.TemporaryDirectory() as folder:
-        dataset = begin_dataset(Path(folder) / "out", bench.template, table)
+        dataset = begin_dataset(Path(folder) / "out", runner.template, table)
         tables = []
         for number in range(samples):
-            sample = sample_of(table, bench.keys, number)
-            values = dict(zip(bench.keys, sample.values, strict=True))
-            case = timed("making the case", partial(bench.template.case, number, values))
-            rows = timed("solving", partial(WORK["chart"], case, bench.task, lambda: None))
+            case = timed("making the case", partial(runner.template.case, *sample_of(table, number)))
+            rows = timed("solving", partial(WORK["chart"], case, runner.task, lambda: None))
             named = [{"sample": number, **row} for row in rows]
             tables.append(timed("stream of the rows", partial(_through_a_stream, named)))
         timed("writing", partial(dataset.write, tables))

@@ -6,11 +6,12 @@ import typer
 from rich.table import Table
 
 from fctd.case.errors import InputError
-from fctd.case.load import Case, load_case, parse_override
+from fctd.case.load import Case, load_case
+from fctd.case.raw_case import parse_override
 from fctd.cli.keeping import AcceptChanges, CheckpointEvery, Keeping, OptionalCase, Restart, Resume
 from fctd.cli.main import run
 from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, changes_of, screen
-from fctd.cli.simulate import Shown, simulate_file
+from fctd.cli.simulate import RunOutput, simulate_file
 from fctd.store.run_folder import about_of
 from references import contact, engines
 from references.contact import ContactMethod, build
@@ -77,7 +78,7 @@ def simulate_command(
 
     more = {"contact": contact, "options": options}
     simulate_file(
-        case_file, out, overrides, friction, Shown(csv=csv, quiet=quiet), method, keeping=keeping, program=PROGRAM,
+        case_file, out, overrides, friction, RunOutput(csv=csv, quiet=quiet), method, keeping=keeping, program=PROGRAM,
         more=more,
     )  # fmt: skip
 

@@ -9,7 +9,8 @@ from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 from pydantic import ValidationError
 
-from fctd.case.errors import InputError, Table, explain, nearest
+from fctd.case.errors import InputError, Table, nearest
+from fctd.case.raw_case import explain
 
 # The first Python that pybullet has no wheels for.
 NO_PYBULLET = (3, 12)

@@ -30,12 +30,16 @@ segment_length = 40
 """
 
 
+def copy_of_package(folder: Path) -> Path:
+    """The folder with a copy of the package and a case."""
+    shutil.copytree(ROOT / "fctd", folder / "fctd", ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "well.toml").write_text(WELL)
+    return folder
+
+
 @pytest.fixture
 def copy(tmp_path: Path) -> Path:
-    """A folder with a copy of the package and a case."""
-    shutil.copytree(ROOT / "fctd", tmp_path / "fctd", ignore=shutil.ignore_patterns("__pycache__"))
-    (tmp_path / "well.toml").write_text(WELL)
-    return tmp_path
+    return copy_of_package(tmp_path)
 
 
 def add_line(file: Path, after: str, line: str) -> None:
@@ -219,8 +223,8 @@ def test_a_friction_law_is_one_file_and_one_line(copy: Path) -> None:
     (laws / "viscous.py").write_text(VISCOUS)
     add_line(
         laws.parent / "law_names.py",
-        '    "paper": "paper.LAW",',
-        '    "viscous": "viscous.LAW",',
+        '    "paper": NamedLaw("paper.LAW"),',
+        '    "viscous": NamedLaw("viscous.LAW"),',
     )
     (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 100") + ROTATE)
     printed = lines_of(copy, compiled=COMPILED, interpreted=RUN)

@@ -23,13 +23,13 @@ from fctd.plots.palette import PALETTE
 from fctd.results.unit_systems import System, shown
 
 CASE: Final = ".toml"
-# What a page asks of a string; see ``Well.solved``.
-ASKED: Final = ("values", "operations", "operation", "depth", "colour")
-SAID: Final = ("at", "words", "rows-note")  # what is said of the pictures
+# Settings that a page shows, with which ``Well.solved`` computes.
+SHOWN_SETTINGS: Final = ("values", "operations", "operation", "depth", "colour")
+PICTURE_TEXTS: Final = ("at", "words", "rows-note")  # beside the pictures
 LATER: Final = ("panels", "scene")  # figures that wait until the chart is painted
 
 
-class Served:
+class PageBackend:
     """What the callbacks work with; units : of the page."""
 
     def __init__(self, sessions: Sessions, pool: Pool, runs: Runs, prefix: str, units: System) -> None:
@@ -57,18 +57,21 @@ class Served:
             "values": {}, "operations": kinds, "operation": kinds[0] if kinds else "trip_out",
             "depth": opened["depth"]["high"], "colour": "side_force",
         }  # fmt: skip
-        found = {name: session.settings.get(name, usual[name]) for name in ASKED}
+        found = {name: session.settings.get(name, usual[name]) for name in SHOWN_SETTINGS}
         return found
 
 
-def connect(app: Dash, served: Served) -> None:
+def connect(app: Dash, backend: PageBackend) -> None:
     """Register all callbacks."""
     for register in (_opening, _moving, _measuring, _running):
-        register(app, served)
+        register(app, backend)
 
 
 def _refusing(outputs: int, at: int) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Of a callback with so many outputs: what it refuses is said in the one at an index."""
+    """Make a callback show an InputError in the output at an index, and leave its other outputs as they are.
+
+    outputs : their number.
+    """
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         @wraps(function)
@@ -86,8 +89,10 @@ def _refusing(outputs: int, at: int) -> Callable[[Callable[..., Any]], Callable[
 
 
 def _clearing(at: int) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Of a callback that takes files: the output at an index drops them, or the same files would be no change when they
-    come again."""
+    """Make a callback that takes files empty the output at an index, which holds them.
+
+    Otherwise the same files, dropped again, would be no change.
+    """
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         @wraps(function)
@@ -103,7 +108,7 @@ def _clearing(at: int) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     return decorate
 
 
-def _opening(app: Dash, served: Served) -> None:
+def _opening(app: Dash, backend: PageBackend) -> None:
     """A page is opened, or its session gets another case."""
     graphs = [Output(name, "figure") for name in page.GRAPHS]
 
@@ -112,18 +117,19 @@ def _opening(app: Dash, served: Served) -> None:
         Output("operations", "value"), Output("operation", "value"), Output("colour", "value"),
         Output("depth", "min"), Output("depth", "max"), Output("depth", "value"), Output("depth-unit", "children"),
         Output("name", "children"), Output("facts", "children"), Output("warnings", "children"),
-        Output("files", "children"), Output("measured", "value"), *(Output(name, "children") for name in SAID), *graphs,
+        Output("files", "children"), Output("measured", "value"), *(Output(name, "children") for name in PICTURE_TEXTS),
+        *graphs,
         Input("where", "pathname"), Input("changed", "data"), Input("reset", "n_clicks"),
     )  # fmt: skip
     @_refusing(21, 0)
     def opened(pathname: str, changed: object, resets: object) -> tuple[Any, ...]:
         from dash import ctx
 
-        session = served.session(pathname)
+        session = backend.session(pathname)
         if ctx.triggered_id == "reset":
             session.keep(values={})
         of = well_of(session)
-        found, asked = served.ask(session, "open"), served.asked(session)
+        found, asked = backend.ask(session, "open"), backend.asked(session)
         values, depth = asked["values"], found["depth"]
         sliders = [page.slider(one, _at(one, values)) for one in found["sliders"]]
         own = {one["name"]: one["value"] for one in found["sliders"]}
@@ -132,7 +138,7 @@ def _opening(app: Dash, served: Served) -> None:
             "", {"own": own, "values": values, "n": time.time(), "of": of}, sliders, asked["operations"],
             asked["operation"], asked["colour"], depth["low"], depth["high"], at, depth["unit"],
             printable(found["name"]), found["facts"], page.warned(found["warnings"]), page.links(str(pathname)),
-            session.measured, *[""] * len(SAID), *(found[name] for name in page.GRAPHS),
+            session.measured, *[""] * len(PICTURE_TEXTS), *(found[name] for name in page.GRAPHS),
         )  # fmt: skip
 
     @app.callback(
@@ -143,9 +149,9 @@ def _opening(app: Dash, served: Served) -> None:
     @_clearing(2)
     @_refusing(3, 0)
     def upload(contents: Sequence[str] | None, names: Sequence[str] | None, pathname: str) -> tuple[Any, ...]:
-        session = served.session(pathname)
+        session = backend.session(pathname)
         files = {name: content_of(text) for name, text in zip(names or (), contents or (), strict=True)}
-        source, note = source_of(files, session.source, served.pool, served.units)
+        source, note = source_of(files, session.source, backend.pool, backend.units)
         session.put(source)
         return note, time.time(), None
 
@@ -222,7 +228,7 @@ def _awaits(text: str, survey_name: str) -> bool:
     return f'"{survey_name}"' in text or f"'{survey_name}'" in text
 
 
-def _moving(app: Dash, served: Served) -> None:
+def _moving(app: Dash, backend: PageBackend) -> None:
     """Sliders, lists and buttons that change what is drawn."""
     app.clientside_callback(
         ClientsideFunction("fctd", "moved"), Output("wish", "data"),
@@ -243,21 +249,21 @@ def _moving(app: Dash, served: Served) -> None:
 
     @app.callback(
         Output("fault", "children", allow_duplicate=True), Output("answered", "data"),
-        *(Output(name, "children", allow_duplicate=True) for name in SAID),
+        *(Output(name, "children", allow_duplicate=True) for name in PICTURE_TEXTS),
         Output("changed", "data", allow_duplicate=True),
         Input("wish", "data"), State("where", "pathname"), prevent_initial_call=True,
     )  # fmt: skip
     def solve(wish: Mapping[str, Any] | None, pathname: str) -> tuple[Any, ...]:
         wish = wish or {}
-        same = [no_update] * (len(SAID) + 1)
+        same = [no_update] * (len(PICTURE_TEXTS) + 1)
         try:
-            session = served.session(pathname)
-            asked = {name: wish[name] for name in ASKED}
+            session = backend.session(pathname)
+            asked = {name: wish[name] for name in SHOWN_SETTINGS}
             if wish["of"] != well_of(session):
                 return "", {"n": wish["n"]}, *same[1:], time.time()
             given = {"coarse": bool(wish["coarse"]), "hole": bool(wish["hole"])}
-            found = served.ask(session, "solve", measured=session.measured, **asked, **given)
-            if not wish["coarse"] and any(session.settings.get(name) != asked[name] for name in ASKED):
+            found = backend.ask(session, "solve", measured=session.measured, **asked, **given)
+            if not wish["coarse"] and any(session.settings.get(name) != asked[name] for name in SHOWN_SETTINGS):
                 session.keep(**asked)
         except KeyError as error:
             return f"expected {error} in what the page asks", {"n": 0}, *same
@@ -267,7 +273,7 @@ def _moving(app: Dash, served: Served) -> None:
         return "", answered, found["where"], found["words"], found["note"], no_update
 
 
-def _measuring(app: Dash, served: Served) -> None:
+def _measuring(app: Dash, backend: PageBackend) -> None:
     """Measured rows, pasted or from a file."""
 
     @app.callback(
@@ -277,8 +283,8 @@ def _measuring(app: Dash, served: Served) -> None:
     )  # fmt: skip
     @_refusing(2, 0)
     def show(clicks: object, text: str | None, pathname: str, opened: Mapping[str, Any] | None) -> tuple[Any, ...]:
-        session = served.session(pathname)
-        count = served.ask(session, "measured", text=text or "")["rows"]
+        session = backend.session(pathname)
+        count = backend.ask(session, "measured", text=text or "")["rows"]
         session.keep(measured=text or "")
         return counted(count, "row") if count else "", {**(opened or {}), "again": time.time()}
 
@@ -292,7 +298,7 @@ def _measuring(app: Dash, served: Served) -> None:
         return text_of(content_of(contents)), "press show", None
 
 
-def _running(app: Dash, served: Served) -> None:
+def _running(app: Dash, backend: PageBackend) -> None:
     """A run in time, and what goes on in general."""
 
     @app.callback(
@@ -303,12 +309,12 @@ def _running(app: Dash, served: Served) -> None:
         prevent_initial_call="initial_duplicate",
     )  # fmt: skip
     def tick(count: object, pathname: str, before: object, opened: Mapping[str, Any] | None) -> tuple[Any, ...]:
-        note = served.pool.note
+        note = backend.pool.note
         try:
-            session = served.session(pathname)
+            session = backend.session(pathname)
         except InputError as error:
             return str(error), *[no_update] * 5, 60 * page.TICK, no_update
-        state = served.runs.state(session)
+        state = backend.runs.state(session)
         going, kept = state["running"], [state["kept"], state["running"]]
         told = no_update if state["kept"] or not state["log"] else state["log"]
         quiet = not (note or going)
@@ -327,15 +333,15 @@ def _running(app: Dash, served: Served) -> None:
     def start(
         clicks: object, pathname: str, sliders: Sequence[float], opened: Mapping[str, Any] | None
     ) -> tuple[Any, ...]:
-        session = served.session(pathname)
+        session = backend.session(pathname)
         # Where the sliders stand: their last move may not be solved yet.
         own = (opened or {"own": {}})["own"]
         values = {name: at for (name, usual), at in zip(own.items(), sliders, strict=True) if at != usual}
         source, name = session.source, ""
         if source is not None and source.survey_name:
             name = "survey" + PurePath(source.survey_name).suffix.lower()
-        text = served.ask(session, "text", values=values, survey=name)["text"]
-        served.runs.start(session, text, name, b"" if source is None else source.survey)
+        text = backend.ask(session, "text", values=values, survey=name)["text"]
+        backend.runs.start(session, text, name, b"" if source is None else source.survey)
         return "the string comes to rest first; nothing is recorded yet", page.TICK
 
     @app.callback(
@@ -343,7 +349,7 @@ def _running(app: Dash, served: Served) -> None:
         Input("stop", "n_clicks"), State("where", "pathname"), prevent_initial_call=True,
     )  # fmt: skip
     def stop(clicks: object, pathname: str) -> bool:
-        served.runs.stop(served.session(pathname))
+        backend.runs.stop(backend.session(pathname))
         return True
 
     @app.callback(
@@ -353,14 +359,14 @@ def _running(app: Dash, served: Served) -> None:
     )  # fmt: skip
     @_refusing(6, 1)
     def streamed(kept: Sequence[Any] | None, colour: str, pathname: str) -> tuple[Any, ...]:
-        session = served.session(pathname)
+        session = backend.session(pathname)
         if not kept or not kept[0]:
             return page.EMPTY, no_update, True, page.EMPTY, "", ""
         target = str(target_of(session.folder))
-        found = served.pool.ask("records", target=target, shown_units=served.units, colour=colour)
+        found = backend.pool.ask("records", target=target, shown_units=backend.units, colour=colour)
         told = "; ".join(filter(None, [found["last"], found["status"]])) or no_update
         string = found["string"] or {"figure": page.EMPTY, "where": "", "words": ""}
-        curves, empty = time_figure(found, served.units), not found["records"]
+        curves, empty = time_figure(found, backend.units), not found["records"]
         return curves, told, empty, string["figure"], string["where"], string["words"]
 
 

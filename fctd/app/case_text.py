@@ -15,10 +15,11 @@ from typing import Any, Final
 import tomlkit
 
 from fctd.app.sessions import Source
-from fctd.case.errors import InputError, look_up, set_key, split_key
+from fctd.case.errors import InputError
 from fctd.case.input_file import tables_of
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import LARGEST_FILE, Case, make_case
+from fctd.case.raw_case import look_up, set_key, split_key
 from fctd.case.surveys.workbook import ZIP
 from fctd.model.layouts import segments_in_hole
 from fctd.model.new_case import UnitSystem, from_survey, read_survey

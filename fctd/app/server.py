@@ -16,7 +16,7 @@ from flask import Flask, Response, redirect, request
 from werkzeug.exceptions import HTTPException
 
 from fctd.app import page
-from fctd.app.callbacks import Served, connect
+from fctd.app.callbacks import PageBackend, connect
 from fctd.app.guard import Guard
 from fctd.app.home import HOST, Home
 from fctd.app.pool import Pool
@@ -68,8 +68,8 @@ class AppServer:
         self.sessions = Sessions(home.folder / "sessions")
         self.pool = Pool(home.folder) if pool is None else pool
         self.runs = Runs(self.sessions.folders())
-        served = Served(self.sessions, self.pool, self.runs, home.prefix, units)
-        app = dash_app(served)
+        backend = PageBackend(self.sessions, self.pool, self.runs, home.prefix, units)
+        app = dash_app(backend)
         flask: Any = app.server
         guard = Guard(flask.wsgi_app, home.prefix, self.port, app.csp_hashes())
         self._server = waitress.create_server(
@@ -121,19 +121,19 @@ def serving(home: Home, units: System = "si", port: int | None = None) -> Iterat
         server.close()
 
 
-def dash_app(served: Served) -> Dash:
+def dash_app(backend: PageBackend) -> Dash:
     """The page with its callbacks below its prefix; other addresses lead to a session, or nowhere."""
     # Without a folder of its own, flask has no address that the prefix does not begin.
     flask: Any = Flask("fctd.app", static_folder=None)
-    flask.before_request(lambda: _steered(served))
+    flask.before_request(lambda: _steered(backend))
     flask.register_error_handler(Exception, _failed)
     app = Dash(
-        "fctd.app.page", server=flask, url_base_pathname=served.prefix, title=page.TITLE, update_title="",
+        "fctd.app.page", server=flask, url_base_pathname=backend.prefix, title=page.TITLE, update_title="",
         assets_folder="assets", add_log_handler=False, enable_mcp=False, suppress_callback_exceptions=True,
         compress=False, serve_locally=True,
     )  # fmt: skip
     app.layout = page.layout()
-    connect(app, served)
+    connect(app, backend)
     return app
 
 
@@ -149,31 +149,31 @@ def _failed(error: Exception) -> "Answer":
     return Response("Bad Request", 400, mimetype="text/plain")
 
 
-def _steered(served: Served) -> "Answer | None":
+def _steered(backend: PageBackend) -> "Answer | None":
     """The answer to a request that is not for Dash."""
-    rest = request.path.removeprefix(served.prefix)
+    rest = request.path.removeprefix(backend.prefix)
     if OF_DASH.match(rest):
         return None
     if rest in ("", "new") and request.method in ("GET", "HEAD"):
-        session = served.sessions.newest() if not rest else None
+        session = backend.sessions.newest() if not rest else None
         if session is None:
-            session = served.sessions.new()
-            session.put(_first(served.units))
-        return redirect(f"{served.prefix}s/{session.key}/")
+            session = backend.sessions.new()
+            session.put(_first(backend.units))
+        return redirect(f"{backend.prefix}s/{session.key}/")
     match = OF_SESSION.fullmatch(rest)
-    session = served.sessions.get(match[1]) if match else None
+    session = backend.sessions.get(match[1]) if match else None
     if match is None or session is None:
         return Response("Not Found", 404, mimetype="text/plain")
     if not match[2]:
         return None
     if match[2] == "closed" and request.method == "POST":
-        served.runs.closed(session)
+        backend.runs.closed(session)
         return Response("", 204)
     head, _, name = match[2].partition("/")
     if head != "files" or request.method != "GET":
         return Response("Not Found", 404, mimetype="text/plain")
     try:
-        found = served.ask(session, "file", name=name, measured=session.measured, **served.asked(session))
+        found = backend.ask(session, "file", name=name, measured=session.measured, **backend.asked(session))
     except InputError as error:
         return Response(str(error), 404, mimetype="text/plain")
     kind = KINDS_OF_FILES.get(name.rpartition(".")[2], "application/octet-stream")

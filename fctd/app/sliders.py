@@ -6,9 +6,9 @@ from math import ceil, isfinite
 from typing import Any, Final
 
 from fctd.case.errors import MISSING, InputError
-from fctd.case.friction import scaled_static
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
+from fctd.case.raw_case import scaled_static
 from fctd.case.units import conversion
 from fctd.model.drillstring import lay_out
 from fctd.model.layouts import is_long

@@ -10,7 +10,8 @@ from fctd.calibration.predict import posterior_file
 from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import keys_of
 from fctd.case import spellings
-from fctd.case.errors import InputError, look_up, set_key, split_key
+from fctd.case.errors import InputError
+from fctd.case.raw_case import look_up, set_key, split_key
 from fctd.case.text import counted
 from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension
 from fctd.steady.refined_file import changed_document, survey_from

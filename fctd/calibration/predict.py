@@ -15,9 +15,10 @@ from fctd.calibration.forward import Forward
 from fctd.calibration.rows import Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import Unknown
-from fctd.case.errors import InputError, Table, explain
+from fctd.case.errors import InputError, Table
 from fctd.case.input_file import read_text
 from fctd.case.load import Case
+from fctd.case.raw_case import explain
 from fctd.store.whole_file import whole_file
 
 Array = NDArray[np.float64]

@@ -8,9 +8,10 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, ValidationError, model_validator
 
 from fctd.case import units
-from fctd.case.errors import InputError, Table, explain
+from fctd.case.errors import InputError, Table
 from fctd.case.input_file import read_toml
 from fctd.case.load import LARGEST_FILE
+from fctd.case.raw_case import explain
 
 PositiveForce = Annotated[float, units.Quantity(dimension=units.FORCE, above=0.0)]
 PositiveTorque = Annotated[float, units.Quantity(dimension=units.TORQUE, above=0.0)]

@@ -26,10 +26,10 @@ class DriveSpec(Table):
 class RockSpec(Table):
     """The rock under the bit of a run in time, and the bit's cutters.
 
-    `law` "drag_bit" is that of Detournay & Defournay (1992): intrinsic `specific_energy` ε [Pa], `force_ratio` ζ of
-    thrust to cutting force, `friction` μ of the wear flats, `bit_factor` γ, the summed width of the wear flats
-    `wear_flat` l [m] and their `contact_strength` σ [Pa]; the `radius` [m] is by default that of the hole. The weight
-    on bit is the force of a spring of `stiffness` [N/m] between bit and bottom.
+    `law` "drag_bit" is that of Detournay & Defournay (1992). Its keys are the intrinsic `specific_energy` ε [Pa], the
+    `force_ratio` ζ of thrust to cutting force, the `bit_factor` γ, and of the wear flats their `friction` μ, their
+    summed width `wear_flat` l [m] and their `contact_strength` σ [Pa]. The `radius` [m] is by default that of the hole.
+    The weight on bit is the force of a spring of `stiffness` [N/m] between bit and bottom.
     "given" puts weight and torque of [bit] on the bit, and the bottom follows it.
 
     The torque of a bit that turns slowly is larger by the share `weakening` at rest, which falls off exponentially

@@ -1,4 +1,4 @@
-"""Bad input: the exception that every module raises, dotted keys, and the base class of a case's tables.
+"""Bad input: the exception that every module raises, and the base class of a case's tables.
 
 The message of a bad value is one line, for example
 `paper_well.toml: string.components[0].length = "-2 m": expected a length above 0`.
@@ -6,7 +6,6 @@ The message of a bad value is one line, for example
 
 from __future__ import annotations
 
-import copy
 import difflib
 import json
 import re
@@ -16,8 +15,7 @@ from enum import Enum
 from os import PathLike
 from typing import Any, Final
 
-from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, model_validator
-from pydantic_core import ErrorDetails
+from pydantic import BaseModel, ConfigDict, ValidationInfo, model_validator
 
 from fctd.case.text import printable
 
@@ -125,53 +123,6 @@ def join_key(*parts: str | int) -> str:
     return key
 
 
-def split_key(key: str) -> list[str | int]:
-    """ "operations[0].speed" or "operations.0.speed" as ["operations", 0, "speed"]; "" as [].
-
-    Raises InputError for a text that is not a dotted key.
-    """
-    if not re.fullmatch(r"(?:(?:^|\.)[\w-]+|\[[0-9]+\])*", key):
-        raise InputError("a dotted key such as wellbore.overlap or operations[0].speed", value=key)
-    parts = re.findall(r"[\w-]+", key)
-    return [int(part) if re.fullmatch("[0-9]{1,9}", part) else part for part in parts]
-
-
-def look_up(data: Any, *parts: str | int) -> object:
-    """The value down a path of nested dicts and lists; MISSING where there is none or None."""
-    for part in parts:
-        if not _has_item(data, part):
-            return MISSING
-        data = data[part]
-    return MISSING if data is None else data
-
-
-def set_key(table: dict[str, Any], key: str, value: object) -> None:
-    """Set a dotted key of nested dicts and lists; tables on the way are made, list items are not.
-
-    None in a table counts as absent (`known_keys`); for an item of a list it removes the item.
-    Raises InputError for a key whose table or list item does not exist.
-    """
-    *parents, last = split_key(key) or [key]
-    place: Any = table
-    for part in parents:
-        if isinstance(place, dict) and place.get(part) is None:
-            place[part] = {}
-        place = place[part] if _has_item(place, part) else None
-    if isinstance(place, list) and isinstance(last, int) and last < len(place) and value is None:
-        del place[last]
-    elif isinstance(place, dict) or _has_item(place, last):
-        place[last] = copy.deepcopy(value)
-    else:
-        raise InputError("a value for a key that exists", key=key, value=value)
-
-
-def _has_item(data: Any, part: str | int) -> bool:
-    """Whether a dict or list has this key or index."""
-    if isinstance(data, list | tuple):
-        return isinstance(part, int) and part < len(data)
-    return isinstance(data, Mapping) and part in data
-
-
 def known_keys(table: Mapping[Any, Any], keys: Collection[str], owner: str = "") -> dict[str, Any]:
     """The table without the keys that are None, or an InputError that names the nearest known key."""
     for key, value in table.items():
@@ -224,49 +175,3 @@ def exclusive(table: Table, first: str, second: str, *, required: bool = False) 
         raise InputError(f"{first} or {second}, not both", key=second)
     if required and not given:
         raise InputError(f"{first} or {second}", key=first)
-
-
-_EXPECTED: Final = {
-    "missing": "a bare number",  # inside a list of fixed length: tables check their keys themselves
-    "too_long": "at most {max_length} values",
-    "tuple_type": "a list",
-    "dict_type": "a table of keys and values",
-    "model_type": "a table of keys and values",
-    "model_attributes_type": "a table of keys and values",
-    "bool_type": "true or false",
-    "string_type": "a text in quotes",
-    "path_type": "a file name in quotes",
-}
-
-
-def explain(failure: ValidationError, raw: object, branches: Collection[str]) -> InputError:
-    """All problems that pydantic found in `raw`: the first one, with the others in its `more`.
-
-    branches: names that pydantic puts into a path for the members of a union.
-    """
-    written: list[InputError] = []
-    derived: list[InputError] = []
-    for detail in failure.errors(include_url=False):
-        parts = [part for part in detail["loc"] if part not in branches]
-        error = _from_detail(detail)
-        # A default computed from a bad value is bad too; the line of the bad value is enough.
-        follows = error.value is not MISSING and look_up(raw, *parts) is MISSING
-        uncalled = detail["type"] == "default_factory_not_called"
-        (derived if follows or uncalled else written).append(error.at(join_key(*parts)))
-    first, *more = written or derived
-    return InputError(first.expected, key=first.key, value=first.value, more=more)
-
-
-def _from_detail(detail: ErrorDetails) -> InputError:
-    """One problem; its key is relative to the table that pydantic validated."""
-    written, context = detail["input"], detail.get("ctx", {})
-    error = context.get("error")
-    if isinstance(error, InputError):
-        # A rule across keys names only the key: the value is read from the table.
-        value = look_up(written, *split_key(error.key)) if error.value is MISSING else error.value
-        return InputError(error.expected, key=error.key, value=value)
-    expected = _EXPECTED.get(detail["type"], detail["msg"].removeprefix("Input should be "))
-    if detail["type"] == "tuple_type" and isinstance(written, Mapping):
-        expected = "a list of tables, the name of each in double brackets: [[name]]"
-    value = MISSING if detail["type"] == "missing" else written
-    return InputError(expected.format(**context), value=value)

@@ -9,7 +9,7 @@ from typing import Any, Final, TypeVar, get_args
 
 import numpy as np
 
-from fctd.case.errors import MISSING, InputError, look_up, nearest
+from fctd.case.errors import MISSING, InputError, nearest
 from fctd.case.units import FRICTION
 from fctd.case.wall import IntervalKind, IntervalSpec
 
@@ -156,14 +156,6 @@ def factors_label(intervals: Sequence[IntervalSpec]) -> str:
         return f"{min(factors):g} to {max(factors):g}"
     parts = ", ".join(f"{factor:g} down to {to_md:g} m" for factor, to_md in ends[:-1])
     return f"{parts}, {ends[-1][0]:g} below"
-
-
-def scaled_static(interval: object, factor: object) -> object:
-    """The static factor of an unvalidated interval, scaled to a new kinetic factor; MISSING without one."""
-    kinetic, static = (look_up(interval, key) for key in ("friction", "static_friction"))
-    if not all(isinstance(value, int | float) for value in (kinetic, static, factor)) or not kinetic:
-        return static  # where one of them is no number, validation says so
-    return static * factor / kinetic  # type: ignore[operator]
 
 
 def _two_digits(factor: float) -> str:

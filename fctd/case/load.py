@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -16,16 +14,23 @@ from pydantic import Field, PrivateAttr, ValidationError, field_validator, model
 
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
-from fctd.case.errors import MISSING, InputError, Table, explain, join_key, look_up, nearest, set_key, split_key
-from fctd.case.friction import pick, scaled_static
+from fctd.case.errors import MISSING, InputError, Table, nearest
 from fctd.case.hole import FileName, WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
+from fctd.case.raw_case import (
+    apply_override,
+    bare_lengths,
+    explain,
+    look_up,
+    split_key,
+    with_bare_lengths,
+    without_stations,
+)
 from fctd.case.rig import MudSpec, RigSpec
 from fctd.case.solver import RecordSpec, SolverSpec
 from fctd.case.string import StringSpec
-from fctd.case.text import is_utf8
 from fctd.case.wall import ContactSpec, check_friction
 
 LARGEST_FILE: Final = 4  # MiB: 100,000 stations written out; the TOML reader takes some seconds for them
@@ -137,7 +142,7 @@ class Case(Table):
 
         Empty where the case was not read from a file.
         """
-        return _bare_lengths(self._written.raw)
+        return bare_lengths(self._written.raw)
 
     def quoting(self, error: InputError) -> InputError:
         """The error with the value as the user wrote it, where the error is about a key that he wrote."""
@@ -150,67 +155,16 @@ class Case(Table):
                 return InputError(error.expected, key=key, value=written, more=error.more)
         return error
 
-    def check_depths(self, raw: Mapping[str, Any] | None = None) -> None:
+    def check_depths(self) -> None:
         """Raise InputError for a bit depth above the top of the string, or below the end of survey or intervals.
 
         It reads the survey, so it is not part of validation: a stored case can be read without its files.
-        raw: the case as the user wrote it, to quote values from.
         """
         top, bottom = self.depths
         for i, operation in enumerate(self.operations):
             for key in (operation.start_key, operation.end_key):
                 md = getattr(operation, key)
-                written = look_up(raw, "operations", i, key)
-                check_bit_depth(
-                    md, top, bottom, f"operations[{i}].{key}", f"{md:g} m" if written is MISSING else written
-                )
-
-
-# Tables of a case, the keys of lengths in them that say nothing of steps or tolerances, and units of the field.
-_LENGTHS: Final = {
-    ("wellbore", "intervals"): ("to_md", "diameter"),
-    ("string", "components"): (
-        "length", "outer_diameter", "inner_diameter", "contact_diameter", "segment_length",
-    ),
-    ("operations",): ("at_md", "from_md", "to_md"),
-}  # fmt: skip
-_FIELD: Final = re.compile(r"(?:ft|feet|foot|in|inch|inches|'|\"|″|′)\.?\s*$", re.IGNORECASE)
-
-
-def _bare_lengths(raw: Mapping[str, Any]) -> list[str]:
-    bare, field_units = [], 0
-    for path, keys in _LENGTHS.items():
-        tables = look_up(raw, *path)
-        for i, table in enumerate(tables if isinstance(tables, list) else ()):
-            for key in keys:
-                value = look_up(table, key)
-                if isinstance(value, str) and not _FIELD.search(value):
-                    return []
-                field_units += isinstance(value, str)
-                if isinstance(value, int | float) and value:
-                    bare.append(join_key(*path, i, key))
-    return bare if len(bare) < field_units else []
-
-
-def _with_bare_lengths(error: InputError, raw: Mapping[str, Any]) -> InputError:
-    """The error, with the lengths that may be its cause: the rule that they break names another key."""
-    said = [error.key, *(other.key for other in error.more)]
-    more = [
-        InputError(
-            "a length with its unit: bare, it is in metres, and the other lengths are in feet and inches",
-            key=key,
-            value=look_up(raw, *split_key(key)),
-        )
-        for key in _bare_lengths(raw)
-        if key not in said
-    ]
-    return InputError(error.expected, key=error.key, value=error.value, more=[*error.more, *more])
-
-
-def _without_stations(raw: Mapping[str, Any]) -> dict[str, Any]:
-    """A case without the long list that it may have."""
-    hole = look_up(raw, "wellbore")
-    return {**raw, "wellbore": {**hole, "stations": None}} if isinstance(hole, dict) else dict(raw)
+                check_bit_depth(md, top, bottom, f"operations[{i}].{key}", f"{md:g} m")
 
 
 @contextmanager
@@ -260,31 +214,15 @@ def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None
     try:
         case = Case.model_validate(raw, context=None if folder is None else {"folder": folder})
     except ValidationError as failure:
-        raise _with_bare_lengths(explain(failure, raw, branches=KINDS), raw) from None
-    case._written = _Written(_without_stations(raw))
+        raise with_bare_lengths(explain(failure, raw, branches=KINDS), raw) from None
+    case._written = _Written(without_stations(raw))
     if like is not None:
         case.wellbore.share_trajectory(like.wellbore)
-    case.check_depths(raw)
-    return case
-
-
-def parse_override(text: str) -> tuple[str, Any]:
-    """Key and value of "key=value": a TOML value, else a plain string, or None where the value is empty.
-
-    Raises InputError for a text of another form.
-    """
-    key, sign, written = (part.strip() for part in text.partition("="))
-    if not (key and sign):
-        raise InputError("key=value", value=text)
-    if not written:
-        return key, None
-    if key != "wellbore.survey" and not is_utf8(written):  # only file names need not be UTF-8
-        raise InputError("a value in UTF-8", key=key, value=written)
     try:
-        table = tomllib.loads(f"value = {written}")
-    except (ValueError, RecursionError):
-        return key, written
-    return key, table["value"] if table.keys() == {"value"} else written
+        case.check_depths()
+    except InputError as error:
+        raise case.quoting(error) from error.__cause__
+    return case
 
 
 def read_raw(path: Path) -> dict[str, Any]:
@@ -295,24 +233,3 @@ def read_raw(path: Path) -> dict[str, Any]:
         if path.suffix.lower() in _OF_SURVEYS and path.is_file():
             raise InputError("a case file in TOML; of a survey, `fctd init` makes one") from error
         raise
-
-
-def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
-    """Set or delete one dotted key of an unvalidated case."""
-    if key == "friction":
-        intervals = look_up(raw, "wellbore", "intervals")
-        count = len(intervals) if isinstance(intervals, list) else 0
-        picked = [value] * count
-        if isinstance(value, Mapping):
-            picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
-        for i, factor in enumerate(picked):
-            if factor is not None or not isinstance(value, Mapping):
-                at = f"wellbore.intervals[{i}]"
-                static = scaled_static(look_up(raw, "wellbore", "intervals", i), factor)
-                set_key(raw, f"{at}.friction", factor)
-                if static is not MISSING:
-                    set_key(raw, f"{at}.static_friction", static)
-    elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
-        set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
-    else:
-        set_key(raw, key, value)

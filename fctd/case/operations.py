@@ -61,6 +61,17 @@ class _Move(_Operation):
         return self
 
 
+class Stay(_Operation):
+    """The bit stays at one depth [m] for a duration [s]."""
+
+    start_key = end_key = "at_md"
+    direction = 0
+    default_speed = 0.0
+    at_md: units.Length
+    duration: units.PositiveTime
+    speed: ClassVar[float] = 0.0
+
+
 class TripIn(_Move):
     """The string moves into the hole (slack-off)."""
 
@@ -81,20 +92,14 @@ class TripOut(_Move):
     rpm: units.Rpm = 0.0
 
 
-class RotateOffBottom(_Operation):
+class RotateOffBottom(Stay):
     """The string rotates at one depth, off bottom, for a duration [s]."""
 
-    start_key = end_key = "at_md"
     kind: Literal["rotate_off_bottom"]
     label = "rotating off bottom"
-    direction = 0
-    default_speed = 0.0
     default_rpm = 60.0
     turns = True
-    at_md: units.Length
-    duration: units.PositiveTime
     rpm: units.PositiveRpm
-    speed: ClassVar[float] = 0.0
 
 
 class BackReam(_Move):

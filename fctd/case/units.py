@@ -108,7 +108,7 @@ INERTIA: Final = Dimension("a moment of inertia", "kg*m^2", "'2000 kg*m^2'", ("k
 ROTATIONAL_DAMPING: Final = Dimension("a rotational damping per length", "N*s", "'0.1 N*s'", ("N*s", "lbf*s"))
 
 
-class Slip(NamedTuple):
+class LikelyUnit(NamedTuple):
     """Bare numbers above `low` and up to `high` look like another unit: the number times `factor` in `unit`."""
 
     low: float
@@ -117,9 +117,9 @@ class Slip(NamedTuple):
     factor: float = 1.0
 
 
-def looks_like(number: float, slips: Iterable[Slip]) -> str:
+def unit_hint(number: float, likely_units: Iterable[LikelyUnit]) -> str:
     """What a number in a wrong unit looks like, as " (8.5 looks like '8.5 in')"; empty for other numbers."""
-    fitting = [f"'{number * slip.factor:g}{slip.unit}'" for slip in slips if slip.low < number <= slip.high]
+    fitting = [f"'{number * unit.factor:g}{unit.unit}'" for unit in likely_units if unit.low < number <= unit.high]
     return f" ({number:g} looks like {' or '.join(fitting)})" if fitting else ""
 
 
@@ -127,7 +127,7 @@ def looks_like(number: float, slips: Iterable[Slip]) -> str:
 class Number(Expects):
     """Pydantic annotation for a bare number within bounds; its error message gives the bounds.
 
-    slips : units that a bare number out of bounds may be in.
+    likely_units : units that a bare number out of bounds may be in.
     """
 
     noun: str = "a number"
@@ -135,7 +135,7 @@ class Number(Expects):
     above: float | None = None
     at_least: float | None = None
     at_most: float | None = None
-    slips: tuple[Slip, ...] = ()
+    likely_units: tuple[LikelyUnit, ...] = ()
 
     @property
     def bounded(self) -> str:
@@ -173,7 +173,7 @@ class Number(Expects):
             and (self.at_most is None or number <= self.at_most)
         )
         if not within:
-            guess = "" if isinstance(value, str) else looks_like(number, self.slips)
+            guess = "" if isinstance(value, str) else unit_hint(number, self.likely_units)
             raise InputError(self.bounded + guess, value=value)
         return number
 
@@ -262,7 +262,9 @@ def bare(value: object, key: str, noun: str) -> float:
 Bare = Annotated[float, Number(noun="a bare number")]
 Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SEGMENTS, whose check has a better message
 Seed = Annotated[int, Whole(at_least=0, at_most=2**32)]
-FRICTION: Final = Number(noun="a friction factor", at_least=0.0, at_most=5.0, slips=(Slip(5, 100, "", 0.01),))
+FRICTION: Final = Number(
+    noun="a friction factor", at_least=0.0, at_most=5.0, likely_units=(LikelyUnit(5, 100, "", 0.01),)
+)
 Friction = Annotated[float, FRICTION]
 Exponent = Annotated[float, Number(noun="an exponent", at_least=1.0, at_most=5.0)]
 PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
@@ -282,9 +284,9 @@ MeasuredDepth = Annotated[float, Quantity(dimension=LENGTH)]
 Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
 PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
 WIDEST: Final = 5.0  # [m]: no well is wider
-ACROSS: Final = (Slip(WIDEST, 60, " in"), Slip(60, 1500, " mm"))
-Bore = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0, at_most=WIDEST, slips=ACROSS)]
-Diameter = Annotated[float, Quantity(dimension=LENGTH, above=0.0, at_most=WIDEST, slips=ACROSS)]
+DIAMETER_UNITS: Final = (LikelyUnit(WIDEST, 60, " in"), LikelyUnit(60, 1500, " mm"))
+Bore = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0, at_most=WIDEST, likely_units=DIAMETER_UNITS)]
+Diameter = Annotated[float, Quantity(dimension=LENGTH, above=0.0, at_most=WIDEST, likely_units=DIAMETER_UNITS)]
 Time = Annotated[float, Quantity(dimension=TIME, at_least=0.0)]
 PositiveTime = Annotated[float, Quantity(dimension=TIME, above=0.0)]
 PositiveSpeed = Annotated[float, Quantity(dimension=SPEED, above=0.0, at_most=FASTEST)]
@@ -307,7 +309,9 @@ PositiveAxialStiffness = Annotated[float, Quantity(dimension=AXIAL_STIFFNESS, ab
 PositiveBendingStiffness = Annotated[float, Quantity(dimension=BENDING_STIFFNESS, above=0.0)]
 Damping = Annotated[float, Quantity(dimension=DAMPING, at_least=0.0)]
 # Plastic viscosities of mud are 5 to 100 mPa*s; honey has 10 Pa*s.
-Viscosity = Annotated[float, Quantity(dimension=VISCOSITY, at_least=0.0, at_most=2.0, slips=(Slip(2, 2000, " mPa*s"),))]
+Viscosity = Annotated[
+    float, Quantity(dimension=VISCOSITY, at_least=0.0, at_most=2.0, likely_units=(LikelyUnit(2, 2000, " mPa*s"),))
+]
 DampingPerLength = Annotated[float, Quantity(dimension=DAMPING_PER_LENGTH, at_least=0.0)]
 PositiveFlow = Annotated[float, Quantity(dimension=FLOW, above=0.0)]
 RotationalDamping = Annotated[float, Quantity(dimension=ROTATIONAL_DAMPING, at_least=0.0)]

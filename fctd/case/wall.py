@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Final, Literal, Self
+from typing import TYPE_CHECKING, Final, Literal, Self
 
 from pydantic import StrictBool, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
-from fctd.mechanics.law_names import NAMES, STICKING
+from fctd.mechanics.law_names import LAWS, NAMES
 
 IntervalKind = Literal["cased", "open"]
 if TYPE_CHECKING:
@@ -80,9 +80,10 @@ class TortuositySpec(Table):
 
 
 class CakeSpec(Table):
-    """Mud cake on permeable intervals: its final `thickness` [m], the `time` [s] in which it grows so thick below a
-    string at rest, its `friction` factor, which a static factor of the interval scales too, and for how long the string
-    has `rested` [s] when a simulation starts.
+    """Mud cake on permeable intervals.
+
+    Below a string at rest it grows to its final `thickness` [m] within `time` [s]. A static factor of the interval
+    scales its `friction` factor too. When a simulation starts, the string has `rested` [s].
     """
 
     thickness: units.PositiveLength = 0.002
@@ -131,12 +132,10 @@ def check_friction(contact: ContactSpec, intervals: Sequence[IntervalSpec], cake
     for i, interval in enumerate(intervals):
         at = f"wellbore.intervals[{i}]"
         for key in ("static_friction", "decay_speed", "overbalance"):
-            value: Any = getattr(interval, key)
-            if value is not None and law not in STICKING:
-                raise InputError(f'"karnopp" or "stribeck" beside {at}.{key}', key="contact.friction_law", value=law)
-        if interval.decay_speed is not None and law != "stribeck":
-            raise InputError(f'"stribeck" beside {at}.decay_speed', key="contact.friction_law", value=law)
-        if interval.static_friction and interval.decay_speed is None and law == "stribeck":
+            if getattr(interval, key) is not None and key not in LAWS[law].keys:
+                users = " or ".join(f'"{name}"' for name, other in LAWS.items() if key in other.keys)
+                raise InputError(f"{users} beside {at}.{key}", key="contact.friction_law", value=law)
+        if interval.static_friction and interval.decay_speed is None and "decay_speed" in LAWS[law].keys:
             raise InputError("a speed beside static_friction", key=f"{at}.decay_speed")
         if interval.overbalance is not None:
             if contact.law != "linear":

@@ -9,7 +9,7 @@ import typer
 from fctd.case.errors import InputError
 from fctd.case.load import load_case
 from fctd.case.text import printable
-from fctd.cli.manners import Silent
+from fctd.cli.base_command import Silent
 from fctd.cli.options import messages, screen
 from fctd.results.unit_systems import System
 
@@ -23,7 +23,7 @@ def app_command(
     ] = None,
     port: Annotated[
         int | None,
-        typer.Option("--port", min=1024, max=65535, help="Of the address; default: that of the last time."),
+        typer.Option("--port", min=1024, max=65535, help="Port of the address; default: that of the last time."),
     ] = None,
     new_token: Annotated[
         bool, typer.Option("--new-token", help="A new secret in the address; earlier addresses lead nowhere.")

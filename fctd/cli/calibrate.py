@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import typer
 from rich.box import SIMPLE_HEAD
+from rich.markup import escape
 from rich.table import Table
 
 from fctd.calibration.calibrate import Order, calibrate
@@ -51,7 +52,7 @@ def calibrate_command(
         typer.Option(
             "--fit",
             metavar="NAME[=LOW:HIGH]",
-            help=f"An unknown, with bounds; may be repeated: {', '.join(NAMES)}.",
+            help=f"An unknown, with bounds; may be repeated: {escape(', '.join(NAMES))}.",
         ),
     ] = [],  # noqa: B006 (typer copies it)
     priors: Annotated[
@@ -63,9 +64,9 @@ def calibrate_command(
     order: Annotated[
         Order, typer.Option("--order", help="Fit all rows, or those of the first hole section and predict the deeper.")
     ] = "all",
-    loss: Annotated[Loss, typer.Option("--loss", help="Of a residual: robust, or its square.")] = "soft_l1",
+    loss: Annotated[Loss, typer.Option("--loss", help="Loss of a residual: robust, or its square.")] = "soft_l1",
     starts: Annotated[int, typer.Option("--starts", metavar="N", help="Number of starts of the search.")] = 4,
-    seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of the starts.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", metavar="N", help="Seed of the starts.")] = 0,
     overrides: Overrides = [],  # noqa: B006
     friction: Friction = None,
     out: Annotated[

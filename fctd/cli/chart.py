@@ -145,14 +145,14 @@ def chart_command(
     })  # fmt: skip
     if resume is not None:
         with resumed_folder(resume, PROGRAM, accept_changes=accept_changes) as (folder, about):
-            asked = Asked.read(about["options"])
+            asked = ChartRequest.read(about["options"])
             kept = KeptRows(folder, keeping.interval(EVERY_CHART), key="--resume")
             _chart(case_of(folder.path, about), asked, keeping, quiet, resume, lambda _: nullcontext(kept))
         return
     if case_file is None or depths is None:
         raise InputError("a case file, or --resume with an unfinished chart", key="CASE")
     files = {"out": out, "plot": plot, "plot_profile": plot_profile, "measured": measured}
-    asked = Asked(operations, depths, frictions, speed, rpm, load, side_force, units, strict, **files)
+    asked = ChartRequest(operations, depths, frictions, speed, rpm, load, side_force, units, strict, **files)
     check_targets(out, plot, plot_profile)
     case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
     target = out or plot or plot_profile
@@ -172,7 +172,7 @@ def chart_command(
 
 
 @dataclass(frozen=True)
-class Asked:
+class ChartRequest:
     """What a chart is to have; the options of ``chart_command``."""
 
     operations: list[str]
@@ -195,14 +195,14 @@ class Asked:
         return {name: str(value.absolute()) if isinstance(value, Path) else value for name, value in vars(self).items()}
 
     @classmethod
-    def read(cls, kept: Mapping[str, Any]) -> "Asked":
+    def read(cls, kept: Mapping[str, Any]) -> "ChartRequest":
         """The options that ``kept`` gave."""
         files = {name: kept[name] for name in ("out", "plot", "plot_profile", "measured")}
         return cls(**{**kept, **{name: None if path is None else Path(path) for name, path in files.items()}})
 
 
 def _chart(
-    case: Case, asked: Asked, keeping: Keeping, quiet: bool, target: Path | None,
+    case: Case, asked: ChartRequest, keeping: Keeping, quiet: bool, target: Path | None,
     kept_rows: Callable[[Case], AbstractContextManager[KeptRows | None]],
 ) -> None:  # fmt: skip
     """Compute a chart, or the rest of one, write and print it.

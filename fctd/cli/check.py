@@ -9,7 +9,7 @@ from rich.table import Table
 from fctd.case.load import Case, naming_file
 from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, Quantity
-from fctd.cli.manners import Silent
+from fctd.cli.base_command import Silent
 from fctd.cli.options import (
     CaseFile,
     Friction,

@@ -12,7 +12,7 @@ from fctd.case.load import load_case
 from fctd.case.surveys.headers import KEYS, Wanted, accepted_units, unit_of
 from fctd.case.surveys.stations import UNITS, StationKey
 from fctd.case.text import is_utf8, printable
-from fctd.cli.manners import Silent
+from fctd.cli.base_command import Silent
 from fctd.cli.options import check_target, messages, screen, tell
 from fctd.model.new_case import Plan, Quantities, UnitSystem, from_survey, from_template, read_survey
 from fctd.model.templates import TEMPLATES, TemplateName
@@ -46,13 +46,15 @@ def init_command(
     sheet: Annotated[
         str | None,
         typer.Option(
-            "--sheet", help="Sheet of a workbook, or trajectory of a WITSML file, of several.", show_default=False
+            "--sheet",
+            help="Sheet of a workbook, or trajectory of a WITSML file, where it has several.",
+            show_default=False,
         ),
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="FILE", help="The case file, .toml.")] = Path("my_well.toml"),
     quiet: Silent = False,
 ) -> None:
-    """Write a commented case file that runs: of your survey, or of one of the templates."""
+    """Write a commented case file that runs, for your survey or for one of the templates."""
     check_target(out, "--out", (".toml",))
     if out.exists():
         raise InputError("a file that does not exist yet", key="--out", value=out)

@@ -31,7 +31,7 @@ CheckpointEvery = Annotated[
     typer.Option(
         "--checkpoint-every",
         metavar="TIME",
-        help=f"Keep the run so often on disk; default: '{EVERY_RUN:g} s', of a chart '{EVERY_CHART:g} s'.",
+        help=f"Longest time between two saves; default: '{EVERY_RUN:g} s' for a run, '{EVERY_CHART:g} s' for a chart.",
         show_default=False,
     ),
 ]
@@ -44,19 +44,19 @@ AcceptChanges = Annotated[
     bool,
     typer.Option(
         "--accept-changes",
-        help="With --resume: go on though files, versions or processor have changed; case and survey stay the same.",
+        help="With --resume: go on although files, versions or processor changed; case and survey stay as they were.",
     ),
 ]
 TimeLimit = Annotated[
     str | None,
     typer.Option(
-        "--time-limit", metavar="TIME", help="Stop after so long, '2 h', and keep the run.", show_default=False
+        "--time-limit", metavar="TIME", help="Stop after this time, '2 h', and keep the run.", show_default=False
     ),
 ]
 MemoryLimit = Annotated[
     str | None,
     typer.Option(
-        "--memory-limit", metavar="SIZE", help="Stop where the memory exceeds '4 GB', and keep the run.",
+        "--memory-limit", metavar="SIZE", help="Stop when the memory exceeds this size, '4 GB', and keep the run.",
         show_default=False,
     ),
 ]  # fmt: skip

@@ -13,15 +13,15 @@ from typer.models import CommandInfo
 
 from fctd.case.errors import InputError
 from fctd.case.text import degrade_output
+from fctd.cli.base_command import HELP, Command, application
 from fctd.cli.compile import announcing
 from fctd.cli.interrupts import as_interrupts, listens
-from fctd.cli.manners import HELP, Command, application
+from fctd.cli.option_names import naming_options
 from fctd.cli.options import (
     BAD_INPUT,
     INTERRUPTED,
     messages,
 )
-from fctd.cli.refusals import naming_options
 
 # Arguments of ``fctd.calibrate`` and ``fctd.predict``, and their options.
 CALIBRATION = {name: f"--{name}" for name in ("fit", "prior", "starts", "seed", "samples")}

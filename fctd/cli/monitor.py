@@ -87,7 +87,9 @@ def monitor_command(
     follow: Annotated[
         bool, typer.Option("--follow", help="Wait for rows of a growing text file, until Ctrl-C.")
     ] = False,
-    poll: Annotated[float, typer.Option("--poll", metavar="SECONDS", help="With --follow: between two looks.")] = 1.0,
+    poll: Annotated[
+        float, typer.Option("--poll", metavar="SECONDS", help="With --follow: time between two looks.")
+    ] = 1.0,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     out: Annotated[Path | None, file_option("--out", "The stretches, a row for each, .csv, .parquet or .xlsx.")] = None,
     plot: Annotated[

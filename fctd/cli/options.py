@@ -11,7 +11,8 @@ from rich.text import Text
 from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
 from fctd.case.input_warnings import InputWarning
-from fctd.case.load import Case, load_case, parse_override
+from fctd.case.load import Case, load_case
+from fctd.case.raw_case import parse_override
 from fctd.case.text import printable, printable_lines
 from fctd.case.units import Dimension, typed
 from fctd.results.notes import Note

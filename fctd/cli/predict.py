@@ -31,10 +31,11 @@ def predict_command(
         Path, typer.Argument(metavar="ROWS.csv", help="Rows to predict, measured or not.", show_default=False)
     ],
     posterior: Annotated[
-        Path | None, file_option("--posterior", "Of the calibration, .fit.json; default: the one beside the case.")
+        Path | None,
+        file_option("--posterior", "Posterior of the calibration, .fit.json; default: the one beside the case."),
     ] = None,
     samples: Annotated[int, typer.Option("--samples", metavar="N", help="Draws of the bands.", min=100)] = 4000,
-    seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of the draws.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", metavar="N", help="Seed of the draws.")] = 0,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     out: Annotated[
         Path | None, file_option("--out", "A row for every reading, with bands and scores, .csv, .parquet or .xlsx.")

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from fctd.case.schema import case_schema
-from fctd.cli.manners import Silent
+from fctd.cli.base_command import Silent
 from fctd.cli.options import check_target, print_written
 from fctd.store.whole_file import whole_file
 

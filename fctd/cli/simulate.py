@@ -93,12 +93,12 @@ def simulate_command(
 ) -> None:
     """Run the operations of a case and write its tables: history, profile, energy, operations, segments."""
     keeping = Keeping(checkpoint_every, resume, restart, accept_changes, time_limit, memory_limit)
-    shown = Shown(csv, units, plot, strict, quiet)
+    shown = RunOutput(csv, units, plot, strict, quiet)
     simulate_file(case_file, out, overrides, friction, shown, keeping=keeping)
 
 
 @dataclass(frozen=True)
-class Shown:
+class RunOutput:
     """What is written and printed beside the tables; the options of ``simulate_command``."""
 
     csv: bool = False
@@ -113,11 +113,11 @@ class Shown:
         plot = None if self.plot is None else str(self.plot.absolute())
         return {"csv": self.csv, "units": self.units, "plot": plot, "strict": self.strict}
 
-    def beside(self, kept: Mapping[str, Any]) -> "Shown":
+    def beside(self, kept: Mapping[str, Any]) -> "RunOutput":
         """These options beside those with which the run began."""
         plot = None if kept["plot"] is None else Path(kept["plot"])
         units = kept["units"] if self.units == "si" else self.units
-        return Shown(self.csv or kept["csv"], units, self.plot or plot, self.strict or kept["strict"], self.quiet)
+        return RunOutput(self.csv or kept["csv"], units, self.plot or plot, self.strict or kept["strict"], self.quiet)
 
 
 def simulate_file(
@@ -125,7 +125,7 @@ def simulate_file(
     out: Path | None,
     overrides: list[str],
     friction: str | None,
-    shown: Shown,
+    shown: RunOutput,
     contact: Callable[[Case], WallQuery] | None = None,
     *,
     keeping: Keeping,
@@ -165,7 +165,13 @@ def simulate_file(
 
 
 def _compute(
-    case: Case, folder: Path, method: WallQuery | None, shown: Shown, keeping: Keeping, kept: RunFolder, identity: str
+    case: Case,
+    folder: Path,
+    method: WallQuery | None,
+    shown: RunOutput,
+    keeping: Keeping,
+    kept: RunFolder,
+    identity: str,
 ) -> None:
     """Run a case, which is kept meanwhile, write its result and print what there is to say."""
     columns = (

@@ -8,8 +8,8 @@ import typer
 
 from fctd.case.errors import InputError
 from fctd.case.text import counted, printable
+from fctd.cli.base_command import Silent
 from fctd.cli.keeping import has_kept, way_on
-from fctd.cli.manners import Silent
 from fctd.cli.options import screen
 from fctd.cli.pictures import PICTURES
 from fctd.cli.steady import TABLES

@@ -25,7 +25,7 @@ from fctd.cli.options import FAILED, Quiet, messages, screen
 from fctd.results.status import ACCEPTABLE
 from fctd.store.limits import cores
 from fctd.sweep.chunk import NO_ROWS
-from fctd.sweep.cluster import Where, encrypted
+from fctd.sweep.cluster import ClusterChoice, encrypted
 from fctd.sweep.run import SchedulerLostError, Summary, sweep
 from fctd.sweep.spec import read_sweep
 
@@ -44,7 +44,11 @@ def sweep_command(
     workers: Annotated[
         int | None,
         typer.Option(
-            "--workers", metavar="N", min=1, help="Local worker processes; default: one a core.", show_default=False
+            "--workers",
+            metavar="N",
+            min=1,
+            help="Local worker processes; default: one for each core.",
+            show_default=False,
         ),
     ] = None,
     scheduler: Annotated[
@@ -69,7 +73,7 @@ def sweep_command(
     quiet: Quiet = False,
 ) -> None:
     """Compute all samples of a sweep; the same command goes on with one that was interrupted."""
-    where = where_of(workers, scheduler, scheduler_file, (tls_ca, tls_cert, tls_key))
+    choice = cluster_choice(workers, scheduler, scheduler_file, (tls_ca, tls_cert, tls_key))
     spec = read_sweep(sweep_file)
     folder = out if out is not None else Path(file_name(spec.name, "-sweep"))
     try:
@@ -79,7 +83,7 @@ def sweep_command(
                 rest = f", {lacking} without an answer" if lacking else ""
                 bar.update(task, completed=done, total=total, description=f"{printable(spec.name)}{rest}")
 
-            found = sweep(spec, folder, where, show, told=lambda client: _tell(client, where))
+            found = sweep(spec, folder, choice, show, on_client=lambda client: _show_address(client, choice))
     except SchedulerLostError:
         messages.print(f"The scheduler has ended; what was written stays in {printable(str(folder))}. {AGAIN}")
         raise typer.Exit(FAILED) from None
@@ -95,24 +99,24 @@ MOST_WORKERS = 4  # for each core: each has an interpreter and compiled code of 
 AGAIN = "The same command goes on with the samples that are missing."
 
 
-def where_of(
+def cluster_choice(
     workers: int | None, scheduler: str | None, scheduler_file: Path | None, tls: tuple[Path | None, ...]
-) -> Where:
+) -> ClusterChoice:
     """Where the options say that a sweep runs; raises InputError for options that exclude or need each other."""
     if scheduler is not None and scheduler_file is not None:
         raise InputError("--scheduler or --scheduler-file, not both", key="--scheduler-file", value=scheduler_file)
-    where = Where(workers, scheduler, scheduler_file)
-    if workers is not None and not where.local:
+    choice = ClusterChoice(workers, scheduler, scheduler_file)
+    if workers is not None and not choice.local:
         raise InputError("no number of workers beside a scheduler, which has its own", key="--workers", value=workers)
     most = MOST_WORKERS * cores()
     if workers is not None and workers > most:
-        expected = f"at most {most}, {MOST_WORKERS} for each core of this machine: one a core is fastest"
+        expected = f"at most {most}, {MOST_WORKERS} for each core of this machine: one for each core is fastest"
         raise InputError(expected, key="--workers", value=workers)
     names = ("--tls-ca", "--tls-cert", "--tls-key")
     given = {name: path for name, path in zip(names, tls, strict=True) if path is not None}
     if not given:
-        return where
-    if where.local:
+        return choice
+    if choice.local:
         name, path = next(iter(given.items()))
         raise InputError("the scheduler of another machine beside it (--scheduler)", key=name, value=path)
     for name in names:
@@ -121,7 +125,7 @@ def where_of(
         if not given[name].is_file():
             raise InputError("a file that is there", key=name, value=given[name])
     ca, cert, key = (given[name] for name in names)
-    return Where(None, scheduler, scheduler_file, (ca, cert, key))
+    return ClusterChoice(None, scheduler, scheduler_file, (ca, cert, key))
 
 
 class _Rate(ProgressColumn):
@@ -143,10 +147,10 @@ def _bar(name: str, quiet: bool) -> Iterator[tuple[Progress, TaskID]]:
         yield bar, bar.add_task(name, total=None)
 
 
-def _tell(client: "Client", where: Where) -> None:
+def _show_address(client: "Client", choice: ClusterChoice) -> None:
     """Print the dashboard's address, and a warning where the connection is open to others."""
     messages.print(f"dashboard: {client.dashboard_link}", soft_wrap=True)
-    if not where.local and not encrypted(client):
+    if not choice.local and not encrypted(client):
         messages.print(
             "warning: the connection to the scheduler is not encrypted, and whoever reaches it can run programs on its "
             "workers: use a network of your own, or --tls-ca, --tls-cert and --tls-key",

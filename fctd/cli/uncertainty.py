@@ -20,6 +20,7 @@ from fctd.results.unit_systems import System, in_field_units, long_in_field_unit
 from fctd.store.origin import versions
 from fctd.store.tables import write_table
 from fctd.sweep.dataset import identity_of, open_dataset
+from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.indices import WITH_UNIT
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import template_of
@@ -54,7 +55,9 @@ def uncertainty_command(
     ] = None,
     operation: Annotated[
         str | None,
-        typer.Option("--operation", metavar="KIND", help="Of tornado and map; default: the first.", show_default=False),
+        typer.Option(
+            "--operation", metavar="KIND", help="Operation of tornado and map; default: the first.", show_default=False
+        ),
     ] = None,
     plot_bands: Annotated[
         Path | None, file_option("--plot-bands", "Bands of loads over depth, .png, .svg, .pdf.")
@@ -68,7 +71,7 @@ def uncertainty_command(
     units: Units = "si",
     quiet: Quiet = False,
 ) -> None:
-    """Tell what the samples of a sweep say: bands of the loads, probabilities, and which parameter matters."""
+    """Summarise the samples of a sweep: bands of the loads, probabilities, and which parameter matters."""
     if (plot_map is None) != (map_keys is None):
         raise InputError("--plot-map and --map, both or none", key="--map", value=map_keys or "none")
     check_pictures({"--plot-bands": plot_bands, "--plot-tornado": plot_tornado, "--plot-map": plot_map}, DRAWN)
@@ -77,7 +80,7 @@ def uncertainty_command(
         check_target(path, "--out", (".csv",))
     spec = read_sweep(sweep_file)
     dataset = open_dataset(folder if folder is not None else Path(file_name(spec.name, "-sweep")))
-    if dataset.about.get("identity") != identity_of(template_of(spec)):
+    if dataset.about.get("identity") != identity_of(template_of(spec, sample_of(samples_of(spec), 0))):
         raise InputError(
             "the folder of this sweep (its file, case or survey is another)", key="--from", value=dataset.folder
         )

@@ -55,7 +55,7 @@ def view_command(
         typer.Option(
             "--operation",
             metavar="KINDS",
-            help=f"Of a case. {KIND_HELP}; several with commas between them, or all; default: {','.join(USUAL)}.",
+            help=f"{KIND_HELP}; several with commas between them, or all; default of a case: {','.join(USUAL)}.",
         ),
     ] = [],  # noqa: B006 (typer copies it)
     depths: Annotated[
@@ -63,11 +63,16 @@ def view_command(
         typer.Option(
             "--depths",
             metavar="FROM:TO:STEP",
-            help=f"Of a case. {DEPTHS_HELP} Default: {DEPTHS} depths from the last shoe to the end of the hole.",
+            help=f"{DEPTHS_HELP} Default of a case: {DEPTHS} depths from the last shoe to the end of the hole.",
         ),
     ] = None,
     colour: Annotated[
-        str, typer.Option("--colour", metavar="QUANTITY", help=f"Of the string at first: {', '.join(QUANTITIES)}.")
+        str,
+        typer.Option(
+            "--colour",
+            metavar="QUANTITY",
+            help=f"Quantity whose colours the string has at first: {', '.join(QUANTITIES)}.",
+        ),
     ] = "side_force",
     exaggeration: Annotated[
         float | None,

@@ -17,7 +17,7 @@ from fctd.mechanics.friction import approach, normal_impulse, wall_normal
 from fctd.mechanics.given_loads import count_given, push_given
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import bend_housings, update_joint_loads
-from fctd.mechanics.laws import LAWS, chain
+from fctd.mechanics.laws import LAWS, dispatch
 from fctd.mechanics.readings import read_step
 from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.rotations import rotation_columns, turned
@@ -258,7 +258,7 @@ def push_with(impulse: Any) -> Any:
 
 # Indexed by a law's code.
 PUSHES = tuple(push_with(law.impulse) for law in LAWS)
-push_by_law = chain(PUSHES)
+push_by_law = dispatch(PUSHES)
 
 
 @inlined

@@ -7,7 +7,7 @@ import numpy as np
 
 from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case
-from fctd.case.operations import KINDS, Operation, RotateOffBottom
+from fctd.case.operations import KINDS, Operation, Stay
 from fctd.case.rig import RigSpec
 from fctd.case.units import FASTEST, MOST_RPM, ROTATION, SPEED, argument
 from fctd.mechanics.topdrive import Motion
@@ -68,12 +68,12 @@ def check_duration(k: int, lasts: float) -> None:
 
 def _feed(operation: Operation, stops: bool) -> list[Part]:
     """The parts of an operation."""
-    if isinstance(operation, RotateOffBottom):
-        return rotating(operation)
+    if isinstance(operation, Stay):
+        return staying(operation)
     return travelling(operation.end_md - operation.start_md, operation.speed, operation.ramp_time, stops=stops)
 
 
-def rotating(operation: RotateOffBottom) -> list[Part]:
+def staying(operation: Stay) -> list[Part]:
     """The parts of an operation that feeds nothing."""
     ramp = min(operation.ramp_time, operation.duration)
     return _present([(ramp, 0.0, 0.0), (operation.duration - ramp, 0.0, 0.0)])

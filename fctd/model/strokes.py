@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 
-from fctd.case.operations import Operation, RotateOffBottom
+from fctd.case.operations import Operation, Stay
 from fctd.case.rig import RigSpec
 from fctd.mechanics.drive import BY_SPEED, TARING, Driller
 from fctd.mechanics.topdrive import Motion
-from fctd.model.operations import Part, Phase, check_duration, rad_per_s, rotating, travelling
+from fctd.model.operations import Part, Phase, check_duration, rad_per_s, staying, travelling
 from fctd.model.stands import Tally
 
 # Depths and heights of a schedule agree within this [m].
@@ -151,8 +151,8 @@ def stand_schedule(
     plan = _Plan(tally, rig, operations[0].start_md, pace)
     for k, operation in enumerate(operations):
         began = plan.clock
-        if isinstance(operation, RotateOffBottom):
-            parts = rotating(operation)
+        if isinstance(operation, Stay):
+            parts = staying(operation)
             plan.add(k, parts, [rad_per_s(operation.rpm)] * len(parts), [0.0] * len(parts))
         else:
             last = k + 1 == len(operations)

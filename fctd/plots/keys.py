@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any, Final, Union, get_args, get_origin
 
-from fctd.case.errors import Table, split_key
+from fctd.case.errors import Table
 from fctd.case.load import Case
+from fctd.case.raw_case import split_key
 from fctd.case.units import Quantity
 
 # Names whose words are others than their own.

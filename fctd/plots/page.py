@@ -45,6 +45,7 @@ from fctd.store.whole_file import whole_file
 # Plotly's names of the markers and dashes of pictures.
 SYMBOLS: Final = {
     "^": "triangle-up", "o": "circle", "v": "triangle-down", "D": "diamond", "s": "square", "P": "cross",
+    "p": "pentagon",
 }  # fmt: skip
 DASHES: Final = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 MARKS: Final = 12  # markers on a curve of a profile, which tell operations apart in grey

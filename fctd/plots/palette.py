@@ -2,6 +2,7 @@
 
 from typing import Final
 
+from fctd.case.operations import KINDS
 from fctd.results import buckling
 
 # After Okabe and Ito's palette, which colour-blind readers can distinguish; some of the colours are darker or lighter
@@ -15,8 +16,8 @@ PALETTE: Final = {
     "purple": "#D27AB0",
 }
 QUIET, DARK, SHADE = "#6e6e6e", "#303030", "#e4e4e4"
-# An operation has a colour and, for print in grey, a marker.
-LOOKS: Final = {
+# An operation has a colour and, for print in grey, a marker: one of its own, or what all others share.
+_OWN_LOOKS: Final = {
     "trip_out": (PALETTE["vermilion"], "^"),
     "rotate_off_bottom": (PALETTE["black"], "o"),
     "trip_in": (PALETTE["blue"], "v"),
@@ -24,6 +25,7 @@ LOOKS: Final = {
     "drill_rotating": (PALETTE["green"], "s"),
     "drill_sliding": (PALETTE["sky"], "P"),
 }
+LOOKS: Final = _OWN_LOOKS | {kind: (DARK, "p") for kind in KINDS if kind not in _OWN_LOOKS}
 # Greys of a buckled string by mode, and of their edges; light enough for a curve of any colour on them.
 BUCKLED: Final = dict(zip(buckling.BUCKLED, ("#f0f0f0", "#c6c6c6"), strict=True))
 EDGE = "#8a8a8a"

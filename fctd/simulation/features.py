@@ -1,15 +1,16 @@
 """What a string of a case may need of the stepper that moves it, and the refusal of what a stepper leaves out.
 
-Every stepper names the features that it honours; a case that uses another one is refused.  A new key of a case is
-either among the ``keys`` of a feature, or works in the same way whatever moves the string (tests count both).
+Every stepper names the features that it honours; a case that uses another one is refused.  So is a key that is neither
+among the ``keys`` of a feature nor ``EVERYWHERE``, unless FCTD's own stepper moves the string.
 """
 
-from collections.abc import Callable, Collection
-from typing import Any, NamedTuple
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from fctd.case.errors import InputError
+from fctd.case.errors import InputError, Table
 from fctd.case.solver import SolverSpec
 from fctd.mechanics.law_names import STICKING
 from fctd.mechanics.rock import NO_ROCK
@@ -105,9 +106,9 @@ def _stands(run: Run) -> Use:
 
 
 def _feed(run: Run) -> Use:
-    moving = [(f"operations[{k}].kind", one.kind) for k, one in enumerate(run.case.operations)]
+    moving = [(f"operations[{k}].kind", one.kind) for k, one in enumerate(run.case.operations) if one.direction]
     fed = ("string.components", "one long segment") if run.string.long_segment else None
-    return next((use for use in moving if use[1] != "rotate_off_bottom"), fed)
+    return moving[0] if moving else fed
 
 
 def _incline(run: Run) -> Use:
@@ -187,7 +188,7 @@ FEATURES: dict[str, Feature] = {
         _bit_loads,
     ),
     "stands": Feature(
-        "stands that a block adds", '"long_segment" where the long segment fits',
+        "stands that a block adds", '"long_segment"',
         ("rig.feed", "rig.stand_length", "rig.connection_time", "rig.derrick_height"), _stands,
     ),
     "feed": Feature(
@@ -214,10 +215,46 @@ FEATURES: dict[str, Feature] = {
     ),
 }  # fmt: skip
 
+# Keys that work in the same way whatever moves the string: what is laid out, read or kept.
+EVERYWHERE: Final = frozenset({
+    "name", "file", "wellbore.columns.header", "wellbore.columns.unit", "wellbore.sheet", "wellbore.survey_smoothing",
+    "wellbore.tortuosity.amplitude", "wellbore.tortuosity.wavelength", "wellbore.tortuosity.seed",
+    "wellbore.survey_method", "wellbore.geometry", "wellbore.cylinder_length", "wellbore.chord_tolerance",
+    "wellbore.overlap", "wellbore.stiffness", "wellbore.stiffness_per_length",
+    "wellbore.intervals.to_md", "wellbore.intervals.diameter", "wellbore.intervals.kind", "wellbore.intervals.name",
+    "string.top_md",
+    *(
+        f"string.components.{key}" for key in (
+            "name", "length", "outer_diameter", "inner_diameter", "contact_diameter", "segments", "segment_length",
+            "linear_mass", "youngs_modulus", "poisson_ratio", "density", "yield_strength", "axial_stiffness",
+            "bending_stiffness", "torsional_stiffness", "shear_stiffness",
+        )
+    ),
+    "mud.density", "rig.block_weight", "rig.guide_friction", "rig.sheave_efficiency", "rig.torque_offset",
+    "rig.torque_per_rpm", "contact.damping", "solver.step", "solver.shape_damping", "solver.buckling",
+    "solver.resolve_work", "record.interval", "record.profile_at",
+    *(f"operations.{key}" for key in ("ramp_time", "from_md", "to_md", "rpm", "at_md", "duration")),
+})  # fmt: skip
+# Stands for keys that are in neither table.
+UNKNOWN_KEYS: Final = "unknown keys"
+
 # Features of FCTD's own stepper.
-OWN = frozenset(FEATURES) - {"helical_force"}
+OWN = frozenset(FEATURES) - {"helical_force"} | {UNKNOWN_KEYS}
 # With another contact method: it finds walls, in whose cake nothing is pressed and which begin below the derrick.
-ASKED = OWN - {"no_wall", "cake", "stands"}
+ASKED = OWN - {"no_wall", "cake", "stands", UNKNOWN_KEYS}
+
+
+def _keys_set(table: Table, before: str = "") -> Iterator[tuple[str, Any]]:
+    """Keys of a table, and of those within it, whose value is not the default, with their values."""
+    for name, field in type(table).model_fields.items():
+        value = getattr(table, name)
+        several = tuple(value.values()) if isinstance(value, Mapping) else value
+        inner = several if isinstance(several, tuple) else (value,)
+        if inner and isinstance(inner[0], Table):
+            for k, one in enumerate(inner):
+                yield from _keys_set(one, f"{before}{name}[{k}]." if isinstance(value, tuple) else f"{before}{name}.")
+        elif value is not None and value != field.get_default():
+            yield before + name, value
 
 
 def refuse(run: Run, honours: Collection[str], by: str) -> None:
@@ -225,6 +262,11 @@ def refuse(run: Run, honours: Collection[str], by: str) -> None:
 
     by : what moves the string and would leave it out.
     """
+    if UNKNOWN_KEYS not in honours:
+        known = EVERYWHERE.union(*(feature.keys for feature in FEATURES.values()))
+        for key, value in _keys_set(run.case):
+            if re.sub(r"\[\d+\]", "", key) not in known:
+                raise InputError(f"its default, since {by} may leave out what the key does", key=key, value=value)
     for name, feature in FEATURES.items():
         use = None if name in honours else feature.used(run)
         if use is not None:

@@ -6,7 +6,7 @@ them a shape was found.
 """
 
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
-from fctd.steady.climb import LOW, Climb, Step, close, come_to_rest, keep, rolls
+from fctd.steady.climb import LOW_FRICTION, Climb, Step, close, come_to_rest, keep, rolls
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.problem import FULL, Problem, Share
 
@@ -30,12 +30,12 @@ def bisect(problem: Problem) -> Climb:
         path.pose = path.balances[0].pose
         return path
     path.none_at.append(FULL)
-    if _is_found(problem, path, Share(LOW, 1.0)):
+    if _is_found(problem, path, Share(LOW_FRICTION, 1.0)):
         high = FULL
     else:
-        high = Share(LOW, 1.0)
+        high = Share(LOW_FRICTION, 1.0)
         path.none_at.append(high)
-        if problem.weight_on_bit == 0 or not _is_found(problem, path, Share(LOW, 0.0)):
+        if problem.weight_on_bit == 0 or not _is_found(problem, path, Share(LOW_FRICTION, 0.0)):
             return path
     for _ in range(TRIALS):
         low = path.balances[-1].share

@@ -144,7 +144,7 @@ def negative_pivots(D, A, U, n):
 
 
 def solve_with_pivoting(D: Array, A: Array, U: Array, R: Array, n: int) -> Array:
-    """The same solution (n, 6) with pivoting across blocks (LAPACK), for systems with a near singular block.
+    """Solve the system with pivoting across blocks (LAPACK), for one with a near singular block; returns (n, 6).
 
     Raises LinAlgError when the matrix is singular.
     """

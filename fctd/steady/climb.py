@@ -17,40 +17,45 @@ from fctd.steady.problem import FULL, Pose, Problem, Share
 from fctd.steady.relaxation import Creep
 from fctd.steady.stability import push_aside
 
-# Share of the friction at which the string is laid and the weight on bit grows.
-LOW = 0.1
-# Steps of the share: first, smallest and largest; factors after a step of few or many iterations.
-FIRST, SMALLEST, LARGEST = 0.1, 3e-3, 0.25
-FEW, MANY, LONGER, SHORTER = 70, 150, 1.5, 0.67
-# A push ends one mode or several; a string that has more after so many is followed as it is.
+# Share of the friction at which the string is laid, and at which the weight on bit grows.
+LOW_FRICTION = 0.1
+# Steps of the share of the loads.  A step grows after few iterations of the one before, and shrinks after many.
+FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 0.1, 3e-3, 0.25
+FEW_ITERATIONS, MANY_ITERATIONS, STEP_GROWTH, STEP_SHRINKAGE = 70, 150, 1.5, 0.67
+# A push aside ends one slow mode or several.  A string that still has one after this number of pushes is followed as
+# it is.
 PUSHES = 8
-# A slow mode is driven by forces less than the imbalance of a balance: the string follows a push down to this share.
-TIGHTLY = 0.01
-# Steps of a longer pseudo-time than that in which a mode grows lead back: the first is this share of it.
-SLOWLY = 0.3
+# The forces of a slow mode are less than the imbalance that a balance is allowed.  After a push the string is relaxed
+# until its imbalance is this share of the allowed one.
+PUSHED_IMBALANCE = 0.01
+# A step of pseudo-time longer than the time in which a slow mode grows would undo the push.  The first step is this
+# share of that time.
+SLOW_MODE_STEP = 0.3
 START_ITERATIONS, STEP_ITERATIONS = 1500, 400
-# A string that rolls round the hole is not worth smaller steps than this.  It rolls where so much of the motion of its
-# points in a few iterations goes one way round.
-ROLLING_STEP, ROLLING_ITERATIONS, ONE_WAY = 0.01, 20, 0.8
-# Lock-up is where 1/push, extrapolated by a line through two balances, is 0: the last one and the last with at most a
-# share ``APART`` of its push, since shapes differ by a little from balance to balance.  It is known where the
-# extrapolations of ``STEPS`` steps differ by less than ``AGREEING`` of it, or where the push is beyond any rig's,
-# ``BEYOND`` weights: two agree by chance while the helix still grows longer.  Where no shape is found before, from a
-# push of one weight on, it is the last extrapolation or, if that is less by far, where no shape was found: the wall's
-# springs give way under a large push.
-APART, AGREEING, STEPS, BEYOND = 0.75, 0.01, 3, 10.0
-# A lock-up below this share of the loads is one before them for any error of the extrapolation.  A pushed string with a
-# balance at more than this share of where none was found is not followed any nearer.
-DECIDED = 0.97
-# A relaxation that has not come to rest begins again with small steps after so many iterations.
-AGAIN = 100
-# From a push of so many weights on, a step goes so far towards lock-up as it is extrapolated there.
-PUSHED, TOWARDS = 0.25, 0.6
-# The compression for which segments are cut is that of a push of at most this share of the weight beyond the block's,
-# since their number grows with the push; what lock-up needs beyond that is in post_buckling.py.
-SOUND = 0.05
+# Steps smaller than ``ROLLING_STEP`` are not tried where the string rolls round the hole.  It rolls where this share
+# of the motion of its points, in this number of iterations, goes one way round.
+ROLLING_STEP, ROLLING_ITERATIONS, ROLLING_SHARE = 0.01, 20, 0.8
+# Lock-up is the share of the loads at which 1/push becomes 0, extrapolated by a line through two balances.  One is the
+# last.  The other is the latest whose push is at most ``EARLIER_PUSH`` of the last one's: shapes differ a little from
+# balance to balance, and two pushes of nearly the same size would give the line a random slope.
+# Lock-up is known where the extrapolations of ``AGREEING_STEPS`` steps differ by less than ``AGREEMENT`` of it.  It is
+# also known where the push exceeds ``LARGEST_PUSH`` weights, more than any rig has: while the helix still grows longer,
+# two extrapolations agree by chance.
+# Where the path ends before, and the push is at least one weight, lock-up is the last extrapolation.  Where no shape
+# was found far below that, it is there: the springs of the wall give way under a large push.
+EARLIER_PUSH, AGREEMENT, AGREEING_STEPS, LARGEST_PUSH = 0.75, 0.01, 3, 10.0
+# A lock-up below this share of the loads lies before them, whatever the error of the extrapolation.  A pushed string
+# that has a balance at more than this share of the loads at which none was found is not followed any nearer.
+DECIDED_SHARE = 0.97
+# A relaxation that has not come to rest after this number of iterations begins again with small steps.
+RESTART_ITERATIONS = 100
+# From a push of ``PUSHED_WEIGHTS`` weights on, a step goes at most ``LOCK_UP_APPROACH`` of the way to lock-up.
+PUSHED_WEIGHTS, LOCK_UP_APPROACH = 0.25, 0.6
+# Segments are cut for the compression under a push of at most this share of the weight beyond the block's, since their
+# number grows with the push.  post_buckling.py adds what lock-up needs beyond that.
+SOUND_PUSH = 0.05
 # A locked string is followed up to this share of its loads.
-FARTHEST = 5.0
+FARTHEST_SHARE = 5.0
 
 
 class Step(NamedTuple):
@@ -74,7 +79,7 @@ class Climb:
     balances : from less to more; steps : those of the last part, in friction unless ``of_weight``.  none_at : loads at
     which it found no balance; anew_at : those of them at which the string has one when it is begun anew.
     pose : at full loads, None where the path ends before; sound : the last balance up to there in which the string is
-    hardly pushed (``SOUND``), or has not all of its weight on bit; iterations : all.
+    hardly pushed (``SOUND_PUSH``), or has not all of its weight on bit; iterations : all.
     spent_at : share of the loads at which the hook load is −block weight; locked_at : at which no push suffices; NaN
     where the path does not get there.  fails_at : least share of the friction beyond all balances at which no shape was
     found, else NaN.  ends_at : share at which a path ends before the loads, else NaN; rolls : whether the string then
@@ -99,7 +104,7 @@ class Climb:
     @property
     def least(self) -> float:
         """The share of the loads at which its last part begins."""
-        return 0.0 if self.of_weight else LOW
+        return 0.0 if self.of_weight else LOW_FRICTION
 
     def none_beyond(self) -> list[Share]:
         """Loads of its last part, from less to more, that are beyond its last balance and at which it found none."""
@@ -107,7 +112,9 @@ class Climb:
             return []
         friction, weight = self.balances[-1].share
         if self.of_weight:
-            return sorted(share for share in set(self.none_at) if share.friction == LOW and share.weight > weight)
+            return sorted(
+                share for share in set(self.none_at) if share.friction == LOW_FRICTION and share.weight > weight
+            )
         return sorted(share for share in set(self.none_at) if share.weight == 1 and share.friction > friction)
 
 
@@ -129,8 +136,8 @@ def come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, 
     for _ in range(PUSHES):
         if code != CONVERGED or (time := push_aside(problem, share)) is None:
             break
-        creep = creep_of(problem, AGAIN, TIGHTLY)
-        _, tightly = problem.relax(creep._replace(tau=min(creep.tau, SLOWLY * time)), share)
+        creep = creep_of(problem, RESTART_ITERATIONS, PUSHED_IMBALANCE)
+        _, tightly = problem.relax(creep._replace(tau=min(creep.tau, SLOW_MODE_STEP * time)), share)
         code, more = _relax(problem, iterations, share)
         done += tightly + more
     return code, done
@@ -140,13 +147,16 @@ def _relax(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:
     """Relax the string, again and again from small steps; returns code and iterations."""
     code, done = MAX_ITERATIONS, 0
     while code == MAX_ITERATIONS and done < iterations and not problem.is_spent:
-        code, more = problem.relax(creep_of(problem, min(AGAIN, iterations - done)), share)
+        code, more = problem.relax(creep_of(problem, min(RESTART_ITERATIONS, iterations - done)), share)
         done += more
     return code, done
 
 
 def climb(
-    problem: Problem, prepare: Callable[[Share], object] | None = None, path: Climb | None = None, most: float = BEYOND
+    problem: Problem,
+    prepare: Callable[[Share], object] | None = None,
+    path: Climb | None = None,
+    most: float = LARGEST_PUSH,
 ) -> Climb:
     """Follow the string to the loads of the operation, or as far as it goes.
 
@@ -167,7 +177,7 @@ def lock_up(problem: Problem, path: Climb, prepare: Callable[[Share], object] | 
     """Follow a string that is pushed at the loads of the operation to those that no push overcomes."""
     if path.pose is not None and _push(problem, path) > 0:
         problem.put_pose(path.pose)
-        _rise(problem, path, FARTHEST, prepare, BEYOND)
+        _rise(problem, path, FARTHEST_SHARE, prepare, LARGEST_PUSH)
         close(problem, path)
 
 
@@ -181,7 +191,7 @@ def keep(problem: Problem, path: Climb, share: Share) -> None:
         path.fails_at = float("nan")
     path.balances.append(balance)
     path.steps.append(Step(share.weight if of_weight else share.friction, problem.reactions(share).hookload))
-    if of_weight or (share.friction <= 1 and _push(problem, path) < SOUND * problem.weight):
+    if of_weight or (share.friction <= 1 and _push(problem, path) < SOUND_PUSH * problem.weight):
         path.sound = balance
 
 
@@ -192,7 +202,7 @@ def _begin(problem: Problem) -> Climb:
     operation, and small loads are for a string that finds none there.
     """
     path = Climb()
-    least = Share(LOW, 0.0 if problem.weight_on_bit > 0 else 1.0)
+    least = Share(LOW_FRICTION, 0.0 if problem.weight_on_bit > 0 else 1.0)
     for share in (least,) if problem.has_friction else (FULL, least):
         problem.lay_guess(share)
         code, done = come_to_rest(problem, START_ITERATIONS, share)
@@ -206,7 +216,7 @@ def _begin(problem: Problem) -> Climb:
 
 def _rise(problem: Problem, path: Climb, end: float, prepare: Callable[[Share], object] | None, most: float) -> bool:
     """Raise the weight on bit to its end, then the friction to a share of it; returns whether the string gets there."""
-    step, share = FIRST, path.balances[-1].share
+    step, share = FIRST_STEP, path.balances[-1].share
     while share.weight < 1 or share.friction < end * (1 - 1e-12):
         if share.weight == 1 and (_push(problem, path) > most * problem.weight or _is_locked(problem, path)):
             return False
@@ -225,12 +235,15 @@ def _rise(problem: Problem, path: Climb, end: float, prepare: Callable[[Share], 
                 path.fails_at = aim.friction
             path.rolls = step < ROLLING_STEP and not path.is_cut and rolls(problem, aim)
             problem.put_pose(kept)
-            if path.is_cut or path.rolls or step < SMALLEST or _is_near_lock_up(problem, path):
+            if path.is_cut or path.rolls or step < SMALLEST_STEP or _is_near_lock_up(problem, path):
                 return False
             continue
         share = aim
         keep(problem, path, share)
-        step = min(step * (LONGER if done < FEW else SHORTER if done > MANY else 1.0), LARGEST)
+        step = min(
+            step * (STEP_GROWTH if done < FEW_ITERATIONS else STEP_SHRINKAGE if done > MANY_ITERATIONS else 1.0),
+            LARGEST_STEP,
+        )
     return True
 
 
@@ -239,8 +252,8 @@ def _next(problem: Problem, path: Climb, step: float, end: float) -> Share:
     friction, weight = path.balances[-1].share
     if weight < 1:
         return Share(friction, min(weight + step, 1.0))
-    if _push(problem, path) > PUSHED * problem.weight and len(path.steps) > 1:
-        step = min(step, TOWARDS * (_extrapolated(path.steps) - friction))
+    if _push(problem, path) > PUSHED_WEIGHTS * problem.weight and len(path.steps) > 1:
+        step = min(step, LOCK_UP_APPROACH * (_extrapolated(path.steps) - friction))
     return Share(min(friction + step, end), 1.0)
 
 
@@ -260,27 +273,27 @@ def _is_near_lock_up(problem: Problem, path: Climb) -> bool:
     if len(path.steps) < 2 or _push(problem, path) < problem.weight:
         return False
     last = path.steps[-1].share
-    is_near = last > DECIDED * path.fails_at and (last >= 1 or path.fails_at < DECIDED)
-    return is_near or _extrapolated(path.steps) < DECIDED
+    is_near = last > DECIDED_SHARE * path.fails_at and (last >= 1 or path.fails_at < DECIDED_SHARE)
+    return is_near or _extrapolated(path.steps) < DECIDED_SHARE
 
 
 def _locked_at(problem: Problem, path: Climb) -> float:
     """Share of the loads at which no push suffices, NaN where it is not known."""
     steps = path.steps
-    if len(steps) < 3 or _push(problem, path) < PUSHED * problem.weight:
+    if len(steps) < 3 or _push(problem, path) < PUSHED_WEIGHTS * problem.weight:
         return float("nan")
-    locks = [_extrapolated(steps[: len(steps) - k]) for k in range(min(STEPS, len(steps) - 1))]
+    locks = [_extrapolated(steps[: len(steps) - k]) for k in range(min(AGREEING_STEPS, len(steps) - 1))]
     now = locks[0]
     if not np.isfinite(now):
         return float("nan")
-    agree = len(locks) == STEPS and max(locks) - min(locks) < AGREEING * now
-    return now if agree or _push(problem, path) > BEYOND * problem.weight else float("nan")
+    agree = len(locks) == AGREEING_STEPS and max(locks) - min(locks) < AGREEMENT * now
+    return now if agree or _push(problem, path) > LARGEST_PUSH * problem.weight else float("nan")
 
 
 def _extrapolated(steps: list[Step]) -> float:
     """Share at which 1/push, by a line through two balances, is 0; infinite where the push does not grow."""
     now, pulled = steps[-1]
-    before, pull = next((step for step in reversed(steps) if step.hookload > APART * pulled), steps[0])
+    before, pull = next((step for step in reversed(steps) if step.hookload > EARLIER_PUSH * pulled), steps[0])
     if not pulled < pull < 0:
         return float("inf")
     return now + (now - before) * pull / (pulled - pull)
@@ -295,7 +308,7 @@ def rolls(problem: Problem, share: Share) -> bool:
     after = problem.walls(problem.reactions(share).contacts).offset
     _, along = problem.hole.at(before.md)
     swept = (along * np.cross(before.offset, after)).sum(axis=1)
-    return bool(abs(swept.sum()) > ONE_WAY * np.abs(swept).sum())
+    return bool(abs(swept.sum()) > ROLLING_SHARE * np.abs(swept).sum())
 
 
 def close(problem: Problem, path: Climb) -> None:
@@ -312,7 +325,7 @@ def close(problem: Problem, path: Climb) -> None:
     path.ends_at = float("nan")
     if np.isnan(path.locked_at) and len(share) > 1 and _push(problem, path) > problem.weight:
         path.locked_at = _extrapolated(path.steps)
-        if path.fails_at < DECIDED * path.locked_at and not path.rolls:
+        if path.fails_at < DECIDED_SHARE * path.locked_at and not path.rolls:
             path.locked_at = path.fails_at
     # A lock-up beyond the loads of the operation does not say why the string has no loads there.
     known = path.locked_at <= 1 if path.pose is None else np.isfinite(path.locked_at) or not path.is_cut
@@ -323,7 +336,7 @@ def close(problem: Problem, path: Climb) -> None:
 def end_of(problem: Problem, path: Climb) -> str:
     """What ends a path, in words: what was tried, and what was found; empty where nothing ends it."""
     if not path.balances and not path.is_cut:
-        tried = f" at {_percent(LOW)} of the friction" if problem.has_friction else ""
+        tried = f" at {_percent(LOW_FRICTION)} of the friction" if problem.has_friction else ""
         return f"the continuation found no steady shape{tried}{' without weight on bit' * (problem.weight_on_bit > 0)}"
     loads = "weight on bit" if path.of_weight else "friction"
     ends = (
@@ -338,7 +351,7 @@ def end_of(problem: Problem, path: Climb) -> str:
     if np.isnan(path.ends_at) or path.is_cut:
         return text
     if path.of_weight:
-        text += f" with {_percent(LOW)} of the friction"
+        text += f" with {_percent(LOW_FRICTION)} of the friction"
     return f"{text}{_none_beyond(problem, path)}"
 
 

@@ -24,7 +24,7 @@ from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, LARGEST_TURN, PATIENT, ba
 from fctd.steady.batch import Hole, Row, hole_of, solve_batch
 from fctd.steady.bisection import bisect, find_anew
 from fctd.steady.carried_shape import Carried, begin, carry
-from fctd.steady.climb import BEYOND, SOUND, Climb, climb, end_of, lock_up
+from fctd.steady.climb import LARGEST_PUSH, SOUND_PUSH, Climb, climb, end_of, lock_up
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.helical_force import add_helical_force
 from fctd.steady.laid_string import LaidString
@@ -65,7 +65,7 @@ class Solver:
         return self.solve_string(operation, rates, self.lay_out(bit_depth))
 
     def solve_string(self, operation: str, rates: SteadyRates, laid: LaidString) -> Equilibrium:
-        """The same of a string that has been laid out, which depends neither on operation nor on friction.
+        """The steady string of a laid-out string; the layout depends neither on operation nor on friction.
 
         Raises InputError when a resolved string has too many segments.
         """
@@ -82,7 +82,10 @@ class Solver:
         return point if point is not None else self.solve_problem(self.problem(operation, rates, laid))
 
     def first(self, operation: str, rates: SteadyRates, laid: LaidString, answer: Answer) -> Equilibrium | None:
-        """The same where no other method is needed, else None; several threads may call it."""
+        """The steady string of a row of a batch whose first attempt is the answer, else None.
+
+        Several threads may call it.
+        """
         if not answer.numbers[SOLVED]:
             return None
         point = steady_string(self.case, self.hole, operation, rates, laid, answer, CONVERGED, 0)
@@ -96,8 +99,9 @@ class Solver:
     # Of an iteration that diverged only the status is used; its numbers may overflow.
     @np.errstate(over="ignore", invalid="ignore")
     def solve_problem(self, problem: Problem, above: Carried | None = None) -> Equilibrium:
-        """The same of a problem, which then has the pose of the answer, but for resolved strings.
+        """The steady string of a problem, by whatever methods it needs.
 
+        The problem then has the pose of the answer, except for a resolved string, whose segments are others.
         above : the shapes of the row above, with which a resolved string begins.
         """
         point = self.settle(problem, above)
@@ -175,7 +179,11 @@ class Solver:
             return replace(wound, message=f"{wound.message}; {ANALYTIC}") if says else wound
         pushed = -wound.hookload > self.case.rig.push
         status = SteadyStatus.LOCKED_UP if pushed or added.endless else SteadyStatus.UNSTABLE
-        end = f"the push exceeds {BEYOND:g} times the string's weight" if added.endless else "no steady shape was found"
+        end = (
+            f"the push exceeds {LARGEST_PUSH:g} times the string's weight"
+            if added.endless
+            else "no steady shape was found"
+        )
         spent = "slack-off is spent, and " if pushed else ""
         return replace(wound.without_loads(), status=status, message=f"{spent}{end}; {ANALYTIC}")
 
@@ -197,7 +205,7 @@ class Solver:
             problem = self.problem(problem.operation, problem.rates, problem.laid)
             allowance = problem.allowance
         problem.at_axis = 1
-        coarse = climb(problem, most=SOUND)
+        coarse = climb(problem, most=SOUND_PUSH)
         return self.of_lower_energy(resolve(self.case, coarse, problem, lay_finer), iterations)
 
     def of_lower_energy(self, resolved: Resolved, iterations: int) -> Equilibrium:

@@ -16,7 +16,7 @@ from fctd.mechanics.jit import entry
 from fctd.mechanics.law_names import CODES
 from fctd.mechanics.laws import shares
 from fctd.results.buckling import HELICAL, MODE, NEEDED, buckling_along
-from fctd.steady.climb import BEYOND, START_ITERATIONS, creep_of
+from fctd.steady.climb import LARGEST_PUSH, START_ITERATIONS, creep_of
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.problem import Problem
 from fctd.steady.tangent import JOINT_TENSION, NORMAL_FORCE
@@ -108,6 +108,6 @@ def add_helical_force(problem: Problem, pace: Pace) -> Added:
         before, hookload = hookload, problem.reactions().hookload
         if abs(hookload - before) < SETTLED * problem.weight:
             return Added(True, False, total)
-        if -hookload > BEYOND * problem.weight:
+        if -hookload > LARGEST_PUSH * problem.weight:
             return Added(False, True, total)
     return Added(False, False, total)

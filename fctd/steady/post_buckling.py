@@ -16,19 +16,22 @@ from fctd.model import layouts
 from fctd.model.drillstring import lay_out
 from fctd.results.buckling import GROWN, IN_HALF_WAVE, MODE, NEEDED, NEITHER, SINUSOIDAL_LIMIT
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
-from fctd.steady.climb import LOW, SOUND, Climb, climb, come_to_rest, keep, lock_up
+from fctd.steady.climb import LOW_FRICTION, SOUND_PUSH, Climb, climb, come_to_rest, keep, lock_up
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.helix import Helix
 from fctd.steady.problem import FULL, Compressed, Problem, Share
 
 Array = NDArray[np.float64]
 
-# The compression grows when the string can bend: by this factor and this share of the string's weight for the plan of
-# segments, which are short from this share of the limit on and so many half waves beyond.  With the factor a half wave
-# has 10 segments, and the amplitude of snaking an error below 3 %.
-MORE, ADDED, NEARLY, BEYOND = GROWN, 0.02, 0.75, 2
-# A string that is pushed buckles farther before it locks up: two segments in a half wave of one weight more.
-LOCKING, IN_LOCKING = 1.0, 2
+# Segments are planned for more compression than was found, since a string that bends is pushed more: for this factor
+# times it, and this share of the string's weight.  With them a half wave has 10 segments, and the amplitude of snaking
+# an error below 3 %.
+COMPRESSION_GROWTH, COMPRESSION_ADDED = GROWN, 0.02
+# Segments are short where the compression exceeds this share of the limit, and this number of half waves beyond.
+FINE_SHARE, FINE_HALF_WAVES = 0.75, 2
+# A string that is pushed buckles farther before it locks up: there is compression of this number of weights more, for
+# this number of segments in a half wave.
+LOCKING_WEIGHTS, LOCKING_SEGMENTS = 1.0, 2
 # Times that the string is laid out, and the helix laid at full loads.
 LAYOUTS, WINDINGS = 3, 4
 WINDING_ITERATIONS = 800
@@ -63,7 +66,7 @@ def resolve(case: Case, coarse: Climb, problem: Problem, lay: Callable[[Case], P
             break
         problem = lay(finer)
         wound = None if problem.has_friction else _wind_at_once(problem, FULL)
-        path = climb(problem, most=SOUND) if wound is None else wound[1]
+        path = climb(problem, most=SOUND_PUSH) if wound is None else wound[1]
         total += path.iterations
         if is_resolved(problem, path):
             break
@@ -106,7 +109,7 @@ def _wind(problem: Problem, snaking: Climb) -> tuple[Helix, Climb] | None:
             continue
         climb(problem, helix.prepare, path)
         if path.pose is None and path.of_weight and not path.rolls and not path.is_cut:
-            at_once = _wind_at_once(problem, Share(LOW, 1.0))
+            at_once = _wind_at_once(problem, Share(LOW_FRICTION, 1.0))
             if at_once is not None:
                 helix, path = at_once
                 path.iterations += snaking.iterations
@@ -160,14 +163,16 @@ def is_resolved(problem: Problem, path: Climb) -> bool:
 def needed_lengths(problem: Problem, path: Climb) -> tuple[Array, Array]:
     """Measured depths of top and contact points (n + 1,) [m], and the segment length to plan there (n + 1,)."""
     here = _end_of(problem, path)
-    fine = (here.rows[:, MODE] != NEITHER) | (here.compression > NEARLY * here.rows[:, SINUSOIDAL_LIMIT])
-    half_wave = _half_wave(here.EI, MORE * here.compression + ADDED * problem.weight)
+    fine = (here.rows[:, MODE] != NEITHER) | (here.compression > FINE_SHARE * here.rows[:, SINUSOIDAL_LIMIT])
+    half_wave = _half_wave(here.EI, COMPRESSION_GROWTH * here.compression + COMPRESSION_ADDED * problem.weight)
     length = np.where(fine, half_wave / IN_HALF_WAVE, np.inf)
     if path.spent_at <= 1:
-        length = np.minimum(length, _half_wave(here.EI, here.compression + LOCKING * problem.weight) / IN_LOCKING)
+        length = np.minimum(
+            length, _half_wave(here.EI, here.compression + LOCKING_WEIGHTS * problem.weight) / LOCKING_SEGMENTS
+        )
     for k in np.flatnonzero(np.diff(fine, prepend=False, append=False)):
         at = min(int(k), len(fine) - 1)
-        beside = np.abs(here.md - here.md[at]) < BEYOND * half_wave[at]
+        beside = np.abs(here.md - here.md[at]) < FINE_HALF_WAVES * half_wave[at]
         length[beside] = np.minimum(length[beside], length[max(at - 1, 0) : at + 1].min())
     return here.md, length
 
@@ -175,7 +180,7 @@ def needed_lengths(problem: Problem, path: Climb) -> tuple[Array, Array]:
 def _end_of(problem: Problem, path: Climb) -> Compressed:
     """The string at the end of a path, or at its last balance that needs no push beyond the string's weight."""
     if path.sound is None:
-        return problem.compressed(Share(LOW, LOW))
+        return problem.compressed(Share(LOW_FRICTION, LOW_FRICTION))
     problem.put_pose(path.sound.pose)
     return problem.compressed(path.sound.share)
 

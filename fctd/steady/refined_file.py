@@ -8,9 +8,10 @@ from typing import Any
 
 import tomlkit
 
-from fctd.case.errors import InputError, look_up, split_key
+from fctd.case.errors import InputError
 from fctd.case.input_file import read_text
-from fctd.case.load import LARGEST_FILE, Case, apply_override, load_case
+from fctd.case.load import LARGEST_FILE, Case, load_case
+from fctd.case.raw_case import apply_override, look_up, split_key
 from fctd.case.string import ComponentSpec
 from fctd.case.text import is_utf8
 from fctd.steady.refine import Refinement

@@ -93,7 +93,7 @@ class Equilibrium:
         return self.status.has_loads and bool(np.isfinite(self.hookload))
 
     def without_loads(self) -> Equilibrium:
-        """The same without loads, for a string that has none at these loads."""
+        """A copy without hook load, torques and contact force, for a string that has no balance at its loads."""
         none = float("nan")
         return replace(
             self, hookload=none, surface_torque=none, weight_indicator=none, drive_torque=none,

@@ -48,20 +48,28 @@ def torque_drag(
 ) -> pd.DataFrame:
     """A row per operation, friction and depth.
 
-    operation : kind or kinds; bit_depths [m], or texts with units : rising; friction : None for the case's own, or what
-    is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2, "open": 0.3}.
-    speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.  threads : by default as many as processors;
-    the rows do not depend on it.
-    Columns: operation, friction (NaN where intervals differ), friction_label ("0.25", "cased 0.20, open 0.30", or the
-    case's own factors with their depths), bit_depth_m, the loads of
-    ``columns.IN_CHART`` (hookload_N and so on), buckling (none, sinusoidal, helical, or unknown without loads),
-    buckled_from_md_m and buckled_to_md_m (NaN where the string is not buckled), shape (of a resolved string: none,
-    snaking or helix), hookload_low_N and hookload_high_N (of both shapes, NaN where they do not differ),
-    slack_off_spent_at and locked_up_at (shares of the friction, NaN where not found), status (of ``SteadyStatus``),
-    iterations, notes (codes of ``notes.MEANINGS``, or none), reason (of a status other than converged, or none).  A
-    row without a balance has NaN in place of loads; so has one that is ``locked_up`` where no push suffices, and one
-    that is ``unstable`` because no steady shape was found.  At a depth where string and hole do not fit the status is
-    ``not_possible``.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
+    operation : kind or kinds.  bit_depths [m], or texts with units : rising.  friction : None for the case's own, or
+    what is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2, "open":
+    0.3}.  speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.  threads : by default as many as
+    processors; the rows do not depend on it.
+
+    Columns:
+
+    - operation, bit_depth_m; friction (NaN where intervals differ) and friction_label ("0.25", "cased 0.20, open 0.30",
+      or the case's own factors with their depths);
+    - the loads of ``columns.IN_CHART``, hookload_N and so on;
+    - buckling (none, sinusoidal, helical, or unknown without loads), buckled_from_md_m and buckled_to_md_m (NaN where
+      the string is not buckled);
+    - of a resolved string shape (none, snaking or helix), hookload_low_N and hookload_high_N (of both shapes, NaN where
+      they do not differ), slack_off_spent_at and locked_up_at (shares of the friction, NaN where not found);
+    - status (of ``SteadyStatus``), iterations, notes (codes of ``notes.MEANINGS``, or none), and reason (of a status
+      other than converged, or none).
+
+    A row without a balance has NaN in place of loads.  So has a row that is ``locked_up`` where no push suffices, and
+    one that is ``unstable`` because no steady shape was found.  At a depth where string and hole do not fit the status
+    is ``not_possible``.
+
+    Raises InputError for unusable input, and where string and hole fit at none of the depths.
     """
     import pandas as pd  # slow to import, and a command that prints rows needs none
 

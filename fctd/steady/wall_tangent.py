@@ -14,7 +14,7 @@ from fctd.mechanics.contact import arc_owner, cylinder_owner
 from fctd.mechanics.dual import power, reciprocal, root
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
-from fctd.mechanics.laws import LAWS, chain, steady_load
+from fctd.mechanics.laws import LAWS, dispatch, steady_load
 from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.state import ARCS, ARM_CONTACT, RADIUS, TINY, TRIBUTARY
 from fctd.steady.block_thomas import SIZE
@@ -109,7 +109,7 @@ def differentiate_with(steady_load: Any) -> Any:
     return differentiate
 
 
-differentiate_by_law: Final = chain([differentiate_with(law.steady_load) for law in LAWS])
+differentiate_by_law: Final = dispatch([differentiate_with(law.steady_load) for law in LAWS])
 
 
 @inlined

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fctd.case.errors import InputError
 from fctd.mechanics.compile_cache import hash_of_sources
-from fctd.sweep.design import Value
+from fctd.sweep.design import Sample
 from fctd.sweep.template import Template
 from fctd.sweep.work import WORK, Row, Task, TooLongError, begin_run
 
@@ -33,14 +33,7 @@ BRIEF = 1.0
 LOOK, LEAVE = 0.05, 0.3
 
 
-class Sample(NamedTuple):
-    """A sample's number and the values of its keys."""
-
-    number: int
-    values: tuple[Value, ...]
-
-
-class Done(NamedTuple):
+class ChunkResult(NamedTuple):
     """A chunk's rows as an Arrow stream, with the time that its samples took and that of the chunk [s].
 
     sources : hash of those of the program that computed them; none of a program that is too old to say.
@@ -54,12 +47,11 @@ class Done(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Bench:
-    """What a worker needs for any sample of a sweep; time_limit [s] : of a sample."""
+class SampleRunner:
+    """Makes the rows of a sweep's samples, on any worker; time_limit [s] : of a sample."""
 
     template: Template
     task: Task
-    keys: tuple[str, ...]
     time_limit: float
 
     def rows_of(self, sample: Sample) -> list[Row]:
@@ -71,7 +63,7 @@ class Bench:
                 raise TooLongError
 
         try:
-            case = self.template.case(sample.number, dict(zip(self.keys, sample.values, strict=True)))
+            case = self.template.case(*sample)
             rows = WORK[self.task.spec.kind](case, self.task, tick)
         except TooLongError:
             rows = [without_answer(TIMED_OUT, f"more than {self.time_limit:g} s")]
@@ -103,7 +95,7 @@ class Bench:
         except InputError:  # as of a case that only its samples complete
             return float("nan")
 
-    def run(self, samples: Sequence[Sample], too_long: Callable[[int], None]) -> Done:
+    def run(self, samples: Sequence[Sample], too_long: Callable[[int], None]) -> ChunkResult:
         """The rows of samples; too_long : called with a sample's number before this process ends over it."""
         began, rows, solving = time.perf_counter(), list[Row](), 0.0
         limit = max(self.time_limit, BRIEF)
@@ -115,7 +107,7 @@ class Bench:
                 solving += time.perf_counter() - start
         stream = as_stream(rows)
         elapsed = time.perf_counter() - began
-        return Done(tuple(s.number for s in samples), stream, solving, elapsed, hash_of_sources())
+        return ChunkResult(tuple(s.number for s in samples), stream, solving, elapsed, hash_of_sources())
 
 
 def without_answer(status: str, reason: str) -> Row:

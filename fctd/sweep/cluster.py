@@ -32,7 +32,7 @@ PACKAGES: Final = ("fctd", "numba", "numpy", "python")
 
 
 @dataclass(frozen=True)
-class Where:
+class ClusterChoice:
     """Local workers, by default one a core; or the address of a scheduler, or the file that it wrote.
 
     tls : files of certificate authority, certificate and key, or None.
@@ -50,7 +50,7 @@ class Where:
 
 
 @contextmanager
-def connected(where: Where) -> Iterator[Client]:
+def connected(choice: ClusterChoice) -> Iterator[Client]:
     """A client with at least one worker; local ones end with it.
 
     Raises InputError where Dask is missing, where no scheduler or worker answers, and where a worker has other versions
@@ -64,13 +64,13 @@ def connected(where: Where) -> Iterator[Client]:
     with warnings.catch_warnings():
         # We compare versions ourselves; the other says where the dashboard is when its usual port is taken.
         warnings.simplefilter("ignore", distributed.versions.VersionMismatchWarning)
-        with _local(where) if where.local else _joined(where) as client:
+        with _local(choice) if choice.local else _joined(choice) as client:
             check_workers(client)
             yield client
 
 
 @contextmanager
-def _local(where: Where) -> Iterator[Client]:
+def _local(choice: ClusterChoice) -> Iterator[Client]:
     import dask
     from distributed import Client, LocalCluster
 
@@ -83,7 +83,7 @@ def _local(where: Where) -> Iterator[Client]:
     with (
         dask.config.set(settings),
         LocalCluster(
-            n_workers=where.workers or cores(), threads_per_worker=1, processes=True, host=LOOPBACK,
+            n_workers=choice.workers or cores(), threads_per_worker=1, processes=True, host=LOOPBACK,
             dashboard_address=f"{LOOPBACK}:0", silence_logs=logging.CRITICAL,
         ) as cluster,
         Client(cluster) as client,
@@ -92,14 +92,14 @@ def _local(where: Where) -> Iterator[Client]:
 
 
 @contextmanager
-def _joined(where: Where) -> Iterator[Client]:
+def _joined(choice: ClusterChoice) -> Iterator[Client]:
     from distributed import Client
 
     for name in TALKERS:
         logging.getLogger(name).setLevel(logging.CRITICAL)  # a lost scheduler is told in our words
-    key = "--scheduler" if where.scheduler is not None else "--scheduler-file"
-    value: Any = where.scheduler or where.scheduler_file
-    address, security = address_of(where), _security(where)
+    key = "--scheduler" if choice.scheduler is not None else "--scheduler-file"
+    value: Any = choice.scheduler or choice.scheduler_file
+    address, security = address_of(choice), _security(choice)
     try:
         asyncio.run(_greet(address, security))
         client = Client(address, timeout=CONNECT, security=security, set_as_default=False)
@@ -128,38 +128,38 @@ async def _greet(address: str, security: Any) -> None:
     comm.abort()
 
 
-def address_of(where: Where) -> str:
+def address_of(choice: ClusterChoice) -> str:
     """The address of the scheduler that is named or has written the file.
 
     Raises InputError for another text or file, and for an address that is encrypted without files of TLS, or is not
     with them: Dask's own client answers those with errors of its insides, twenty seconds later.
     """
-    key, value, address = "--scheduler", str(where.scheduler), str(where.scheduler)
-    if where.scheduler_file is not None:
-        key, value = "--scheduler-file", str(where.scheduler_file)
+    key, value, address = "--scheduler", str(choice.scheduler), str(choice.scheduler)
+    if choice.scheduler_file is not None:
+        key, value = "--scheduler-file", str(choice.scheduler_file)
         try:
-            address = str(json.loads(where.scheduler_file.read_text(encoding="utf-8"))["address"])
+            address = str(json.loads(choice.scheduler_file.read_text(encoding="utf-8"))["address"])
         except (OSError, ValueError, KeyError, TypeError, IndexError, RecursionError):
             raise InputError("the file that a running scheduler has written", key=key, value=value) from None
     found = ADDRESS.fullmatch(address)
     if found is None or not 0 < int(found["port"]) < 65536:
         raise InputError("a scheduler's address such as tcp://host:8786", key=key, value=value)
-    if (found["protocol"] == "tls://") != (where.tls is not None):
+    if (found["protocol"] == "tls://") != (choice.tls is not None):
         expected = (
             "--tls-ca, --tls-cert and --tls-key beside an address that begins with tls://"
-            if where.tls is None
+            if choice.tls is None
             else f"an address that begins with tls:// beside --tls-ca (this one is {address})"
         )
         raise InputError(expected, key=key, value=value)
     return address
 
 
-def _security(where: Where) -> Any:
-    if where.tls is None:
+def _security(choice: ClusterChoice) -> Any:
+    if choice.tls is None:
         return None
     from distributed.security import Security
 
-    authority, certificate, key = map(str, where.tls)
+    authority, certificate, key = map(str, choice.tls)
     return Security(tls_ca_file=authority, tls_client_cert=certificate, tls_client_key=key, require_encryption=True)
 
 

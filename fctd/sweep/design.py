@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import prod
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +50,19 @@ def samples_of(spec: SweepSpec) -> pd.DataFrame:
         table = table.reindex(range(len(cube)))
     table.insert(0, "sample", np.arange(len(table)))
     return table
+
+
+class Sample(NamedTuple):
+    """A sample's number, and its values by the key that each is of."""
+
+    number: int
+    by_key: dict[str, Value]
+
+
+def sample_of(samples: pd.DataFrame, number: int) -> Sample:
+    """A row of the table of samples."""
+    row = {str(key): samples[key].iloc[number] for key in samples.columns if key != "sample"}
+    return Sample(number, {key: value.item() if hasattr(value, "item") else value for key, value in row.items()})
 
 
 def problem_of(spec: SweepSpec) -> dict[str, Any]:
@@ -100,9 +113,9 @@ def _correlated(points: Array, spec: SweepSpec) -> Array:
     try:
         factor = np.linalg.cholesky(matrix)
     except np.linalg.LinAlgError:
-        told = ", ".join(f"{' and '.join(pair.keys)} {pair.coefficient:g}" for pair in spec.correlations)
+        pairs = ", ".join(f"{' and '.join(pair.keys)} {pair.coefficient:g}" for pair in spec.correlations)
         expected = "correlations above -1 and below 1 that random numbers can have together"
-        raise InputError(expected, key="correlations", value=told) from None
+        raise InputError(expected, key="correlations", value=pairs) from None
     scores = stats.norm.ppf(np.clip(points, _EDGE, 1 - _EDGE)) @ factor.T
     return np.asarray(stats.norm.cdf(scores))
 

@@ -19,15 +19,25 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
-from fctd.sweep.chunk import CRASHED, NO_ROWS, TIMED_OUT, Bench, Done, Sample, as_table, from_stream, without_answer
-from fctd.sweep.cluster import Where, check_sources, connected, worker_count
+from fctd.sweep.chunk import (
+    CRASHED,
+    NO_ROWS,
+    TIMED_OUT,
+    ChunkResult,
+    SampleRunner,
+    as_table,
+    from_stream,
+    without_answer,
+)
+from fctd.sweep.cluster import ClusterChoice, check_sources, connected, worker_count
 from fctd.sweep.dataset import Dataset, alone, begin_dataset
-from fctd.sweep.design import samples_of
+from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.spec import SweepSpec, naming_file
 from fctd.sweep.template import Template, template_of
 from fctd.sweep.work import Task, misfit, task_of
 
 if TYPE_CHECKING:
+    import pandas as pd
     import pyarrow as pa
     from distributed import Client, Future
 
@@ -88,37 +98,36 @@ class Summary:
 Progress = Callable[[int, int, int], None]
 
 
-def prepare(spec: SweepSpec) -> tuple[Bench, Any]:
+def prepare(spec: SweepSpec) -> tuple[SampleRunner, pd.DataFrame]:
     """What workers need, and the table of samples; raises InputError for a sweep that cannot be run as it is.
 
     The cases of some samples are made, among them those with the extremes of each parameter.
     """
     with naming_file(spec):
-        template = template_of(spec)
         samples = samples_of(spec)
-        keys = tuple(parameter.key for parameter in spec.parameters)
+        template = template_of(spec, sample_of(samples, 0))
         task = task_of(spec.work, template.base)
-        check_samples(template, samples, keys, task)
-    return Bench(template, task, keys, spec.time_limit), samples
+        check_samples(template, samples, task)
+    return SampleRunner(template, task, spec.time_limit), samples
 
 
-def check_samples(template: Template, samples: Any, keys: Sequence[str], task: Task) -> None:
+def check_samples(template: Template, samples: pd.DataFrame, task: Task) -> None:
     """Raise InputError, which names sample and values, where one of some samples has no case; where such samples are to
     be rows, if none of them has one; and where string and hole fit at no depth of the first of them.
     """
     rows, first = template.spec.bad_samples == "rows", True
     refusal: InputError | None = None
     tried = {0, len(samples) - 1, *range(0, len(samples), max(len(samples) // TRIED, 1))}
-    for key in keys:
+    for key in template.units:
         numbers = samples[key]
         if numbers.dtype.kind in "if":
-            tried |= {int(numbers.idxmin()), int(numbers.idxmax())}
+            tried |= {int(numbers.argmin()), int(numbers.argmax())}
     for number in sorted(tried):
-        sample = sample_of(samples, keys, number)
+        sample = sample_of(samples, number)
         try:
-            case = template.case(number, dict(zip(keys, sample.values, strict=True)))
+            case = template.case(*sample)
         except InputError as error:
-            pairs = zip(keys, sample.values, strict=True)
+            pairs = sample.by_key.items()
             values = ", ".join(f"{key} = {value} {template.units[key]}".rstrip() for key, value in pairs)
             expected = "values that a case can have" + ("" if rows else ', or bad_samples = "rows"')
             refusal = InputError(f"{expected}; sample {number} has none: {error}", key="parameters", value=values)
@@ -126,43 +135,37 @@ def check_samples(template: Template, samples: Any, keys: Sequence[str], task: T
                 raise refusal from None
             continue
         if first and (reason := misfit(case, task)) is not None:
-            told = f"a depth at which string and hole of sample {number} fit ({reason})"
+            expected = f"a depth at which string and hole of sample {number} fit ({reason})"
             key = "depths" if template.spec.work.depths is not None else "bit_depth"
-            raise InputError(told, key=f"work.{key}", value=getattr(template.spec.work, key))
+            raise InputError(expected, key=f"work.{key}", value=getattr(template.spec.work, key))
         first = False
     if first and refusal is not None:
         raise refusal
 
 
-def sample_of(samples: Any, keys: Sequence[str], number: int) -> Sample:
-    """A row of the table of samples."""
-    values = (samples[key].iat[number] for key in keys)
-    return Sample(number, tuple(value.item() if hasattr(value, "item") else value for value in values))
-
-
 def sweep(
     spec: SweepSpec,
     folder: Path,
-    where: Where | None = None,
+    cluster: ClusterChoice | None = None,
     progress: Progress | None = None,
-    told: Callable[[Client], None] | None = None,
+    on_client: Callable[[Client], None] | None = None,
 ) -> Summary:
     """Compute all samples of a sweep that have no rows yet, and write them into the folder; see ``Dataset``.
 
-    progress, told : called with what is done, and once with the cluster's client.  Raises InputError for a sweep,
+    progress, on_client : called with what is done, and once with the cluster's client.  Raises InputError for a sweep,
     folder or cluster that cannot be used, before any work; SchedulerLostError where the scheduler ends.  What was
     written stays, and another call goes on with it.
     """
-    bench, samples = prepare(spec)
+    runner, samples = prepare(spec)
     with alone(folder):
-        dataset = begin_dataset(folder, bench.template, samples)
+        dataset = begin_dataset(folder, runner.template, samples)
         if not dataset.missing:
             return Summary(len(dataset.samples), len(dataset.done), statuses=dataset.statuses())
         began = time.perf_counter()
-        with connected(where or Where()) as client:
-            if told is not None:
-                told(client)
-            running = _Running(client, bench, dataset, progress)
+        with connected(cluster or ClusterChoice()) as client:
+            if on_client is not None:
+                on_client(client)
+            running = _Running(client, runner, dataset, progress)
             running.summary.dashboard = str(client.dashboard_link)
             try:
                 running.warm_up()
@@ -181,12 +184,12 @@ def sweep(
 class _Running:
     """A sweep while it runs."""
 
-    def __init__(self, client: Client, bench: Bench, dataset: Dataset, progress: Progress | None) -> None:
-        self.client, self.bench, self.dataset, self.progress = client, bench, dataset, progress
+    def __init__(self, client: Client, runner: SampleRunner, dataset: Dataset, progress: Progress | None) -> None:
+        self.client, self.runner, self.dataset, self.progress = client, runner, dataset, progress
         self.summary = Summary(len(dataset.samples), len(dataset.done))
         self.waiting = deque(dataset.missing)
         self.again: deque[tuple[int, ...]] = deque()  # halves of chunks whose worker died
-        self.flying: dict[Future[Done], tuple[int, ...]] = {}
+        self.flying: dict[Future[ChunkResult], tuple[int, ...]] = {}
         self.ended: SimpleQueue[Any] = SimpleQueue()
         self.suspects: set[int] = set()  # samples of these
         self.deaths: dict[int, int] = {}
@@ -202,7 +205,7 @@ class _Running:
         """Bring the sweep to all workers, let them compile, and learn how long a sample takes."""
         from fctd.sweep.plugin import Carrier, warm_up
 
-        self.client.register_plugin(Carrier(self.bench), name=self.name)
+        self.client.register_plugin(Carrier(self.runner), name=self.name)
         self.client.subscribe_topic(self.name, self.ended.put)
         addresses = list(self.client.nthreads())
         trials = [
@@ -275,7 +278,7 @@ class _Running:
     def _send(self, numbers: tuple[int, ...]) -> None:
         from fctd.sweep.plugin import run_chunk
 
-        samples = [sample_of(self.dataset.samples, self.bench.keys, number) for number in numbers]
+        samples = [sample_of(self.dataset.samples, number) for number in numbers]
         future = self.client.submit(run_chunk, self.name, samples, key=f"{self.name}-{next(self.numbers)}", pure=False)
         self.flying[future] = numbers
         future.add_done_callback(self.ended.put)
@@ -324,7 +327,7 @@ class _Running:
             if sample in numbers:
                 del self.flying[future]
                 future.cancel()
-                limit = self.bench.time_limit
+                limit = self.runner.time_limit
                 self._without_answer(sample, TIMED_OUT, f"did not end within {limit:g} s; its worker was ended")
                 others = tuple(number for number in numbers if number != sample)
                 if others:

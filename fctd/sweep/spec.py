@@ -16,10 +16,11 @@ from typing import Annotated, Any, Final, Literal, Self
 from pydantic import Field, StrictBool, ValidationError, field_validator, model_validator
 
 from fctd.case import units
-from fctd.case.errors import InputError, Table, explain, split_key
+from fctd.case.errors import InputError, Table
 from fctd.case.input_file import read_toml
 from fctd.case.load import LARGEST_FILE
 from fctd.case.operations import KINDS
+from fctd.case.raw_case import explain, split_key
 from fctd.case.spellings import split
 from fctd.sweep.limits import LimitSpec
 from fctd.sweep.survey_errors import SurveyErrors

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from fctd.case.errors import InputError, set_key, split_key
-from fctd.case.load import Case, apply_override, make_case, read_raw
-from fctd.sweep.design import Value, samples_of
+from fctd.case.errors import InputError
+from fctd.case.load import Case, make_case, read_raw
+from fctd.case.raw_case import apply_override, set_key, split_key
+from fctd.sweep.design import Sample, Value
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.survey_errors import erred
 
@@ -66,15 +67,15 @@ def draw_of(spec: SweepSpec, sample: int) -> int:
     return sample // (count + 1) if spec.method == "morris" else sample
 
 
-def _base(spec: SweepSpec, raw: dict[str, Any]) -> Case:
-    """The sweep's case: as it stands, or with the values of the first sample, where a parameter has a key it needs."""
+def _base(spec: SweepSpec, raw: dict[str, Any], first: Sample) -> Case:
+    """The sweep's case: as it stands, or with the values of its first sample, where a parameter has a key it needs."""
     folder = spec.case.parent.absolute()
     try:
         return make_case(raw, folder)
     except InputError:
-        first, filled = samples_of(spec).iloc[0], copy.deepcopy(raw)
+        filled = copy.deepcopy(raw)
         for parameter in spec.parameters:
-            set_value(filled, parameter.key, first[parameter.key], parameter.unit)
+            set_value(filled, parameter.key, first.by_key[parameter.key], parameter.unit)
         try:
             return make_case(filled, folder)
         except InputError:
@@ -108,15 +109,17 @@ def set_value(raw: dict[str, Any], key: str, value: Any, unit: str) -> None:
         apply_override(raw, key, written)
 
 
-def template_of(spec: SweepSpec) -> Template:
-    """The template of a sweep; raises InputError, which names the case's file where the fault is there, for a case file
-    or fixed keys that cannot be used.
+def template_of(spec: SweepSpec, first: Sample) -> Template:
+    """The template of a sweep and its first sample.
+
+    Raises InputError for a case file or fixed keys that cannot be used; it names the case's file where the fault is
+    there.
     """
     try:
         raw = read_raw(spec.case)
         for key, value in spec.set.items():
             set_value(raw, key, value, "")
-        base = _base(spec, raw).model_copy(update={"file": spec.case})
+        base = _base(spec, raw, first).model_copy(update={"file": spec.case})
     except InputError as error:
         for fault in (error, *error.more):
             if fault.key in spec.set:

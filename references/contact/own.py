@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from fctd.case import units
-from fctd.case.errors import Table, explain
+from fctd.case.errors import Table
 from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case
+from fctd.case.raw_case import explain
 from fctd.mechanics import contact
 from fctd.mechanics.state import ARCS
 from fctd.model.pieces import RADIUS

@@ -6,10 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from fctd.case.errors import MISSING, Computed, InputError, join_key, look_up, nearest, set_key, show, split_key
+from fctd.case.errors import Computed, InputError, nearest, show
 from tests.case.test_load import refusal
 
 
@@ -51,41 +49,6 @@ def test_what_the_program_computed_stands_without_quotes() -> None:
 def test_an_error_survives_pickling(case_file: Path) -> None:
     error = refusal(case_file, {"mud.density": "-1 ppg", "rig.sheave_efficiency": 2, "name": None})
     assert str(pickle.loads(pickle.dumps(error))) == str(error)
-
-
-# --- keys ------------------------------------------------------------------------------------------
-
-names = st.text("abcdefghijklmnopqrstuvwxyz_", min_size=1, max_size=8)
-
-
-@given(parts=st.lists(st.tuples(names, st.lists(st.integers(0, 99), max_size=2)), min_size=1, max_size=4))
-def test_a_key_is_split_as_it_was_joined(parts: list[tuple[str, list[int]]]) -> None:
-    path = [part for name, indices in parts for part in (name, *indices)]
-    assert split_key(join_key(*path)) == path
-    assert split_key(".".join(map(str, path))) == path
-
-
-def test_keys_by_hand() -> None:
-    assert join_key("operations", 0, "speed") == "operations[0].speed"
-    assert join_key("string", "components[1].length") == "string.components[1].length"
-    assert join_key("operations", "") == "operations"
-    assert (join_key(), split_key("")) == ("", [])
-
-
-def test_setting_and_looking_up() -> None:
-    """Tables on the way are made, items of lists are not; what is set is a copy."""
-    data: dict[str, Any] = {"parts": [{"length": 1}, {"length": 2}]}
-    value = [3]
-    set_key(data, "parts[1].length", value)
-    set_key(data, "mud.density", 1200)
-    value.append(4)
-    assert data == {"parts": [{"length": 1}, {"length": [3]}], "mud": {"density": 1200}}
-    assert look_up(data, "parts", 1, "length") == [3]
-    assert look_up(data, "parts", 2, "length") is look_up(data, "mud", "colour") is MISSING
-    set_key(data, "parts[0]", None)
-    assert data["parts"] == [{"length": [3]}]
-    with pytest.raises(InputError, match="a value for a key that exists"):
-        set_key(data, "parts[1].length", 3)
 
 
 def test_an_error_moves_up_with_what_it_carries() -> None:

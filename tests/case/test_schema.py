@@ -8,8 +8,9 @@ from typing import Any
 
 import pytest
 
-from fctd.case.errors import InputError, set_key
+from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.raw_case import set_key
 from fctd.case.schema import case_schema
 from tests.cases import case_files
 

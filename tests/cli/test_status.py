@@ -10,7 +10,8 @@ from fctd.store import save_interval
 from fctd.store.run_folder import RunFolder
 from fctd.sweep.chunk import as_table, without_answer
 from fctd.sweep.dataset import alone, begin_dataset
-from fctd.sweep.run import prepare, sample_of
+from fctd.sweep.design import sample_of
+from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from tests.cli.test_keeping import CHART, RUN, killed
 from tests.cli.test_main import CASE, run
@@ -103,10 +104,10 @@ def test_of_a_damaged_result(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Cap
 def test_of_a_sweep_while_it_runs_and_when_it_has_stopped(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    bench, samples = prepare(read_sweep(sweep_file(tmp_path)))
+    runner, samples = prepare(read_sweep(sweep_file(tmp_path)))
 
     def rows_of(*numbers: int) -> None:
-        sweep.write([as_table([row for k in numbers for row in bench.rows_of(sample_of(samples, bench.keys, k))])])
+        sweep.write([as_table([row for k in numbers for row in runner.rows_of(sample_of(samples, k))])])
 
     def lines() -> list[str]:
         capsys.readouterr()
@@ -114,7 +115,7 @@ def test_of_a_sweep_while_it_runs_and_when_it_has_stopped(
         return capsys.readouterr().out.splitlines()
 
     with alone(Path("swept")):
-        sweep = begin_dataset(Path("swept"), bench.template, samples)
+        sweep = begin_dataset(Path("swept"), runner.template, samples)
         assert lines()[1] == "swept: a sweep: 0 of 12 samples done (0 %)"
         rows_of(0, 1)
         sweep.write([as_table([{"sample": 5, **without_answer("timed_out", "more than 1 s")}])])

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from fctd.case.errors import InputError
 from fctd.cli import sweep as cli
 from fctd.cli.main import app
-from fctd.cli.sweep import where_of
+from fctd.cli.sweep import cluster_choice
 from fctd.store.limits import cores
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import Summary
@@ -85,13 +85,13 @@ def test_rows_to_be_doubted_are_said_and_are_exit_code_1_however_often_it_is_ask
 )
 def test_options_that_do_not_go_together_are_refused(given: tuple[object, ...], words: str) -> None:
     with pytest.raises(InputError, match=words):
-        where_of(*given)  # type: ignore[arg-type]
+        cluster_choice(*given)  # type: ignore[arg-type]
 
 
 def test_options_say_where_a_sweep_runs() -> None:
     here = Path(__file__)
-    assert where_of(3, None, None, NOTHING).local
-    assert where_of(None, "tls://a:1", None, (here, here, here)).tls == (here, here, here)
+    assert cluster_choice(3, None, None, NOTHING).local
+    assert cluster_choice(None, "tls://a:1", None, (here, here, here)).tls == (here, here, here)
 
 
 @pytest.mark.slow

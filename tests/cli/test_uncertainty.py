@@ -19,13 +19,13 @@ from validation.parts.small_sweep import sweep_file
 def swept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A sweep file whose dataset lies in its default folder."""
     path = sweep_file(tmp_path, 'method = "random"\nsamples = 30\n')
-    bench, samples = prepare(read_sweep(path))
+    runner, samples = prepare(read_sweep(path))
     rows = [
         {"sample": k, "operation": "trip_out", "bit_depth_m": depth, "hookload_N": 1e5 + 1e3 * k, "buckling": "none",
          "status": "converged"}
         for k in range(30) for depth in (600.0, 900.0)
     ]  # fmt: skip
-    begin_dataset(tmp_path / "swept-sweep", bench.template, samples).write([as_table(rows)])
+    begin_dataset(tmp_path / "swept-sweep", runner.template, samples).write([as_table(rows)])
     monkeypatch.chdir(tmp_path)
     return path
 

@@ -11,7 +11,7 @@ import typer
 
 import fctd
 from fctd.case.errors import InputError
-from fctd.case.load import apply_override
+from fctd.case.raw_case import apply_override
 from fctd.cli import main
 from fctd.cli.options import BAD_INPUT, FAILED
 from tests.cli.doubted_inputs import DOUBTED, DOUBTED_TOGETHER

@@ -38,9 +38,12 @@ def test_a_wrong_name_is_found() -> None:
             found(name)
 
 
-def test_the_walks_are_those_of_a_station_a_penetration_and_a_number() -> None:
-    starts = [names[0] for names in WALKS.values()]
-    assert starts == ["fctd.case.load.load_case", "fctd.simulation.simulate.Simulation", "validation.__main__.main"]
+def test_the_walks_begin_where_their_number_comes_in() -> None:
+    """A station, a key of a case, a penetration, a sample of a sweep, and a study's number."""
+    assert [names[0] for names in WALKS.values()] == [
+        "fctd.case.load.load_case", "fctd.cli.options.changes_of", "fctd.simulation.simulate.Simulation",
+        "fctd.sweep.spec.read_sweep", "validation.__main__.main",
+    ]  # fmt: skip
     assert min(map(len, WALKS.values())) >= 10
 
 

@@ -11,8 +11,8 @@ from pathlib import Path
 from random import Random
 
 from fctd import Case, Equilibrium, InputError, build_wellbore, equilibrium, load_case, simulate, torque_drag
-from fctd.case.load import parse_override
 from fctd.case.operations import KINDS
+from fctd.case.raw_case import parse_override
 from fctd.model.operations import steady_rates
 from fctd.simulation.preparation import prepare
 from fctd.steady.equilibrium import Solver

@@ -9,7 +9,8 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from fctd.case.errors import InputError, set_key
+from fctd.case.errors import InputError
+from fctd.case.raw_case import set_key
 from tests.fuzz.items import Item
 from tests.rules import CASE, COMBINED, RULES
 from tests.strategies import WRONG_VALUES, places, toml, write_case

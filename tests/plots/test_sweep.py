@@ -39,9 +39,9 @@ def made(
 ) -> Uncertainty:
     """A sweep with made-up loads, linear in the first parameter."""
     spec = read_sweep(sweep_file(folder, head, body + WORK))
-    bench, samples = prepare(spec)
-    dataset = begin_dataset(folder / "out", bench.template, samples)
-    first = samples[bench.keys[0]]
+    runner, samples = prepare(spec)
+    dataset = begin_dataset(folder / "out", runner.template, samples)
+    first = samples[next(iter(runner.template.units))]
     rows = [
         {"sample": k, "operation": "trip_out", "bit_depth_m": depth, "hookload_N": 1e3 * depth * (1 + first.iloc[k]),
          "surface_torque_N_m": torque, "buckling": "none", "status": "converged"}

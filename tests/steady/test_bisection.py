@@ -5,7 +5,7 @@ import pytest
 
 from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.bisection import ITERATIONS, TRIALS, bisect, find_anew
-from fctd.steady.climb import LOW, climb, come_to_rest, end_of
+from fctd.steady.climb import LOW_FRICTION, climb, come_to_rest, end_of
 from fctd.steady.problem import FULL, Problem, Share
 from tests.steady.buckled import level_case, problem_of
 
@@ -42,9 +42,9 @@ def test_the_end_of_the_balances_is_found_to_an_eighth(monkeypatch: pytest.Monke
     fails_beyond(monkeypatch, problem, 0.7)
     path = bisect(problem)
     assert path.pose is None
-    assert [balance.share.friction for balance in path.balances] == pytest.approx([LOW, 0.55, 0.6625])
+    assert [balance.share.friction for balance in path.balances] == pytest.approx([LOW_FRICTION, 0.55, 0.6625])
     assert path.ends_at == pytest.approx(0.6625)
-    assert 0.7 - path.ends_at < (1 - LOW) / 2**TRIALS
+    assert 0.7 - path.ends_at < (1 - LOW_FRICTION) / 2**TRIALS
 
 
 def test_the_words_are_what_was_tried(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -70,7 +70,7 @@ def test_a_share_is_tried_as_a_row_of_its_own_would_be(monkeypatch: pytest.Monke
     relax = problem.relax
     monkeypatch.setattr(problem, "relax", lambda creep, at=FULL: (1, 1) if at.friction > 0.3 else relax(creep, at))
     path = bisect(problem)
-    assert [balance.share.friction for balance in path.balances] == pytest.approx([LOW, 0.55, 0.775, 0.8875])
+    assert [balance.share.friction for balance in path.balances] == pytest.approx([LOW_FRICTION, 0.55, 0.775, 0.8875])
     assert end_of(problem, path).endswith("shape at 88.8 % of the friction and none at 100 %")
     path = climb(problem)
     assert path.balances[-1].share.friction <= 0.3
@@ -89,7 +89,7 @@ def test_a_string_without_a_balance_at_full_weight_on_bit_is_tried_with_less(mon
     monkeypatch.setattr(problem, "iterate", lambda pace, at=FULL: (1, 1))
     has_block(monkeypatch, problem, 1e6)
     path = bisect(problem)
-    assert [balance.share for balance in path.balances] == [Share(LOW, 0.0), Share(LOW, 0.25)]
+    assert [balance.share for balance in path.balances] == [Share(LOW_FRICTION, 0.0), Share(LOW_FRICTION, 0.25)]
     assert path.of_weight
 
 

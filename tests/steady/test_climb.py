@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fctd.model.section import section_of
-from fctd.steady.climb import LOW, Climb, Step, climb, close, lock_up
+from fctd.steady.climb import LOW_FRICTION, Climb, Step, climb, close, lock_up
 from fctd.steady.problem import Share
 from tests.steady.buckled import level_case, problem_of
 
@@ -14,14 +14,14 @@ def test_a_path_ends_with_the_loads_of_the_operation() -> None:
     path = climb(problem)
     assert path.pose is not None
     assert path.sound is not None
-    assert path.steps[0].share == pytest.approx(LOW)
+    assert path.steps[0].share == pytest.approx(LOW_FRICTION)
     friction = [step.share for step in path.steps]
     assert friction == sorted(friction)
     problem.put_pose(path.pose)
     assert friction[-1] == 1.0
     assert problem.reactions().hookload == pytest.approx(path.steps[-1].hookload)
     assert problem.reactions().imbalance <= problem.allowed
-    assert path.spent_at == pytest.approx(LOW)
+    assert path.spent_at == pytest.approx(LOW_FRICTION)
 
 
 def test_the_push_of_a_straight_string_is_its_friction() -> None:
@@ -37,7 +37,7 @@ def test_preparation_comes_before_each_step() -> None:
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0, friction=0.1))
     seen: list[Share] = []
     path = climb(problem, seen.append)
-    assert seen[0] == Share(LOW, 0.0)
+    assert seen[0] == Share(LOW_FRICTION, 0.0)
     assert [share.friction for share in seen if share.weight == 1.0][: len(path.steps) - 1] == [
         step.share for step in path.steps[:-1]
     ]
@@ -144,6 +144,6 @@ def test_a_path_that_stops_where_the_string_is_pushed_goes_on_from_there() -> No
     whole = climb(problem)
     path = climb(problem, most=0.0)
     assert path.pose is None
-    assert path.balances[-1].share == Share(LOW, 1.0)
+    assert path.balances[-1].share == Share(LOW_FRICTION, 1.0)
     assert climb(problem, path=path) is path
     assert path.steps[-1].hookload == pytest.approx(whole.steps[-1].hookload, rel=1e-3)

@@ -11,43 +11,46 @@ import pytest
 
 from fctd.case.load import Case
 from fctd.sweep import chunk, work
-from fctd.sweep.chunk import FAILED, LEAVE, TIMED_OUT, Bench, Sample, Watch, from_stream
-from fctd.sweep.run import prepare, sample_of
+from fctd.sweep.chunk import FAILED, LEAVE, TIMED_OUT, SampleRunner, Watch, from_stream
+from fctd.sweep.design import Sample
+from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.work import Row, Task, Tick
 from validation.parts.small_sweep import sweep_file
 
 
 @pytest.fixture
-def bench(tmp_path: Path) -> Bench:
+def runner(tmp_path: Path) -> SampleRunner:
     return prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 4\ntime_limit = 30\n')))[0]
 
 
+def sample(number: int, friction: float) -> Sample:
+    return Sample(number, {"friction.open": friction, "mud.density": 1.1})
+
+
 def samples(count: int) -> list[Sample]:
-    return [Sample(k, (0.2 + 0.01 * k, 1.1)) for k in range(count)]
+    return [sample(k, 0.2 + 0.01 * k) for k in range(count)]
 
 
-def test_a_chunk_has_the_rows_of_its_samples(bench: Bench) -> None:
-    done = bench.run(samples(2), lambda number: None)
+def test_a_chunk_has_the_rows_of_its_samples(runner: SampleRunner) -> None:
+    done = runner.run(samples(2), lambda number: None)
     table = from_stream(done.rows).to_pandas()
     assert done.samples == (0, 1)
     assert table["sample"].tolist() == [0] * 4 + [1] * 4
     assert table["bit_depth_m"].tolist() == [600, 700, 800, 900] * 2
     assert 0 < done.solving <= done.elapsed
-    (first,) = [row for row in bench.rows_of(samples(1)[0]) if row["bit_depth_m"] == 600]
+    (first,) = [row for row in runner.rows_of(samples(1)[0]) if row["bit_depth_m"] == 600]
     assert table["hookload_N"].iloc[0] == first["hookload_N"]
 
 
-def test_a_sample_that_no_case_can_have_is_a_row_with_its_reason(bench: Bench) -> None:
-    table = from_stream(
-        bench.run([Sample(3, (-1.0, 1.1)), Sample(4, (0.2, 1.1))], lambda number: None).rows
-    ).to_pandas()
+def test_a_sample_that_no_case_can_have_is_a_row_with_its_reason(runner: SampleRunner) -> None:
+    table = from_stream(runner.run([sample(3, -1.0), sample(4, 0.2)], lambda number: None).rows).to_pandas()
     assert table["status"].tolist() == [FAILED] + 4 * ["converged"]
     assert "a friction factor at least 0" in table["reason"].iloc[0]
 
 
 @pytest.mark.parametrize(("raised", "status"), [("time", TIMED_OUT), ("defect", FAILED)])
-def test_a_sample_without_an_answer_is_a_row(raised: str, status: str, bench: Bench, monkeypatch: Any) -> None:
+def test_a_sample_without_an_answer_is_a_row(raised: str, status: str, runner: SampleRunner, monkeypatch: Any) -> None:
     def fail(case: Case, task: Task, tick: Tick) -> list[Row]:
         if raised == "defect":
             raise ZeroDivisionError("by nothing")
@@ -57,7 +60,7 @@ def test_a_sample_without_an_answer_is_a_row(raised: str, status: str, bench: Be
         return []
 
     monkeypatch.setitem(work.WORK, "chart", fail)  # type: ignore[arg-type]
-    quick = Bench(bench.template, bench.task, bench.keys, 0.05)
+    quick = replace(runner, time_limit=0.05)
     (row,) = quick.rows_of(samples(1)[0])
     assert row["status"] == status
     assert ("0.05 s" if status == TIMED_OUT else "ZeroDivisionError: by nothing") in row["reason"]
@@ -108,7 +111,7 @@ def test_a_process_goes_on_where_the_sample_comes_back_meanwhile() -> None:
 
 @pytest.mark.parametrize(("limit", "expected"), [(0.1, (2.0, 3.0)), (20.0, (40.0, 60.0))])
 def test_a_process_may_take_twice_the_limit_of_a_sample_and_at_least_two_seconds(
-    limit: float, expected: tuple[float, float], bench: Bench, monkeypatch: pytest.MonkeyPatch
+    limit: float, expected: tuple[float, float], runner: SampleRunner, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """And three times the limit where no thread of Python can run."""
     given: list[tuple[float, float]] = []
@@ -119,7 +122,7 @@ def test_a_process_may_take_twice_the_limit_of_a_sample_and_at_least_two_seconds
             super().__init__(overrun, last, too_long)
 
     monkeypatch.setattr(chunk, "Watch", Recorded)
-    replace(bench, time_limit=limit).run([], lambda number: None)
+    replace(runner, time_limit=limit).run([], lambda number: None)
     assert given == [expected]
 
 
@@ -130,10 +133,3 @@ def test_a_watch_leaves_samples_alone_that_end_in_time() -> None:
             watch.begin(number)
             time.sleep(0.1)
     assert told == []
-
-
-def test_a_sample_is_a_row_of_the_table(tmp_path: Path) -> None:
-    found, table = prepare(read_sweep(sweep_file(tmp_path)))
-    sample = sample_of(table, found.keys, 3)
-    assert sample == (3, (table["friction.open"].iloc[3], table["mud.density"].iloc[3]))
-    assert {type(value) for value in sample.values} == {float}

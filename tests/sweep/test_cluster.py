@@ -19,7 +19,7 @@ import pytest
 import fctd
 from fctd.case.errors import InputError
 from fctd.sweep import cluster
-from fctd.sweep.cluster import Where, address_of, connected, encrypted, worker_count
+from fctd.sweep.cluster import ClusterChoice, address_of, connected, encrypted, worker_count
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import sweep
 from fctd.sweep.spec import read_sweep
@@ -31,7 +31,7 @@ pytest.importorskip("distributed")
 
 def test_a_local_sweep_listens_on_the_loopback_alone() -> None:
     psutil = pytest.importorskip("psutil")
-    with connected(Where(workers=2)) as client:
+    with connected(ClusterChoice(workers=2)) as client:
         assert worker_count(client) == 2
         assert encrypted(client)
         here = psutil.Process(os.getpid())
@@ -53,9 +53,9 @@ def test_a_local_sweep_listens_on_the_loopback_alone() -> None:
 def test_a_scheduler_with_workers_of_its_own_runs_a_sweep(tmp_path: Path) -> None:
     spec = read_sweep(sweep_file(tmp_path))
     with clusters.cluster(tmp_path, workers=2) as dask:
-        found = sweep(spec, tmp_path / "out", Where(scheduler_file=dask.file))
+        found = sweep(spec, tmp_path / "out", ClusterChoice(scheduler_file=dask.file))
     assert (found.workers, found.rows) == (2, 48)
-    sweep(spec, tmp_path / "local", Where(workers=1))
+    sweep(spec, tmp_path / "local", ClusterChoice(workers=1))
     assert open_dataset(tmp_path / "out").rows().equals(open_dataset(tmp_path / "local").rows())
 
 
@@ -63,7 +63,7 @@ def test_a_scheduler_with_workers_of_its_own_runs_a_sweep(tmp_path: Path) -> Non
 def test_workers_with_more_threads_than_one_are_refused(tmp_path: Path) -> None:
     with clusters.cluster(tmp_path, threads=2) as dask:
         expected = pytest.raises(InputError, match="workers with one thread each")
-        with expected, connected(Where(scheduler_file=dask.file)):
+        with expected, connected(ClusterChoice(scheduler_file=dask.file)):
             pass
 
 
@@ -76,7 +76,7 @@ def test_workers_of_another_version_are_refused(monkeypatch: pytest.MonkeyPatch)
     versions._version_cached.cache_clear()
     expected = pytest.raises(InputError, match=rf"{real('numba')}.*workers with numba 0\.1, as here")
     try:
-        with expected, connected(Where(workers=1)):
+        with expected, connected(ClusterChoice(workers=1)):
             pass
     finally:
         versions._version_cached.cache_clear()
@@ -91,7 +91,7 @@ def test_workers_with_other_sources_are_refused(tmp_path: Path) -> None:
         source.write_text(re.sub(r"^(GRAVITY\b[^=]*= )[\d.]+", r"\g<1>9.0", text, flags=re.MULTILINE), encoding="utf-8")
     with clusters.cluster(tmp_path, program=copy.parent) as dask:
         expected = pytest.raises(InputError, match="workers whose fctd has the sources of the one here")
-        with expected, connected(Where(scheduler_file=dask.file)):
+        with expected, connected(ClusterChoice(scheduler_file=dask.file)):
             pass
 
 
@@ -103,13 +103,13 @@ def test_rows_of_other_sources_are_refused_whoever_sent_them(tmp_path: Path) -> 
     with clusters.cluster(tmp_path, preload=preload) as dask:
         expected = pytest.raises(InputError, match='a worker = "other": expected workers whose fctd has the sources')
         with expected:
-            sweep(read_sweep(sweep_file(tmp_path)), tmp_path / "out", Where(scheduler_file=dask.file))
+            sweep(read_sweep(sweep_file(tmp_path)), tmp_path / "out", ClusterChoice(scheduler_file=dask.file))
     assert open_dataset(tmp_path / "out").done == set()
 
 
 def test_a_scheduler_that_is_not_there_is_answered(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster, "CONNECT", 1.0)
-    where = Where(scheduler="tcp://127.0.0.1:9")
+    where = ClusterChoice(scheduler="tcp://127.0.0.1:9")
     with pytest.raises(InputError, match="a scheduler that answers within"), connected(where):
         pass
 
@@ -150,7 +150,7 @@ def test_a_port_of_another_program_is_answered(answer: bytes, monkeypatch: pytes
 
         held: list[socket.socket] = []
         threading.Thread(target=accept, daemon=True).start()
-        where = Where(scheduler=f"tcp://{cluster.LOOPBACK}:{server.getsockname()[1]}")
+        where = ClusterChoice(scheduler=f"tcp://{cluster.LOOPBACK}:{server.getsockname()[1]}")
         with pytest.raises(InputError, match=r"answers within 1 s .another program answers"), connected(where):
             pass
         server.shutdown(socket.SHUT_RDWR)
@@ -177,7 +177,10 @@ def test_an_address_that_cannot_be_one_is_answered_at_once(
     address: str, tls: tuple[Path, Path, Path] | None, words: str, tmp_path: Path
 ) -> None:
     (tmp_path / "cluster.json").write_text(json.dumps({"address": address}))
-    for where in (Where(scheduler=address, tls=tls), Where(scheduler_file=tmp_path / "cluster.json", tls=tls)):
+    for where in (
+        ClusterChoice(scheduler=address, tls=tls),
+        ClusterChoice(scheduler_file=tmp_path / "cluster.json", tls=tls),
+    ):
         with pytest.raises(InputError, match=re.escape(words)):
             address_of(where)
 
@@ -187,7 +190,7 @@ def test_a_file_that_no_scheduler_wrote_is_answered(content: str | None, tmp_pat
     if content is not None:
         (tmp_path / "cluster.json").write_text(content)
     with pytest.raises(InputError, match="the file that a running scheduler has written"):
-        address_of(Where(scheduler_file=tmp_path / "cluster.json"))
+        address_of(ClusterChoice(scheduler_file=tmp_path / "cluster.json"))
 
 
 @pytest.mark.slow
@@ -227,5 +230,5 @@ def test_a_scheduler_without_workers_is_answered(tmp_path: Path, monkeypatch: py
     monkeypatch.setattr(cluster, "WORKERS", 1.0)
     with clusters.cluster(tmp_path, workers=0) as dask:
         expected = pytest.raises(InputError, match="a scheduler with workers")
-        with expected, connected(Where(scheduler_file=dask.file)):
+        with expected, connected(ClusterChoice(scheduler_file=dask.file)):
             pass

@@ -11,15 +11,16 @@ from fctd.case.errors import InputError
 from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import Dataset, alone, begin_dataset, identity_of, open_dataset
-from fctd.sweep.design import samples_of
+from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import template_of
 from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
 
 
 def dataset(folder: Path, **given: str) -> Dataset:
-    template = template_of(read_sweep(sweep_file(folder, **given)))
-    return begin_dataset(folder / "out", template, samples_of(template.spec))
+    spec = read_sweep(sweep_file(folder, **given))
+    samples = samples_of(spec)
+    return begin_dataset(folder / "out", template_of(spec, sample_of(samples, 0)), samples)
 
 
 def rows(*samples: int) -> list[dict[str, object]]:
@@ -91,7 +92,8 @@ def test_another_survey_in_the_same_file_is_another_sweep(tmp_path: Path) -> Non
     found = []
     for last in (45, 45, 46):
         survey.write_text(f"md_m,inc_deg,azi_deg\n0,0,0\n200,0,0\n500,45,30\n900,{last},30\n")
-        found.append(identity_of(template_of(read_sweep(path))))
+        spec = read_sweep(path)
+        found.append(identity_of(template_of(spec, sample_of(samples_of(spec), 0))))
     assert found[0] == found[1] != found[2]
 
 

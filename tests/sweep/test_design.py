@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from fctd.case.errors import InputError
-from fctd.sweep.design import drawn, morris_points, samples_of
+from fctd.sweep.design import drawn, morris_points, sample_of, samples_of
 from fctd.sweep.spec import ParameterSpec, SweepSpec, read_sweep
 from validation.parts.small_sweep import WORK, sweep_file
 
@@ -121,3 +121,12 @@ def test_a_survey_alone_may_vary(tmp_path: Path) -> None:
     spec = read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 5', '[survey]\ntool = "mwd"\n' + WORK))
     assert samples_of(spec).columns.tolist() == ["sample"]
     assert len(samples_of(spec)) == 5
+
+
+def test_a_sample_is_a_row_of_the_table() -> None:
+    """A whole number stays one beside numbers that are none."""
+    segments = {"key": "string.components[0].segments", "values": [10, 20, 30, 40, 50]}
+    table = samples_of(spec_of("random", [UNIFORM, segments], 5))
+    sample = sample_of(table, 3)
+    assert sample == (3, {key: table[key].iloc[3] for key in ("mud.density", "string.components[0].segments")})
+    assert [type(value) for value in sample.by_key.values()] == [float, int]

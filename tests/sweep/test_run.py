@@ -12,15 +12,16 @@ import pytest
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.sweep import run
-from fctd.sweep.cluster import Where
+from fctd.sweep.cluster import ClusterChoice
 from fctd.sweep.dataset import open_dataset
+from fctd.sweep.design import sample_of
 from fctd.sweep.run import prepare, sweep
 from fctd.sweep.spec import read_sweep
 from validation.parts.clusters import failing
 from validation.parts.small_sweep import PARAMETERS, WORK, about, sweep_file
 
 pytest.importorskip("distributed")
-ONE = Where(workers=1)
+ONE = ClusterChoice(workers=1)
 
 
 def test_a_sweep_has_the_rows_of_its_samples_and_a_second_call_computes_nothing(tmp_path: Path) -> None:
@@ -28,8 +29,8 @@ def test_a_sweep_has_the_rows_of_its_samples_and_a_second_call_computes_nothing(
     out, seen = tmp_path / "out", list[int]()
     found = sweep(spec, out, ONE, progress=lambda done, total, lacking: seen.append(done))
     table = open_dataset(out).rows()
-    bench, samples = prepare(spec)
-    wanted = pd.DataFrame([row for k in range(12) for row in bench.rows_of(run.sample_of(samples, bench.keys, k))])
+    runner, samples = prepare(spec)
+    wanted = pd.DataFrame([row for k in range(12) for row in runner.rows_of(sample_of(samples, k))])
     pd.testing.assert_frame_equal(table[wanted.columns], wanted, check_exact=True, check_dtype=False)
     assert table["mud.density"].tolist() == samples["mud.density"].repeat(4).tolist()
     assert (found.samples, found.rows, found.without_answer) == (12, 48, {})
@@ -67,9 +68,9 @@ def test_samples_that_no_case_can_have_are_refused_or_rows(tmp_path: Path) -> No
     rows = read_sweep(
         sweep_file(tmp_path, head='method = "random"\nsamples = 12\nbad_samples = "rows"', body=bad + WORK)
     )
-    bench, samples = prepare(rows)
+    runner, samples = prepare(rows)
     below = int(samples["friction.open"].idxmin())
-    (row,) = bench.rows_of(run.sample_of(samples, bench.keys, below))
+    (row,) = runner.rows_of(sample_of(samples, below))
     assert row["status"] == "failed"
     assert "at least 0" in row["reason"]
 
@@ -94,9 +95,9 @@ def test_a_bad_sweep_is_answered_before_any_work(body: str, words: list[str], tm
 
 def test_chunks_are_larger_for_more_workers_and_smaller_at_the_end(tmp_path: Path) -> None:
     """A chunk takes at least LEAST; one of the many of a long sweep takes USUAL."""
-    bench, samples = prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 5000')))
-    dataset = run.begin_dataset(tmp_path / "out", bench.template, samples)
-    running = run._Running(None, bench, dataset, None)  # type: ignore[arg-type]
+    runner, samples = prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 5000')))
+    dataset = run.begin_dataset(tmp_path / "out", runner.template, samples)
+    running = run._Running(None, runner, dataset, None)  # type: ignore[arg-type]
     running.workers, running.each = 2, 0.01
     assert running._size() == round(run.USUAL / 0.01)
     running.workers = 200
@@ -110,9 +111,9 @@ def test_chunks_are_larger_for_more_workers_and_smaller_at_the_end(tmp_path: Pat
 
 def test_a_chunk_whose_worker_died_is_halved_and_a_sample_is_given_up_after_three_deaths(tmp_path: Path) -> None:
     """While samples are suspected no chunk waits at a worker, which another one's sample would take with it."""
-    bench, samples = prepare(read_sweep(sweep_file(tmp_path)))
-    dataset = run.begin_dataset(tmp_path / "out", bench.template, samples)
-    running = run._Running(None, bench, dataset, None)  # type: ignore[arg-type]
+    runner, samples = prepare(read_sweep(sweep_file(tmp_path)))
+    dataset = run.begin_dataset(tmp_path / "out", runner.template, samples)
+    running = run._Running(None, runner, dataset, None)  # type: ignore[arg-type]
     running.workers = 2
     assert running._room == 4
     running._halve((3, 4, 5))
@@ -138,19 +139,19 @@ def test_a_chunk_whose_worker_died_is_halved_and_a_sample_is_given_up_after_thre
 @pytest.mark.parametrize("extreme", ["idxmin", "idxmax"])
 def test_the_extremes_of_each_parameter_are_tried_before_the_work(extreme: str, tmp_path: Path) -> None:
     """Of a thousand samples some 64 are tried, and these."""
-    bench, samples = prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 1000')))
-    for key in bench.keys:
+    runner, samples = prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 1000')))
+    for key in runner.template.units:
         bad = int(getattr(samples[key], extreme)())
         assert bad % (1000 // run.TRIED)
 
         def case(number: int, values: Mapping[str, object], bad: int = bad) -> Case:
             if number == bad:
                 raise InputError("another value")
-            return bench.template.base
+            return runner.template.base
 
-        template: Any = SimpleNamespace(spec=bench.template.spec, units=bench.template.units, case=case)
+        template: Any = SimpleNamespace(spec=runner.template.spec, units=runner.template.units, case=case)
         with pytest.raises(InputError, match=f"sample {bad} has none"):
-            run.check_samples(template, samples, bench.keys, bench.task)
+            run.check_samples(template, samples, runner.task)
 
 
 def test_a_sweep_that_ends_before_its_workers_are_there_has_no_share() -> None:

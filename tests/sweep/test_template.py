@@ -8,6 +8,7 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.case.load import load_case
+from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.template import Template, template_of
 from validation.parts.small_sweep import PARAMETERS, WORK, sweep_file
@@ -16,7 +17,12 @@ HEAD = 'method = "random"\nsamples = 5\n'
 
 
 def template(folder: Path, head: str = HEAD, body: str = PARAMETERS + WORK, case: str = "") -> Template:
-    return template_of(read_sweep(sweep_file(folder, head, body, case)))
+    return template_of_file(sweep_file(folder, head, body, case))
+
+
+def template_of_file(path: Path) -> Template:
+    spec = read_sweep(path)
+    return template_of(spec, sample_of(samples_of(spec), 0))
 
 
 def test_a_sample_is_the_case_with_its_values(tmp_path: Path) -> None:
@@ -42,7 +48,7 @@ def test_a_survey_file_is_read_once_and_found_from_anywhere(tmp_path: Path, monk
     stations = "stations = [[0, 0, 0], [200, 0, 0], [500, 45, 30], [900, 45, 30]]"
     assert stations in text
     (folder / "well.toml").write_text(text.replace(stations, 'survey = "survey.csv"'), encoding="utf-8")
-    made = template_of(read_sweep(path))
+    made = template_of_file(path)
     (folder / "survey.csv").unlink()
     monkeypatch.chdir(tmp_path)
     case = made.case(0, {"friction.open": 0.4})
@@ -135,4 +141,4 @@ def test_a_case_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     path = sweep_file(tmp_path)
     (tmp_path / "well.toml").unlink()
     with pytest.raises(InputError, match=r"^case = .*well\.toml.: expected a case file that can be read"):
-        template_of(read_sweep(path))
+        template_of_file(path)

@@ -11,7 +11,8 @@ from fctd.case.errors import InputError
 from fctd.model.section import section_of
 from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import Dataset, begin_dataset
-from fctd.sweep.run import prepare, sample_of
+from fctd.sweep.design import sample_of
+from fctd.sweep.run import prepare
 from fctd.sweep.spec import SweepSpec, read_sweep
 from fctd.sweep.uncertainty import assess, noise_in
 
@@ -56,9 +57,9 @@ def swept(folder: Path, head: str) -> tuple[SweepSpec, Dataset]:
     (folder / "inclined.toml").write_text(INCLINED, encoding="utf-8")
     (folder / "sweep.toml").write_text(SWEEP.format(head=head), encoding="utf-8")
     spec = read_sweep(folder / "sweep.toml")
-    bench, samples = prepare(spec)
-    dataset = begin_dataset(folder / "out", bench.template, samples)
-    rows = [row for k in range(len(samples)) for row in bench.rows_of(sample_of(samples, bench.keys, k))]
+    runner, samples = prepare(spec)
+    dataset = begin_dataset(folder / "out", runner.template, samples)
+    rows = [row for k in range(len(samples)) for row in runner.rows_of(sample_of(samples, k))]
     dataset.write([as_table(rows)])
     return spec, dataset
 

@@ -16,7 +16,8 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 import pandas as pd
 from pydantic import Field, ValidationError, model_validator
 
-from fctd.case.errors import MISSING, InputError, Table, exclusive, explain, look_up
+from fctd.case.errors import MISSING, InputError, Table, exclusive
+from fctd.case.raw_case import explain, look_up
 from fctd.store.parquet import read_frame
 from validation.harness import store
 from validation.harness.registry import STUDIES

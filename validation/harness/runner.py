@@ -137,7 +137,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Done:
+class StudyRun:
     """A result, and why its study was run: ``kept`` where it was not, what has changed, or empty."""
 
     record: Record
@@ -175,7 +175,7 @@ def run_all(
     """
     rules = Run(results, sources, store.provenance(), force or audited, audited)
     around = fingerprint.surroundings(quick, sources.root)
-    finished: list[Done] = []
+    finished: list[StudyRun] = []
     text, bar = TextColumn("{task.description}", markup=False), BarColumn(bar_width=24)
     columns = (SpinnerColumn(), text, bar, MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
@@ -185,7 +185,7 @@ def run_all(
         # An audit sees what happens in its own process.
         spread = replace(context, progress=silent, apart=one_by_one if audited else apart)
 
-        def done_in(its: Context) -> Callable[[str], Done]:
+        def done_in(its: Context) -> Callable[[str], StudyRun]:
             return lambda name: run_one(name, its, expected.get(name, {}), around, rules)
 
         try:
@@ -214,7 +214,7 @@ def run_one(
     recorded: Mapping[str, str],
     around: Mapping[str, str],
     rules: Run,
-) -> Done:
+) -> StudyRun:
     """Take one study's result if it is up to date; otherwise run it and store the outcome.
 
     Stored are tables and checks, or why it was skipped, or how it failed.
@@ -245,7 +245,7 @@ def run_one(
             context = replace(context, data=None)
         why = "forced" if rules.force else outdated(name, now, rules)
         if why == KEPT:
-            return Done(store.judge_again(store.read(results / name), recorded, results), KEPT)
+            return StudyRun(store.judge_again(store.read(results / name), recorded, results), KEPT)
         # What a study needs is a field of the context by the same name.
         absent = [NEEDS[need] for need in study.needs if getattr(context, need) is None]
         if absent:
@@ -262,7 +262,7 @@ def run_one(
         message = f"{type(error).__name__}: {error}"
         run = replace(blank, message=message, wall_s=time.perf_counter() - start)
         store.write(run, {}, results)
-    return Done(run, why)
+    return StudyRun(run, why)
 
 
 def outdated(name: str, now: Inputs, rules: Run) -> str:
@@ -334,7 +334,7 @@ def _finished(blank: Record, outcome: Outcome, recorded: Mapping[str, str]) -> R
     )
 
 
-def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
+def tell(done: StudyRun, recorded: Mapping[str, str], console: Console) -> None:
     """Print a run: a line for the study, one for each check, and the changes due in expected.toml."""
     run = done.record
     style = "bold red" if run.is_error else "bold"
@@ -363,10 +363,10 @@ def tell(done: Done, recorded: Mapping[str, str], console: Console) -> None:
 class Counted:
     """Items of which the number is known before they are."""
 
-    items: Iterable[Done]
+    items: Iterable[StudyRun]
     count: int
 
-    def __iter__(self) -> Iterator[Done]:
+    def __iter__(self) -> Iterator[StudyRun]:
         return iter(self.items)
 
     def __len__(self) -> int:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from fctd.sweep.cluster import Where, connected
+from fctd.sweep.cluster import ClusterChoice, connected
 from validation.harness.study import ROOT
 
 # A worker that preloads this hangs or dies in samples of given numbers.
@@ -26,8 +26,9 @@ def failing(own):
     return rows_of
 def paused(own):  # so that chunks are as short as for samples that take so long
     return lambda self: own(self) + PAUSE
-if chunk.Bench.rows_of.__module__ == chunk.__name__:  # a preloaded file is read twice
-    chunk.Bench.rows_of, chunk.Bench.warm_up = failing(chunk.Bench.rows_of), paused(chunk.Bench.warm_up)
+runner = chunk.SampleRunner
+if runner.rows_of.__module__ == chunk.__name__:  # a preloaded file is read twice
+    runner.rows_of, runner.warm_up = failing(runner.rows_of), paused(runner.warm_up)
 """
 
 
@@ -63,7 +64,7 @@ class Cluster:
 
     def wait_for_workers(self, count: int) -> None:
         """Return once so many workers have joined; without TLS."""
-        with connected(Where(scheduler_file=self.file)) as client:
+        with connected(ClusterChoice(scheduler_file=self.file)) as client:
             client.wait_for_workers(count, timeout=60)
 
     def kill(self, role: str) -> None:

@@ -13,9 +13,9 @@ from fctd.model.survey import along_courses, minimum_curvature
 from fctd.steady.torque_drag import chart_rows
 from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import Dataset, begin_dataset
-from fctd.sweep.design import samples_of
+from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.indices import indices_of
-from fctd.sweep.run import prepare, sample_of
+from fctd.sweep.run import prepare
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.survey_errors import SurveyErrors, erred
 from fctd.sweep.uncertainty import assess
@@ -104,9 +104,9 @@ def swept(folder: Path, raw: dict[str, object]) -> tuple[SweepSpec, Dataset]:
     tells = {"percentiles": PERCENTILES, "columns": ["hookload_N", "weight_indicator_N"]}
     given = {"name": "inclined", "case": folder / "inclined.toml", "work": work, "uncertainty": tells}
     spec = SweepSpec.model_validate(given | raw)
-    bench, samples = prepare(spec)
-    dataset = begin_dataset(folder / "out", bench.template, samples)
-    rows = [row for k in range(len(samples)) for row in bench.rows_of(sample_of(samples, bench.keys, k))]
+    runner, samples = prepare(spec)
+    dataset = begin_dataset(folder / "out", runner.template, samples)
+    rows = [row for k in range(len(samples)) for row in runner.rows_of(sample_of(samples, k))]
     dataset.write([as_table(rows)])
     return spec, dataset
 

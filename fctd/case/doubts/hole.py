@@ -9,7 +9,7 @@ from fctd.case.doubts.usual import Doubts
 from fctd.case.friction import FrictionSet
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
-from fctd.case.units import Slip, looks_like
+from fctd.case.units import LikelyUnit, unit_hint
 
 ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
 NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
@@ -35,12 +35,12 @@ def shoe_below_td(hole: WellboreSpec, td: float) -> Doubts:
 
 def hole_size(hole: WellboreSpec) -> Doubts:
     """A hole so wide or narrow that its diameter is probably in another unit."""
-    inches = (Slip(WIDEST, 5, " in"),)
+    inches = (LikelyUnit(WIDEST, 5, " in"),)
     for i, interval in enumerate(hole.intervals):
         if not NARROWEST <= interval.diameter <= WIDEST:
             yield InputWarning(
                 "hole_size", f"wellbore.intervals[{i}].diameter",
-                f"a hole of {interval.diameter:g} m" + looks_like(interval.diameter, inches),
+                f"a hole of {interval.diameter:g} m" + unit_hint(interval.diameter, inches),
                 "write the diameter with its unit",
             )  # fmt: skip
 

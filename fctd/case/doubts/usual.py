@@ -13,7 +13,7 @@ from fctd.case.operations import Operation
 from fctd.case.rig import MudSpec, RigSpec
 from fctd.case.solver import SolverSpec
 from fctd.case.string import StringSpec
-from fctd.case.units import Slip, looks_like
+from fctd.case.units import LikelyUnit, unit_hint
 from fctd.case.wall import ContactSpec
 
 Doubts = Iterator[InputWarning]
@@ -48,18 +48,18 @@ class Usual(NamedTuple):
     low: float
     high: float
     words: str
-    slips: tuple[Slip, ...] = ()
+    likely_units: tuple[LikelyUnit, ...] = ()
 
 
 # Values other than 0.  A segment on its wall spring is damped critically by 1e5 N*s/m; mud of 2 Pa*s damps a metre of
 # string by 1e3 N*s/m^2 and its rotation by 1 N*s; 3 ms of the shape end all chatter.
 IN_MUD: Final = Usual("damping", "a damping", "N*s/m^2", 0, 1e4, "up to 10 kN*s/m^2")
-IN_JOINTS: Final = Usual("damping", "a damping", "s", 0, 0.1, "up to 100 ms", (Slip(0.1, 100, " ms"),))
+IN_JOINTS: Final = Usual("damping", "a damping", "s", 0, 0.1, "up to 100 ms", (LikelyUnit(0.1, 100, " ms"),))
 USUAL: Final = {
     # Foam and the lightest oil to mud weighted with barite or galena.
     "mud.density": Usual(
         "mud_density", "a mud", "kg/m^3", 600, 2600, "0.6 to 2.6 sg",
-        (Slip(0.6, 2.6, " sg"), Slip(5, 22, " ppg"), Slip(37, 165, " lb/ft^3")),
+        (LikelyUnit(0.6, 2.6, " sg"), LikelyUnit(5, 22, " ppg"), LikelyUnit(37, 165, " lb/ft^3")),
     ),
     "contact.damping": Usual("damping", "a damping", "N*s/m", 0, 1e7, "up to 10 MN*s/m"),
     "mud.axial_damping": IN_MUD,
@@ -69,30 +69,38 @@ USUAL: Final = {
     "solver.shape_damping": IN_JOINTS,
     # Composite, aluminium, titanium, steel; tungsten weights.
     "string.components.density": Usual(
-        "pipe_density", "a pipe", "kg/m^3", 1200, 20_000, "1.2 to 20 g/cm^3", (Slip(1.2, 20, " g/cm^3"),)
+        "pipe_density", "a pipe", "kg/m^3", 1200, 20_000, "1.2 to 20 g/cm^3", (LikelyUnit(1.2, 20, " g/cm^3"),)
     ),
     "string.components.youngs_modulus": Usual(
         "youngs_modulus", "a modulus", "Pa", 10e9, 450e9, "10 to 450 GPa",
-        (Slip(10, 450, " GPa"), Slip(10e3, 450e3, " MPa")),
+        (LikelyUnit(10, 450, " GPa"), LikelyUnit(10e3, 450e3, " MPa")),
     ),
     "string.components.yield_strength": Usual(
-        "yield_strength", "a strength", "Pa", 50e6, 3e9, "50 to 3000 MPa", (Slip(50, 3000, " MPa"),)
+        "yield_strength", "a strength", "Pa", 50e6, 3e9, "50 to 3000 MPa", (LikelyUnit(50, 3000, " MPa"),)
     ),
     # Below, a weight in kN or t or a torque in kN*m was written as a bare number; above, in a unit a thousand times too
     # large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.
     "bit.weight_on_bit": Usual(
-        "bit_load", "a weight on bit", "N", 1e3, 2e6, "1 to 2000 kN", (Slip(1, 999, " kN"), Slip(1, 99, " klbf"))
+        "bit_load", "a weight on bit", "N", 1e3, 2e6, "1 to 2000 kN",
+        (LikelyUnit(1, 999, " kN"), LikelyUnit(1, 99, " klbf")),
     ),
-    "bit.torque": Usual("bit_load", "a bit torque", "N*m", 20, 200e3, "0.02 to 200 kN·m", (Slip(0.5, 19.99, " kN*m"),)),
-    "bit.rock.wear_flat": Usual("wear_flat", "wear flats", "m", 1e-4, 0.05, "0.1 to 50 mm", (Slip(0.1, 50, " mm"),)),
+    "bit.torque": Usual(
+        "bit_load", "a bit torque", "N*m", 20, 200e3, "0.02 to 200 kN·m",
+        (LikelyUnit(0.5, 19.99, " kN*m"),),
+    ),
+    "bit.rock.wear_flat": Usual(
+        "wear_flat", "wear flats", "m", 1e-4, 0.05, "0.1 to 50 mm",
+        (LikelyUnit(0.1, 50, " mm"),),
+    ),
     "rig.block_weight": Usual(
-        "rig_load", "a block weight", "N", 1e3, 5e6, "1 to 5000 kN", (Slip(10, 999, " kN"), Slip(5, 250, " klbf"))
+        "rig_load", "a block weight", "N", 1e3, 5e6, "1 to 5000 kN",
+        (LikelyUnit(10, 999, " kN"), LikelyUnit(5, 250, " klbf")),
     ),
     "rig.guide_friction": Usual(
-        "rig_load", "friction of the guides", "N", 100, 200e3, "0.1 to 200 kN", (Slip(0.1, 99, " kN"),)
+        "rig_load", "friction of the guides", "N", 100, 200e3, "0.1 to 200 kN", (LikelyUnit(0.1, 99, " kN"),)
     ),
     "rig.torque_offset": Usual(
-        "rig_load", "a torque offset", "N*m", 5, 50e3, "0.005 to 50 kN·m", (Slip(0.1, 4.99, " kN*m"),)
+        "rig_load", "a torque offset", "N*m", 5, 50e3, "0.005 to 50 kN·m", (LikelyUnit(0.1, 4.99, " kN*m"),)
     ),
 }  # fmt: skip
 
@@ -107,7 +115,7 @@ def unusual(case: Well) -> Doubts:
         for place, holder in holders:
             value = abs(getattr(holder, name, None) or 0.0)  # there may be no rock, and no damping
             if value != 0 and not usual.low <= value <= usual.high:
-                text = f"{usual.what} of {value:g} {usual.unit}{looks_like(value, usual.slips)}"
+                text = f"{usual.what} of {value:g} {usual.unit}{unit_hint(value, usual.likely_units)}"
                 remedy = f"write it with its unit; usual is {usual.words}"
                 yield InputWarning(usual.code, f"{place}.{name}", text, remedy)
 

@@ -13,8 +13,8 @@ from fctd.mechanics.friction import Law
 from fctd.mechanics.jit import inlined
 
 
-def _law(place: str) -> Law:
-    module, name = place.split(".")
+def _law(named: law_names.NamedLaw) -> Law:
+    module, name = named.place.split(".")
     found: Law = getattr(import_module(f"{__name__}.{module}"), name)
     return found
 
@@ -22,20 +22,22 @@ def _law(place: str) -> Law:
 LAWS: Final = tuple(map(_law, law_names.LAWS.values()))
 
 
-def chain(functions: Any) -> Any:
+def dispatch(functions: Any) -> Any:
     """A function of a law's code and further arguments that calls that law's function, compiled into the caller.
 
     What several laws share, the first one's or that of neighbours, is compiled once.
     """
-    chosen = _only(functions[0])
+    chosen = _without_code(functions[0])
     for function, run in groupby(enumerate(functions), key=lambda numbered: numbered[1]):
         codes = [code for code, _ in run]
         if function is not functions[0]:
-            chosen = _either(codes[0], codes[-1], function, chosen)
+            chosen = _with_codes(codes[0], codes[-1], function, chosen)
     return chosen
 
 
-def _only(function: Any) -> Any:
+def _without_code(function: Any) -> Any:
+    """The function for whatever code comes: the last choice."""
+
     @inlined
     def chosen(law, *arguments):
         return function(*arguments)
@@ -43,7 +45,9 @@ def _only(function: Any) -> Any:
     return chosen
 
 
-def _either(first: int, last: int, function: Any, others: Any) -> Any:
+def _with_codes(first: int, last: int, function: Any, others: Any) -> Any:
+    """The function for codes from first to last, else what ``others`` choose."""
+
     @inlined
     def chosen(law, *arguments):
         if first <= law <= last:
@@ -53,5 +57,5 @@ def _either(first: int, last: int, function: Any, others: Any) -> Any:
     return chosen
 
 
-steady_load: Final = chain([law.steady_load for law in LAWS])
-shares: Final = chain([law.shares for law in LAWS])
+steady_load: Final = dispatch([law.steady_load for law in LAWS])
+shares: Final = dispatch([law.shares for law in LAWS])

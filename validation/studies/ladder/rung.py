@@ -12,7 +12,8 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium
-from fctd.case.load import apply_override, make_case
+from fctd.case.load import make_case
+from fctd.case.raw_case import apply_override
 from fctd.results.status import SteadyStatus
 from references.buckling.onset import Pipe
 

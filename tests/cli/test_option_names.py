@@ -5,7 +5,7 @@ from typing import Literal
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.cli.refusals import naming_options
+from fctd.cli.option_names import naming_options
 
 
 def refusal(error: InputError, units: Literal["si", "field"] = "si") -> str:

@@ -1,0 +1,206 @@
+"""A case as it is written: nested tables before validation, their dotted keys, overrides, and what is wrong in them."""
+
+from __future__ import annotations
+
+import copy
+import os
+import re
+import tomllib
+from collections.abc import Collection, Mapping
+from typing import Any, Final
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from fctd.case.errors import MISSING, InputError, join_key
+from fctd.case.friction import pick
+from fctd.case.text import is_utf8
+
+
+def split_key(key: str) -> list[str | int]:
+    """ "operations[0].speed" or "operations.0.speed" as ["operations", 0, "speed"]; "" as [].
+
+    Raises InputError for a text that is not a dotted key.
+    """
+    if not re.fullmatch(r"(?:(?:^|\.)[\w-]+|\[[0-9]+\])*", key):
+        raise InputError("a dotted key such as wellbore.overlap or operations[0].speed", value=key)
+    parts = re.findall(r"[\w-]+", key)
+    return [int(part) if re.fullmatch("[0-9]{1,9}", part) else part for part in parts]
+
+
+def look_up(data: Any, *parts: str | int) -> object:
+    """The value down a path of nested dicts and lists; MISSING where there is none or None."""
+    for part in parts:
+        if not _has_item(data, part):
+            return MISSING
+        data = data[part]
+    return MISSING if data is None else data
+
+
+def set_key(table: dict[str, Any], key: str, value: object) -> None:
+    """Set a dotted key of nested dicts and lists; tables on the way are made, list items are not.
+
+    None in a table counts as absent (`known_keys`); for an item of a list it removes the item.
+    Raises InputError for a key whose table or list item does not exist.
+    """
+    *parents, last = split_key(key) or [key]
+    place: Any = table
+    for part in parents:
+        if isinstance(place, dict) and place.get(part) is None:
+            place[part] = {}
+        place = place[part] if _has_item(place, part) else None
+    if isinstance(place, list) and isinstance(last, int) and last < len(place) and value is None:
+        del place[last]
+    elif isinstance(place, dict) or _has_item(place, last):
+        place[last] = copy.deepcopy(value)
+    else:
+        raise InputError("a value for a key that exists", key=key, value=value)
+
+
+def _has_item(data: Any, part: str | int) -> bool:
+    """Whether a dict or list has this key or index."""
+    if isinstance(data, list | tuple):
+        return isinstance(part, int) and part < len(data)
+    return isinstance(data, Mapping) and part in data
+
+
+def parse_override(text: str) -> tuple[str, Any]:
+    """Key and value of "key=value": a TOML value, else a plain string, or None where the value is empty.
+
+    Raises InputError for a text of another form.
+    """
+    key, sign, written = (part.strip() for part in text.partition("="))
+    if not (key and sign):
+        raise InputError("key=value", value=text)
+    if not written:
+        return key, None
+    if key != "wellbore.survey" and not is_utf8(written):  # only file names need not be UTF-8
+        raise InputError("a value in UTF-8", key=key, value=written)
+    try:
+        table = tomllib.loads(f"value = {written}")
+    except (ValueError, RecursionError):
+        return key, written
+    return key, table["value"] if table.keys() == {"value"} else written
+
+
+def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
+    """Set or delete one dotted key of an unvalidated case."""
+    if key == "friction":
+        intervals = look_up(raw, "wellbore", "intervals")
+        count = len(intervals) if isinstance(intervals, list) else 0
+        picked = [value] * count
+        if isinstance(value, Mapping):
+            picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
+        for i, factor in enumerate(picked):
+            if factor is not None or not isinstance(value, Mapping):
+                at = f"wellbore.intervals[{i}]"
+                static = scaled_static(look_up(raw, "wellbore", "intervals", i), factor)
+                set_key(raw, f"{at}.friction", factor)
+                if static is not MISSING:
+                    set_key(raw, f"{at}.static_friction", static)
+    elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
+        set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
+    else:
+        set_key(raw, key, value)
+
+
+def scaled_static(interval: object, factor: object) -> object:
+    """The static factor of an unvalidated interval, scaled to a new kinetic factor; MISSING without one."""
+    kinetic, static = (look_up(interval, key) for key in ("friction", "static_friction"))
+    if not all(isinstance(value, int | float) for value in (kinetic, static, factor)) or not kinetic:
+        return static  # where one of them is no number, validation says so
+    return static * factor / kinetic  # type: ignore[operator]
+
+
+def without_stations(raw: Mapping[str, Any]) -> dict[str, Any]:
+    """A case without the long list that it may have."""
+    hole = look_up(raw, "wellbore")
+    return {**raw, "wellbore": {**hole, "stations": None}} if isinstance(hole, dict) else dict(raw)
+
+
+# Tables of a case, the keys of lengths in them that say nothing of steps or tolerances, and units of the field.
+_LENGTHS: Final = {
+    ("wellbore", "intervals"): ("to_md", "diameter"),
+    ("string", "components"): (
+        "length", "outer_diameter", "inner_diameter", "contact_diameter", "segment_length",
+    ),
+    ("operations",): ("at_md", "from_md", "to_md"),
+}  # fmt: skip
+_FIELD: Final = re.compile(r"(?:ft|feet|foot|in|inch|inches|'|\"|″|′)\.?\s*$", re.IGNORECASE)
+
+
+def bare_lengths(raw: Mapping[str, Any]) -> list[str]:
+    """Keys of lengths without a unit, where most lengths are in feet and inches and none in SI."""
+    bare, field_units = [], 0
+    for path, keys in _LENGTHS.items():
+        tables = look_up(raw, *path)
+        for i, table in enumerate(tables if isinstance(tables, list) else ()):
+            for key in keys:
+                value = look_up(table, key)
+                if isinstance(value, str) and not _FIELD.search(value):
+                    return []
+                field_units += isinstance(value, str)
+                if isinstance(value, int | float) and value:
+                    bare.append(join_key(*path, i, key))
+    return bare if len(bare) < field_units else []
+
+
+def with_bare_lengths(error: InputError, raw: Mapping[str, Any]) -> InputError:
+    """The error, with the lengths that may be its cause: the rule that they break names another key."""
+    said = [error.key, *(other.key for other in error.more)]
+    more = [
+        InputError(
+            "a length with its unit: bare, it is in metres, and the other lengths are in feet and inches",
+            key=key,
+            value=look_up(raw, *split_key(key)),
+        )
+        for key in bare_lengths(raw)
+        if key not in said
+    ]
+    return InputError(error.expected, key=error.key, value=error.value, more=[*error.more, *more])
+
+
+_EXPECTED: Final = {
+    "missing": "a bare number",  # inside a list of fixed length: tables check their keys themselves
+    "too_long": "at most {max_length} values",
+    "tuple_type": "a list",
+    "dict_type": "a table of keys and values",
+    "model_type": "a table of keys and values",
+    "model_attributes_type": "a table of keys and values",
+    "bool_type": "true or false",
+    "string_type": "a text in quotes",
+    "path_type": "a file name in quotes",
+}
+
+
+def explain(failure: ValidationError, raw: object, branches: Collection[str]) -> InputError:
+    """All problems that pydantic found in `raw`: the first one, with the others in its `more`.
+
+    branches: names that pydantic puts into a path for the members of a union.
+    """
+    written: list[InputError] = []
+    derived: list[InputError] = []
+    for detail in failure.errors(include_url=False):
+        parts = [part for part in detail["loc"] if part not in branches]
+        error = _from_detail(detail)
+        # A default computed from a bad value is bad too; the line of the bad value is enough.
+        follows = error.value is not MISSING and look_up(raw, *parts) is MISSING
+        uncalled = detail["type"] == "default_factory_not_called"
+        (derived if follows or uncalled else written).append(error.at(join_key(*parts)))
+    first, *more = written or derived
+    return InputError(first.expected, key=first.key, value=first.value, more=more)
+
+
+def _from_detail(detail: ErrorDetails) -> InputError:
+    """One problem; its key is relative to the table that pydantic validated."""
+    written, context = detail["input"], detail.get("ctx", {})
+    error = context.get("error")
+    if isinstance(error, InputError):
+        # A rule across keys names only the key: the value is read from the table.
+        value = look_up(written, *split_key(error.key)) if error.value is MISSING else error.value
+        return InputError(error.expected, key=error.key, value=value)
+    expected = _EXPECTED.get(detail["type"], detail["msg"].removeprefix("Input should be "))
+    if detail["type"] == "tuple_type" and isinstance(written, Mapping):
+        expected = "a list of tables, the name of each in double brackets: [[name]]"
+    value = MISSING if detail["type"] == "missing" else written
+    return InputError(expected.format(**context), value=value)

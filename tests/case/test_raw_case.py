@@ -1,0 +1,148 @@
+"""The case as it is written: dotted keys, and overrides."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fctd.case.errors import MISSING, InputError, join_key
+from fctd.case.load import load_case
+from fctd.case.raw_case import look_up, parse_override, set_key, split_key
+from tests.case.test_load import refusal
+
+# --- keys ------------------------------------------------------------------------------------------
+
+names = st.text("abcdefghijklmnopqrstuvwxyz_", min_size=1, max_size=8)
+
+
+@given(parts=st.lists(st.tuples(names, st.lists(st.integers(0, 99), max_size=2)), min_size=1, max_size=4))
+def test_a_key_is_split_as_it_was_joined(parts: list[tuple[str, list[int]]]) -> None:
+    path = [part for name, indices in parts for part in (name, *indices)]
+    assert split_key(join_key(*path)) == path
+    assert split_key(".".join(map(str, path))) == path
+
+
+def test_keys_by_hand() -> None:
+    assert join_key("operations", 0, "speed") == "operations[0].speed"
+    assert join_key("string", "components[1].length") == "string.components[1].length"
+    assert join_key("operations", "") == "operations"
+    assert (join_key(), split_key("")) == ("", [])
+
+
+def test_setting_and_looking_up() -> None:
+    """Tables on the way are made, items of lists are not; what is set is a copy."""
+    data: dict[str, Any] = {"parts": [{"length": 1}, {"length": 2}]}
+    value = [3]
+    set_key(data, "parts[1].length", value)
+    set_key(data, "mud.density", 1200)
+    value.append(4)
+    assert data == {"parts": [{"length": 1}, {"length": [3]}], "mud": {"density": 1200}}
+    assert look_up(data, "parts", 1, "length") == [3]
+    assert look_up(data, "parts", 2, "length") is look_up(data, "mud", "colour") is MISSING
+    set_key(data, "parts[0]", None)
+    assert data["parts"] == [{"length": [3]}]
+    with pytest.raises(InputError, match="a value for a key that exists"):
+        set_key(data, "parts[1].length", 3)
+
+
+# --- overrides -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("key", ["operations[0].speed", "operations.0.speed"])
+def test_override_of_a_list_item(case_file: Path, key: str) -> None:
+    assert load_case(case_file, {key: "60 ft/min"}).operations[0].speed == pytest.approx(0.3048)
+
+
+def test_override_makes_an_optional_table(case_file: Path) -> None:
+    assert load_case(case_file, {"mud.density": "1.2 sg"}).mud.density == 1200.0
+
+
+def test_override_does_not_keep_the_callers_objects(case_file: Path) -> None:
+    mud = {"density": 1000}
+    assert load_case(case_file, {"mud": mud, "mud.density": 1100}).mud.density == 1100.0
+    assert mud == {"density": 1000}
+
+
+def test_none_deletes_so_that_alternatives_can_be_switched(case_file: Path) -> None:
+    switched = {"string.components[0].segments": None, "string.components[0].segment_length": "5 m"}
+    collar = load_case(case_file, switched).string.components[0]
+    assert (collar.segments, collar.segment_length) == (None, 5.0)
+
+
+def test_none_removes_a_list_item(case_file: Path) -> None:
+    assert len(load_case(case_file, {"operations[3]": None}).operations) == 3
+
+
+def test_friction_sets_every_interval(case_file: Path) -> None:
+    hole = load_case(case_file, {"friction": 0.17}).wellbore
+    assert [interval.friction for interval in hole.intervals] == [0.17, 0.17]
+
+
+def test_friction_by_kind_sets_the_intervals_of_that_kind(case_file: Path) -> None:
+    kinds = {"wellbore.intervals[0].kind": "cased", "wellbore.intervals[1].kind": "open"}
+    hole = load_case(case_file, kinds | {"friction": {"open": 0.4}}).wellbore
+    assert [interval.friction for interval in hole.intervals] == [0.2, 0.4]
+    error = refusal(case_file, {"friction": {"open": 0.4}})
+    assert (error.key, error.expected) == (
+        "wellbore.intervals[0].kind", '"cased" or "open", since friction is given by kind',
+    )  # fmt: skip
+    error = refusal(case_file, kinds | {"friction": {"open": "rough"}})
+    assert (error.key, error.value) == ("wellbore.intervals[1].friction", "rough")
+
+
+def test_numpy_numbers_may_override(case_file: Path) -> None:
+    overrides = {"friction": np.float64(0.25), "string.components[0].segments": np.int64(7)}
+    case = load_case(case_file, overrides)
+    assert case.wellbore.intervals[0].friction == 0.25
+    assert case.string.components[0].segments == 7
+
+
+@pytest.mark.parametrize(
+    ("key", "expected"),
+    [
+        ("operations[9].speed", "a key that exists"),
+        ("operations[9]", "a key that exists"),
+        ("operations.first", "a key that exists"),
+        ("name.first", "a key that exists"),
+        ("operations[", "a dotted key such as"),
+        ("mud..density", "a dotted key such as"),
+    ],
+)
+def test_override_of_a_path_that_is_not_there(case_file: Path, key: str, expected: str) -> None:
+    error = refusal(case_file, {key: 3})
+    assert str(case_file) in str(error)
+    assert key in str(error)
+    assert expected in str(error)
+
+
+@pytest.mark.parametrize("value", [3, None])
+def test_override_of_an_unknown_key(case_file: Path, value: object) -> None:
+    error = refusal(case_file, {"wellbore.overlp": value})
+    assert (error.key, error.expected) == ("wellbore.overlp", "the key overlap")
+
+
+@pytest.mark.parametrize(
+    ("text", "key", "value"),
+    [
+        ("mud.density=1200", "mud.density", 1200),
+        ("mud.density = 1.2e3", "mud.density", 1200.0),
+        ("wellbore.overlap=0.2 m", "wellbore.overlap", "0.2 m"),
+        ('wellbore.overlap="0.2 m"', "wellbore.overlap", "0.2 m"),
+        ("wellbore.geometry=arcs", "wellbore.geometry", "arcs"),
+        ("record.profile_at=[100, '1 km']", "record.profile_at", [100, "1 km"]),
+        ("name=a=b", "name", "a=b"),
+        ("name=1\nmud.density=3", "name", "1\nmud.density=3"),
+        ("wellbore.chord_tolerance=", "wellbore.chord_tolerance", None),
+    ],
+)
+def test_parse_override(text: str, key: str, value: object) -> None:
+    assert parse_override(text) == (key, value)
+
+
+@pytest.mark.parametrize("text", ["mud.density", "=3", ""])
+def test_parse_override_refuses(text: str) -> None:
+    with pytest.raises(InputError, match="expected key=value"):
+        parse_override(text)
