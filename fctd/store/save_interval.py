@@ -62,7 +62,7 @@ class SaveInterval(Restorable):
 
     @contextmanager
     def saving(self) -> Iterator[None]:
-        """The same where the computation is saved, which is due again later."""
+        """Add the time of what is done within, which saves the computation; it is due again later."""
         before = self.spent
         with self.reporting():
             yield
