@@ -85,7 +85,7 @@ class Summary:
 
 
 # Called when samples are done, with their number so far and in all, and how many have no answer.
-Progress = Callable[[int, int, int], None]
+SampleProgress = Callable[[int, int, int], None]
 
 
 def prepare(spec: SweepSpec) -> tuple[Bench, Any]:
@@ -144,7 +144,7 @@ def sweep(
     spec: SweepSpec,
     folder: Path,
     where: Where | None = None,
-    progress: Progress | None = None,
+    progress: SampleProgress | None = None,
     told: Callable[[Client], None] | None = None,
 ) -> Summary:
     """Compute all samples of a sweep that have no rows yet, and write them into the folder; see ``Dataset``.
@@ -181,7 +181,7 @@ def sweep(
 class _Running:
     """A sweep while it runs."""
 
-    def __init__(self, client: Client, bench: Bench, dataset: Dataset, progress: Progress | None) -> None:
+    def __init__(self, client: Client, bench: Bench, dataset: Dataset, progress: SampleProgress | None) -> None:
         self.client, self.bench, self.dataset, self.progress = client, bench, dataset, progress
         self.summary = Summary(len(dataset.samples), len(dataset.done))
         self.waiting = deque(dataset.missing)
