@@ -19,7 +19,6 @@ from fctd.simulation.series import SegmentSeries
 from fctd.simulation.simulate import Simulation, simulate
 from fctd.store import save_interval
 from fctd.store.facts import Restorable
-from fctd.store.limits import LimitReached
 from fctd.store.run_folder import RunFolder, chunks_of, progress_of
 from tests.simulation.kept import same, tripping
 
@@ -81,14 +80,6 @@ def test_a_run_goes_on_in_another_process(folder: RunFolder, tmp_path: Path) -> 
     assert list(checkpoints_of(folder.path).files) == [again.number - 1, again.number]
     assert list(chunks_of(folder.path).files) == list(range(1, len(undisturbed().history) + 1))
     assert found.run["checkpoints_s"] == again.interval.spent[1] > before.interval.spent[1]
-
-
-def test_a_clock_that_jumps_changes_nothing(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The clock on the wall is set back by a day and on by a year; intervals are those of another clock."""
-    jumps = iter([1e9, 1e9 - 86400, 1e9 + 3e7] * 1000)
-    monkeypatch.setattr("time.time", lambda: next(jumps))
-    killed_after(folder, 25)
-    same(simulate(tripping(), checkpointer=RunSaver(folder, 0.0, tell=lambda _: None)), undisturbed())
 
 
 @pytest.mark.parametrize("damage", ["cut", "flipped", "gone"])
@@ -184,22 +175,3 @@ def test_a_checkpoint_without_a_fact_is_refused(folder: RunFolder, monkeypatch: 
     with pytest.raises(InputError, match=refused):
         kept_so_far(folder.path, tripping())
     assert {path.name for path in folder.path.iterdir()} == before
-
-
-def test_a_run_that_reaches_a_limit_keeps_its_records() -> None:
-    def progress(now: float, total: float, factor: float) -> None:
-        if now >= 3:
-            raise LimitReached("the time limit of 3 s is reached")
-
-    result = simulate(tripping(), progress=progress)
-    assert (result.status, result.message) == ("stopped", "at 3 s: the time limit of 3 s is reached")
-    assert result.history["time_s"].iloc[-1] == pytest.approx(3.0)
-
-
-def test_a_limit_while_the_string_settles() -> None:
-    def settling(now: float, imbalance: float) -> None:
-        raise LimitReached("the time limit of 3 s is reached")
-
-    result = simulate(tripping(), settling=settling)
-    assert (result.status, len(result.history)) == ("stopped", 0)
-    assert result.message.startswith("before the start")
