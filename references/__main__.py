@@ -8,7 +8,7 @@ from rich.table import Table
 from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case
 from fctd.case.raw_case import parse_override
-from fctd.cli.keeping import AcceptChanges, CheckpointEvery, Keeping, OptionalCase, Restart, Resume
+from fctd.cli.keeping import AcceptChanges, CheckpointEvery, OptionalCase, Restart, Resume, SaveOptions
 from fctd.cli.main import run
 from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, changes_of, screen
 from fctd.cli.simulate import RunOutput, simulate_file
@@ -64,7 +64,7 @@ def simulate_command(
     quiet: Quiet = False,
 ) -> None:
     """Run a case with another contact method in FCTD's loop; friction, force law and step stay the same."""
-    keeping = Keeping(checkpoint_every, resume, restart, accept_changes)
+    keeping = SaveOptions(checkpoint_every, resume, restart, accept_changes)
     about = None if resume is None else about_of(resume)
     if about is not None:
         if contact is not None or options:

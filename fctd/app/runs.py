@@ -91,13 +91,12 @@ class Runs:
                 run.seen, run.closed = time.monotonic(), float("inf")
         target = target_of(session.folder)
         going = run is not None and run.number is not None
-        progress = progress_of(target) if going else None
-        began, kept = (session.folder / "run").is_dir(), _kept(target)
+        began, progress = (session.folder / "run").is_dir(), progress_of(target)
+        # A word that changes when there is something new to show.
+        kept = str(progress.kept) if progress else "result" if (target / "history.parquet").exists() else ""
         log = "" if going or not began else _tail(session.folder / "run" / "log") or NOTHING
-        share = 0.0 if progress is None or not progress.total > 0 else progress.done / progress.total
-        return {
-            "running": going, "share": share, "began": began, "kept": kept, "log": log,
-        }  # fmt: skip
+        share = progress.done / progress.total if going and progress and progress.total > 0 else 0.0
+        return {"running": going, "share": share, "began": began, "kept": kept, "log": log}
 
     def stop(self, session: Session) -> None:
         """Stop a session's run."""
@@ -148,14 +147,6 @@ def command() -> list[str]:
 def target_of(folder: Path) -> Path:
     """Where the result of a session's run lies."""
     return folder / "run" / "result"
-
-
-def _kept(target: Path) -> str:
-    """A word that changes when there is something new to show."""
-    progress = progress_of(target)
-    if progress is not None:
-        return f"{progress.kept}"
-    return "result" if (target / "history.parquet").exists() else ""
 
 
 def _tail(path: Path) -> str:

@@ -21,15 +21,15 @@ from fctd.cli.keeping import (
     EVERY_CHART,
     AcceptChanges,
     CheckpointEvery,
-    Keeping,
     MemoryLimit,
     OptionalCase,
     Restart,
     Resume,
+    SaveOptions,
     TimeLimit,
+    begun_folder,
     case_of,
     description_of,
-    kept_folder,
     resumed_folder,
     say_how_to_go_on,
 )
@@ -73,8 +73,8 @@ from fctd.plots.loads import ChartLook
 from fctd.results.measured import read_measured
 from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
+from fctd.steady.chart_saver import ChartSaver
 from fctd.steady.equilibrium import Solver
-from fctd.steady.kept_rows import KeptRows
 from fctd.steady.torque_drag import Row, chart_rows, with_friction
 from fctd.store.limits import LimitReached
 from fctd.store.tables import write_table
@@ -137,7 +137,7 @@ def chart_command(
     strict: Strict = False,
 ) -> None:
     """Compute a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
-    keeping = Keeping(checkpoint_every, resume, restart, accept_changes, time_limit, memory_limit)
+    keeping = SaveOptions(checkpoint_every, resume, restart, accept_changes, time_limit, memory_limit)
     keeping.check({
         "CASE": case_file, "--operation": operations or None, "--depths": depths, "--friction": frictions or None,
         "--speed": speed, "--rpm": rpm, "--set": overrides or None, "--resolve-buckling": resolve_buckling,
@@ -146,7 +146,7 @@ def chart_command(
     if resume is not None:
         with resumed_folder(resume, PROGRAM, accept_changes=accept_changes) as (folder, about):
             asked = ChartRequest.read(about["options"])
-            kept = KeptRows(folder, keeping.interval(EVERY_CHART), key="--resume")
+            kept = ChartSaver(folder, keeping.interval(EVERY_CHART), key="--resume")
             _chart(case_of(folder.path, about), asked, keeping, quiet, resume, lambda _: nullcontext(kept))
         return
     if case_file is None or depths is None:
@@ -158,12 +158,12 @@ def chart_command(
     target = out or plot or plot_profile
 
     @contextmanager
-    def begin(case: Case) -> Iterator[KeptRows | None]:
+    def begin(case: Case) -> Iterator[ChartSaver | None]:
         if target is None:
             yield None
             return
-        with kept_folder(target, "--out", restart=restart) as folder:
-            yield KeptRows(
+        with begun_folder(target, "--out", restart=restart) as folder:
+            yield ChartSaver(
                 folder, keeping.interval(EVERY_CHART),
                 lambda: description_of(case, PROGRAM, "chart", asked.kept, uuid4().hex), "--out",
             )  # fmt: skip
@@ -202,12 +202,12 @@ class ChartRequest:
 
 
 def _chart(
-    case: Case, asked: ChartRequest, keeping: Keeping, quiet: bool, target: Path | None,
-    kept_rows: Callable[[Case], AbstractContextManager[KeptRows | None]],
+    case: Case, asked: ChartRequest, keeping: SaveOptions, quiet: bool, target: Path | None,
+    opened: Callable[[Case], AbstractContextManager[ChartSaver | None]],
 ) -> None:  # fmt: skip
     """Compute a chart, or the rest of one, write and print it.
 
-    target : of its folder; kept_rows : opens the folder once all input has been checked.
+    target : of its folder; opened : makes what keeps its rows there, once all input has been checked.
     """
     units, plot_profile = asked.units, asked.plot_profile
     out, plot = check_targets(asked.out, asked.plot, plot_profile)
@@ -227,7 +227,7 @@ def _chart(
     limits = keeping.limits
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with kept_rows(case) as kept:
+    with opened(case) as kept:
         with (
             _kept_on_the_way_out(kept, target, total := len(bit_depths) * len(kinds) * max(len(factors), 1)),
             Progress(*columns, console=messages, disable=quiet, transient=True) as bar,
@@ -272,7 +272,7 @@ def _chart(
 
 
 @contextmanager
-def _kept_on_the_way_out(kept: KeptRows | None, target: Path | None, total: int) -> Iterator[None]:
+def _kept_on_the_way_out(kept: ChartSaver | None, target: Path | None, total: int) -> Iterator[None]:
     """A chart that reaches a limit or is interrupted keeps its rows, and says how to go on with it.
 
     Interrupted before the first of them were due, it leaves nothing behind.

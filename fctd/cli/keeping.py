@@ -64,7 +64,7 @@ BYTES = {"kB": 1e3, "MB": 1e6, "GB": 1e9, "KiB": 2.0**10, "MiB": 2.0**20, "GiB":
 
 
 @dataclass(frozen=True)
-class Keeping:
+class SaveOptions:
     """The options of this module as they were given."""
 
     every: str | None = None
@@ -108,7 +108,7 @@ def read_bytes(text: str, key: str) -> float:
 
 
 @contextmanager
-def kept_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder]:
+def begun_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder]:
     """The folder of a run that begins, locked; it goes where nothing has been kept.
 
     Raises InputError where another process computes the same result, and where there is an unfinished run, unless it

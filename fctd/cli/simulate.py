@@ -19,15 +19,15 @@ from fctd.cli.keeping import (
     EVERY_RUN,
     AcceptChanges,
     CheckpointEvery,
-    Keeping,
     MemoryLimit,
     OptionalCase,
     Restart,
     Resume,
+    SaveOptions,
     TimeLimit,
+    begun_folder,
     case_of,
     description_of,
-    kept_folder,
     resumed_folder,
     say_how_to_go_on,
 )
@@ -59,8 +59,8 @@ from fctd.results.swings import ENOUGH_PERIODS
 from fctd.results.tables import SimulationResult, check_result_folder, identity_of, own_files, result_files
 from fctd.results.unit_systems import System, shown
 from fctd.simulation.external_contact import WallQuery
-from fctd.simulation.kept_run import KeptRun
 from fctd.simulation.preparation import LONGEST_SETTLING
+from fctd.simulation.run_saver import RunSaver
 from fctd.simulation.simulate import simulate
 from fctd.store.run_folder import RunFolder
 
@@ -92,7 +92,7 @@ def simulate_command(
     strict: Strict = False,
 ) -> None:
     """Run the operations of a case and write its tables: history, profile, energy, operations, segments."""
-    keeping = Keeping(checkpoint_every, resume, restart, accept_changes, time_limit, memory_limit)
+    keeping = SaveOptions(checkpoint_every, resume, restart, accept_changes, time_limit, memory_limit)
     shown = RunOutput(csv, units, plot, strict, quiet)
     simulate_file(case_file, out, overrides, friction, shown, keeping=keeping)
 
@@ -128,7 +128,7 @@ def simulate_file(
     shown: RunOutput,
     contact: Callable[[Case], WallQuery] | None = None,
     *,
-    keeping: Keeping,
+    keeping: SaveOptions,
     program: str = "fctd simulate",
     more: Mapping[str, Any] | None = None,
 ) -> None:
@@ -157,7 +157,7 @@ def simulate_file(
     folder = out or Path(file_name(case.name, "-result"))
     check_result_folder(folder, shown.csv, "--out")  # before hours of computing
     refuse_source_files(case, (folder / name for name in own_files(folder).union(result_files(shown.csv))), "--out")
-    with kept_folder(folder, "--out", restart=keeping.restart) as kept:
+    with begun_folder(folder, "--out", restart=keeping.restart) as kept:
         identity = uuid4().hex
         options = shown.kept | dict(more or {})
         kept.describe(*description_of(case, program, "simulate", options, identity))
@@ -169,7 +169,7 @@ def _compute(
     folder: Path,
     method: WallQuery | None,
     shown: RunOutput,
-    keeping: Keeping,
+    keeping: SaveOptions,
     kept: RunFolder,
     identity: str,
 ) -> None:
@@ -182,7 +182,7 @@ def _compute(
         TimeRemainingColumn(),
     )
     key = "--out" if keeping.resume is None else "--resume"
-    keeper = KeptRun(kept, keeping.interval(EVERY_RUN), csv=shown.csv, key=key, tell=_tell)
+    checkpointer = RunSaver(kept, keeping.interval(EVERY_RUN), csv=shown.csv, key=key, tell=_tell)
     limits = keeping.limits
     result, written, ended, unfinished = None, [], False, True
     try:
@@ -198,7 +198,7 @@ def _compute(
                 bar.update(task, description=printable(case.name), total=total, completed=now, factor=f"{factor:.0f}")
                 limits.check()
 
-            result = simulate(case, progress=show, contact=method, settling=settling, keeper=keeper)
+            result = simulate(case, progress=show, contact=method, settling=settling, checkpointer=checkpointer)
             ended = result.status not in (RunStatus.INTERRUPTED, RunStatus.STOPPED)
             # The files are written before anything is printed: the terminal may have been closed.
             with deferred():

@@ -33,7 +33,7 @@ from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_
 from fctd.model.depths import read_depths, usual_depths
 from fctd.results.tables import open_result, result_files
 from fctd.results.unit_systems import System
-from fctd.simulation.kept_run import kept_so_far
+from fctd.simulation.run_saver import kept_so_far
 from fctd.store.run_folder import about_of, run_path
 from fctd.view.quantities import QUANTITIES, quantity_of
 from fctd.view.strings import Strings, of_chart, of_run

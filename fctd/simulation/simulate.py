@@ -30,7 +30,7 @@ from fctd.store.facts import Facts, Restorable
 from fctd.store.limits import LimitReached
 
 # Called after every record with simulated and total time [s] and the real-time factor so far.
-Progress = Callable[[float, float, float], None]
+RecordProgress = Callable[[float, float, float], None]
 # A row of the history by its column names.
 Record = dict[str, Any]
 # A stroke of an autodriller takes at most so many times as long as planned.
@@ -74,7 +74,7 @@ class Engine(Protocol):
         """A stepper at the state of a run; InputError for what it cannot represent."""
 
 
-class Keeper(Protocol):
+class Checkpointer(Protocol):
     """Keeps a run while it lasts, so that another process can go on with it."""
 
     def begin(self, simulation: "Simulation") -> None:
@@ -125,7 +125,7 @@ class Simulation(Iterator[Record], Restorable):
         self.late = 0.0  # by which a stroke of an autodriller is longer than planned [s]
         self.shifts: list[Shift] = []  # by an autodriller so far
         self.wall_s = 0.0  # wall-clock time since the start
-        self.saving = np.zeros(2)  # time that a keeper has spent beside it, by clock and processor [s]
+        self.saving = np.zeros(2)  # time that a checkpointer has spent beside it, by clock and processor [s]
         self.settling_residual = float("nan")
         self.stepper: Stepper = self.run
         self._engine, self._settling = engine, settling
@@ -320,28 +320,28 @@ class Simulation(Iterator[Record], Restorable):
 
 def simulate(
     case: Case,
-    progress: Progress | None = None,
+    progress: RecordProgress | None = None,
     *,
     contact: WallQuery | None = None,
     settling: Settling | None = None,
-    keeper: Keeper | None = None,
+    checkpointer: Checkpointer | None = None,
 ) -> SimulationResult:
     """Simulate a case's operations.
 
     contact : another contact method, built for the hole of this case, that finds the wall at every step;
     friction, force law and step stay the same.  settling : called while the string settles before the start.
-    keeper : keeps the run while it lasts.
+    checkpointer : keeps the run while it lasts.
 
     Returns all records up to the end of the run: ``status`` is ``completed`` or the reason for the stop, ``message``
     its time.  Raises InputError for a case that cannot be simulated.
     """
     simulation = Simulation(case, contact, settling=settling)
     try:
-        if keeper is not None:
-            keeper.begin(simulation)
+        if checkpointer is not None:
+            checkpointer.begin(simulation)
         for record in simulation:
-            if keeper is not None:
-                keeper.keep(simulation)
+            if checkpointer is not None:
+                checkpointer.keep(simulation)
             if progress is not None:
                 now = record["time_s"]
                 progress(now, simulation.end, now / max(simulation.wall_s, 1e-9))
@@ -351,6 +351,6 @@ def simulate(
         simulation.record_part()
     except LimitReached as limit:
         simulation.stop(str(limit))
-        if keeper is not None and simulation.started:
-            keeper.keep(simulation, now=True)
+        if checkpointer is not None and simulation.started:
+            checkpointer.keep(simulation, now=True)
     return simulation.result()

@@ -95,7 +95,7 @@ class Summary:
 
 
 # Called when samples are done, with their number so far and in all, and how many have no answer.
-Progress = Callable[[int, int, int], None]
+SampleProgress = Callable[[int, int, int], None]
 
 
 def prepare(spec: SweepSpec) -> tuple[SampleRunner, pd.DataFrame]:
@@ -147,7 +147,7 @@ def sweep(
     spec: SweepSpec,
     folder: Path,
     cluster: ClusterChoice | None = None,
-    progress: Progress | None = None,
+    progress: SampleProgress | None = None,
     on_client: Callable[[Client], None] | None = None,
 ) -> Summary:
     """Compute all samples of a sweep that have no rows yet, and write them into the folder; see ``Dataset``.
@@ -184,7 +184,7 @@ def sweep(
 class _Running:
     """A sweep while it runs."""
 
-    def __init__(self, client: Client, runner: SampleRunner, dataset: Dataset, progress: Progress | None) -> None:
+    def __init__(self, client: Client, runner: SampleRunner, dataset: Dataset, progress: SampleProgress | None) -> None:
         self.client, self.runner, self.dataset, self.progress = client, runner, dataset, progress
         self.summary = Summary(len(dataset.samples), len(dataset.done))
         self.waiting = deque(dataset.missing)

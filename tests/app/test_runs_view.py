@@ -9,7 +9,7 @@ import pytest
 
 from fctd.app.runs_view import records
 from fctd.case.load import load_case
-from fctd.simulation.kept_run import KeptRun
+from fctd.simulation.run_saver import RunSaver
 from fctd.simulation.simulate import simulate
 from fctd.store import save_interval
 from fctd.store.run_folder import RunFolder
@@ -30,7 +30,7 @@ def test_a_run_is_seen_from_its_first_chunk_to_its_result(tmp_path: Path, monkey
     def progress(now: float, total: float, factor: float) -> None:
         seen.append(records(tmp_path, str(target), "si", "tension"))
 
-    result = simulate(case, progress=progress, keeper=KeptRun(folder, 0.0))
+    result = simulate(case, progress=progress, checkpointer=RunSaver(folder, 0.0))
     folder.leave(remove=True)
     assert seen[0]["records"] < seen[-1]["records"]
     result.save(target)
@@ -67,7 +67,7 @@ def test_a_run_that_was_stopped_says_so_and_names_its_case(tmp_path: Path) -> No
         if now > 1.0:
             raise KeyboardInterrupt
 
-    simulate(case, progress=until_stopped, keeper=KeptRun(folder, 0.0)).save(target)
+    simulate(case, progress=until_stopped, checkpointer=RunSaver(folder, 0.0)).save(target)
     folder.leave(remove=False)
     found = records(tmp_path, str(target), "si")
     assert found["status"].startswith("interrupted")

@@ -186,19 +186,17 @@ def test_changed_files_are_named_and_refused(
     same(open_result("out"), open_result("whole"))
 
 
-def test_another_version_or_processor_is_named(
+def test_a_run_of_the_release_before_is_refused_by_name(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """Its description has no form; nothing of it is dropped before --restart says so."""
     killed(monkeypatch, RUN)
-    path = run_path(Path("out")) / "run.json"
-    about = json.loads(path.read_text())
-    about["origin"] |= {"numba": "0.1", "processor": "abacus"}
-    path.write_text(json.dumps(about))
-    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet") == 2
-    message = capsys.readouterr().err
-    assert "numba was 0.1 and is" in message
-    assert "processor was abacus and is" in message
-    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet", "--accept-changes") == 0
+    about = run_path(Path("out")) / "run.json"
+    about.write_text(about.read_text().replace('"form": 2, ', ""))
+    for asked in (RUN, ("simulate", "--resume", "out"), ("status", "out"), ("view", "out")):
+        assert run(monkeypatch, *asked) == 2
+        assert "an unfinished run of this version of fctd, form 2 (this one has form 1)" in capsys.readouterr().err
+    assert run(monkeypatch, *RUN, "--restart") == 0
 
 
 @pytest.mark.parametrize(

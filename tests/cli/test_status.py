@@ -74,12 +74,6 @@ def test_of_a_chart(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixtu
     assert "chart.csv: a chart, written at 20" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("name", ["nothing", "small.toml/out", "."])
-def test_of_nothing(name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(monkeypatch, "status", name) == 2
-    assert "expected the result of fctd simulate, fctd chart or fctd sweep" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("place", ["small.toml", "/", ".", "nowhere/deep", "small.toml/out"])
 def test_of_a_place_without_a_result(
     place: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

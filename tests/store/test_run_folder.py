@@ -4,6 +4,7 @@ import errno
 import json
 import os
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -89,16 +90,12 @@ def test_a_link_leads_to_the_folder_of_what_it_names(tmp_path: Path) -> None:
     assert run_path(tmp_path / "link") == tmp_path / "far" / ".out-run"
 
 
-def test_a_folder_that_may_only_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refused(*_: object, **__: object) -> None:
-        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-
-    monkeypatch.setattr(Path, "mkdir", refused)  # the superuser may write everywhere
-    with pytest.raises(InputError, match="Permission denied"):
-        RunFolder.take(tmp_path / "out", "--out")
-
-
-def test_a_file_in_the_way(tmp_path: Path) -> None:
-    (tmp_path / ".out-run").write_text("")
-    with pytest.raises(InputError, match="a place beside which the run can be kept"):
+@pytest.mark.parametrize(("there", "reason"), [("file", "File exists"), ("nothing", "Permission denied")])
+def test_where_nothing_can_be_kept(there: str, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file in the way, and a folder that may only be read."""
+    if there == "file":
+        (tmp_path / ".out-run").write_text("")
+    else:  # the superuser may write everywhere
+        monkeypatch.setattr(Path, "mkdir", Mock(side_effect=PermissionError(errno.EACCES, reason)))
+    with pytest.raises(InputError, match=rf"a place beside which the run can be kept \({reason}"):
         RunFolder.take(tmp_path / "out", "--out")

@@ -21,7 +21,7 @@ from fctd.cli.main import app, run
 from fctd.results.tables import TABLES, open_result
 from fctd.store import save_interval
 from fctd.store.parquet import read_frame
-from fctd.store.run_folder import PROGRESS, about_of, chunks_of, run_path
+from fctd.store.run_folder import about_of, chunks_of, progress_of, run_path
 from references.__main__ import app as references
 
 # Processes for each kill, after which a command counts as one that ends before it can be killed.
@@ -181,14 +181,13 @@ def watched(
 
     It computes from its first report of progress on; before that it prepares and settles.
     """
-    progress = run_path(result) / PROGRESS
-    began, reported = time.monotonic(), _changed(progress)
+    began, reported = time.monotonic(), progress_of(result)
     child = _fork(program, arguments, log)
     computing = None
     while True:
         pid, status = os.waitpid(child, os.WNOHANG)
         now = time.monotonic()
-        if computing is None and _changed(progress) != reported:
+        if computing is None and progress_of(result) != reported:
             computing = now
         since = began if from_the_start else computing
         if not pid and kill_after is not None and since is not None and now - since >= kill_after:
@@ -222,14 +221,6 @@ def _fork(program: Any, arguments: Sequence[str], log: Path, before: Callable[[]
         code = ended.code if isinstance(ended.code, int) else int(bool(ended.code))
     finally:
         os._exit(code)
-
-
-def _changed(path: Path) -> int | None:
-    """When a file was written; None where there is none."""
-    try:
-        return path.stat().st_mtime_ns
-    except OSError:
-        return None
 
 
 def kill_again_and_again(
@@ -280,7 +271,7 @@ def kill_again_and_again(
             found.kills += 1
             if cleaning := _identity(result) not in (before, ""):
                 break
-            now = _chunks(result)
+            now = len(chunks_of(run_path(result)).files)
             found.kept.append(now)
             if now < kept:
                 found.wrong.append(f"{kept} chunks were kept, and {now} after a kill")
@@ -315,10 +306,6 @@ def _identity(result: Path) -> str:
     if result.is_file():
         return result.name
     return open_result(result).identity if result.is_dir() else ""
-
-
-def _chunks(result: Path) -> int:
-    return len(chunks_of(run_path(result)).files)
 
 
 def tables_of(result: Path) -> dict[str, bytes]:

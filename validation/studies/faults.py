@@ -14,7 +14,7 @@ from fctd.case.load import load_case
 from fctd.cli.compile import compile_all
 from fctd.results import ledger
 from fctd.results.tables import open_result
-from fctd.simulation.kept_run import KeptRun
+from fctd.simulation.run_saver import RunSaver
 from fctd.simulation.simulate import simulate
 from fctd.store.run_folder import RunFolder, chunks_of
 from validation.harness.study import Check, Context, Outcome, Study
@@ -108,7 +108,7 @@ def _shares(folder: Path) -> dict[str, float]:
     (folder / "case.toml").write_text(LASTING.case)
     kept = RunFolder.take(folder / "out")
     wall, own = time.perf_counter(), time.process_time()
-    result = simulate(load_case(folder / "case.toml"), keeper=KeptRun(kept, 0.0, tell=lambda _: None))
+    result = simulate(load_case(folder / "case.toml"), checkpointer=RunSaver(kept, 0.0, tell=lambda _: None))
     wall, own = time.perf_counter() - wall, time.process_time() - own
     chunks = len(chunks_of(kept.path).files)
     kept.leave(remove=True)

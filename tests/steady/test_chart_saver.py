@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fctd.steady.kept_rows import KeptRows
+from fctd.steady.chart_saver import ChartSaver
 from fctd.store import save_interval
 from fctd.store.run_folder import RunFolder, chunks_of, progress_of
 
@@ -28,13 +28,13 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 def test_rows_are_read_back_as_they_were(tmp_path: Path, clock: list[float]) -> None:
     described: list[int] = []
     folder = RunFolder.take(tmp_path / "chart.csv")
-    kept = KeptRows(folder, 2.0, lambda: (described.append(1), ({}, {}))[1])
+    kept = ChartSaver(folder, 2.0, lambda: (described.append(1), ({}, {}))[1])
     for k in range(10):
         clock[0] += 0.5
         kept.keep(depth(k), 10)
     assert described == [1]
     assert list(chunks_of(folder.path).files) == [1, 2]
-    again = KeptRows(folder, 2.0)
+    again = ChartSaver(folder, 2.0)
     plain = {"hookload_N": 0.1 + 0.2}
     assert repr(again.known) == repr([[row | plain for row in depth(k)] for k in range(8)])
     assert again.kept == 8
@@ -51,7 +51,7 @@ def test_rows_are_read_back_as_they_were(tmp_path: Path, clock: list[float]) -> 
 @pytest.mark.parametrize("damage", ["cut", "flipped", "gone"])
 def test_a_damaged_chunk_ends_what_is_known(tmp_path: Path, clock: list[float], damage: str) -> None:
     folder = RunFolder.take(tmp_path / "chart.csv")
-    kept = KeptRows(folder, 0.0)
+    kept = ChartSaver(folder, 0.0)
     for k in range(4):
         clock[0] += 1.0
         kept.keep(depth(k), 10)
@@ -59,10 +59,10 @@ def test_a_damaged_chunk_ends_what_is_known(tmp_path: Path, clock: list[float], 
     content = path.read_bytes()
     changes = {"cut": content[:20], "flipped": content.replace(b'"n": 3', b'"n": 7')}
     path.unlink() if damage == "gone" else path.write_bytes(changes[damage])
-    again = KeptRows(folder, 0.0)
+    again = ChartSaver(folder, 0.0)
     assert len(again.known) == 2
     clock[0] += 1.0
     again.keep(depth(2) + depth(2), 10)  # in the place of the damaged one, and of those after it
-    found = KeptRows(folder, 0.0).known
+    found = ChartSaver(folder, 0.0).known
     assert [row["bit_depth_m"] for rows in found for row in rows] == [0.0, 1 / 3, 2 / 3, 2 / 3]
     folder.leave(remove=True)

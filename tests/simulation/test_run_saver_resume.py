@@ -1,6 +1,6 @@
 """A run that is put back into a checkpoint goes on bitwise the same, whatever moves, with every wall."""
 
-from collections.abc import Callable
+from collections import deque
 from functools import cache
 
 import numpy as np
@@ -16,12 +16,15 @@ from tests.simulation.kept import BUILD, drilling, drilling_on, gone_on, same, s
 CASES = {"trip": tripping, "drill": drilling, "drill on": drilling_on}
 
 
+def finished(simulation: Simulation) -> SimulationResult:
+    """The result of a run that is run to its end."""
+    deque(simulation, maxlen=0)
+    return simulation.result()
+
+
 @cache
 def undisturbed(name: str, geometry: str) -> SimulationResult:
-    simulation = Simulation(CASES[name](geometry))
-    for _ in simulation:
-        pass
-    return simulation.result()
+    return finished(Simulation(CASES[name](geometry)))
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -34,23 +37,16 @@ def test_a_run_goes_on_bitwise_the_same(name: str, geometry: str, share: float) 
     case = CASES[name](geometry)
     checkpoint, chunks = stopped(Simulation(case), max(round(share * len(whole.history)), 1))
     again = gone_on(case, checkpoint, chunks)
-    for _ in again:
-        pass
-    same(again.result(), whole)
+    same(finished(again), whole)
 
 
 def test_waves_within_a_long_segment_go_on_bitwise_the_same() -> None:
     case = make_case([[0, 0, 0], [1200, 0, 0]], [pipe(200, 20), pipe(None, 1)], [trip(900, 903, 0.5, 1.0)])
-    whole = Simulation(case)
-    for _ in whole:
-        pass
     checkpoint, chunks = stopped(Simulation(case), 4)
     again = gone_on(case, checkpoint, chunks)
     assert again.run.S[state.WAVES + waves.INERTIA] > 0
     assert again.run.S[state.WAVES + waves.RATE] != 0
-    for _ in again:
-        pass
-    same(again.result(), whole.result())
+    same(finished(again), finished(Simulation(case)))
 
 
 def test_the_shifts_of_an_autodriller_are_made_again() -> None:
@@ -65,9 +61,7 @@ def test_the_shifts_of_an_autodriller_are_made_again() -> None:
     for record in sorted({shift.done + k for shift in (shifts[0], shifts[-1]) for k in (0, 1)} | {slips}):
         again = gone_on(case, *stopped(Simulation(case), record))
         assert again.shifts == [shift for shift in shifts if shift.done < record]
-        for _ in again:
-            pass
-        same(again.result(), whole.result())
+        same(finished(again), whole.result())
         assert (again.intervals, again.phases, again.shifts) == (whole.intervals, whole.phases, shifts)
 
 
@@ -77,9 +71,7 @@ def test_a_run_that_is_stopped_twice(name: str, first: int, then: int) -> None:
     checkpoint, chunks = stopped(Simulation(case), first)
     more, rest = stopped(gone_on(case, checkpoint, chunks), then)
     again = gone_on(case, more, [*chunks, *rest])
-    for _ in again:
-        pass
-    same(again.result(), undisturbed(name, "arcs"))
+    same(finished(again), undisturbed(name, "arcs"))
 
 
 def short() -> Case:
@@ -94,15 +86,9 @@ def test_with_the_contact_of_others(method: str) -> None:
 
     case = short()
 
-    def run(start: Callable[[], Simulation]) -> SimulationResult:
-        simulation = start()
-        for _ in simulation:
-            pass
-        return simulation.result()
-
-    whole = run(lambda: Simulation(case, build(method, case)))
     checkpoint, chunks = stopped(Simulation(case, build(method, case)), 5, chunk=2)
-    same(run(lambda: gone_on(case, checkpoint, chunks, build(method, case))), whole)
+    again = gone_on(case, checkpoint, chunks, build(method, case))
+    same(finished(again), finished(Simulation(case, build(method, case))))
 
 
 def test_capturing_changes_nothing_and_keeps_the_columns_that_are_used() -> None:

@@ -22,8 +22,8 @@ KEPT_CHECKPOINTS = 2
 ATTEMPTS = 3
 
 
-class KeptRun(Saver):
-    """Keeps a run in a folder; see ``Keeper`` and ``Saver``.
+class RunSaver(Saver):
+    """Keeps a run in a folder; see ``Checkpointer`` and ``Saver``.
 
     csv : whether the result will have CSV files; tell : called with what the user should know.
     kept : simulated time of the last checkpoint [s].

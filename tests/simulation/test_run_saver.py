@@ -12,14 +12,13 @@ from fctd.case.errors import InputError
 from fctd.results.tables import SimulationResult
 from fctd.simulation.guards import Guards
 from fctd.simulation.hung import Hung
-from fctd.simulation.kept_run import KeptRun, checkpoints_of, kept_so_far
 from fctd.simulation.recorder import Recorder
 from fctd.simulation.run import Run
+from fctd.simulation.run_saver import RunSaver, checkpoints_of, kept_so_far
 from fctd.simulation.series import SegmentSeries
 from fctd.simulation.simulate import Simulation, simulate
 from fctd.store import save_interval
 from fctd.store.facts import Restorable
-from fctd.store.limits import LimitReached
 from fctd.store.run_folder import RunFolder, chunks_of, progress_of
 from tests.simulation.kept import same, tripping
 
@@ -35,9 +34,9 @@ class Stop(Exception):  # noqa: N818
     """The process ends."""
 
 
-def killed_after(folder: RunFolder, records: int, every: float = 0.0) -> KeptRun:
+def killed_after(folder: RunFolder, records: int, every: float = 0.0) -> RunSaver:
     """A run that ends after so many records, without a word."""
-    keeper = KeptRun(folder, every)
+    checkpointer = RunSaver(folder, every)
 
     def progress(now: float, total: float, factor: float) -> None:
         nonlocal records
@@ -46,8 +45,8 @@ def killed_after(folder: RunFolder, records: int, every: float = 0.0) -> KeptRun
             raise Stop
 
     with pytest.raises(Stop):
-        simulate(tripping(), progress=progress, keeper=keeper)
-    return keeper
+        simulate(tripping(), progress=progress, checkpointer=checkpointer)
+    return checkpointer
 
 
 @pytest.fixture(autouse=True)
@@ -74,21 +73,13 @@ def test_a_run_goes_on_in_another_process(folder: RunFolder, tmp_path: Path) -> 
     assert (progress.unit, progress.kept, progress.done) == ("s", at(25), at(25))
     assert progress.total == Simulation(tripping()).end
     said: list[str] = []
-    again = KeptRun(folder, 0.0, tell=said.append)
-    found = simulate(tripping(), keeper=again)
+    again = RunSaver(folder, 0.0, tell=said.append)
+    found = simulate(tripping(), checkpointer=again)
     same(found, undisturbed())
     assert said == [f"the run goes on from {at(25):.4g} s"]
     assert list(checkpoints_of(folder.path).files) == [again.number - 1, again.number]
     assert list(chunks_of(folder.path).files) == list(range(1, len(undisturbed().history) + 1))
     assert found.run["checkpoints_s"] == again.interval.spent[1] > before.interval.spent[1]
-
-
-def test_a_clock_that_jumps_changes_nothing(folder: RunFolder, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The clock on the wall is set back by a day and on by a year; intervals are those of another clock."""
-    jumps = iter([1e9, 1e9 - 86400, 1e9 + 3e7] * 1000)
-    monkeypatch.setattr("time.time", lambda: next(jumps))
-    killed_after(folder, 25)
-    same(simulate(tripping(), keeper=KeptRun(folder, 0.0, tell=lambda _: None)), undisturbed())
 
 
 @pytest.mark.parametrize("damage", ["cut", "flipped", "gone"])
@@ -97,7 +88,7 @@ def test_a_damaged_checkpoint_costs_what_came_after_the_one_before(folder: RunFo
     number, path = list(checkpoints_of(folder.path).files.items())[-1]
     _damage(path, damage)
     said: list[str] = []
-    found = simulate(tripping(), keeper=KeptRun(folder, 1e9, tell=said.append))
+    found = simulate(tripping(), checkpointer=RunSaver(folder, 1e9, tell=said.append))
     same(found, undisturbed())
     if damage != "gone":
         assert said[0].startswith(f"checkpoint {number} cannot be used")
@@ -110,7 +101,7 @@ def test_a_damaged_chunk_is_never_read_as_another(folder: RunFolder, damage: str
     killed_after(folder, 25)
     _damage(chunks_of(folder.path).path(3), damage)
     said: list[str] = []
-    same(simulate(tripping(), keeper=KeptRun(folder, 1e9, tell=said.append)), undisturbed())
+    same(simulate(tripping(), checkpointer=RunSaver(folder, 1e9, tell=said.append)), undisturbed())
     assert [line.partition(" cannot")[0] for line in said] == ["checkpoint 25", "checkpoint 24", "the run begins anew"]
     assert chunks_of(folder.path).files == {}
 
@@ -160,14 +151,14 @@ def test_a_field_that_an_owner_adds_is_kept(
     """It names the field among its facts, and nothing else is changed: neither other owners nor what writes them."""
     monkeypatch.setattr(owner, "FACTS", (*owner.FACTS, "added"))
     monkeypatch.setattr(owner, "added", (0, np.zeros(1)), raising=False)
-    simulation, keeper = Simulation(tripping()), KeptRun(folder, 0.0)
-    keeper.begin(simulation)
+    simulation, checkpointer = Simulation(tripping()), RunSaver(folder, 0.0)
+    checkpointer.begin(simulation)
     for k in range(3):
         next(simulation)
         vars(OWNERS[owner](simulation))["added"] = (k, np.full(2, np.pi))
-        keeper.keep(simulation)
+        checkpointer.keep(simulation)
     again = Simulation(tripping())
-    KeptRun(folder, 0.0, tell=lambda _: None).begin(again)
+    RunSaver(folder, 0.0, tell=lambda _: None).begin(again)
     number, array = getattr(OWNERS[owner](again), "added")  # noqa: B009 (the class has no such name)
     assert (number, array.tolist()) == (2, [np.pi, np.pi])
 
@@ -180,26 +171,7 @@ def test_a_checkpoint_without_a_fact_is_refused(folder: RunFolder, monkeypatch: 
     monkeypatch.setattr(Guards, "added", 0, raising=False)
     refused = r"a run of this version of fctd \(its checkpoint has no 'added'\)"
     with pytest.raises(InputError, match=refused):
-        simulate(tripping(), keeper=KeptRun(folder, 0.0))
+        simulate(tripping(), checkpointer=RunSaver(folder, 0.0))
     with pytest.raises(InputError, match=refused):
         kept_so_far(folder.path, tripping())
     assert {path.name for path in folder.path.iterdir()} == before
-
-
-def test_a_run_that_reaches_a_limit_keeps_its_records() -> None:
-    def progress(now: float, total: float, factor: float) -> None:
-        if now >= 3:
-            raise LimitReached("the time limit of 3 s is reached")
-
-    result = simulate(tripping(), progress=progress)
-    assert (result.status, result.message) == ("stopped", "at 3 s: the time limit of 3 s is reached")
-    assert result.history["time_s"].iloc[-1] == pytest.approx(3.0)
-
-
-def test_a_limit_while_the_string_settles() -> None:
-    def settling(now: float, imbalance: float) -> None:
-        raise LimitReached("the time limit of 3 s is reached")
-
-    result = simulate(tripping(), settling=settling)
-    assert (result.status, len(result.history)) == ("stopped", 0)
-    assert result.message.startswith("before the start")

@@ -13,7 +13,7 @@ ROWS = "rows.json"
 Description = tuple[Mapping[str, Any], Mapping[str, bytes]]
 
 
-class KeptRows(Saver):
+class ChartSaver(Saver):
     """The rows of a chart's depths, in their order; see ``Saver``.
 
     describe : gives the description of the chart, which is written with the first chunk, since most charts end before.
