@@ -114,7 +114,7 @@ def begun_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder
     Raises InputError where another process computes the same result, and where there is an unfinished run, unless it
     is dropped by ``restart``.
     """
-    folder = RunFolder.take(target, key)
+    folder, begun = RunFolder.take(target, key), False
     try:
         about = None if restart else about_of(target)
         if about is not None and has_kept(target):
@@ -124,9 +124,10 @@ def begun_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder
             )
             raise InputError(expected, key=key, value=target)
         folder.clear()
+        begun = True
         yield folder
-    finally:
-        folder.leave(remove=not has_kept(target))
+    finally:  # what is refused stays
+        folder.leave(remove=begun and not has_kept(target))
 
 
 def has_kept(target: Path) -> bool:

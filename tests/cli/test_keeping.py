@@ -189,13 +189,18 @@ def test_changed_files_are_named_and_refused(
 def test_a_run_of_the_release_before_is_refused_by_name(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Its description has no form; nothing of it is dropped before --restart says so."""
+    """Its description has no form, its files have other names; nothing is dropped before --restart says so."""
     killed(monkeypatch, RUN)
-    about = run_path(Path("out")) / "run.json"
+    folder = run_path(Path("out"))
+    about = folder / "run.json"
     about.write_text(about.read_text().replace('"form": 2, ', ""))
+    for path in folder.glob("*.zip"):
+        path.rename(path.with_suffix(".npz"))
+    before = sorted(folder.iterdir())
     for asked in (RUN, ("simulate", "--resume", "out"), ("status", "out"), ("view", "out")):
         assert run(monkeypatch, *asked) == 2
         assert "an unfinished run of this version of fctd, form 2 (this one has form 1)" in capsys.readouterr().err
+        assert sorted(folder.iterdir()) == before
     assert run(monkeypatch, *RUN, "--restart") == 0
 
 
