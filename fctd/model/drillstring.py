@@ -73,7 +73,7 @@ class String:
         longer = np.concatenate([self.length[:1] + by, self.length[1:]])
         return replace(self, bit_depth=self.bit_depth + by, length=longer)
 
-    @property
+    @cached_property
     def table(self) -> Array:
         """The sections (k, ...), a column for each property."""
         return _table_of(self.sections)

@@ -13,11 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.mechanics.jit import entry, inlined
-from fctd.mechanics.query import Walls
-from fctd.model.drillstring import String
 from fctd.model.section import Section
-from fctd.model.string_rows import INNER, OUTER, YIELD_STRENGTH
-from fctd.results.profile import Loads, von_mises
+from fctd.results.profile import von_mises
 
 Array = NDArray[np.float64]
 
@@ -46,8 +43,8 @@ class Place(NamedTuple):
 class Limit(NamedTuple):
     """A limit, of which a place of a string uses a share.
 
-    code, headline, remedy : of its note.  share : of a place and the row of its component in a table of sections, above
-    1 beyond the limit; compiled.  text : the note's sentence, by the share, the place, its section and where it is.
+    code, headline, remedy : of its note.  share : of a place and its section, above 1 beyond the limit; compiled.
+    text : the note's sentence, by the share, the place, its section and where it is.
     """
 
     code: str
@@ -73,7 +70,7 @@ LIMITS: Final[tuple[Limit, ...]] = (
     Limit(
         "yield", "the steel is stressed beyond its yield strength", "check friction factor, bends and yield_strength",
         lambda at, section: (
-            stress_of(at.tension, at.torque, at.bending, section[OUTER], section[INNER]) / section[YIELD_STRENGTH]
+            stress_of(at.tension, at.torque, at.bending, section.outer, section.inner) / section.yield_strength
         ),
         lambda share, at, section, where: (
             f"the stress at {where} is {share * section.yield_strength / 1e6:.0f} MPa, "
@@ -84,7 +81,7 @@ LIMITS: Final[tuple[Limit, ...]] = (
         "tensile_capacity", "the hook load exceeds the capacity of the uppermost pipe",
         "check friction factor, bends and yield_strength",
         lambda at, section: (
-            at.hookload / (section[YIELD_STRENGTH] * np.pi * (section[OUTER] ** 2 - section[INNER] ** 2))
+            at.hookload / (section.yield_strength * np.pi * (section.outer**2 - section.inner**2))
         ),
         lambda share, at, section, where: (
             f"the hook load is {at.hookload / 1e3:.0f} kN, the uppermost pipe yields at "
@@ -118,6 +115,15 @@ compare = _comparison(LIMITS)
 
 
 @inlined
+def _section(table, k):
+    """Row k of a table of sections, of which only what the limits use is read."""
+    return Section(
+        table[k, 0], table[k, 1], table[k, 2], table[k, 3], table[k, 4], table[k, 5], table[k, 6], table[k, 7],
+        table[k, 8], table[k, 9], table[k, 10], table[k, 11], table[k, 12], table[k, 13], table[k, 14],
+    )  # fmt: skip
+
+
+@inlined
 def _beside(joints, end, middle, j):
     """A load of the joints at contact point j, as ``profile.at_contacts`` has it."""
     below = joints[j + 1] if j + 1 < len(joints) else end
@@ -125,30 +131,26 @@ def _beside(joints, end, middle, j):
 
 
 @entry
-def find_shares(loads, hookload, offset, hole, radius, in_hole, middle, component, sections, worst):
+def find_shares(
+    tension, torque, bending, bit_tension, bit_torque, hookload, offset, hole, radius, in_hole, middle, component,
+    sections, worst,
+):  # fmt: skip
     """Fill ``worst`` (limits, WORST) with the largest share of each limit along a string, 0 where it has none.
 
-    loads : ``profile.Loads``; hookload [N]; offset (n, 3), hole (n,) : of the walls, radius (n,) : of the string at the
-    contact points [m]; in_hole : whether there is a wall; middle, component (n,), sections : of the string.
+    Returns whether one is above 1: most strings have no notes.
+    tension, torque, bending (n,), bit_tension, bit_torque : of ``Loads``; hookload [N]; offset (n, 3), hole (n,) : of
+    the walls, radius (n,) : of the string at the contact points [m]; in_hole : whether there is a wall; middle,
+    component (n,), sections : of the string.
     """
     worst[:] = 0.0
-    top = Place(loads.tension[0], loads.torque[0], loads.bending[0], 0.0, 0.0, hookload)
-    compare(top, sections[component[0]], 0, worst)
+    top = Place(tension[0], torque[0], bending[0], 0.0, 0.0, hookload)
+    compare(top, _section(sections, component[0]), 0, worst)
     for j in range(len(hole)):
         clearance = hole[j] - radius[j]
         distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
         here = Place(
-            _beside(loads.tension, loads.bit_tension, middle, j), _beside(loads.torque, loads.bit_torque, middle, j),
-            _beside(loads.bending, 0.0, middle, j), distance - clearance if in_hole else 0.0, clearance, 0.0,
+            _beside(tension, bit_tension, middle, j), _beside(torque, bit_torque, middle, j),
+            _beside(bending, 0.0, middle, j), distance - clearance if in_hole else 0.0, clearance, 0.0,
         )  # fmt: skip
-        compare(here, sections[component[j]], j + 1, worst)
-
-
-def shares_of(string: String, loads: Loads, hookload: float, walls: Walls, radius: Array, in_hole: bool) -> Array:
-    """The largest shares (limits, WORST) along a string; see ``find_shares``."""
-    worst = np.empty((len(LIMITS), WORST))
-    find_shares(
-        loads, float(hookload), walls.offset, walls.radius, radius, in_hole, string.mid_contact(), string.component,
-        string.table, worst,
-    )  # fmt: skip
-    return worst
+        compare(here, _section(sections, component[j]), j + 1, worst)
+    return (worst[:, SHARE] > 1).any()

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String
 from fctd.results.buckling import Buckling
-from fctd.results.limits import LIMITS, Place, shares_of
-from fctd.results.profile import Loads, place_in_words
+from fctd.results.limits import LIMITS, Place
+from fctd.results.profile import place_in_words
 
 Array = NDArray[np.float64]
 
@@ -142,19 +142,8 @@ def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:
     return {code: meaning._asdict() for code, meaning in MEANINGS.items() if code in used}
 
 
-def string_notes(
-    string: String, loads: Loads, hookload: float, walls: Walls, radius: Array, *, in_hole: bool = True
-) -> tuple[Note, ...]:
-    """Notes on a string beyond a limit of ``LIMITS``.
-
-    hookload [N]; walls : beside the n contact points; radius (n,) : of the contact points [m]; in_hole : whether
-    there is a wall.
-    """
-    return limit_notes(shares_of(string, loads, hookload, walls, radius, in_hole), string, walls)
-
-
 def limit_notes(worst: Array, string: String, walls: Walls) -> tuple[Note, ...]:
-    """``string_notes`` of a string whose largest shares of the limits, ``worst``, are known."""
+    """Notes on a string beyond a limit of ``LIMITS``; worst : of ``find_shares``; walls : beside its contact points."""
     found = []
     for limit, (share, row, *at) in zip(LIMITS, worst.tolist(), strict=True):
         if share > 1:

@@ -63,6 +63,8 @@ def brakes_turning(taken: float, torque: float) -> Note | None:
     A bent string that turns is bent to and fro in its own frame.  taken, torque : that of the damping and that at
     surface [N m].
     """
+    if not taken > OF_THE_TORQUE * abs(torque):  # in nearly every record
+        return None
     share = f"{100 * taken / abs(torque):.2g} %" if torque else "all"
     text = f"the joints' own damping takes {taken:.3g} N m of the torque of the turning string, {share} of it"
     return note_beyond("joint_damping", text, taken, OF_THE_TORQUE * abs(torque))

@@ -2,7 +2,7 @@
 
 - The state is finite, and no contact point lies deeper in the wall than the hole's radius: else the run ends
   (``faults.check``).
-- Contact points that are deep in the wall, stress and hook load (``notes.string_notes``), and segments that cannot bend
+- Contact points that are deep in the wall, stress and hook load (``limits.find_shares``), and segments that cannot bend
   as the buckled string does (``notes.under_resolved``).
 - Joints beyond the range of their law (``run_notes.beyond_joints``).
 - The hook load: a string that is pushed down (``run_notes.pushes``), and one that flutters (``run_notes.flutters``).
@@ -24,7 +24,8 @@ from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
-from fctd.results.notes import Note, as_metadata, from_metadata, string_notes, under_resolved
+from fctd.results.limits import LIMITS, WORST, find_shares
+from fctd.results.notes import Note, as_metadata, from_metadata, limit_notes, under_resolved
 from fctd.results.profile import Loads
 from fctd.results.run_notes import (
     OF_THE_WALL,
@@ -59,6 +60,7 @@ class Guards(Restorable):
         self.notes: dict[str, Note] = {}
         self.seconds = self.residual = self.work = 0.0
         self.swing = 0.0, 0.0
+        self._worst, self._judged = np.empty((len(LIMITS), WORST)), (run.string, *self._constants())
         # Reading the compiled code from disk, or compiling it, is no part of the checks' time.
         n = run.segments
         is_sound(run.S, n)
@@ -127,9 +129,18 @@ class Guards(Restorable):
 
     def _of_limits(self, loads: Loads, walls: Walls, hookload: float) -> tuple[Note, ...]:
         """The notes on the string's limits."""
-        run = self.run
-        radius = state.row(run.S, state.RADIUS, run.segments)
-        return string_notes(run.string, loads, hookload, walls, radius, in_hole=run.case.contact.enabled)
+        run, string = self.run, self.run.string
+        if string is not self._judged[0]:  # another one at each record where it hangs from a block, else never
+            self._judged = string, *self._constants()
+        beyond = find_shares(
+            loads.tension, loads.torque, loads.bending, loads.bit_tension, loads.bit_torque, hookload, walls.offset,
+            walls.radius, state.row(run.S, state.RADIUS, run.segments), *self._judged[1:], self._worst,
+        )  # fmt: skip
+        return limit_notes(self._worst, string, walls) if beyond else ()
+
+    def _constants(self) -> tuple[bool, NDArray[np.bool_], NDArray[np.int64], Array]:
+        string = self.run.string
+        return self.run.case.contact.enabled, string.mid_contact(), string.component, string.table
 
     def of_the_ledger(self) -> Note | None:
         """The note on a ledger that is off so far, as far as the run has turned over energy."""

@@ -9,7 +9,6 @@ from fctd.mechanics.jit import entry
 from fctd.mechanics.query import WALL_COLUMNS, query_walls
 from fctd.results.buckling import NEITHER, ROW_COLUMNS, find_buckling
 from fctd.results.limits import LIMITS, WORST, find_shares
-from fctd.results.profile import Loads
 from fctd.steady.tangent import (
     AXIAL_MOMENT,
     CONTACT_COLUMNS,
@@ -29,8 +28,9 @@ Array = NDArray[np.float64]
 SHAPE_COLUMNS = JOINT_COLUMNS, CONTACT_COLUMNS, WALL_COLUMNS
 # Numbers of a shape: sums of normal force [N], r F_t and r μ F_n [N m]; the first segment that is deeper in the wall
 # than the hole's radius, or 0; of ``find_buckling`` mode, measured depths of the first and the last buckled row [m],
-# longest segment that is too long, length needed [m], excess; then the largest shares of limits, of ``find_shares``.
-SUM_NORMAL, SUM_R_FT, SUM_R_MU_FN, OUTSIDE, MODE, FROM_MD, TO_MD, LONGEST, NEEDED, EXCESS, SHARES = range(11)
+# longest segment that is too long, length needed [m], excess; whether there are notes, and the largest shares of
+# limits, of ``find_shares``.
+SUM_NORMAL, SUM_R_FT, SUM_R_MU_FN, OUTSIDE, MODE, FROM_MD, TO_MD, LONGEST, NEEDED, EXCESS, NOTED, SHARES = range(12)
 NUMBERS = SHARES + len(LIMITS) * WORST
 # Numbers of an answer: whether it is a stable balance of the first attempt, iterations, hook load [N], surface torque
 # [N m], largest force out of balance [N] and its allowed value [N], the place of the string's top [m], and then those
@@ -94,12 +94,9 @@ def read_shape(
         if numbers[OUTSIDE] == 0 and offset + pipe.radius[j] > 2 * walls[j, 3]:
             numbers[OUTSIDE] = j + 1
         least = min(least, joints[j, JOINT_TENSION])
-    loads = Loads(
-        joints[:, JOINT_TENSION], joints[:, JOINT_TORQUE], joints[:, JOINT_BENDING], contacts[:, NORMAL_FORCE],
-        bit_tension, bit_torque,
-    )  # fmt: skip
-    find_shares(
-        loads, hookload, walls[:, :3], walls[:, 3], pipe.radius, in_hole, pipe.middle, component, sections,
+    numbers[NOTED] = find_shares(
+        joints[:, JOINT_TENSION], joints[:, JOINT_TORQUE], joints[:, JOINT_BENDING], bit_tension, bit_torque, hookload,
+        walls[:, :3], walls[:, 3], pipe.radius, in_hole, pipe.middle, component, sections,
         numbers[SHARES:].reshape(-1, WORST),
     )  # fmt: skip
     if not in_hole or least >= 0:

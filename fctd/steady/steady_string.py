@@ -27,7 +27,7 @@ from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
 from fctd.steady.laid_string import LaidString
 from fctd.steady.pose import PLACE
-from fctd.steady.reading import OUTSIDE, SHAPE, SHARES, SUM_NORMAL, SUM_R_MU_FN, TOP, Answer
+from fctd.steady.reading import NOTED, OUTSIDE, SHAPE, SHARES, SUM_NORMAL, SUM_R_MU_FN, TOP, Answer
 from fctd.steady.shape import Shape
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ class Equilibrium:
     @cached_property
     def notes(self) -> tuple[Note, ...]:
         """Warnings about the loads; empty where there are no loads."""
-        if not self.answered:
+        if not self.answered or not self._shape.numbers[NOTED]:
             return ()
         shape = self._shape
         return limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), shape.laid.string, shape.walls)

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from fctd.mechanics.query import Walls, walls_in
 from fctd.model.drillstring import String, lay_out
-from fctd.results.limits import LIMITS, ROW, SHARE, shares_of
-from fctd.results.notes import string_notes
+from fctd.results.limits import LIMITS, ROW, SHARE, WORST, find_shares
+from fctd.results.notes import Note, limit_notes
 from fctd.results.profile import Loads, at_contacts, von_mises
 from tests.cases import make_case, pipe
 
@@ -25,6 +25,22 @@ def walls_of(string: String, depths: np.ndarray, hole: float = 0.108) -> Walls:
     return walls_in(rows)
 
 
+def shares_of(string: String, loads: Loads, hookload: float, walls: Walls, in_hole: bool = True) -> np.ndarray:
+    """The largest shares (limits, WORST) along a string."""
+    worst = np.empty((len(LIMITS), WORST))
+    beyond = find_shares(
+        loads.tension, loads.torque, loads.bending, loads.bit_tension, loads.bit_torque, float(hookload), walls.offset,
+        walls.radius, string.contact_radius(), in_hole, string.mid_contact(), string.component, string.table, worst,
+    )  # fmt: skip
+    assert beyond == (worst[:, SHARE] > 1).any()
+    return worst
+
+
+def string_notes(string: String, loads: Loads, hookload: float, walls: Walls, in_hole: bool = True) -> tuple[Note, ...]:
+    """The notes on a string beyond its limits."""
+    return limit_notes(shares_of(string, loads, hookload, walls, in_hole), string, walls)
+
+
 @given(
     pull=st.lists(st.floats(-6e6, 6e6), min_size=N, max_size=N), twist=st.floats(-2e5, 2e5), bend=st.floats(0, 3e5),
     depth=st.lists(st.floats(-0.005, 0.03), min_size=N, max_size=N), bit=st.floats(-1e6, 0), hookload=st.floats(0, 9e6),
@@ -37,7 +53,7 @@ def test_the_largest_shares_are_those_of_the_profile(
     torque[2], bending[3] = twist, bend
     loads = Loads(np.array(pull), torque, bending, np.zeros(N), bit, 0.3 * twist)
     walls, radius = walls_of(STRING, np.array(depth)), STRING.contact_radius()
-    worst = shares_of(STRING, loads, hookload, walls, radius, in_hole)
+    worst = shares_of(STRING, loads, hookload, walls, in_hole)
     outer, inner = (np.append(STRING.of(name)[0], STRING.of(name)) for name in ("outer", "inner"))
     stress = von_mises(*at_contacts(STRING, loads), outer, inner) / 931e6
     deep = np.append(0.0, np.array(depth) / np.clip(0.25 * (0.108 - radius), 0.002, 0.01))
@@ -45,14 +61,14 @@ def test_the_largest_shares_are_those_of_the_profile(
     for k, shares in enumerate((deep if in_hole else 0 * deep, stress, pulled)):
         assert worst[k, SHARE] == pytest.approx(max(shares.max(), 0.0), rel=1e-9, abs=1e-12)
         assert shares[int(worst[k, ROW])] == pytest.approx(worst[k, SHARE], rel=1e-9, abs=1e-12)
-    found = string_notes(STRING, loads, hookload, walls, radius, in_hole=in_hole)
+    found = string_notes(STRING, loads, hookload, walls, in_hole)
     assert [note.code for note in found] == [LIMITS[k].code for k in range(len(LIMITS)) if worst[k, SHARE] > 1]
     assert [note.excess for note in found] == [share for share in worst[:, SHARE] if share > 1]
 
 
 def test_loads_that_are_no_numbers_are_beyond_no_limit() -> None:
     loads, walls = Loads(*np.full((4, N), np.nan)), walls_of(STRING, np.full(N, np.nan))
-    assert not shares_of(STRING, loads, np.nan, walls, STRING.contact_radius(), True)[:, SHARE].any()
+    assert not shares_of(STRING, loads, np.nan, walls)[:, SHARE].any()
 
 
 @pytest.mark.parametrize(("hole", "most"), [(0.108, 0.01), (0.0835, 0.005), (0.065, 0.002)])
@@ -61,5 +77,5 @@ def test_a_note_on_what_is_deeper_than_a_quarter_of_the_clearance(hole: float, m
     string, none = lay_out(make_case(components=[pipe(None, 3)]), 100.0), np.zeros(3)
     for depth, expected in ((0.99 * most, 0), (1.001 * most, 1)):
         walls = walls_of(string, np.array([-0.001, depth, -0.001]), hole)
-        found = string_notes(string, Loads(none, none, none, none), 0.0, walls, string.contact_radius())
+        found = string_notes(string, Loads(none, none, none, none), 0.0, walls)
         assert [(note.code, note.place) for note in found] == [("penetration", 55.0)] * expected

@@ -18,6 +18,7 @@ from fctd.results.buckling import Buckling
 from fctd.results.profile import Loads
 from fctd.steady.steady_string import Equilibrium
 from tests.cases import make_case, pipe, trip
+from tests.results.test_limits import string_notes
 
 
 def bend(quarters: int) -> list[list[float]]:
@@ -190,7 +191,7 @@ def test_torque_alone_makes_steel_yield(joint: int) -> None:
         polar = np.pi / 2 * (outer**4 - 0.035**4)
         torque[joint] = share * string.sections[0].yield_strength * polar / (np.sqrt(3) * outer)
         loads = Loads(np.zeros(20), torque, np.zeros(20), np.zeros(20))
-        found = notes.string_notes(string, loads, 0.0, walls, string.contact_radius())
+        found = string_notes(string, loads, 0.0, walls)
         return [(note.code, note.place) for note in found]
 
     assert codes(0.999) == []
@@ -206,7 +207,7 @@ def test_the_hook_load_that_the_uppermost_pipe_takes() -> None:
 
     def pulled(share: float) -> tuple[notes.Note, ...]:
         loads = Loads(*(np.zeros(20) for _ in range(4)))
-        return notes.string_notes(string, loads, share * capacity, walls, string.contact_radius())
+        return string_notes(string, loads, share * capacity, walls)
 
     assert pulled(0.999) == ()
     (note,) = pulled(2.0)

@@ -5,12 +5,13 @@ import numpy as np
 from fctd.case.load import Case
 from fctd.model.operations import steady_rates
 from fctd.results.buckling import buckling_along
-from fctd.results.limits import WORST, shares_of
+from fctd.results.limits import WORST
 from fctd.steady.equilibrium import Solver
-from fctd.steady.reading import OUTSIDE, SHARES, SUM_NORMAL, SUM_R_FT, SUM_R_MU_FN
+from fctd.steady.reading import NOTED, OUTSIDE, SHARES, SUM_NORMAL, SUM_R_FT, SUM_R_MU_FN
 from fctd.steady.steady_string import Equilibrium
 from fctd.steady.tangent import NORMAL_FORCE, R_FT, R_MU_FN
 from tests.cases import make_case, pipe
+from tests.results.test_limits import shares_of
 
 
 def point_of(kind: str, **more: object) -> Equilibrium:
@@ -40,9 +41,11 @@ def test_segments_outside_and_shares_of_limits_are_found() -> None:
     point = point_of("trip_out")
     sound = point._shape
     assert sound.numbers[OUTSIDE] == 0
-    worst = shares_of(sound.laid.string, sound.loads, point.hookload, sound.walls, sound.radius, True)
+    worst = shares_of(sound.laid.string, sound.loads, point.hookload, sound.walls)
     np.testing.assert_allclose(sound.numbers[SHARES:].reshape(-1, WORST), worst, rtol=1e-9)
+    assert not sound.numbers[NOTED]
     soft = point_of("trip_out", wellbore={"stiffness": 1e3})._shape
     depth = np.linalg.norm(soft.walls.offset, axis=1) + soft.radius - 2 * soft.walls.radius
     assert soft.numbers[OUTSIDE] == np.argmax(depth > 0) + 1
     assert soft.numbers[SHARES] > 1
+    assert soft.numbers[NOTED] == 1
