@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
@@ -11,10 +12,10 @@ from numpy.typing import NDArray
 from fctd.calibration.fit import Fit
 from fctd.calibration.forward import Evaluation, Forward
 from fctd.calibration.intervals import Intervals
+from fctd.calibration.quadrature import Mixture
 from fctd.calibration.rows import days_of
 from fctd.calibration.scatter import EFFECTS, At, DayFit, draw, fit_days, values_of
 from fctd.calibration.unknowns import is_factor
-from fctd.case.errors import InputError
 
 Array = NDArray[np.float64]
 
@@ -70,10 +71,15 @@ class Scattered:
     index: NDArray[np.int64]
     typical: Evaluation
 
+    @cached_property
+    def left_out(self) -> list[tuple[Mixture, float]]:
+        """Of each day, the mixture without it, and the log of the density that this gives to its readings."""
+        return [self.fit.without(d) for d in range(len(self.days))]
+
     @property
     def score(self) -> float:
         """Sum over the days of the log of the density that a fit without the day gives to its readings."""
-        return sum(self.fit.without(d)[1] for d in range(len(self.days)))
+        return sum(density for _, density in self.left_out)
 
     @property
     def intervals(self) -> Intervals:
@@ -104,7 +110,7 @@ class Scattered:
         """
         unknowns, table = self.fit.unknowns, []
         for d in range(len(self.days)):
-            mixture, _ = self.fit.without(d)
+            mixture, _ = self.left_out[d]
             values = values_of(unknowns, mixture.centre)
             here = self.index[self.fit.model.day == d]
             gains = self.fit.at.gains[self.fit.model.day == d]
@@ -130,7 +136,6 @@ def fit_scatter(forward: Forward, found: Fit) -> tuple[Fit, Scattered]:
     """A fit with scatter, which starts at one without: its values, and readings with the effects of their days.
 
     The loss of the fit before is not used: readings are normal, and a day that is off is what the scatter is for.
-    Raises InputError where the rows and the priors do not determine the unknowns.
     """
     prior = forward.setup.scatter
     by_day = ForwardByDay(forward, found.used)
@@ -138,12 +143,7 @@ def fit_scatter(forward: Forward, found: Fit) -> tuple[Fit, Scattered]:
     shown = any(is_factor(name) for name in forward.names), any(
         forward.readings[i].load == "hookload" for i in by_day.index
     )  # fmt: skip
-    try:
-        fit = fit_days(by_day, found.best, np.array([prior.friction, prior.hookload]) * shown)
-    except np.linalg.LinAlgError:
-        raise InputError(
-            "rows that tell the unknowns apart, or priors", key="fit", value=[*forward.names]
-        ) from None  # fmt: skip
+    fit = fit_days(by_day, found.best, np.array([prior.friction, prior.hookload]) * shown)
     typical = forward.evaluate(fit.best)
     index = np.array(by_day.index, np.int64)
     value, slopes = typical.value.copy(), typical.slopes.copy()

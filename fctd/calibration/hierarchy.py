@@ -7,12 +7,15 @@ many readings it has.
 """
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+
+_LARGEST: Final = 100_000  # days times sets of deviations that are computed at once, for memory
 
 
 @dataclass(frozen=True)
@@ -59,12 +62,22 @@ def condition(model: Linear, deviations: Array, unknowns: Array | None = None) -
 
     Raises numpy.linalg.LinAlgError where readings and priors do not determine the unknowns.
     """
+    most = max(_LARGEST // (int(model.day.max(initial=0)) + 1), 1)
+    parts = [
+        _condition(model, deviations[i : i + most], unknowns) for i in range(0, len(deviations), most)
+    ]  # fmt: skip
+    return Conditional(*(np.concatenate(part) for part in zip(*parts, strict=True)))
+
+
+def _condition(model: Linear, deviations: Array, unknowns: Array | None) -> Conditional:
+    """The same, all sets at once."""
     J, U, scale = model.jacobian, model.effects, 1 / model.variance
-    count, e = int(model.day.max(initial=-1)) + 1, U.shape[1]
-    of_day = np.equal.outer(np.arange(count), model.day).astype(float)
-    G = np.einsum("dn,ni,nj->dij", of_day, U * scale[:, None], U)
-    C = np.einsum("dn,ni,nk->dik", of_day, U * scale[:, None], J)
-    q = of_day @ (U * (scale * model.value)[:, None])
+    count, (_, e), k = int(model.day.max(initial=-1)) + 1, U.shape, J.shape[1]
+    G, C, q = np.zeros((count, e, e)), np.zeros((count, e, k)), np.zeros((count, e))
+    weighted = U * scale[:, None]
+    np.add.at(G, model.day, weighted[:, :, None] * U[:, None, :])
+    np.add.at(C, model.day, weighted[:, :, None] * J[:, None, :])
+    np.add.at(q, model.day, weighted * model.value[:, None])
     precision = np.diag(model.prior_precision) + J.T @ (scale[:, None] * J)
     pull = model.prior_precision * model.prior_mean + J.T @ (scale * model.value)
     square = model.value @ (scale * model.value) + model.prior_mean**2 @ model.prior_precision

@@ -146,7 +146,11 @@ def with_friction(unknowns: Sequence[Unknown], values: Array, effect: Array) -> 
 
 
 def _prior(unknown: Unknown) -> tuple[float, float]:
-    """Mean and precision of the coordinate; a prior of friction is log-normal with its mean and standard deviation."""
+    """Mean and precision of the coordinate.
+
+    A prior of friction is log-normal with its mean and standard deviation; another unknown without one is anywhere
+    between its bounds, so that all are determined, if widely, also without a day that alone shows one.
+    """
     prior: Prior | None = unknown.prior
     if is_factor(unknown.name):
         if prior is None:
@@ -154,7 +158,8 @@ def _prior(unknown: Unknown) -> tuple[float, float]:
         mean = max(prior.mean, _LEAST)
         variance = np.log1p((prior.sd / mean) ** 2)
         return float(np.log(mean) - 0.5 * variance), float(1 / variance)
-    return (0.0, 0.0) if prior is None else (prior.mean / unknown.size, (unknown.size / prior.sd) ** 2)
+    mean, sd = prior or (0.5 * (unknown.low + unknown.high), unknown.high - unknown.low)
+    return mean / unknown.size, (unknown.size / sd) ** 2
 
 
 def _integrated(model: Linear, scales: Array) -> tuple[Nodes, Mixture]:
@@ -164,10 +169,7 @@ def _integrated(model: Linear, scales: Array) -> tuple[Nodes, Mixture]:
 
 
 def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
-    """The fit from first values (k,) [SI]; scales (2,) : means of the exponential priors of the deviations.
-
-    Raises numpy.linalg.LinAlgError where the readings and the priors do not determine the unknowns.
-    """
+    """The fit from first values (k,) [SI]; scales (2,) : means of the exponential priors of the deviations."""
     unknowns, day = tuple(readings.unknowns), readings.day
     bounds = bounds_of(unknowns)
     means, precisions = np.array([_prior(u) for u in unknowns]).T
