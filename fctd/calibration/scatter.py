@@ -63,7 +63,8 @@ class DayFit:
     """The fit: best values (k,) [SI], effects (days, 2) of ``EFFECTS`` at them, and the readings there.
 
     mixture : of the unknowns as ``coordinate`` has them; nodes : of the deviations; model : the linear one.  Where a
-    part of the mixture lies beyond bounds, the rest of it is what is known.
+    part of the mixture lies beyond bounds, the rest of it is what is known.  settled : whether the values stand still
+    under another step; strings that lock up beside them, or readings far from linear, keep them from it.
     """
 
     unknowns: tuple[Unknown, ...]
@@ -74,6 +75,7 @@ class DayFit:
     nodes: Nodes
     mixture: Mixture
     scales: Array
+    settled: bool
 
     @property
     def fitted(self) -> Array:
@@ -182,6 +184,7 @@ def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
         return readings.at(values), values
 
     at, values = readings_at(z, effects)
+    settled = False
     for _ in range(_STEPS):
         jacobian = at.slopes * np.stack([slopes_of(unknowns, of_day) for of_day in values])[day]
         by_effect = np.stack([jacobian[:, factors].sum(axis=1), at.gains], axis=1)
@@ -198,7 +201,8 @@ def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
         sd = np.sqrt(np.diag(mixture.spread))
         most = max(np.abs(step[0][factors]).max(initial=0.0), np.abs(step[1][:, 0]).max())
         moved = np.abs(by_effect * step[1][day]) / np.sqrt(readings.variance)[:, None]  # of the readings, in noise
-        if (np.abs(step[0]) < _CLOSE * sd).all() and moved.max() < 2 * _CLOSE:
+        settled = bool((np.abs(step[0]) < _CLOSE * sd).all() and moved.max() < 2 * _CLOSE)
+        if settled:
             break
         share = min(1.0, _LARGEST / max(most, 1e-300))
         for _ in range(6):
@@ -210,7 +214,7 @@ def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
         else:  # strings lock up next to here: the readings stay linear about the values before
             break
         z, effects, at, values = trial, trial_effects, beyond, trial_values
-    return DayFit(unknowns, values_of(unknowns, z), effects, at, model, nodes, mixture, scales)
+    return DayFit(unknowns, values_of(unknowns, z), effects, at, model, nodes, mixture, scales, settled)
 
 
 def draw(

@@ -178,6 +178,12 @@ def print_calibration(found: Calibration, units: System) -> None:
             "declared too small, or the model lacks something; the intervals are too narrow",
             soft_wrap=True,
         )  # fmt: skip
+    if found.scattered is not None and not found.scattered.fit.settled:
+        messages.print(
+            "warning: the fit with scatter did not settle: its values and intervals are near the best ones at most; "
+            "start it nearer (--prior, bounds), or fit without (--no-scatter)",
+            soft_wrap=True,
+        )  # fmt: skip
     for name, doubt in [*found.misread.items(), *found.doubts.items()]:
         messages.print(printable(f"with care: {name}: {reworded(doubt, units)}"), soft_wrap=True)
     for name, reason in found.left_out.items():

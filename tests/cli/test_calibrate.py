@@ -107,8 +107,11 @@ def test_days_pumps_and_doubts_are_printed(
                  "score of the 3 days"):  # fmt: skip
         assert part in " ".join(printed.out.split())
     assert "with care: b: a slack-off of" in printed.err
+    assert "did not settle" not in printed.err
     assert run(monkeypatch, "predict", out, files[1]) == 0
-    capsys.readouterr()
+    monkeypatch.setattr("fctd.calibration.scatter._CLOSE", 0.0)
+    assert run(monkeypatch, "calibrate", *files, *options) == 0
+    assert "the fit with scatter did not settle" in capsys.readouterr().err
     assert run(monkeypatch, "calibrate", *files, *options, "--no-scatter", "--units", "field") == 0
     printed = capsys.readouterr()
     assert "scatter" not in printed.out
