@@ -76,7 +76,7 @@ class ModelError(Table):
 class BitTorque(Table):
     """What a bit on bottom adds to the torque of a row: mean and standard deviation [N m], normal.
 
-    Where it is unknown whether the bit was on bottom, either is as likely.
+    Where it is unknown whether the bit was on bottom, either is as likely, by mean and variance of both together.
     """
 
     mean: units.PositiveOrZeroTorque = 3e3
