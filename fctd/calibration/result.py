@@ -1,12 +1,14 @@
 """The result of a calibration: values of the unknowns, residuals of the readings, rows left out."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 import pandas as pd
 
+from fctd.calibration.days import Scattered
+from fctd.calibration.factors import friction_table
 from fctd.calibration.fit import Fit, Loss
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import Undetermined
@@ -24,6 +26,9 @@ class Calibration:
     base : the case before; fit : of the unknowns; left_out : reasons of the rows that were not fitted, by id; loss : of
     the readings; undetermined : unknowns that the rows do not tell apart, where they were to be fitted all the same;
     predicted : of rows of deeper hole sections (``predict_rows``), where the first section alone was fitted.
+    scattered : the fit with scatter between days, whose values and readings ``fit`` has; None for one without.
+    misread : rows that may be misread, by id, and why (``misread``).  scores : of days left out, where friction that is
+    linear in depth was tried: the fit is the one with the larger score.
     """
 
     base: Case
@@ -33,6 +38,9 @@ class Calibration:
     loss: Loss
     undetermined: tuple[Undetermined, ...] = ()
     predicted: pd.DataFrame | None = None
+    scattered: Scattered | None = None
+    misread: Mapping[str, str] = field(default_factory=dict)
+    scores: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def unknowns(self) -> tuple[Unknown, ...]:
@@ -63,7 +71,7 @@ class Calibration:
         """A row for each measured load: id, string, operation, bit_depth_m, load, low, high and fitted (SI), residual.
 
         residual : distance of the fitted reading from the range [SI], 0 within it; in_noise : over the noise; fitted is
-        NaN where the string has no loads.  used : whether it was fitted.
+        NaN where the string has no loads.  used : whether it was fitted.  day, pumps and flow_m3_s as the row has them.
         """
         forward, rows = self.forward, []
         for i, reading in enumerate(forward.readings):
@@ -76,7 +84,8 @@ class Calibration:
                 {
                     "id": row.id, "string": row.string, "operation": row.operation, "bit_depth_m": row.bit_depth,
                     "load": reading.load, "low": low, "high": high, "fitted": fitted, "residual": off,
-                    "in_noise": off / reading.noise, "used": reading.row in self.fit.used,
+                    "in_noise": off / reading.noise, "used": reading.row in self.fit.used, "day": row.day,
+                    "pumps": row.pumps, "flow_m3_s": row.flow,
                 }
             )  # fmt: skip
         return pd.DataFrame(rows)
@@ -96,24 +105,42 @@ class Calibration:
 
     @cached_property
     def intervals(self) -> Intervals:
-        """The 95 % intervals of the unknowns, which take some fits."""
+        """The 95 % intervals of the unknowns, which take some fits where there is no scatter."""
+        if self.scattered is not None:
+            return self.scattered.intervals
         return find_intervals(self.forward, self.fit, self.loss)
 
     @cached_property
     def leave_one_out(self) -> pd.DataFrame:
-        """The fit without each row, and what it predicts for that row (``intervals.leave_one_out``)."""
+        """The fit without each row, and what it predicts for that row (``intervals.leave_one_out``).
+
+        With scatter, without each day: the rows of a day are left out together (``Scattered.leave_one_out``).
+        """
+        if self.scattered is not None:
+            return self.scattered.leave_one_out(self.forward)
         return leave_one_out(self.forward, self.fit, self.loss)
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """A row for each unknown: name, unit, value, low and high of its 95 % interval, how it was found, at_bound."""
+        """A row for each unknown: name, unit, value, low and high of its 95 % interval, how it was found, at_bound.
+
+        With scatter, also its standard deviations.
+        """
         found, columns = self.intervals, []
         for k, unknown in enumerate(self.unknowns):
             bound = unknown.name in found.at_bound or unknown.name in self.active
             columns.append(
                 (unknown.name, unknown.unit, self.fit.best[k], found.low[k], found.high[k], found.how[k], bound)
             )
-        return pd.DataFrame(columns, columns=["name", "unit", "value", "low", "high", "how", "at_bound"])
+        table = pd.DataFrame(columns, columns=["name", "unit", "value", "low", "high", "how", "at_bound"])
+        if self.scattered is None:
+            return table
+        return pd.concat([table, pd.DataFrame(self.scattered.deviations).assign(at_bound=False)], ignore_index=True)
+
+    @cached_property
+    def factors(self) -> pd.DataFrame:
+        """Friction factors by hole and motion, each with its interval and its rows (``friction_table``)."""
+        return friction_table(self.forward, self.fit, self.intervals)
 
     @cached_property
     def correlations(self) -> pd.DataFrame:
@@ -134,7 +161,8 @@ class Calibration:
             source: {load: float(np.sqrt(np.mean(np.square(w)) / 12)) for load, w in loads.items()}
             for source, loads in widths.items()
         }
-        return Posterior(self.unknowns, self.fit.best, self.intervals.covariance, self.forward.setup, spread)
+        mixture = None if self.scattered is None else self.scattered.fit.mixture.main()
+        return Posterior(self.unknowns, self.fit.best, self.intervals.covariance, self.forward.setup, spread, mixture)
 
     @property
     def active(self) -> dict[str, str]:
