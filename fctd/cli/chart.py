@@ -238,9 +238,9 @@ def _chart(
                 bar.update(task, description=printable(case.name), completed=done, total=total)
                 limits.check()
 
-            keep: dict[str, Any] = (
-                {} if kept is None else {"known": kept.known, "keep": lambda rows: kept.keep(rows, total)}
-            )
+            keep: dict[str, Any] = {}
+            if kept is not None:
+                keep = {"known": kept.known, "above": kept.above, "keep": lambda rows: kept.keep(rows, total)}
             rows = chart_rows(case, kinds, bit_depths, factors or None, **drive, progress=show, **keep)
 
         # The last depth at which string and hole fit.

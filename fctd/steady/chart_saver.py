@@ -4,12 +4,13 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from fctd.steady.carried_shape import Carried
 from fctd.steady.torque_drag import Row
 from fctd.store import log
 from fctd.store.run_folder import RunFolder
 from fctd.store.saver import Saver
 
-ROWS = "rows.json"
+ROWS, SHAPES = "rows.json", "shapes.json"
 Description = tuple[Mapping[str, Any], Mapping[str, bytes]]
 
 
@@ -17,7 +18,7 @@ class ChartSaver(Saver):
     """The rows of a chart's depths, in their order; see ``Saver``.
 
     describe : gives the description of the chart, which is written with the first chunk, since most charts end before.
-    known : rows of the depths that an earlier process has computed.
+    known : rows of the depths that an earlier process has computed; above : see ``chart_rows``.
     """
 
     def __init__(
@@ -26,10 +27,14 @@ class ChartSaver(Saver):
         super().__init__(folder, every, "rows", key)
         self._describe = describe
         self.known: list[list[Row]] = []
+        self.above: dict[str, Carried] = {}
         self._new: list[list[Row]] = []
         try:
             while True:
-                self.known += json.loads(log.read(self.chunks.path(self.number + 1))[ROWS])
+                parts = log.read(self.chunks.path(self.number + 1))
+                shapes = json.loads(parts[SHAPES])
+                self.known += json.loads(parts[ROWS])
+                self.above = {loads: Carried.restore(facts) for loads, facts in shapes.items()}
                 self.number += 1
         except (OSError, ValueError, KeyError):
             # What follows a chunk that cannot be read is computed again, in other chunks.
@@ -58,4 +63,5 @@ class ChartSaver(Saver):
     def _chunk(self) -> dict[str, bytes]:
         if self._describe is not None and not self.number:
             self.folder.describe(*self._describe())
-        return {ROWS: json.dumps(self._new).encode()}
+        shapes = {loads: carried.facts() for loads, carried in self.above.items()}
+        return {ROWS: json.dumps(self._new).encode(), SHAPES: json.dumps(shapes).encode()}

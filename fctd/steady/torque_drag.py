@@ -87,12 +87,14 @@ def chart_rows(
     threads: int | None = None,
     *,
     known: Sequence[list[Row]] = (),
+    above: dict[str, Carried] | None = None,
     keep: Callable[[list[Row]], None] | None = None,
 ) -> list[Row]:
     """The rows of ``torque_drag``, each a mapping from column to value.
 
-    known : the rows of the first depths, where another process has computed them; keep : called with those of each
-    other depth, in their order.
+    known : the rows of the first depths, where another process has computed them; above : the shapes of its last
+    resolved rows by their loads, which change with the rows; keep : called with the rows of each other depth, in their
+    order.
     """
     with naming_file(case):
         depths = _check_depths(bit_depths)
@@ -101,7 +103,7 @@ def chart_rows(
             raise InputError("at least one kind of operation", key="operation", value=[])
         rates = rates_of_all(case, kinds, speed, rpm)
         sets = None if friction is None else friction_sets(friction)
-        chart = _Chart(_solvers(case, build_wellbore(case), sets), kinds, rates)
+        chart = _Chart(_solvers(case, build_wellbore(case), sets), kinds, rates, {} if above is None else above)
         threads = cores() if threads is None else threads
         parts = list(_parts(depths[len(known) :], max(1, ROWS // len(chart.loads)), threads))
         total = len(depths) * len(chart.loads)
@@ -129,16 +131,22 @@ AtDepth = tuple[LaidString | InputError, list[Row | Callable[[], Row]]]
 
 
 class _Chart:
-    """Operations and friction factors of a chart; solvers : with their labels, one for each set of factors."""
+    """Operations and friction factors of a chart.
+
+    solvers : with their labels, one for each set of factors; above : shapes of the last resolved row by its loads.
+    Rows that need other methods are solved in their order, and change it.
+    """
 
     def __init__(
-        self, solvers: Sequence[tuple[str, Solver]], kinds: Sequence[str], rates: Mapping[str, SteadyRates]
+        self,
+        solvers: Sequence[tuple[str, Solver]],
+        kinds: Sequence[str],
+        rates: Mapping[str, SteadyRates],
+        above: dict[str, Carried],
     ) -> None:
-        self.solvers, self.rates = solvers, rates
+        self.solvers, self.rates, self._above = solvers, rates, above
         self.loads = [(kind, k) for kind in kinds for k in range(len(solvers))]
         self._batches = batch.Batches(solvers[0][1].case, [solver.hole for _, solver in solvers])
-        # Shapes of the last resolved row of each of the loads; rows that need other methods are solved in their order.
-        self._above: dict[tuple[str, int], Carried] = {}
 
     def attempt(self, depths: Sequence[float]) -> list[AtDepth]:
         """What one attempt finds at some bit depths [m]; several threads may call it."""
@@ -164,13 +172,13 @@ class _Chart:
             return _row(label, solver, kind, depth, point)
 
         def by_other_methods() -> Row:
-            above = self._above.pop((kind, k), None)
+            above = self._above.pop(loads := f"{kind} {k}", None)
             try:
                 point = solver.solve_problem(solver.problem(kind, rates, string), above)
             except InputError as error:  # as of a resolved string with too many segments
                 return _row(label, solver, kind, depth, None, str(error))
             if point.carried is not None:
-                self._above[kind, k] = point.carried
+                self._above[loads] = point.carried
             return _row(label, solver, kind, depth, point)
 
         return by_other_methods

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from fctd.steady.chart_saver import ChartSaver
+from fctd.steady.torque_drag import Row, chart_rows
 from fctd.store import save_interval
 from fctd.store.run_folder import RunFolder, chunks_of, progress_of
+from tests.steady.test_carried_shape import DEPTHS, KIND, pushed
 
 EVERY = {"operation": "trip_in", "hookload_N": np.float64(0.1) + np.float64(0.2), "torque": float("nan"), "n": 3}
 
@@ -65,4 +67,20 @@ def test_a_damaged_chunk_ends_what_is_known(tmp_path: Path, clock: list[float], 
     again.keep(depth(2) + depth(2), 10)  # in the place of the damaged one, and of those after it
     found = ChartSaver(folder, 0.0).known
     assert [row["bit_depth_m"] for rows in found for row in rows] == [0.0, 1 / 3, 2 / 3, 2 / 3]
+    folder.leave(remove=True)
+
+
+def test_a_resolved_chart_goes_on_with_the_shapes_of_its_last_rows(tmp_path: Path, clock: list[float]) -> None:
+    """To the last bit as without the interruption, though each row begins with the shape of the one above."""
+    case, folder = pushed(1.9, 0.1), RunFolder.take(tmp_path / "chart.csv")
+    whole = chart_rows(case, KIND, DEPTHS)
+    kept = ChartSaver(folder, 0.0)
+
+    def keep(rows: list[Row]) -> None:
+        clock[0] += 1.0
+        kept.keep(rows, len(DEPTHS))
+
+    chart_rows(case, KIND, DEPTHS[:3], above=kept.above, keep=keep)
+    again = ChartSaver(folder, 0.0)
+    assert repr(chart_rows(case, KIND, DEPTHS, known=again.known, above=again.above)) == repr(whole)
     folder.leave(remove=True)
