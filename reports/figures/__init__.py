@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import matplotlib.figure
 import pandas as pd
 
+Canvas = matplotlib.figure.Figure
 Tables = dict[str, pd.DataFrame]
 
 
@@ -16,7 +17,7 @@ class Figure:
 
     name: str
     caption: str
-    draw: Callable[[Tables], matplotlib.figure.Figure]
+    draw: Callable[[Tables], Canvas]
 
 
 MODULES: dict[str, str] = {

@@ -1,15 +1,12 @@
 """Short beams against beam theory."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def errors(tables: Tables) -> Canvas:
     """Difference from beam theory against segment length, a line for each beam."""
     table = tables["beams"]
-    canvas = style.figure(3.8)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.8)
     for index, beam in enumerate(table["beam"].unique()):
         of_beam = table[table["beam"] == beam].sort_values("segment_m")
         ax.plot(of_beam["segment_m"], of_beam["off_percent"].abs(), **style.marked(index), label=beam)

@@ -1,8 +1,6 @@
 """The broomstick, as ``fctd chart --plot`` draws it."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def chart(tables: Tables) -> Canvas:

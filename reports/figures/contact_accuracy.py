@@ -1,10 +1,9 @@
 """Error against cost, all contact methods together."""
 
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from reports import words
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 # Zero has no place on a logarithmic axis; exact answers are drawn on a line below it.
 FLOOR = 0.3
@@ -13,8 +12,7 @@ FLOOR = 0.3
 def error_and_cost(tables: Tables) -> Canvas:
     """A line for each method from its coarse to its fine settings: error of depth and of direction."""
     cost = tables["cost"]
-    canvas = style.figure(4.3)
-    depth, angle = canvas.subplots(1, 2, sharex=True)
+    canvas, (depth, angle) = style.subplots(4.3, 1, 2, sharex=True)
     for index, method in enumerate(cost["method"].unique()):
         chosen = cost[cost["method"] == method]
         look = style.dots(index, filled=index < 6) | {"linestyle": "-", "linewidth": 0.8}

@@ -1,16 +1,14 @@
 """Operations of one contact test: the paper's, the engine's, its search, a mesh."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def operations(tables: Tables) -> Canvas:
     """A row for each part, arithmetic and comparisons on a logarithmic axis."""
     table = tables["operations"]
-    canvas = style.figure(1.0 + 0.3 * len(table))
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(1.0 + 0.3 * len(table))
     for index, column in enumerate(("arithmetic", "compare")):
         some = table[column] > 0
         height = np.flatnonzero(some) + 0.14 * (2 * index - 1)

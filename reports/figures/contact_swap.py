@@ -1,18 +1,16 @@
 """The loop with each contact method, the trip of Fig. 13, and the effect of facets on the torque."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
 from reports import words
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def costs(tables: Tables) -> Canvas:
     """A row for each loop, a dot for each number of segments, on a logarithmic axis."""
     cost = tables["cost"]
     loops = list(cost["loop"].unique())
-    canvas = style.figure(1.2 + 0.28 * len(loops))
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(1.2 + 0.28 * len(loops))
     for index, (segments, chosen) in enumerate(cost.groupby("segments")):
         at = chosen.set_index("loop").reindex(loops)
         height = np.arange(len(loops)) + 0.14 * (2 * index - 1)
@@ -26,8 +24,7 @@ def costs(tables: Tables) -> Canvas:
 def figure_13(tables: Tables) -> Canvas:
     """Σ rμF_n over depth: the engine's whole trip, both methods in windows; below, their difference."""
     windows, trip = tables["figure_13"], tables["trip"]
-    canvas = style.figure(4.6)
-    above, below = canvas.subplots(2, 1, sharex=True, height_ratios=[2, 1])
+    canvas, (above, below) = style.subplots(4.6, 2, 1, sharex=True, height_ratios=[2, 1])
     above.plot(
         trip["bit_depth_m"],
         trip["sum_r_mu_fn_N_m"] / 1e3,
@@ -42,8 +39,7 @@ def figure_13(tables: Tables) -> Canvas:
     above.set_ylabel("Σ rμFₙ, kN·m")
     below.plot(windows["bit_depth_m"], windows["difference_percent"], **style.dots(1, filled=False))
     below.axhline(0, **style.ZERO)
-    below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %")
-    below.set_ylim(style.around_zero(windows["difference_percent"]))
+    below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %", ylim=style.around_zero(windows["difference_percent"]))
     style.legend_above(above, columns=3)
     return canvas
 
@@ -51,8 +47,7 @@ def figure_13(tables: Tables) -> Canvas:
 def facets(tables: Tables) -> Canvas:
     """The difference of contact force times radius between mesh and cylinders, over facets, with the wedge."""
     meshes = tables["facets"].dropna(subset="facets")
-    canvas = style.figure(3.4)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.4)
     ax.plot(
         meshes["facets"],
         meshes["wedge_percent"],
@@ -69,8 +64,7 @@ def facets(tables: Tables) -> Canvas:
         label="|mesh − cylinders|",
     )
     ax.set(xscale="log", yscale="log", xlabel="number of facets, –", ylabel="difference of Σ rμFₙ, %")
-    style.plain_log_ticks(ax.xaxis)
-    style.plain_log_ticks(ax.yaxis)
+    style.plain_log_ticks(ax.xaxis, ax.yaxis)
     ax.set_xticks(meshes["facets"].to_list())
     ax.legend()
     return canvas
@@ -79,12 +73,10 @@ def facets(tables: Tables) -> Canvas:
 def torques(tables: Tables) -> Canvas:
     """A dot for each method: its difference of Σ rμF_n while rotating."""
     methods = tables["torques"]
-    canvas = style.figure(1.2 + 0.28 * len(methods))
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(1.2 + 0.28 * len(methods))
     ax.plot(methods["sum_difference_percent"], methods["method"].map(words.name), **style.dots(1), markersize=6)
     ax.axvline(0, **style.ZERO)
-    ax.set(xlabel="Σ rμFₙ against FCTD, %")
-    ax.set_xlim(style.around_zero(methods["sum_difference_percent"]))
+    ax.set(xlabel="Σ rμFₙ against FCTD, %", xlim=style.around_zero(methods["sum_difference_percent"]))
     ax.invert_yaxis()
     return canvas
 

@@ -4,10 +4,9 @@ import itertools
 
 import matplotlib.lines
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
 from reports import words
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def differences(tables: Tables) -> Canvas:
@@ -18,8 +17,7 @@ def differences(tables: Tables) -> Canvas:
     operations = list(numbers["operation"].unique())
     rows = list(itertools.product(operations, geometries))
 
-    canvas = style.figure(1.5 + 0.36 * len(rows))
-    axes = canvas.subplots(1, 2, sharey=True)
+    canvas, axes = style.subplots(1.5 + 0.36 * len(rows), 1, 2, sharey=True)
     for ax, column, label in zip(
         axes,
         ("hookload_difference_percent", "torque_difference_percent"),
@@ -56,8 +54,9 @@ def contact(tables: Tables) -> Canvas:
     """Contact force and angle along the chain: rows are operations."""
     profiles = tables["profiles"]
     operations = list(profiles["operation"].unique())
-    canvas = style.figure(0.9 + 1.9 * len(operations))
-    grid = canvas.subplots(len(operations), 2, sharex=True, sharey="col", squeeze=False)
+    canvas, grid = style.subplots(
+        0.9 + 1.9 * len(operations), len(operations), 2, sharex=True, sharey="col", squeeze=False
+    )
     for (force, angle), operation in zip(grid, operations, strict=True):
         at = profiles[profiles["operation"] == operation]
         for law in sorted(at["law"].unique(), key=style.LAWS.__getitem__):
@@ -66,17 +65,14 @@ def contact(tables: Tables) -> Canvas:
             touching = profile[profile["contact_force_N"] > 0]
             turned = style.unrolled(touching["contact_angle_deg"])
             angle.plot(touching["md_m"], turned, **style.dots(index, filled=index == 0), markersize=3)
-        force.set_title(words.name(operation))
-        force.set_ylabel("contact force, kN")
-        angle.set_ylabel("contact angle")
+        force.set(title=words.name(operation), ylabel="contact force, kN")
         angle.set_yticks(style.SIDES, [label.replace("\n", " ") for label in style.SIDE_LABELS])
-        angle.set_ylim(-90, 270)
+        angle.set(ylabel="contact angle", ylim=(-90, 270))
     touched = profiles[profiles["contact_force_N"] > 0]
     grid[0][0].set_ylim(0, 1.05 * touched["contact_force_N"].max() / 1e3)
     for ax in grid[-1]:
-        ax.set_xlabel("measured depth, m")
         # Nothing touches above the first contact.
-        ax.set_xlim(touched["md_m"].min() - 50, profiles["md_m"].max() + 20)
+        ax.set(xlabel="measured depth, m", xlim=(touched["md_m"].min() - 50, profiles["md_m"].max() + 20))
     style.legend_outside(canvas, grid[0][0], columns=3)
     return canvas
 

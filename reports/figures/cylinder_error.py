@@ -1,16 +1,13 @@
 """The error of a bend built from straight cylinders."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def errors(tables: Tables) -> Canvas:
     """Error of penetration, with its bound, and of direction against the length of a cylinder."""
     table = tables["errors"].sort_values("cylinder_length_m")
     length = table["cylinder_length_m"]
-    canvas = style.figure(3.6)
-    penetration, angle = canvas.subplots(1, 2, sharex=True)
+    canvas, (penetration, angle) = style.subplots(3.6, 1, 2, sharex=True)
     penetration.plot(length, table["bound_mm"], color=style.QUIET, linewidth=3.5, alpha=0.6, label="bound ℓ²/8R")
     penetration.plot(length, table["max_penetration_error_mm"], **style.marked(0), label="largest")
     penetration.plot(length, table["rms_penetration_error_mm"], **style.marked(1), label="root mean square")
@@ -20,8 +17,7 @@ def errors(tables: Tables) -> Canvas:
     angle.set_ylabel("largest error of direction, °")
     for ax in (penetration, angle):
         ax.set(xscale="log", yscale="log", xlabel="cylinder length, m")
-        style.plain_log_ticks(ax.xaxis)
-        style.plain_log_ticks(ax.yaxis)
+        style.plain_log_ticks(ax.xaxis, ax.yaxis)
     return canvas
 
 

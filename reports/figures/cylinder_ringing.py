@@ -3,9 +3,8 @@
 from typing import Any
 
 import pandas as pd
-from matplotlib.figure import Figure as Canvas
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 FROM_M = 1900.0  # above this depth the start of the trip still rings
 SHADES = ("#8fc1e0", style.COLOURS[1], "black")
@@ -15,8 +14,7 @@ EXPECTED: dict[str, Any] = {"color": style.COLOURS[0], "linestyle": style.DASHES
 def swing(tables: Tables) -> Canvas:
     """Hook load about its mean with the expected swing (above); the frequencies of string and seams (below)."""
     histories, expected, runs = tables["swing"], tables["expected"], tables["runs"]
-    canvas = style.figure(5.6)
-    load, tones = canvas.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    canvas, (load, tones) = style.subplots(5.6, 2, 1, sharex=True, height_ratios=(3, 2))
     histories = histories[histories["bit_depth_m"] > FROM_M]
     expected = expected[expected["bit_depth_m"] > FROM_M]
     # Hundreds of periods leave no room for dashes: the three lie one inside the other, the smallest on top.

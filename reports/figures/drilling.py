@@ -1,8 +1,6 @@
 """Drilling in time: the line of the law of the bit, and the cost by depth."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 WANTED = 150.0  # real-time factor of drilling 3 km
 
@@ -10,21 +8,17 @@ WANTED = 150.0  # real-time factor of drilling 3 km
 def law_and_cost(tables: Tables) -> Canvas:
     """Specific energy over drilling strength (left); real-time factor over depth (right)."""
     drilled, speed = tables["drilling"].sort_values("drilling_strength_MPa"), tables["speed"]
-    canvas = style.figure(3.3)
-    left, right = canvas.subplots(1, 2)
+    canvas, (left, right) = style.subplots(3.3, 1, 2)
     strength = drilled["drilling_strength_MPa"]
     left.plot(strength, drilled["by_the_law_MPa"], **style.line(1), label="E = (1 − μγζ)ε + μγS")
     for index, (name, rows) in enumerate(drilled.groupby(drilled["driller"] == "autodriller")):
         left.plot(rows["drilling_strength_MPa"], rows["specific_energy_MPa"], **style.dots(2 * index, filled=False),
                   markersize=8, label="autodriller" if name else "given speed of the block")  # fmt: skip
-    left.set(xlabel="drilling strength S, MPa", ylabel="specific energy E, MPa")
-    left.set_xlim(left=0)
-    left.set_ylim(bottom=0)
+    left.set(xlabel="drilling strength S, MPa", ylabel="specific energy E, MPa", xlim=(0, None), ylim=(0, None))
     left.legend(loc="lower right")
     right.plot(speed["depth_m"], speed["real_time_factor"], **style.marked(0), label="measured")
     right.axhline(WANTED, **style.BOUND, label="wanted for the whole well")
-    right.set(xlabel="depth, m", ylabel="real-time factor, –")
-    right.set_ylim(bottom=0)
+    right.set(xlabel="depth, m", ylabel="real-time factor, –", ylim=(0, None))
     right.legend(loc="upper right")
     return canvas
 

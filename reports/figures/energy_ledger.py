@@ -1,16 +1,14 @@
 """The residual of the energy ledger over the time step."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def closure(tables: Tables) -> Canvas:
     """Residual of the ledger against the step, with lines of first and second order."""
     table = tables["closure"]
-    canvas = style.figure(4.0)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(4.0)
     for index, (case, rows) in enumerate(table.groupby("case", sort=False)):
         ordered = rows.sort_values("step_s")
         residual = ordered["relative_residual"].abs()

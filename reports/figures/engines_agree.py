@@ -1,9 +1,7 @@
 """The same string in other engines: loads against FCTD's, contact forces along it."""
 
-from matplotlib.figure import Figure as Canvas
-
 from reports import words
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def loads(tables: Tables) -> Canvas:
@@ -12,8 +10,7 @@ def loads(tables: Tables) -> Canvas:
     numbers = numbers[numbers["engine"] != "FCTD"]
     names = list(numbers["engine"].unique())
     windows = list(numbers.groupby(["hole", "operation"], sort=False))
-    canvas = style.figure(1.8 + 0.42 * len(names))
-    axes = canvas.subplots(1, 2, sharey=True)
+    canvas, axes = style.subplots(1.8 + 0.42 * len(names), 1, 2, sharey=True)
     columns = (("hookload_off_percent", "hook load − FCTD's, %"), ("torque_off_percent", "torque − FCTD's, %"))
     for ax, (column, label) in zip(axes, columns, strict=True):
         for index, ((hole, kind), rows) in enumerate(windows):
@@ -39,8 +36,7 @@ def contact(tables: Tables) -> Canvas:
     profiles = tables["profiles"]
     turning = profiles[(profiles["operation"] == "rotate_off_bottom") & (profiles["hole"] == "planar")]
     names = [name for name in turning["engine"].unique() if "default" not in name]
-    canvas = style.figure(3.4)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.4)
     for index, name in enumerate(names):
         at = turning[turning["engine"] == name]
         ax.plot(at["md_m"], at["contact_force_N"] / 1e3, **style.line(index), label=name)
@@ -53,8 +49,7 @@ def contact(tables: Tables) -> Canvas:
 def friction(tables: Tables) -> Canvas:
     """Angle of friction to the sliding over the azimuth of a straight hole, and that of two fixed directions."""
     table = tables["friction"]
-    canvas = style.figure(3.2)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.2)
     for index, (name, at) in enumerate(table.groupby("engine", sort=False)):
         ax.plot(at["azimuth_deg"], at["lean_deg"], **style.dots(index), markersize=6, label=name)
     given = table.dropna(subset="two_directions_lean_deg")

@@ -1,8 +1,6 @@
 """Drag and torque of the two laws over the ratio of speeds."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 PANELS = (("drag", "kN", "axial drag, kN"), ("torque", "kN_m", "torque, kN·m"))
 
@@ -10,8 +8,7 @@ PANELS = (("drag", "kN", "axial drag, kN"), ("torque", "kN_m", "torque, kN·m"))
 def straight(tables: Tables) -> Canvas:
     """Solver as lines, closed forms as marks."""
     table = tables["straight"]
-    canvas = style.figure(3.6)
-    axes = canvas.subplots(1, 2, sharex=True)
+    canvas, axes = style.subplots(3.6, 1, 2, sharex=True)
     for ax, (name, unit, label) in zip(axes, PANELS, strict=True):
         for law, index in style.LAWS.items():
             rows = table[table["law"] == law]
@@ -24,8 +21,7 @@ def straight(tables: Tables) -> Canvas:
                 x.iloc[few], rows[f"{name}_closed_form_{unit}"].iloc[few], **style.dots(index, filled=False),
                 label=f"{law}, closed form",
             )  # fmt: skip
-        ax.set(xscale="log", xlabel="axial over tangential speed, –", ylabel=label)
-        ax.set_ylim(bottom=0)
+        ax.set(xscale="log", xlabel="axial over tangential speed, –", ylabel=label, ylim=(0, None))
     style.legend_outside(canvas, axes[0])
     return canvas
 

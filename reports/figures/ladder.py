@@ -1,9 +1,8 @@
 """The ladder: error over bound of every rung, worst first."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 LEAST, MOST = 1e-5, 10.0  # of error over bound that is drawn; beyond them a marker stands at the edge
 
@@ -16,8 +15,7 @@ def rungs(tables: Tables) -> Canvas:
     worst = table.assign(share=share).groupby(["rung", "by"], sort=False)["share"].max().reset_index()
     order = worst.groupby("rung")["share"].max().sort_values(ascending=False, kind="stable")
     rows = list(order.index)
-    canvas = style.figure(0.9 + 0.19 * len(rows))
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(0.9 + 0.19 * len(rows))
     for index, by in enumerate(("steady", "stepper")):
         part = worst[worst["by"] == by]
         heights = [rows.index(rung) for rung in part["rung"]]

@@ -1,8 +1,6 @@
 """Starts from rest with one long vertical segment and with many short ones, and the frequencies of both."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 LOOKS = {"long": (1, "one long segment"), "cut twice as fine": (0, "segments of 18.75 m")}
 PANELS = (
@@ -15,8 +13,7 @@ def start_up(tables: Tables) -> Canvas:
     """Torque of a string that starts to turn, hook load of one that starts to go in, both quickly."""
     histories = tables["histories"]
     quick = histories[histories["ramp_s"] == histories["ramp_s"].min()]
-    canvas = style.figure(5.0)
-    axes = canvas.subplots(2, 1, sharex=True)
+    canvas, axes = style.subplots(5.0, 2, 1, sharex=True)
     for ax, (operation, column, label) in zip(axes, PANELS, strict=True):
         for name, (index, title) in reversed(LOOKS.items()):
             rows = quick[(quick["operation"] == operation) & (quick["vertical"] == name)]
@@ -30,8 +27,7 @@ def start_up(tables: Tables) -> Canvas:
 def frequencies(tables: Tables) -> Canvas:
     """Differences of the lowest frequencies from those of the continuous string."""
     table = tables["frequencies"]
-    canvas = style.figure(3.0)
-    axes = canvas.subplots(1, 2, sharey=True)
+    canvas, axes = style.subplots(3.0, 1, 2, sharey=True)
     for ax, kind in zip(axes, table["kind"].unique(), strict=True):
         rows = table[table["kind"] == kind]
         ax.axhline(0, **style.ZERO)

@@ -1,15 +1,12 @@
 """Torque off bottom with contact on a mesh and in cylinders."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def figure_13b(tables: Tables) -> Canvas:
     """Σ rμF_n of the windows with both methods and the steady torque; below, differences in the windows."""
     windows, steady = tables["windows"], tables["steady"]
-    canvas = style.figure(4.6)
-    above, below = canvas.subplots(2, 1, sharex=True, height_ratios=[2, 1])
+    canvas, (above, below) = style.subplots(4.6, 2, 1, sharex=True, height_ratios=[2, 1])
     depth = windows["bit_depth_m"]
     above.plot(
         steady["bit_depth_m"], steady["surface_torque_N_m"] / 1e3, color=style.QUIET, linewidth=1.2,
@@ -24,8 +21,8 @@ def figure_13b(tables: Tables) -> Canvas:
     for column, index, label in differences:
         below.plot(depth, windows[column], **style.dots(index, filled=False), label=label)
     below.axhline(0, **style.ZERO)
-    below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %")
-    below.set_ylim(style.around_zero(windows[[column for column, *_ in differences]]))
+    limits = style.around_zero(windows[[column for column, *_ in differences]])
+    below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %", ylim=limits)
     below.legend(loc="upper left", ncols=2)
     style.legend_above(above, columns=3)
     return canvas

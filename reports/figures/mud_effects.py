@@ -1,23 +1,21 @@
 """Decay of the twisting of a rotating string in mud."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def decay(tables: Tables) -> Canvas:
     """Surface torque after a quick start, without mud's damping and with two viscosities."""
     histories = tables["histories"]
     viscosities = sorted(histories["viscosity_Pa_s"].unique())
-    canvas = style.figure(1.0 + 1.4 * len(viscosities))
-    axes = canvas.subplots(len(viscosities), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
-    for index, (ax, viscosity) in enumerate(zip(axes, viscosities, strict=True)):
+    height = 1.0 + 1.4 * len(viscosities)
+    canvas, axes = style.subplots(height, len(viscosities), sharex=True, sharey=True, squeeze=False)
+    for index, (ax, viscosity) in enumerate(zip(axes[:, 0], viscosities, strict=True)):
         rows = histories[histories["viscosity_Pa_s"] == viscosity]
         look = {**style.line(index), "linestyle": "-", "linewidth": 1}
         ax.plot(rows["time_s"], rows["surface_torque_N_m"] / 1e3, **look)
         ax.set_title(f"mud of {1e3 * viscosity:.0f} mPa s" if viscosity else "no damping")
-    axes[len(axes) // 2].set_ylabel("surface torque, kN·m")
-    axes[-1].set_xlabel("time, s")
+    axes[len(axes) // 2, 0].set_ylabel("surface torque, kN·m")
+    axes[-1, 0].set_xlabel("time, s")
     return canvas
 
 

@@ -1,15 +1,12 @@
 """A point dragged through a bend, with cylinders that overlap and cylinders that do not."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def drag(tables: Tables) -> Canvas:
     """Contact force and direction over the distance dragged, with overlap and without."""
     table = tables["drag"]
-    canvas = style.figure(4.6)
-    force, direction = canvas.subplots(2, 1, sharex=True)
+    canvas, (force, direction) = style.subplots(4.6, 2, 1, sharex=True)
     # The run without overlap is a thin line over the other; dashes would not show in its jumps.
     for index, overlap in enumerate(sorted(table["overlap"].unique(), reverse=True)):
         ordered = table[table["overlap"] == overlap].sort_values("s_m")
@@ -18,8 +15,7 @@ def drag(tables: Tables) -> Canvas:
         force.plot(ordered["s_m"], ordered["contact_force_N"] / 1e3, **look, label=label)
         touching = ordered["contact_force_N"] > 0
         direction.plot(ordered["s_m"], ordered["direction_deg"].where(touching), **look)
-    force.set_ylabel("contact force, kN")
-    force.set_ylim(bottom=0)
+    force.set(ylabel="contact force, kN", ylim=(0, None))
     direction.set(xlabel="distance dragged, m", ylabel="direction of the force, °")
     style.legend_above(force)
     return canvas

@@ -3,10 +3,9 @@
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from reports import words
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 WELL, WELL_B = "paper-well", "paper-well-b"
 BIT_DEPTHS_M = (1750.0, 2450.0)
@@ -14,8 +13,7 @@ BIT_DEPTHS_M = (1750.0, 2450.0)
 
 def torque(tables: Tables) -> Canvas:
     """The paper's Fig. 12 in both readings of its model curve."""
-    canvas = style.figure(3.9)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.9)
     _series(ax, tables["trip_in"], "sum_r_mu_fn_N_m", 0, "(a)", "law paper, tripping in: Σ rμFₙ")
     _series(ax, tables["rotating"], "surface_torque_N_m", 1, "(b)", "law coulomb, rotating: surface torque")
     _against_bit_depth(ax, "torque, kN·m")
@@ -25,8 +23,7 @@ def torque(tables: Tables) -> Canvas:
 
 def hook_load(tables: Tables) -> Canvas:
     """Hook load over the same depths."""
-    canvas = style.figure(3.6)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.6)
     _series(ax, tables["trip_in"], "hookload_N", 0, "(a)", "law paper, tripping in")
     _series(ax, tables["rotating"], "hookload_N", 1, "(b)", "law coulomb, rotating off bottom")
     _against_bit_depth(ax, "hook load, kN")
@@ -42,8 +39,9 @@ def contact(tables: Tables) -> Canvas:
     touching = profiles[profiles["contact_force_N"] > 0]
     deepest = profiles[profiles["bit_depth_m"] == depths[-1]]
 
-    canvas = style.figure(1.0 + 1.7 * len(depths))
-    grid = canvas.subplots(len(depths), len(operations), sharex=True, sharey=True, squeeze=False)
+    canvas, grid = style.subplots(
+        1.0 + 1.7 * len(depths), len(depths), len(operations), sharex=True, sharey=True, squeeze=False
+    )
     for row, depth in zip(grid, depths, strict=True):
         for ax, operation in zip(row, operations, strict=True):
             at = profiles[(profiles["bit_depth_m"] == depth) & (profiles["operation"] == operation)]
@@ -52,9 +50,8 @@ def contact(tables: Tables) -> Canvas:
             ax.axvline(depth, **style.line(2), linewidth=1)
             ax.set_title(f"{words.name(operation)}, bit at {depth:.0f} m")
     for ax in grid[-1]:
-        ax.set_xlabel("measured depth, m")
         # Nothing touches above the first contact, and the bends need the room.
-        ax.set_xlim(touching["md_m"].min() - 50, depths[-1] + 50)
+        ax.set(xlabel="measured depth, m", xlim=(touching["md_m"].min() - 50, depths[-1] + 50))
     canvas.supylabel("contact force, kN (up: high side, down: low side)", fontsize=9.5)
     return canvas
 

@@ -1,9 +1,8 @@
 """Buckled pipe: its shapes, unrolled and in space, its wall force along paths of load, and the force it transmits."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 SHAPES = ("snaking", "helix")
 SHOWN = 100.0  # [m]
@@ -26,9 +25,9 @@ def shapes(tables: Tables) -> Canvas:
         space.plot(md, 1e3 * aside, 1e3 * up, **style.line(row))
         wall = 1e3 * np.hypot(aside, up).max()
         space.set(
-            xlabel="along the hole, m", ylabel="aside, mm", zlabel="up, mm", ylim=(-wall, wall), zlim=(-wall, wall)
-        )
-        space.set(yticks=[-40, 40], zticks=[-40, 0, 40])
+            xlabel="along the hole, m", ylabel="aside, mm", zlabel="up, mm", ylim=(-wall, wall), zlim=(-wall, wall),
+            yticks=[-40, 40], zticks=[-40, 0, 40],
+        )  # fmt: skip
         space.xaxis.labelpad = 8  # the labels stand beside the numbers, not on them
         space.set_box_aspect((2.2, 1, 1), zoom=0.85)
     return canvas
@@ -37,8 +36,7 @@ def shapes(tables: Tables) -> Canvas:
 def wall_force(tables: Tables) -> Canvas:
     """Mean wall force along the paths of load, with the closed form of the helix."""
     table = tables["paths"]
-    canvas = style.figure(3.6)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.6)
     for index, path in enumerate(table["path"].unique()):
         of_path = table[table["path"] == path]
         ax.plot(of_path["times_onset"], of_path["wall_force_over_weight"], **style.marked(index), label=path)
@@ -53,8 +51,7 @@ def wall_force(tables: Tables) -> Canvas:
 def transmitted(tables: Tables) -> Canvas:
     """Push at the top against the length of a helix that slides."""
     table = tables["pushed"]
-    canvas = style.figure(3.4)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.4)
     labels = {"reciprocal_kN": "reciprocal law", "tan_kN": "tan law", "push_kN": "engine"}
     for index, (column, label) in enumerate(labels.items()):
         drawn = style.dots(index) if column == "push_kN" else style.line(index)

@@ -1,15 +1,12 @@
 """A surveyed well: surface loads over time, and where the string touches."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def history(tables: Tables) -> Canvas:
     """Torque and hook load over time."""
     table = tables["history"]
-    canvas = style.figure(4.4)
-    torque, load = canvas.subplots(2, 1, sharex=True)
+    canvas, (torque, load) = style.subplots(4.4, 2, 1, sharex=True)
     torque.plot(table["time_s"], table["surface_torque_N_m"] / 1e3, **style.line(0))
     torque.set_ylabel("surface torque, kN·m")
     load.plot(table["time_s"], table["hookload_N"] / 1e3, **style.line(0))
@@ -21,12 +18,10 @@ def contact(tables: Tables) -> Canvas:
     """Contact force and side against depth, drawn downwards."""
     table = tables["profiles"].sort_values("md_m")
     touching = table[table["contact_force_N"] > 0]
-    canvas = style.figure(5.2)
-    force, angle = canvas.subplots(1, 2, sharey=True, width_ratios=[3, 2])
+    canvas, (force, angle) = style.subplots(5.2, 1, 2, sharey=True, width_ratios=[3, 2])
     force.hlines(touching["md_m"], 0, touching["contact_force_N"] / 1e3, color=style.COLOURS[0], linewidth=0.9)
     force.plot(touching["contact_force_N"] / 1e3, touching["md_m"], **style.dots(0), markersize=2.5)
-    force.set_xlabel("contact force, kN")
-    force.set_xlim(left=0)
+    force.set(xlabel="contact force, kN", xlim=(0, None))
     angle.plot(style.unrolled(touching["contact_angle_deg"]), touching["md_m"], **style.dots(0), markersize=2.5)
     angle.set_xticks(style.SIDES, style.SIDE_LABELS)
     angle.set(xlabel="contact angle", xlim=(-90, 270))

@@ -1,8 +1,6 @@
 """Graded and uniform strings, and the errors of ``fctd refine``."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 LAYOUTS = ("uniform", "graded")
 
@@ -11,8 +9,7 @@ def layouts(tables: Tables) -> Canvas:
     """A column for each well: torque above, hook load below."""
     table = tables["layouts"]
     wells = list(table["well"].unique())
-    canvas = style.figure(5.0)
-    axes = canvas.subplots(2, len(wells), sharex="col", squeeze=False)
+    canvas, axes = style.subplots(5.0, 2, len(wells), sharex="col", squeeze=False)
     for column, well in enumerate(wells):
         for row, (quantity, label) in enumerate((("torque", "torque"), ("hookload", "hook load"))):
             ax = axes[row, column]
@@ -36,8 +33,7 @@ def layouts(tables: Tables) -> Canvas:
 def landed(tables: Tables) -> Canvas:
     """Estimated error, and the difference from a run four times as fine, over the tolerance."""
     table = tables["landed"]
-    canvas = style.figure(3.6)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.6)
     labels = []
     groups = table.groupby(["well", "tolerance_percent", "asked", "layout"], sort=False)
     for at, ((well, tolerance, asked, layout), rows) in enumerate(groups):

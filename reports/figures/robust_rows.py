@@ -1,17 +1,15 @@
 """How the plausible rows of every class of string end."""
 
 import pandas as pd
-from matplotlib.figure import Figure as Canvas
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def statuses(tables: Tables) -> Canvas:
     """Share of the rows of each class with each status other than converged."""
     rows = tables["rows"]
     share = 100 * pd.crosstab(rows["class"], rows["status"], normalize="index").reindex(rows["class"].unique())
-    canvas = style.figure(4.2)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(4.2)
     begun = pd.Series(0.0, share.index)
     for index, status in enumerate(sorted(set(share.columns) - {"converged"})):
         ax.barh(

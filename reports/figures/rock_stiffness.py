@@ -1,16 +1,13 @@
 """Loads, penetration and the stepper's step over the stiffness of the rock."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def stiffness(tables: Tables) -> Canvas:
     """Changes of loads (left), penetration and step (right), each over stiffness."""
     table = tables["summary"]
     answered = table[(table["without_answer"] == 0) & (table["loads_change_percent"] > 0)]
-    canvas = style.figure(3.8)
-    left, right = canvas.subplots(1, 2, sharex=True)
+    canvas, (left, right) = style.subplots(3.8, 1, 2, sharex=True)
     for index, (column, label) in enumerate(
         (("loads_change_percent", "hook load and torque"), ("contact_force_change_percent", "contact force"))
     ):

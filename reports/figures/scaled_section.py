@@ -1,8 +1,6 @@
 """The scaled curved section: contact force, displacement, and differences over the number of segments."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 TRUTH = "finite elements"
 SIDES = {
@@ -15,15 +13,13 @@ SIDES = {
 def force(tables: Tables) -> Canvas:
     """Fig. 9: contact force against time, total and on each side."""
     table = tables["force"]
-    canvas = style.figure(6.4)
-    grid = canvas.subplots(2, 2, sharex=True)
+    canvas, grid = style.subplots(6.4, 2, 2, sharex=True)
     panels = {"total_N": "total", **SIDES}
     for ax, (column, title) in zip(grid.flat, panels.items(), strict=True):
         for index, model in enumerate(_models(tables)):
             rows = table[table["model"] == model]
             ax.plot(rows["time_s"], rows[column] / 1e3, **_look(index), label=model)
-        ax.set_title(title)
-        ax.set_ylim(bottom=0)
+        ax.set(title=title, ylim=(0, None))
     for ax in grid[-1]:
         ax.set_xlabel("time, s")
     for ax in grid[:, 0]:
@@ -36,8 +32,7 @@ def displacement(tables: Tables) -> Canvas:
     """Fig. 10: horizontal displacement along the string, and the offset from the axis between the walls."""
     table = tables["string"]
     clearance = 1e3 * float(table["clearance_m"].iloc[0])
-    canvas = style.figure(5.6)
-    whole, offset = canvas.subplots(2, 1, sharex=True, height_ratios=(2, 3))
+    canvas, (whole, offset) = style.subplots(5.6, 2, 1, sharex=True, height_ratios=(2, 3))
     for index, model in enumerate(_models(tables)):
         rows = table[(table["model"] == model) & (table["md_m"] > _shown(tables))]
         whole.plot(rows["md_m"], rows["horizontal_m"], **_look(index), label=model)
@@ -49,9 +44,8 @@ def displacement(tables: Tables) -> Canvas:
         offset.annotate(
             name, (at, side), xycoords=("axes fraction", "data"), ha="center", va=up, color=style.QUIET, fontsize=9
         )
-    offset.set_ylim(-1.4 * clearance, 1.4 * clearance)
     whole.set_ylabel("horizontal displacement, m")
-    offset.set(xlabel="measured depth, m", ylabel="offset from the axis, mm")
+    offset.set(xlabel="measured depth, m", ylabel="offset from the axis, mm", ylim=(-1.4 * clearance, 1.4 * clearance))
     style.legend_above(whole, columns=3)
     return canvas
 
@@ -60,8 +54,7 @@ def convergence(tables: Tables) -> Canvas:
     """Differences from the finite elements against the number of segments."""
     table = tables["segments"]
     own = table[table["geometry"] == table["geometry"].iloc[0]].sort_values("segments")
-    canvas = style.figure(3.6)
-    left, right = canvas.subplots(1, 2)
+    canvas, (left, right) = style.subplots(3.6, 1, 2)
     left.plot(own["segments"], own["total_rms_percent"], **style.marked(0), label="RMS of total force")
     left.axhline(3.0, **style.BOUND)
     left.set_ylabel("force difference, % of the peak")
@@ -77,8 +70,7 @@ def convergence(tables: Tables) -> Canvas:
     right.set_ylabel("displacement, % of the clearance")
     for ax in (left, right):
         ax.set(xscale="log", yscale="log", xlabel="number of segments, –")
-        style.plain_log_ticks(ax.xaxis)
-        style.plain_log_ticks(ax.yaxis)
+        style.plain_log_ticks(ax.xaxis, ax.yaxis)
         ax.set_xticks(own["segments"], [str(count) for count in own["segments"]])
     style.legend_above(left)
     style.legend_above(right)

@@ -1,9 +1,8 @@
 """Error and cost against the number of segments, error against the length of the cylinders."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 QUANTITIES = {
     "torque": "torque",
@@ -20,8 +19,8 @@ def errors(tables: Tables) -> Canvas:
     table = tables["counts"]
     wells = list(table["well"].unique())
     rows = (len(wells) + 2) // 3
-    canvas = style.figure(0.7 + 2.4 * rows)
-    axes = canvas.subplots(rows, 3, sharex=True, sharey=True, squeeze=False).ravel()
+    canvas, grid = style.subplots(0.7 + 2.4 * rows, rows, 3, sharex=True, sharey=True, squeeze=False)
+    axes = grid.ravel()
     for well, ax in zip(wells, axes, strict=False):
         of_well = table[(table["well"] == well) & (table["segments"] != table["reference"])]
         for index, (quantity, label) in enumerate(QUANTITIES.items()):
@@ -49,8 +48,7 @@ def errors(tables: Tables) -> Canvas:
 
 def cost(tables: Tables) -> Canvas:
     """Processor time of a steady string, and of a simulated second."""
-    canvas = style.figure(3.9)
-    axes = canvas.subplots(1, 2)
+    canvas, axes = style.subplots(3.9, 1, 2)
     counts, stepped = tables["counts"], tables["stepped"]
     wells = list(counts["well"].unique())
     for index, well in enumerate(wells):
@@ -80,8 +78,7 @@ def cost(tables: Tables) -> Canvas:
 def cylinders(tables: Tables) -> Canvas:
     """Errors of side force over the miss of the longest cylinder, and of moment over its length."""
     table = tables["cylinders"]
-    canvas = style.figure(3.9)
-    axes = canvas.subplots(1, 2)
+    canvas, axes = style.subplots(3.9, 1, 2)
     for index, well in enumerate(table["well"].unique()):
         of_well = table[table["well"] == well]
         look = style.marked(index) | {"markersize": 3.5}

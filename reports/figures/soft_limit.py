@@ -1,8 +1,6 @@
 """The stiff string on its way to the soft limit."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 ALLOWED = 0.2  # percent
 
@@ -10,8 +8,7 @@ ALLOWED = 0.2  # percent
 def ladder(tables: Tables) -> Canvas:
     """Largest difference at each rung, a line for each operation."""
     table = tables["ladder"]
-    canvas = style.figure(3.4)
-    axes = canvas.subplots(1, 2, sharey=True)
+    canvas, axes = style.subplots(3.4, 1, 2, sharey=True)
     rungs = list(table["string"].unique())
     for ax, column, label in zip(
         axes,

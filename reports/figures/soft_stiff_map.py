@@ -3,11 +3,10 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
-from matplotlib.figure import Figure as Canvas
 from pandas import DataFrame
 
 from reports import words
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 LIMIT = 30.0  # [deg/100 ft], the paper's
 LARGEST = 40.0  # percent: the darkest cell
@@ -20,8 +19,9 @@ def contact_force(tables: Tables) -> Canvas:
     strings = {string: table[table["string"] == string] for string in table["string"].unique()}
     strings |= {f"{string}, little weight": light[light["string"] == string] for string in light["string"].unique()}
     operations = list(table["operation"].unique())
-    canvas = style.figure(0.6 + 2.2 * len(strings))
-    grid = canvas.subplots(len(strings), len(operations), sharex=True, sharey=True, squeeze=False)
+    canvas, grid = style.subplots(
+        0.6 + 2.2 * len(strings), len(strings), len(operations), sharex=True, sharey=True, squeeze=False
+    )
     for row, (string, rows) in zip(grid, strings.items(), strict=True):
         for ax, operation in zip(row, operations, strict=True):
             _map(ax, rows[rows["operation"] == operation])

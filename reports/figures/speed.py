@@ -1,9 +1,8 @@
 """Cost of a simulated second in each engine, and cost of a segment-step in FCTD over the number of segments."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 REAL_TIME_MS = 1000.0
 
@@ -15,8 +14,8 @@ def seconds(tables: Tables) -> Canvas:
     names = list(times["engine"].unique())
     names.sort(key=lambda name: times.loc[times["engine"] == name, "ms_per_simulated_s"].max())
     counts = sorted(times["segments"].unique())
-    canvas = style.figure(1.7 + 0.4 * len(names))
-    axes = canvas.subplots(1, len(counts), sharex=True, sharey=True, squeeze=False)[0]
+    height = 1.7 + 0.4 * len(names)
+    canvas, (axes,) = style.subplots(height, 1, len(counts), sharex=True, sharey=True, squeeze=False)
     for ax, count in zip(axes, counts, strict=True):
         here = times[times["segments"] == count]
         for index, ((state, step), chosen) in enumerate(here.groupby(["state", "step"], sort=True)):
@@ -34,8 +33,7 @@ def seconds(tables: Tables) -> Canvas:
 def scaling(tables: Tables) -> Canvas:
     """Cost of a segment-step over the number of segments."""
     table = tables["scaling"]
-    canvas = style.figure(2.6)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(2.6)
     ax.plot(table["segments"], table["ns_least"], **style.marked(0))
     ax.set(
         xscale="log",

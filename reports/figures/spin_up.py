@@ -1,19 +1,15 @@
 """Torque of a string that starts to turn in a level hole."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def torque(tables: Tables) -> Canvas:
     """Surface torque over time, by the engine and in closed form."""
     table = tables["torque"]
-    canvas = style.figure(2.9)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(2.9)
     ax.plot(table["time_s"], table["torque_kN_m"], **style.line(0) | {"linewidth": 1.1}, label="engine")
     ax.plot(table["time_s"], table["closed_form_kN_m"], **style.line(1), label="closed form without inertia")
-    ax.set(xlabel="time, s", ylabel="surface torque, kN·m")
-    ax.set_ylim(bottom=0)
+    ax.set(xlabel="time, s", ylabel="surface torque, kN·m", ylim=(0, None))
     ax.legend(loc="lower right")
     return canvas
 

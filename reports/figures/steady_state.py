@@ -1,9 +1,7 @@
 """A chart of the paper's well by the steady solver, with the stepper's loads."""
 
-from matplotlib.figure import Figure as Canvas
-
 from fctd.plots.palette import LOOKS
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 COLUMNS = ("hookload_stepped_kN", "torque_stepped_kN_m")
 

@@ -1,8 +1,6 @@
 """Thresholds of stick-slip by weight on bit and drive, and one cycle against an ODE."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 DRIVES = {"stiff": "stiff", "speed_control": "speed control", "impedance": "impedance"}
 SHOWN = 12.0  # of the cycle [s]
@@ -11,15 +9,13 @@ SHOWN = 12.0  # of the cycle [s]
 def threshold(tables: Tables) -> Canvas:
     """Rotation below which a bit sticks and slips: linear stability as lines, the engine as marks."""
     table = tables["thresholds"]
-    canvas = style.figure(3.6)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.6)
     for index, (drive, name) in enumerate(DRIVES.items()):
         rows = table[table["drive"] == drive].sort_values("weight_on_bit_kN")
         ax.plot(rows["weight_on_bit_kN"], rows["linear_rpm"], **style.line(index), label=f"{name}, linear stability")
         ax.plot(rows["weight_on_bit_kN"], rows["engine_rpm"], **style.dots(index, filled=False), markersize=8,
                 label=f"{name}, engine")  # fmt: skip
-    ax.set(xlabel="weight on bit, kN", ylabel="threshold, rev/min")
-    ax.set_ylim(bottom=0)
+    ax.set(xlabel="weight on bit, kN", ylabel="threshold, rev/min", ylim=(0, None))
     style.legend_above(ax, columns=3)
     return canvas
 
@@ -27,8 +23,7 @@ def threshold(tables: Tables) -> Canvas:
 def cycle(tables: Tables) -> Canvas:
     """The spin of the bit in slow rotation, each from a break-away of its own."""
     table = tables["cycles"]
-    canvas = style.figure(2.8)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(2.8)
     for index, (by, rows) in enumerate(table.groupby("by")):
         time, spin = rows["time_s"].to_numpy(float), rows["bit_rpm"].to_numpy(float)
         half = 0.5 * spin.max()

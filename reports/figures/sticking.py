@@ -1,15 +1,12 @@
 """Friction that sticks: error of a body on a belt, and the pull out of mud cake."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def belt_and_cake(tables: Tables) -> Canvas:
     """Error of period and amplitude over the step (left); overpull over the ratio of the factors (right)."""
     belt, pulls = tables["belt"], tables["overpull"]
-    canvas = style.figure(3.4)
-    left, right = canvas.subplots(1, 2)
+    canvas, (left, right) = style.subplots(3.4, 1, 2)
     for index, (law, rows) in enumerate(belt.groupby("law")):
         for column, filled in (("period", True), ("amplitude", False)):
             look = style.dots(index, filled=filled) | {"linestyle": style.DASHES[0 if filled else 1]}
@@ -20,8 +17,7 @@ def belt_and_cake(tables: Tables) -> Canvas:
     ratio = pulls["static_over_kinetic"]
     right.plot(ratio, pulls["all_at_once_kN"], **style.line(1), label="all of it at once, μₛΔp b L")
     right.plot(ratio, pulls["overpull_kN"], **style.marked(0), label="engine")
-    right.set(xlabel="static over kinetic factor, –", ylabel="overpull, kN")
-    right.set_ylim(bottom=0)
+    right.set(xlabel="static over kinetic factor, –", ylabel="overpull, kN", ylim=(0, None))
     style.legend_above(right, columns=1)
     return canvas
 

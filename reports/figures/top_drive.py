@@ -1,15 +1,12 @@
 """The share of a torque wave that the rig's drive reflects."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def reflection(tables: Tables) -> Canvas:
     """Real and imaginary part of the reflected share over frequency, closed form and measured."""
     table = tables["reflection"]
-    canvas = style.figure(3.6)
-    axes = canvas.subplots(1, 2, sharey=True)
+    canvas, axes = style.subplots(3.6, 1, 2, sharey=True)
     # A drive whose inertia is hidden from the string reflects as one without inertia.
     for index, drive in enumerate(("no inertia", "full inertia")):
         rows = table[table["drive"] == drive]

@@ -1,9 +1,7 @@
 """The friction factor that a winding hole seems to have."""
 
-from matplotlib.figure import Figure as Canvas
-
 from fctd.plots.palette import LOOKS
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 NAMES = {"trip_out": "hook load, picking up", "trip_in": "hook load, slacking off",
          "rotate_off_bottom": "torque, rotating"}  # fmt: skip
@@ -14,8 +12,7 @@ PANELS = (("amplitude_mm", "wavelength_m", 10.0, "amplitude, mm", "waves of 10 m
 def apparent(tables: Tables) -> Canvas:
     """Apparent factors over amplitude (left) and wavelength (right): mean, least and largest of the seeds."""
     table = tables["apparent_friction"]
-    canvas = style.figure(3.6)
-    axes = canvas.subplots(1, 2)
+    canvas, axes = style.subplots(3.6, 1, 2)
     for ax, (over, fixed, value, label, title) in zip(axes, PANELS, strict=True):
         chosen = table[table[fixed] == value].groupby(over)
         for index, (kind, name) in enumerate(NAMES.items()):

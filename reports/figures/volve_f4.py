@@ -1,16 +1,13 @@
 """A public well: measured loads over depth with calibrated curves, and judged rows with their bands."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 KINDS = {"trip_out": "picking up", "rotate_off_bottom": "rotating", "trip_in": "slacking off"}
 
 
 def chart(tables: Tables) -> Canvas:
     """Torque and weight indicator over bit depth."""
-    canvas = style.figure(4.6)
-    left, right = canvas.subplots(1, 2, sharey=True)
+    canvas, (left, right) = style.subplots(4.6, 1, 2, sharey=True)
     points = tables["points"]
     for _, curve in tables["curves"].groupby("string", sort=False):
         for index, kind in enumerate(KINDS):
@@ -42,10 +39,8 @@ def chart(tables: Tables) -> Canvas:
 def rows(tables: Tables) -> Canvas:
     """Bands of judged rows: torque by model A, half spread by A and B."""
     table = tables["rows"]
-    canvas = style.figure(4.4)
-    for ax, (quantity, unit) in zip(
-        canvas.subplots(1, 2), (("torque", "kN·m"), ("half spread", "kN")), strict=True
-    ):  # fmt: skip
+    canvas, axes = style.subplots(4.4, 1, 2)
+    for ax, (quantity, unit) in zip(axes, (("torque", "kN·m"), ("half spread", "kN")), strict=True):
         part = table[table["quantity"] == quantity]
         part = part[(part["model"] == "B") | part["model"].str.startswith("A")].reset_index(drop=True)
         part = part.sort_values(["row", "model"], kind="stable").reset_index(drop=True)

@@ -1,15 +1,12 @@
 """The paper's well: its profile in the vertical plane, and its inclination."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 
 def profile(tables: Tables) -> Canvas:
     """Fig. 11: true vertical depth against departure, and inclination against measured depth."""
     table = tables["wells"]
-    canvas = style.figure(4.4)
-    plane, angle = canvas.subplots(1, 2, width_ratios=(3, 2))
+    canvas, (plane, angle) = style.subplots(4.4, 1, 2, width_ratios=(3, 2))
     for index, variant in enumerate(table["variant"].unique()):
         rows = table[table["variant"] == variant]
         plane.plot(rows["departure_m"], rows["tvd_m"], **style.line(index), label=str(variant))

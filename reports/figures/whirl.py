@@ -1,9 +1,8 @@
 """Whirl of a collar against planar rotors."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Figure, Tables, style
 
 SHOWN = 0.6  # of the path [s]
 
@@ -11,8 +10,7 @@ SHOWN = 0.6  # of the path [s]
 def collar(tables: Tables) -> Canvas:
     """The critical speed as the zero of Ω²/radius (left); the path of a body that rolls backwards (right)."""
     speeds, paths = tables["critical_speed"], tables["paths"]
-    canvas = style.figure(3.7)
-    left, right = canvas.subplots(1, 2)
+    canvas, (left, right) = style.subplots(3.7, 1, 2)
     square = speeds["rad_per_s"] ** 2
     slope, offset = np.polyfit(square, square / speeds["radius_mm"], 1)
     critical, rotor = (float(speeds[f"{name}_rad_per_s"].iloc[0]) for name in ("critical", "rotor"))
@@ -20,8 +18,7 @@ def collar(tables: Tables) -> Canvas:
     left.plot(square, square / speeds["radius_mm"], **style.dots(0), label="engine")
     left.plot(ends, slope * ends + offset, **style.line(0), label="straight line")
     left.plot(rotor**2, 0.0, **style.dots(1, filled=False), markersize=9, label="planar rotor")
-    left.set(xlabel="rotation Ω², rad²/s²", ylabel="Ω²/radius, rad²/s²/mm")
-    left.set_ylim(bottom=0)
+    left.set(xlabel="rotation Ω², rad²/s²", ylabel="Ω²/radius, rad²/s²/mm", ylim=(0, None))
     left.margins(x=0.08)
     left.legend(loc="upper right")
     for index, (name, rows) in enumerate(paths.groupby("of")):
