@@ -2,10 +2,11 @@
 
 import math
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import wraps
 from pathlib import Path
-from typing import Literal, Protocol, TypeVar
+from typing import Any, Literal, ParamSpec, Protocol, TypeVar
 
 import numpy as np
 import pandas as pd
@@ -20,6 +21,8 @@ Kind = Literal["at_most", "at_least", "within"]
 Need = Literal["data"]
 T = TypeVar("T")
 A = TypeVar("A")
+P = ParamSpec("P")
+Rows = Iterator[dict[str, Any]]  # of a table, by its columns
 
 NEEDS: dict[Need, str] = {
     "data": (
@@ -95,6 +98,16 @@ class Outcome:
             raise ValueError(f"display names tables that are not there: {sorted(unknown)}")
         if len({check.name for check in self.checks}) < len(self.checks):
             raise ValueError("two checks share a name; expected.toml needs different names")
+
+
+def table_of_rows(rows: Callable[P, Rows]) -> Callable[P, pd.DataFrame]:
+    """A function that yields rows, as one that returns the table of them."""
+
+    @wraps(rows)
+    def of_rows(*given: P.args, **options: P.kwargs) -> pd.DataFrame:
+        return pd.DataFrame(list(rows(*given, **options)))
+
+    return of_rows
 
 
 def left_out(missing: Sequence[str]) -> list[str]:

@@ -12,7 +12,7 @@ from fctd.monitoring.monitor import Monitor, result_of
 from fctd.monitoring.series import read_series
 from fctd.monitoring.stretches import Mode
 from validation.harness.files import declare
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 
 MODES: dict[str, Mode] = {
     "in_slips": "in_slips", "rot_static": "rotating", "rot_up": "rotating_up", "rot_dn": "rotating_down",
@@ -94,22 +94,19 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-def _by_distance(series: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
+@table_of_rows
+def _by_distance(series: pd.DataFrame, table: pd.DataFrame) -> Rows:
     """Rows with standing block and 20 rev/min or more in missed bins, by the least distance off bottom [m]."""
     missed = table.loc[~table["within"] & (table["mode"] == "rotating"), "bit_depth_from_m"]
     speed = series["block_position_m"].diff() / series["time_s"].diff()
     standing = series[(series["rpm"] >= 20) & (speed.abs() < 0.01)]
     off = standing["hole_depth_m"] - standing["bit_depth_m"]
-    rows = []
     for start in missed:
         inside = (standing["bit_depth_m"] >= start) & (standing["bit_depth_m"] < start + BIN)
         for least in (0.1, 0.3, 0.5, 0.8, 1.0):
             here = standing[inside & (off > least)]
-            rows.append(
-                {"bit_depth_from_m": start, "off_bottom_m": least, "rows": len(here), "rpm": here["rpm"].median(),
-                 "torque_kN_m": here["drive_torque_N_m"].median() / 1e3}
-            )  # fmt: skip
-    return pd.DataFrame(rows)
+            yield {"bit_depth_from_m": start, "off_bottom_m": least, "rows": len(here), "rpm": here["rpm"].median(),
+             "torque_kN_m": here["drive_torque_N_m"].median() / 1e3}  # fmt: skip
 
 
 def _compared(one: "pd.Series[Any]", pooled: dict[tuple[str, float], list[np.ndarray]]) -> dict[str, object]:
