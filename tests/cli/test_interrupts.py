@@ -14,7 +14,8 @@ import pytest
 from fctd import open_result
 from fctd.cli import chart, refine, simulate
 from fctd.cli.interrupts import as_interrupts, deferred
-from tests.cli.test_main import CASE, run
+from tests.cli.test_main import CASE
+from tests.commands import Command
 
 ROOT = Path(__file__).parents[2]
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
@@ -48,22 +49,21 @@ def sending(real: Callable[..., object], number: int, after: int) -> Callable[..
 
 @pytest.mark.parametrize("number", SIGNALS)
 def test_a_run_keeps_what_it_has(
-    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     monkeypatch.setattr(simulate, "simulate", sending(simulate.simulate, number, 2))
     out = tmp_path / "out"
-    assert run(monkeypatch, "simulate", case_file, "--out", out, "--set", "record.interval=1 s", "--quiet") == 130
+    printed = cli("simulate", case_file, "--out", out, "--set", "record.interval=1 s", "--quiet", code=130)
     result = open_result(out)
     assert (result.status, result.message) == ("interrupted", "at 2 s")
     assert list(result.history["time_s"]) == pytest.approx([1.0, 2.0])
-    assert "interrupted: at 2 s" in capsys.readouterr().err
+    assert "interrupted: at 2 s" in printed.err
 
 
 @pytest.mark.parametrize("number", SIGNALS)
 @pytest.mark.parametrize("command", ["settling", "chart", "refine"])
 def test_a_command_without_results_ends_without_files(
-    command: str, number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    command: str, number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command,
 ) -> None:  # fmt: skip
     def settle(*_: object, **more: object) -> None:
         os.kill(os.getpid(), number)
@@ -76,14 +76,13 @@ def test_a_command_without_results_ends_without_files(
     monkeypatch.setattr(sys.modules["fctd.simulation.simulate"], "settle", settle)
     monkeypatch.setattr(chart, "chart_rows", sending(chart.chart_rows, number, 2))
     monkeypatch.setattr(refine, "refine", sending(refine.refine, number, 1))
-    assert run(monkeypatch, *options[command]) == 130
-    assert "Traceback" not in capsys.readouterr().err
+    assert "Traceback" not in cli(*options[command], code=130).err
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
 
 
 @pytest.mark.parametrize("number", KILL)
 def test_a_second_signal_does_not_stop_the_writing_of_results(
-    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """A terminal that closes sends SIGHUP from the system and from the shell."""
     save = simulate.SimulationResult.save
@@ -95,13 +94,13 @@ def test_a_second_signal_does_not_stop_the_writing_of_results(
 
     monkeypatch.setattr(simulate, "simulate", sending(simulate.simulate, number, 1))
     monkeypatch.setattr(simulate.SimulationResult, "save", again)
-    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
+    cli("simulate", case_file, "--out", tmp_path / "out", "--quiet", code=130)
     assert open_result(tmp_path / "out").status == "interrupted"
 
 
 @pytest.mark.parametrize("number", SIGNALS)
 def test_a_signal_while_results_are_written_waits(
-    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """The results of a whole run are not lost because it is stopped in its last tenth of a second."""
     save = simulate.SimulationResult.save
@@ -111,9 +110,9 @@ def test_a_signal_while_results_are_written_waits(
         return save(*arguments, **more)
 
     monkeypatch.setattr(simulate.SimulationResult, "save", stopped)
-    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
+    printed = cli("simulate", case_file, "--out", tmp_path / "out", "--quiet", code=130)
     assert open_result(tmp_path / "out").status == "completed"
-    assert "Written: " in capsys.readouterr().out
+    assert "Written: " in printed.out
     assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
 
 

@@ -15,7 +15,8 @@ from fctd.cli.keeping import read_bytes
 from fctd.store import limits, save_interval
 from fctd.store.lock import FolderLock
 from fctd.store.run_folder import RunFolder, run_path
-from tests.cli.test_main import CASE, run
+from tests.cli.test_main import CASE
+from tests.commands import run
 from tests.simulation.kept import same
 
 RUN = ("simulate", "small.toml", "--out", "out", "--quiet", "--csv", "--checkpoint-every", "0 s")

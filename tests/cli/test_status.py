@@ -14,7 +14,8 @@ from fctd.sweep.design import sample_of
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from tests.cli.test_keeping import CHART, RUN, killed
-from tests.cli.test_main import CASE, run
+from tests.cli.test_main import CASE
+from tests.commands import run
 from validation.parts.small_sweep import sweep_file
 
 

@@ -7,11 +7,12 @@ import pytest
 from typer.testing import CliRunner
 
 from fctd.case.errors import InputError
-from fctd.cli.main import app, run
+from fctd.cli.main import app
 from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import begin_dataset, open_dataset
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
+from tests.commands import Command
 from validation.parts.small_sweep import sweep_file
 
 
@@ -85,15 +86,9 @@ def test_pictures_that_cannot_be_drawn_are_refused_before_anything_is_told(swept
         (["--plot-map", "a.png", "--map", "friction.open,mud.density,status"], "a column of the results"),
     ],
 )
-def test_what_cannot_be_told_is_refused(
-    options: list[str], words: str, swept: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_cannot_be_told_is_refused(options: list[str], words: str, swept: Path, cli: Command) -> None:
     pytest.importorskip("matplotlib")
-    monkeypatch.setattr("sys.argv", ["fctd", "uncertainty", str(swept), *options])
-    with pytest.raises(SystemExit) as stopped:
-        run(app)
-    assert stopped.value.code == 2
-    assert words in " ".join(capsys.readouterr().err.split())
+    assert words in " ".join(cli("uncertainty", swept, *options, code=2).err.split())
 
 
 def test_a_limit_of_another_column_names_file_and_key(swept: Path) -> None:
@@ -116,11 +111,6 @@ def test_bands_of_one_depth_are_refused_with_the_kind_of_work(swept: Path) -> No
     assert str(refused.exception).startswith(said)
 
 
-def test_the_folder_of_another_sweep_is_refused(
-    swept: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_folder_of_another_sweep_is_refused(swept: Path, cli: Command) -> None:
     swept.write_text(swept.read_text(encoding="utf-8").replace("seed = 7", "seed = 8"), encoding="utf-8")
-    monkeypatch.setattr("sys.argv", ["fctd", "uncertainty", str(swept)])
-    with pytest.raises(SystemExit):
-        run(app)
-    assert "the folder of this sweep" in " ".join(capsys.readouterr().err.split())
+    assert "the folder of this sweep" in " ".join(cli("uncertainty", swept, code=2).err.split())

@@ -17,7 +17,8 @@ from fctd.cli import equilibrium, refine, simulate
 from fctd.results.status import RefineStatus, RunStatus, SteadyStatus
 from fctd.store.tables import write_table
 from tests.cases import make_case, rotation
-from tests.cli.test_main import CASE, run
+from tests.cli.test_main import CASE
+from tests.commands import run
 
 ALL = list(chain(SteadyStatus, RunStatus, RefineStatus))
 # What a script relies on: the exit code of the command, and whether its loads are those of a string; with the reason.
