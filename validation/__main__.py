@@ -26,9 +26,6 @@ def main(
     reproduce: Annotated[bool, typer.Option("--reproduce", help="Run what `make reproduce` runs.")] = False,
     quick: Annotated[bool, typer.Option("--quick", help="Shorten each study; the checks stay.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Repeat also studies that are up to date.")] = False,
-    audit: Annotated[
-        bool, typer.Option("--audit", help="As --force; a study fails that reads a file it does not declare.")
-    ] = False,
 ) -> None:
     """Run studies; each stores its tables and its verdict in validation/results/NAME/.
 
@@ -65,7 +62,6 @@ def main(
                 chosen,
                 quick=quick,
                 force=force,
-                audited=audit,
                 processes=1 if names else side_by_side.workers(),
                 data=study.data_folder(),
                 expected=expected,

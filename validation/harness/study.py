@@ -166,8 +166,7 @@ class Study:
 
     ``reproduce`` : whether ``make reproduce`` runs it: where a claim of the paper rests on it, or the first page of the
     report. ``timed`` : whether a check or a figure of it is a time, so that nothing may run beside it. ``needs`` : what
-    must be available; otherwise the study is skipped with a message. ``uses`` : the registry entries that it uses,
-    "module:class", to which no import statement leads.
+    must be available; otherwise the study is skipped with a message.
     """
 
     name: str
@@ -175,5 +174,4 @@ class Study:
     run: Callable[[Context], Outcome]
     reproduce: bool = False
     needs: tuple[Need, ...] = ()
-    uses: tuple[str, ...] = ()
     timed: bool = False

@@ -25,7 +25,6 @@ from fctd.calibration.unknowns import find_unknowns
 from fctd.case.load import Case
 from fctd.model.operations import rad_per_s
 from validation.cases import FOLDER
-from validation.harness.files import declare
 from validation.harness.study import data_folder
 from validation.parts.volve_f4 import FIT_B, SERIES_STRING
 from validation.parts.volve_f4_rows import cases, report_rows, series_rows
@@ -58,7 +57,7 @@ class Frozen:
 
 def setup_of(name: str, held: Mapping[str, tuple[float, float]] | None = None) -> Setup:
     """A setup of the well; held : priors, mean and standard deviation [SI], that take the place of its own."""
-    setup = read_setup(declare(SETUPS / f"{name}.toml"))
+    setup = read_setup(SETUPS / f"{name}.toml")
     unknowns = dict(setup.unknowns)
     for key, (mean, sd) in (held or {}).items():
         own = unknowns.get(key, UnknownSpec())
@@ -129,7 +128,7 @@ def frozen() -> dict[str, Frozen]:
     """The fits on record."""
     if not FROZEN.is_file():
         return {}
-    stored = json.loads(declare(FROZEN).read_text(encoding="utf-8"))
+    stored = json.loads(FROZEN.read_text(encoding="utf-8"))
     return {
         name: Frozen(one["values"], np.array(one["covariance"]), tuple(one["rows"])) for name, one in stored.items()
     }

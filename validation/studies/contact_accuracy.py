@@ -8,7 +8,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fctd import Case, InputError, build_wellbore, find_contacts
-from references import contact, engines
+from references import contact
 from references.contact import traps
 from references.timing.footprint import footprint
 from references.timing.stopwatch import machine_table, race
@@ -242,7 +242,6 @@ STUDY = Study(
     "contact_accuracy",
     "How accurate is each contact method, and what does it cost per point?",
     run,
-    uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
     reproduce=True,
     timed=True,
 )

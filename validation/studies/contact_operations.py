@@ -11,7 +11,7 @@ from fctd.mechanics import contact, state
 from fctd.simulation.preparation import contact_points, prepare
 from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest
-from references.contact import METHODS, build, installed_version, own
+from references.contact import build, installed_version, own
 from references.contact.box_tree import BoxTree, penetration
 from references.contact.for_loop import for_loop_owner, for_loop_owners, one_cylinder
 from references.contact.tube_mesh import TubeOptions, build_tube
@@ -251,7 +251,6 @@ STUDY = Study(
     "contact_operations",
     "How many operations does a contact test take?",
     run,
-    uses=(METHODS["coal"], METHODS["trimesh"]),
     reproduce=True,
     timed=True,
 )

@@ -10,7 +10,7 @@ import pandas as pd
 from fctd import Case, simulate
 from fctd.mechanics.topdrive import Motion
 from fctd.simulation.run import Run
-from references import contact, engines
+from references import contact
 from references.contact.for_loop import advance_with_for_loop
 from references.timing.stopwatch import machine_table, race, units_for
 from references.timing.workloads import NoWall, asking, copy_of, moving, without_wall
@@ -267,7 +267,6 @@ STUDY = Study(
     "contact_swap",
     "What does the contact method cost in the loop, and does the torque depend on it?",
     run,
-    uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
     reproduce=True,
     timed=True,
 )

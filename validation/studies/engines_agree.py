@@ -394,5 +394,5 @@ def scaling_checks(table: pd.DataFrame) -> list[Check]:
 
 STUDY = Study(
     "engines_agree", "Does the same string give the same loads in independent engines?", run,
-    uses=tuple(engines.ENGINES.values()), reproduce=True,
+    reproduce=True,
 )  # fmt: skip

@@ -11,7 +11,6 @@ from fctd import Case
 from fctd.monitoring.monitor import Monitor, result_of
 from fctd.monitoring.series import read_series
 from fctd.monitoring.stretches import Mode
-from validation.harness.files import declare
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 
 MODES: dict[str, Mode] = {
@@ -31,7 +30,7 @@ def f4(folder: Path) -> Case:
     rev/min, as the data's notes say; the friction of the casing, 0.12, is a guess.  None of them enters the medians of
     stretches, but for the limit of slips, half way between block and string.
     """
-    stations = pd.read_csv(declare(folder / "survey.csv"))[["md_m", "inc_deg", "azi_deg"]].to_numpy().tolist()
+    stations = pd.read_csv(folder / "survey.csv")[["md_m", "inc_deg", "azi_deg"]].to_numpy().tolist()
     intervals = [
         {"to_md": 1351, "diameter": "12.415 in", "friction": 0.12, "kind": "cased"},
         {"to_md": 2770, "diameter": "12.25 in", "friction": 0.25, "kind": "open"},
@@ -56,14 +55,14 @@ def run(context: Context) -> Outcome:
     assert context.data is not None  # the runner has checked that the data are there
     folder = context.data / "volve-15-9-F-4"
     watch = Monitor(f4(folder))
-    series = read_series(declare(folder / "timeseries_12.25in_2007-10-23.csv"))
+    series = read_series(folder / "timeseries_12.25in_2007-10-23.csv")
     watch.feed(series)
     watch.finish()
     pooled: dict[tuple[str, float], list[np.ndarray]] = defaultdict(list)
     for found in watch.found:
         for row in found.stretch.rows:
             pooled[found.stretch.mode, BIN * np.floor(row[0] / BIN)].append(row)
-    bins = pd.read_csv(declare(folder / "offbottom_bins_25m.csv"))
+    bins = pd.read_csv(folder / "offbottom_bins_25m.csv")
     rows = [_compared(one, pooled) for _, one in bins[bins["mode"].isin(list(MODES))].iterrows()]
     table = pd.DataFrame(rows)
     within = float(table["within"].mean())
