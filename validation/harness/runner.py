@@ -63,29 +63,12 @@ def load(name: str) -> Study:
     return study
 
 
-def question_of(name: str) -> str:
-    """The study's question; empty where the study cannot be loaded, which its run records."""
+def loaded(name: str) -> Study | None:
+    """The study; None where it cannot be loaded: it is run all the same, so that its failure is recorded and seen."""
     try:
-        return load(name).question
+        return load(name)
     except Exception:
-        return ""
-
-
-def is_reproduced(name: str) -> bool:
-    """Whether ``--reproduce`` runs the study."""
-    try:
-        return load(name).reproduce
-    except Exception:
-        # A study that cannot be loaded is run all the same, so that its failure is recorded and seen.
-        return True
-
-
-def is_timed(name: str) -> bool:
-    """Whether nothing may run beside the study."""
-    try:
-        return load(name).timed
-    except Exception:
-        return False  # it is run, and its failure recorded
+        return None
 
 
 def check_results(folder: Path) -> None:
@@ -172,8 +155,8 @@ def run_all(
     columns = (SpinnerColumn(), text, bar, MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
         context = Context(quick=quick, data=data, progress=Bars(bars))
-        beside = [name for name in names if processes > 1 and not is_timed(name)]
-        alone = [name for name in names if name not in beside]
+        alone = [name for name in names if processes == 1 or ((study := loaded(name)) is not None and study.timed)]
+        beside = [name for name in names if name not in alone]
         spread = replace(context, progress=silent, apart=apart)
 
         def done_in(its: Context) -> Callable[[str], StudyRun]:
