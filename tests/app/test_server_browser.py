@@ -12,8 +12,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("dash")
-
 from fctd.app.charts import place_of
 from tests.app.made import NAME, SURVEY, TEXT
 from tests.browsers import LONGEST, browser, needs_browser, opened, overflow, pixels

@@ -29,7 +29,6 @@ CHART_COLUMNS = [
 
 def test_a_chart_reads_its_survey_once(tmp_path: Path, cli: Command) -> None:
     """Whatever the number of operations and friction factors, and with pictures and tables."""
-    pytest.importorskip("matplotlib")
     survey, case_file = tmp_path / "survey.csv", tmp_path / "tiny.toml"
     survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n100,0,0\n550,90,0\n900,90,0\n")
     stations = "stations = [[0, 0, 0], [100, 0, 0], [550, 90, 0], [900, 90, 0]]"
@@ -109,7 +108,6 @@ def test_field_units_in_columns_and_names(case_file: Path, tmp_path: Path, cli: 
 def test_a_row_without_an_answer_shows_in_row_screen_and_exit_code(
     case_file: Path, tmp_path: Path, cli: Command
 ) -> None:
-    pytest.importorskip("matplotlib")
     out, picture = tmp_path / "chart.csv", tmp_path / "chart.svg"
     screen, errors = cli(
         "chart", case_file, "--operation", "trip_out", "--depths", "500:800:150",
@@ -125,7 +123,6 @@ def test_a_row_without_an_answer_shows_in_row_screen_and_exit_code(
 
 def test_a_chart_goes_on_below_the_hole(case_file: Path, tmp_path: Path, cli: Command) -> None:
     """Depths at which string and hole do not fit have rows of their own; the profile is that of the last that does."""
-    pytest.importorskip("matplotlib")
     out, pictures = tmp_path / "chart.csv", [tmp_path / "chart.svg", tmp_path / "profile.svg"]
     screen, errors = cli(
         "chart", case_file, "--operation", "trip_out", "--depths", "800:1000:100", "--out", out,
@@ -143,7 +140,6 @@ def test_a_chart_goes_on_below_the_hole(case_file: Path, tmp_path: Path, cli: Co
 def test_a_warning_is_on_screen_once_in_the_files_and_on_the_picture(
     case_file: Path, tmp_path: Path, cli: Command
 ) -> None:
-    pytest.importorskip("matplotlib")
     files = {"--out": tmp_path / "chart.csv", "--plot": tmp_path / "chart.svg", "--plot-profile": tmp_path / "p.svg"}
     chart = ("chart", case_file, "--operation", "trip_in", "--depths", "500:800:300", "--quiet")
     given = (*chart, *(part for pair in files.items() for part in pair), "--set", "mud.density=10.4")
@@ -190,7 +186,6 @@ def test_friction_by_kind_is_a_line_of_its_own(case_file: Path, tmp_path: Path, 
 
 
 def test_rates_go_to_the_operations_that_have_them(case_file: Path, tmp_path: Path, cli: Command) -> None:
-    pytest.importorskip("matplotlib")
     out, picture = tmp_path / "chart.csv", tmp_path / "profiles.svg"
     rates = ("--speed", "0.7 m/s", "--rpm", "80", "--plot-profile", picture)
     chart = ("chart", case_file, "--operation", "all", "--depths", "800:800:10", "--out", out, "--quiet")
@@ -219,7 +214,6 @@ def test_a_chart_as_csv_imports_no_package_that_it_does_not_use(tmp_path: Path) 
 def test_measured_rows_that_the_picture_does_not_show_are_told(
     case_file: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
-    pytest.importorskip("matplotlib")
     monkeypatch.chdir(case_file.parent)
     rows = "bit_depth_m,operation,hookload_kN\n700,trip_in,90\n700,trip_out,100\n800,rotate_off_bottom,95\n"
     Path("rows.csv").write_text(rows, encoding="utf-8")

@@ -45,7 +45,6 @@ def test_exit_code_of_a_legal_answer(
 def test_a_buckled_string_shows_in_row_screen_and_picture(
     units: str, foot: float, case_file: Path, tmp_path: Path, cli: Command,
 ) -> None:  # fmt: skip
-    pytest.importorskip("matplotlib")
     out, picture = tmp_path / "chart.csv", tmp_path / "chart.svg"
     printed = cli(
         "chart", case_file, "--operation", "drill_sliding", "--operation", "trip_out",
@@ -67,7 +66,6 @@ def test_a_buckled_string_shows_in_row_screen_and_picture(
 
 
 def test_a_buckled_string_is_resolved_where_that_is_asked_for(tmp_path: Path, cli: Command) -> None:
-    pytest.importorskip("matplotlib")
     case_file, out, picture = tmp_path / "level.toml", tmp_path / "chart.csv", tmp_path / "chart.svg"
     case_file.write_text(LEVEL)
     chart = ("chart", case_file, "--operation", "drill_sliding", "--depths", "150:150:1", "--out", out, "--quiet")
@@ -86,7 +84,6 @@ def test_a_buckled_string_is_resolved_where_that_is_asked_for(tmp_path: Path, cl
 
 @pytest.mark.slow
 def test_a_string_that_no_push_moves_is_an_answer_without_loads(tmp_path: Path, cli: Command) -> None:
-    pytest.importorskip("matplotlib")
     case_file, out, picture = tmp_path / "level.toml", tmp_path / "chart.csv", tmp_path / "chart.svg"
     case_file.write_text(LEVEL)
     assert "locked_up at 80 m (1 of 1): slack-off is spent at" in cli(

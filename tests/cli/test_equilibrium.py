@@ -15,7 +15,6 @@ from tests.commands import Command
 
 
 def test_equilibrium_prints_the_loads_and_writes_the_profile(case_file: Path, tmp_path: Path, cli: Command) -> None:
-    pytest.importorskip("matplotlib")
     out, picture = tmp_path / "profile.csv", tmp_path / "profile.svg"
     arguments = ("--operation", "trip_out", "--bit-depth", "850 m", "--friction", "0.3")
     printed = cli("equilibrium", case_file, *arguments, "--out", out, "--plot", picture)
@@ -53,7 +52,6 @@ def test_the_end_of_the_hole_is_a_word(case_file: Path, cli: Command) -> None:
 
 
 def test_equilibrium_without_an_answer_writes_nothing(case_file: Path, tmp_path: Path, cli: Command) -> None:
-    pytest.importorskip("matplotlib")
     files = [tmp_path / "p.csv", tmp_path / "p.png"]
     assert "diverged: segment" in cli(
         "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", "800", *settings(SOFT_BELOW),

@@ -53,7 +53,6 @@ def series_file(tmp_path: Path) -> Path:
 
 
 def test_a_table_a_picture_and_an_alarm(case_file: Path, series_file: Path, cli: Command) -> None:
-    pytest.importorskip("matplotlib")
     out, plot = case_file.with_name("found.csv"), case_file.with_name("found.png")
     printed = cli("monitor", case_file, series_file, "--out", out, "--plot", plot, "--units", "field").out
     assert printed.count("alarm: from 2") == 1  # of feet

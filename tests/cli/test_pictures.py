@@ -15,8 +15,6 @@ START = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF", ".html": b"<!doc
     [pytest.param(suffix, marks=pytest.mark.slow if suffix in {".svg", ".pdf"} else ()) for suffix in PICTURES],
 )
 def test_a_picture_is_as_its_suffix_says(suffix: str, case_file: Path, tmp_path: Path, cli: Command) -> None:
-    for package in ("matplotlib", "plotly"):
-        pytest.importorskip(package)
     rows = tmp_path / "rows.csv"
     rows.write_text("depth_m,operation,hookload_kN\n550,trip_in,100\n")
     chart, profile = tmp_path / f"chart{suffix}", tmp_path / f"profile{suffix.upper()}"
@@ -29,7 +27,6 @@ def test_a_picture_is_as_its_suffix_says(suffix: str, case_file: Path, tmp_path:
 
 
 def test_out_is_a_picture_where_its_suffix_says_so(case_file: Path, tmp_path: Path, cli: Command) -> None:
-    pytest.importorskip("matplotlib")
     given = ("equilibrium", case_file, "--operation", "trip_in", "--bit-depth", "500", "--quiet")
     picture = tmp_path / "profile.png"
     cli(*given, "--out", picture)

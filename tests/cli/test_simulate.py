@@ -150,7 +150,6 @@ def test_a_folder_that_cannot_be_replaced_is_refused_before(
 
 
 def test_a_picture_of_the_run(case_file: Path, tmp_path: Path, cli: Command) -> None:
-    pytest.importorskip("matplotlib")
     picture = tmp_path / "run.png"
     cli("simulate", case_file, "--out", tmp_path / "out", "--quiet", "--plot", picture)
     assert picture.read_bytes().startswith(b"\x89PNG")

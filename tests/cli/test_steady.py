@@ -64,7 +64,6 @@ def test_nor_by_a_side_file_or_a_picture(
     option: str, command: str, case_file: Path, tmp_path: Path, cli: Command,
 ) -> None:  # fmt: skip
     """``chart.csv.json`` goes beside ``chart.csv``."""
-    pytest.importorskip("matplotlib")
     survey = tmp_path / {"--out": "hole.csv.json", "--plot": "hole.png"}[option]
     survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,0,0\n")
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "hole.csv")}
@@ -128,8 +127,8 @@ def test_without_its_package_a_file_is_refused_before_computing(
 
 @pytest.mark.parametrize("command", ["chart", "equilibrium"])
 def test_a_workbook_has_the_table_and_its_origin(command: str, case_file: Path, tmp_path: Path, cli: Command) -> None:
-    pytest.importorskip("xlsxwriter")
-    calamine = pytest.importorskip("python_calamine")
+    import python_calamine as calamine
+
     out = tmp_path / "table.xlsx"
     options = (CHART if command == "chart" else POINT) | {"--out": str(out), "--units": "field"}
     cli(command, case_file, *(part for pair in options.items() for part in pair))

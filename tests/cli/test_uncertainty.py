@@ -32,7 +32,6 @@ def swept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_tables_and_pictures_are_written(swept: Path) -> None:
-    pytest.importorskip("matplotlib")
     pictures = ["--plot-bands", "bands.png", "--plot-tornado", "tornado.svg", "--plot-map", "map.png"]
     command = ["uncertainty", str(swept), "--out", "told", *pictures, "--map", "friction.open,mud.density"]
     done = CliRunner().invoke(app, command)
@@ -47,7 +46,6 @@ def test_tables_and_pictures_are_written(swept: Path) -> None:
 
 def test_field_units_are_those_of_tables_pictures_screen_and_depth(swept: Path) -> None:
     """The depths of the sweep are 600 and 900 m: 2953 ft is 900.07 m."""
-    pytest.importorskip("matplotlib")
     pictures = ["--plot-tornado", "tornado.svg", "--plot-map", "map.svg", "--map", "friction.open,mud.density"]
     units = ["--units", "field", "--bit-depth", "2953"]
     done = CliRunner().invoke(app, ["uncertainty", str(swept), "--out", "told", *pictures, *units])
@@ -67,7 +65,6 @@ def test_field_units_are_those_of_tables_pictures_screen_and_depth(swept: Path) 
 
 
 def test_pictures_that_cannot_be_drawn_are_refused_before_anything_is_told(swept: Path) -> None:
-    pytest.importorskip("matplotlib")
     command = ["uncertainty", str(swept), "--out", "told", "--plot-map", "a.png", "--map", "friction.open,mud.mass"]
     done = CliRunner().invoke(app, command)
     assert isinstance(done.exception, InputError)
@@ -87,7 +84,6 @@ def test_pictures_that_cannot_be_drawn_are_refused_before_anything_is_told(swept
     ],
 )
 def test_what_cannot_be_told_is_refused(options: list[str], words: str, swept: Path, cli: Command) -> None:
-    pytest.importorskip("matplotlib")
     assert words in " ".join(cli("uncertainty", swept, *options, code=2).err.split())
 
 
@@ -100,7 +96,6 @@ def test_a_limit_of_another_column_names_file_and_key(swept: Path) -> None:
 
 
 def test_bands_of_one_depth_are_refused_with_the_kind_of_work(swept: Path) -> None:
-    pytest.importorskip("matplotlib")
     dataset = open_dataset(Path("swept-sweep"))
     rows = dataset.rows()[["sample", "operation", "bit_depth_m", "hookload_N", "buckling", "status"]]
     dataset.parts[0].unlink()

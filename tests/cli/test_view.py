@@ -4,8 +4,6 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("plotly")
-
 from fctd.cli import chart as chart_of
 from fctd.store import save_interval
 from fctd.store.run_folder import run_path

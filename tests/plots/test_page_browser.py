@@ -6,8 +6,6 @@ from typing import Any
 
 import pytest
 
-pytest.importorskip("plotly")
-
 from fctd import plots
 from fctd.case.operations import KINDS
 from fctd.plots.tracks import TRACKS

@@ -5,9 +5,6 @@ from dataclasses import replace
 
 import pytest
 
-pytest.importorskip("jinja2")
-pytest.importorskip("matplotlib")
-
 from reports import chapters, figures
 from reports.chapters import Sentence
 from reports.figures.leading import LEADING

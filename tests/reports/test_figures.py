@@ -2,13 +2,10 @@
 
 import itertools
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import pytest
-
-pytest.importorskip("matplotlib")
-
-import matplotlib as mpl
 
 from reports import figures
 from reports.figures import style

@@ -9,10 +9,6 @@ from html.parser import HTMLParser
 import numpy as np
 import pandas as pd
 import pytest
-
-pytest.importorskip("jinja2")
-pytest.importorskip("matplotlib")
-
 from matplotlib.figure import Figure
 from typer.testing import CliRunner
 

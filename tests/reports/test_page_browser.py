@@ -10,9 +10,6 @@ from typing import Any
 
 import pytest
 
-pytest.importorskip("jinja2")
-pytest.importorskip("matplotlib")
-
 from reports import chapters, figures, page
 from reports.__main__ import OUT
 from reports.figures.leading import LEADING

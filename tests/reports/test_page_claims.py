@@ -1,10 +1,5 @@
 """The paper's claims on the page: verdict, number, bound and study, and what was not judged."""
 
-import pytest
-
-pytest.importorskip("jinja2")
-pytest.importorskip("matplotlib")
-
 from tests.reports.pages import study_page, words_of
 from validation.claims.ledger import CLAIMS
 

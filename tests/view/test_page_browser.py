@@ -10,8 +10,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-pytest.importorskip("plotly")
-
 from fctd.view.page import save_view
 from fctd.view.quantities import QUANTITIES
 from fctd.view.scene import Look, panel_data, scene_data

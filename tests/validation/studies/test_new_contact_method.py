@@ -4,9 +4,6 @@ import textwrap
 
 import pandas as pd
 import pytest
-
-pytest.importorskip("matplotlib")
-
 from typer.testing import CliRunner
 
 from references import contact
