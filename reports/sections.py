@@ -123,7 +123,7 @@ def section_of(folder: Path, out: Path) -> tuple[Section, figures.Tables]:
         return section, {}
     section.tables = [_print(tables[name], caption) for name, caption in found.display.items()]
     # A study whose package is missing finishes with a note only.
-    drawn = figures.of_study(section.study) if tables or found.checks else []
+    drawn = figures.by_study().get(section.study, []) if tables or found.checks else []
     section.pictures = [picture for figure in drawn if (picture := section.draw(figure, tables, out))]
     return section, tables
 

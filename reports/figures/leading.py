@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from reports import words
 from reports.figures import Canvas, Figure, Tables, style
-from reports.figures.contact_accuracy import FLOOR, exact_line
+from reports.figures.methods import FLOOR, exact_line
 
 SIZE_IN = (4.3, 3.3)
 LETTERS = 8.5  # of legends, in a picture that a page shows smaller than it is [pt]

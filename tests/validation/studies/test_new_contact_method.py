@@ -51,7 +51,7 @@ def toy(tmp_path, monkeypatch):
 def written(study, tables):
     """Every word in the study's figures."""
     found = set()
-    for figure in figures.of_study(study):
+    for figure in figures.by_study()[study]:
         if figure.name in ("figure_13", "facets"):  # of one mesh each, which is said there
             continue
         canvas = figure.draw(tables)

@@ -1,13 +1,19 @@
-"""Buckled pipe: its shapes, unrolled and in space, its wall force along paths of load, and the force it transmits."""
+"""Buckled pipe, and how the plausible rows of every class of string end."""
 
 import numpy as np
+import pandas as pd
 
-from reports.figures import Canvas, Figure, Tables, style
+from reports.figures import Canvas, Tables, figure, style
 
 SHAPES = ("snaking", "helix")
 SHOWN = 100.0  # [m]
 
 
+@figure(
+    "post_buckling",
+    name="shapes",
+    caption="The middle of a buckled 5 in pipe in a level 8½ in hole, unrolled and in space (drawn wider than it is).",
+)
 def shapes(tables: Tables) -> Canvas:
     """Angle over the length of hole on the left, the pipe's axis in space on the right, a row for each shape."""
     table = tables["shapes"]
@@ -33,6 +39,14 @@ def shapes(tables: Tables) -> Canvas:
     return canvas
 
 
+@figure(
+    "post_buckling",
+    name="wall_force",
+    caption=(
+        "Mean wall force of a level pipe. Snaking lasts as the load rises, and a helix as it falls: at one load the "
+        "wall force, and with it the friction, differs by up to a factor of two."
+    ),
+)
 def wall_force(tables: Tables) -> Canvas:
     """Mean wall force along the paths of load, with the closed form of the helix."""
     table = tables["paths"]
@@ -48,6 +62,13 @@ def wall_force(tables: Tables) -> Canvas:
     return canvas
 
 
+@figure(
+    "post_buckling",
+    name="transmitted",
+    caption=(
+        "Push that slides a helix through a level hole. The tan law adds the weight, which averages out over a turn."
+    ),
+)
 def transmitted(tables: Tables) -> Canvas:
     """Push at the top against the length of a helix that slides."""
     table = tables["pushed"]
@@ -61,21 +82,27 @@ def transmitted(tables: Tables) -> Canvas:
     return canvas
 
 
-FIGURES = [
-    Figure(
-        "shapes",
-        "The middle of a buckled 5 in pipe in a level 8½ in hole, unrolled and in space (drawn wider than it is).",
-        shapes,
+@figure(
+    "robust_rows",
+    name="statuses",
+    caption=(
+        "Plausible rows that end in another status than converged, by class of string. Nearly all of them drill: the "
+        "string above the bit buckles, and the friction of its rotation rolls it round the hole, or its segments are "
+        "too long to bend as it does."
     ),
-    Figure(
-        "wall_force",
-        "Mean wall force of a level pipe. Snaking lasts as the load rises, and a helix as it falls: at one load the "
-        "wall force, and with it the friction, differs by up to a factor of two.",
-        wall_force,
-    ),
-    Figure(
-        "transmitted",
-        "Push that slides a helix through a level hole. The tan law adds the weight, which averages out over a turn.",
-        transmitted,
-    ),
-]
+)
+def statuses(tables: Tables) -> Canvas:
+    """Share of the rows of each class with each status other than converged."""
+    rows = tables["rows"]
+    share = 100 * pd.crosstab(rows["class"], rows["status"], normalize="index").reindex(rows["class"].unique())
+    canvas, ax = style.subplots(4.2)
+    begun = pd.Series(0.0, share.index)
+    for index, status in enumerate(sorted(set(share.columns) - {"converged"})):
+        ax.barh(
+            range(len(share)), share[status], left=begun, color=style.COLOURS[index], label=status.replace("_", " ")
+        )
+        begun = begun + share[status]
+    style.rows_downwards(ax, list(share.index))
+    ax.set_xlabel("share of the rows that did not converge, %")
+    style.legend_above(ax, columns=3)
+    return canvas
