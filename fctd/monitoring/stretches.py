@@ -20,8 +20,6 @@ The rules, whose numbers are in `Rules`:
   which √(1 − 0.3²), 95 %, is left along the hole.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass

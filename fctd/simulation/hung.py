@@ -4,8 +4,6 @@ Column 0 is the upper end of the string, held by the block or, in a connection, 
 stretched and twisted as the load at the table asks, and leaves the force and torque on the string below as they are.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -51,7 +51,7 @@ def quantile(values: Array, share: float) -> tuple[float, float, float]:
     """A quantile of values (n,), and the ends of its error bar; an end that lies beyond the samples is NaN."""
     if not len(values):
         return float("nan"), float("nan"), float("nan")
-    bar = stats.quantile_test(values, p=share).confidence_interval(CONFIDENCE)
+    bar: Any = stats.quantile_test(values, p=share).confidence_interval(CONFIDENCE)
     return float(np.quantile(values, share)), float(bar.low), float(bar.high)
 
 

@@ -318,8 +318,8 @@ def seconds(tables: Tables) -> Canvas:
     names = list(times["engine"].unique())
     names.sort(key=lambda name: times.loc[times["engine"] == name, "ms_per_simulated_s"].max())
     counts = sorted(times["segments"].unique())
-    height = 1.7 + 0.4 * len(names)
-    canvas, (axes,) = style.subplots(height, 1, len(counts), sharex=True, sharey=True, squeeze=False)
+    tall = 1.7 + 0.4 * len(names)
+    canvas, (axes,) = style.subplots(tall, 1, len(counts), sharex=True, sharey=True, squeeze=False)
     for ax, count in zip(axes, counts, strict=True):
         here = times[times["segments"] == count]
         for index, ((state, step), chosen) in enumerate(here.groupby(["state", "step"], sort=True)):

@@ -115,8 +115,8 @@ def friction_checks(table: pd.DataFrame, missing: list[str]) -> Iterator[Check]:
     if len(fixed):
         wrong = (fixed["lean_deg"] - fixed["two_directions_lean_deg"]).abs().max()
         yield Check("Bullet, global axes: angle of friction to the sliding against that of two fixed directions",
-              float(wrong), 2.0, "at_most", "deg",
-              "effective masses along north and east; the angle is up to 32 deg")  # fmt: skip
+                    float(wrong), 2.0, "at_most", "deg",
+                    "effective masses along north and east; the angle is up to 32 deg")  # fmt: skip
 
 
 def impedance_check(table: pd.DataFrame) -> Check:
@@ -137,7 +137,7 @@ def step_checks(table: pd.DataFrame, own_steps: Mapping[str, float]) -> Iterator
         ratio = step / float(best["step_ms"].iloc[0]) if len(best) else np.nan
         yield Check(f"{label}: its own step over the best of its ladder", ratio, (0.7, 1.42), "within", "",
                     "largest step that halves from FCTD's own, passes the checks and is within 1 % of the next finer"
-                   )  # fmt: skip
+                    )  # fmt: skip
         if label != "FCTD":
             hookload, torque = (
                 float(best[column].abs().iloc[0]) if len(best) else np.nan

@@ -126,7 +126,8 @@ def _gain(ladder: pd.DataFrame, column: str) -> float:
 
 def judge(cases: dict[str, tuple[Case, float]], context: Context, *notes: str) -> Outcome:
     """Every well, tolerance and layout; then both layouts at equal counts."""
-    landed, strings = [], []
+    landed: list[dict[str, Any]] = []
+    strings: list[dict[str, Any]] = []
     for name, (case, bit) in context.progress(list(cases.items()), "wells"):
         for tolerance in TOLERANCES[:1] if context.quick else TOLERANCES:
             for grade in (False, True):

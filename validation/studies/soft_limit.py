@@ -123,7 +123,7 @@ def compare(well: str, rung: str, law: str, case: Case, solver: Solver) -> Rows:
 
 def run(context: Context) -> Outcome:
     """Every well, law and operation at every rung of the ladder."""
-    rows = []
+    rows: list[dict[str, Any]] = []
     for well in context.progress(list(WELLS), "wells"):
         for rung, clearance, stiffness in LADDER[-1:] if context.quick else LADDER:
             for law in ("coulomb", "paper"):

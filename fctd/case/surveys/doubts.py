@@ -4,8 +4,6 @@ The limits are chosen so that surveys as wells have them pass: `docs/well.md` li
 a case are a plan, which few stations describe exactly; a few long courses are a doubt in a file only.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from typing import Final

@@ -1,7 +1,5 @@
 """Dog-legs that come from rounded numbers, and what `survey_smoothing` does to them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Final

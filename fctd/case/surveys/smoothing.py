@@ -5,8 +5,6 @@ least: its total variation is a minimum, which keeps straight sections straight 
 Gorinevsky 2009, ℓ1 trend filtering).  It is a linear program, which scipy solves.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np
