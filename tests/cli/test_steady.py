@@ -3,6 +3,7 @@
 import os
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pandas as pd
 import pytest
@@ -35,11 +36,7 @@ def test_files_are_written_also_when_nobody_reads_the_screen(
     command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """``fctd chart … | head -1``: rich ends the program when its pipe is closed."""
-
-    def closed(*_: object, **__: object) -> None:
-        raise SystemExit(1)
-
-    monkeypatch.setattr("fctd.cli.options.screen.print", closed)
+    monkeypatch.setattr("fctd.cli.options.screen.print", Mock(side_effect=SystemExit(1)))
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "out.csv")}
     cli(command, case_file, *(part for pair in options.items() for part in pair), code=1)
     assert len(pd.read_csv(tmp_path / "out.csv")) > 0

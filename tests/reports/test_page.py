@@ -5,6 +5,7 @@ import re
 import sys
 from dataclasses import replace
 from html.parser import HTMLParser
+from unittest.mock import Mock
 
 import numpy as np
 import pandas as pd
@@ -291,11 +292,7 @@ def test_an_interruption_leaves_the_pages_before(render, tmp_path, monkeypatch):
     before = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}
     left = tmp_path / ".out-run-4194304"  # of a process that has ended: beyond the ids that Linux gives
     left.mkdir()
-
-    def interrupted(*arguments):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("reports.page._write_pages", interrupted)
+    monkeypatch.setattr("reports.page._write_pages", Mock(side_effect=KeyboardInterrupt))
     with pytest.raises(KeyboardInterrupt):
         render(studies=["overlap"])
     assert {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()} == before
