@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.tiny import CASE
+from tests.cli.tiny import CASE, SMALL
 from tests.commands import Command, run
 
 
@@ -13,6 +13,14 @@ def case_file(tmp_path: Path) -> Path:
     """The tiny case as a file; files of tests of other cases have a fixture of their own."""
     path = tmp_path / "tiny.toml"
     path.write_text(CASE)
+    return path
+
+
+@pytest.fixture
+def small_file(tmp_path: Path) -> Path:
+    """The small case as a file, which runs in time too."""
+    path = tmp_path / "small.toml"
+    path.write_text(SMALL)
     return path
 
 

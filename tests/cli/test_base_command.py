@@ -9,7 +9,7 @@ import typer
 from fctd.cli.main import COMMANDS, app
 from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.store.origin import versions
-from tests.cli.test_main import CASE
+from tests.cli.tiny import SMALL
 from tests.commands import Command
 
 
@@ -17,7 +17,7 @@ from tests.commands import Command
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "200")
-    Path("small.toml").write_text(CASE)
+    Path("small.toml").write_text(SMALL)
 
 
 def test_the_version(cli: Command) -> None:

@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 from fctd.cli.options import BAD_INPUT
-from tests.cli.test_main import CASE
+from tests.cli.tiny import SMALL
 from tests.commands import Command
 
 MOVES = (
-    CASE.split("[[operations]]")[0]
+    SMALL.split("[[operations]]")[0]
     + """
 [rig]
 feed = "stands"

@@ -19,7 +19,7 @@ from fctd.case.text import printable_lines
 from fctd.cli import main, options
 from references.__main__ import app as references_app
 from tests.case.test_text import ANYTHING
-from tests.cli.test_main import CASE
+from tests.cli.tiny import SMALL
 from tests.commands import Command
 
 # A name as TOML writes it, and as it is shown: markup, emoji code, formula, CSI, OSC, C1, a line's end, an override.
@@ -41,14 +41,14 @@ COMMANDS: dict[str, tuple[str, ...]] = {
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder to work in, with the case of test_cli in small.toml."""
     monkeypatch.chdir(tmp_path)
-    Path("small.toml").write_text(CASE)
+    Path("small.toml").write_text(SMALL)
     return tmp_path
 
 
 @pytest.fixture
 def wild(here: Path) -> str:
     """A case whose name has markup, escapes and control characters."""
-    Path("wild.toml").write_text(CASE.replace('name = "small"', f'name = "{WILD}"'))
+    Path("wild.toml").write_text(SMALL.replace('name = "small"', f'name = "{WILD}"'))
     return "wild.toml"
 
 
@@ -145,7 +145,7 @@ def test_an_error_shows_what_was_written(arguments: tuple[str, ...], here: Path,
 
 
 def test_keys_and_headers_of_a_file_are_shown_on_one_line(here: Path, cli: Command) -> None:
-    Path("bad.toml").write_text('"[/x]\\u001b[31m\\u009b\\n" = 3\n' + CASE)
+    Path("bad.toml").write_text('"[/x]\\u001b[31m\\u009b\\n" = 3\n' + SMALL)
     err = cli("simulate", "bad.toml", code=2).err
     assert r"[/x]\x1b[31m\x9b\n = 3" in err
     check_plain(err)
@@ -211,7 +211,7 @@ def odd(here: Path) -> str:
     folder.mkdir()
     (folder / "s.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n300,0,0\n750,90,0\n900,90,0\n")
     (folder / "c\udcff.toml").write_text(
-        CASE.replace("stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]", 'survey = "s.csv"')
+        SMALL.replace("stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]", 'survey = "s.csv"')
     )
     return os.path.join("f\udcff", "c\udcff.toml")
 
@@ -270,7 +270,7 @@ def test_refine_refuses_at_once_a_survey_that_toml_cannot_name(
 def test_a_title_is_no_formula(wild: str, here: Path, cli: Command) -> None:
     plots = ("--plot", "a.svg", "--plot-profile", "b.svg")
     for name in (r"\\$\\frac{$", "$\\\\frac{ \\u001b"):
-        Path("wild.toml").write_text(CASE.replace('name = "small"', f'name = "{name}"'))
+        Path("wild.toml").write_text(SMALL.replace('name = "small"', f'name = "{name}"'))
         cli("chart", wild, *CHART, *plots)
         drawn = Path("a.svg").read_text()
         assert "<svg" in drawn

@@ -8,43 +8,35 @@ from fctd.cli import chart as chart_of
 from fctd.store import save_interval
 from fctd.store.run_folder import run_path
 from tests.cli.test_keeping import CHART, RUN, killed
-from tests.cli.test_main import CASE
 from tests.commands import Command
 
 
-@pytest.fixture
-def case_file(tmp_path: Path) -> Path:
-    path = tmp_path / "small.toml"
-    path.write_text(CASE)
-    return path
-
-
 def test_a_case_and_its_run_become_pages(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
+    small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     monkeypatch.chdir(tmp_path)
     given = ("--operation", "trip_in", "--depths", "600:800:100", "--set", "string.components[0].length=850 m")
-    assert "Written: small-view.html" in cli("view", case_file, *given, "--units", "si", "--quiet").out
+    assert "Written: small-view.html" in cli("view", small_file, *given, "--units", "si", "--quiet").out
     assert "bit at 700.0 m" in Path("small-view.html").read_text(encoding="utf-8")
-    cli("simulate", case_file, "--out", "run", "--quiet")
+    cli("simulate", small_file, "--out", "run", "--quiet")
     cli("view", "run", "--out", "run.html", "--colour", "stress")
     assert "rotating off bottom, bit at 800.0 m" in Path("run.html").read_text(encoding="utf-8")
 
 
 def test_depths_without_a_string_are_named(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
+    small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """On the screen and on the page; as a chart with such rows, it is exit code 1."""
     monkeypatch.chdir(tmp_path)
     given = ("--operation", "trip_in", "--depths", "700:2700:1000", "--quiet")
-    printed = cli("view", case_file, *given, code=1)
+    printed = cli("view", small_file, *given, code=1)
     told = "no string with the bit at 1700, 2700 m"
     assert told in printed.err
     assert told in Path("small-view.html").read_text(encoding="utf-8")
 
 
 def test_a_run_that_has_not_ended(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
+    small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """What it has kept is shown, and a whole result before it; the run goes on afterwards as if nobody had looked."""
     monkeypatch.chdir(tmp_path)
@@ -78,16 +70,16 @@ def test_a_run_that_has_not_ended(
     ],
 )
 def test_wrong_options_are_refused(
-    given: tuple[str, str], expected: list[str], case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    given: tuple[str, str], expected: list[str], small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     cli: Command,
 ) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
-    message = cli("view", case_file, *given, "--quiet", code=2).err
+    message = cli("view", small_file, *given, "--quiet", code=2).err
     for text in expected:
         assert text in message
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
 
 
-def test_options_of_a_case_are_refused_for_a_run(case_file: Path, tmp_path: Path, cli: Command) -> None:
+def test_options_of_a_case_are_refused_for_a_run(small_file: Path, tmp_path: Path, cli: Command) -> None:
     assert "the run is already computed" in cli("view", tmp_path, "--depths", "1:2:1", code=2).err
     assert "the folder of a result of fctd simulate" in cli("view", tmp_path, code=2).err
