@@ -11,15 +11,14 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import stats
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 
 CONFIDENCE: Final = 0.95
 # Shares of the samples with which the convergence of a percentile is shown.

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.calibration.calibrate import calibrate
 from fctd.calibration.fit import fit as fit_rows
 from fctd.calibration.fit import residuals_of, weights_of
@@ -33,7 +33,6 @@ SETUPS = FOLDER / "volve_f4"
 FROZEN = SETUPS / "frozen.json"
 # Rotation speeds of the two groups of bins, within a tenth [rev/min].
 SLOW, FAST = 60.0, 130.0
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import Case, InputError, build_wellbore, find_contacts
 from references import contact
@@ -14,8 +13,6 @@ from references.timing.footprint import footprint
 from references.timing.stopwatch import machine_table, race
 from validation.cases import load
 from validation.harness.study import Check, Context, Outcome, Rows, Study, left_out, table_of_rows
-
-Array = NDArray[np.float64]
 
 RADIUS = 0.051  # contact radius of the pipe [m]
 HOLE = 0.1556  # hole radius [m]

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import contact, state
 from fctd.simulation.preparation import contact_points, prepare
 from fctd.simulation.run import Run
@@ -19,8 +19,6 @@ from references.timing.operation_count import Counted, Number, arithmetic, count
 from references.timing.stopwatch import Action, race
 from validation.cases import load, trip
 from validation.harness.study import Check, Context, Outcome, Study
-
-Array = NDArray[np.float64]
 
 # "At most two dot products and three arithmetic operations": a dot product is three products and two sums.
 CLAIMED = 2 * 5 + 3

@@ -4,17 +4,15 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import equilibrium, simulate
+from fctd.arrays import Array
 from fctd.model.operations import rad_per_s
 from references.soft_string.torsion import twisted
 from validation.cases import rotation, trip
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.long_string import BIT, MODES, PIPE, chain_frequencies, continuous_frequencies, the_case
 from validation.parts.windows import completed
-
-Array = NDArray[np.float64]
 
 CHANGE = 1.0  # percent: what counts as "no change" here
 RAMPS = (2.0, 20.0)  # [s]

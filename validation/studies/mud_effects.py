@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import Case, equilibrium, simulate
 from fctd.mechanics.topdrive import GRAVITY
@@ -16,8 +15,6 @@ from validation.cases import load, rotation
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.long_string import PIPE, chain_frequencies, continuous_frequencies, the_case
 from validation.parts.windows import completed, last_seconds
-
-Array = NDArray[np.float64]
 
 BIT = 2450.0
 HANGING = 1700.0  # [m]: all of the string in vertical hole

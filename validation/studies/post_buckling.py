@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from references.buckling import helix, mitchell
 from references.buckling.onset import FREE_END, half_wave, snaking_limit
@@ -18,7 +17,6 @@ from validation.harness.study import Check, Context, Outcome, Rows, Study, table
 from validation.parts import analytic_helix, resolved_rows
 from validation.parts.buckled_pipe import BUCKLING, Rig, Turns, UnsettledError, energy, middle, turns_of, wave_of
 
-Array = NDArray[np.float64]
 Number = Any  # a number, or a column of them
 
 ONSET = BUCKLING.onset

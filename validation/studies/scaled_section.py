@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from fctd import Case, build_wellbore, equilibrium, simulate
+from fctd.arrays import Array
 from fctd.model.wellbore import hole_frame
 from references.beams.case import beam_of, top_of
 from references.beams.dynamics import Lowered, generalised_alpha, lower
@@ -18,8 +18,6 @@ from validation.cases import load, trip
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.turn_and_build import turn_and_build
 from validation.parts.windows import completed
-
-Array = NDArray[np.float64]
 
 # The finite elements' parameters, frozen before any difference was computed (see scaled_section.toml).
 ELEMENT = 0.15  # [m]

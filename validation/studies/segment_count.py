@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import Case, Equilibrium, simulate
+from fctd.arrays import Array
 from fctd.model import survey
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
@@ -16,8 +16,6 @@ from validation.cases import load, rotation
 from validation.cases.segmented_wells import WELLS, Well
 from validation.harness.study import Check, Context, Outcome, Rows, Study, log_slope, table_of_rows
 from validation.parts.windows import last_seconds
-
-Array = NDArray[np.float64]
 
 # About half an octave apart, the paper's 60 among them; the reference is eight times the last.
 COUNTS = (5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320, 480, 640)

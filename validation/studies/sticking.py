@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from fctd import Case
+from fctd.arrays import Array
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.cake import sealed_width
 from fctd.mechanics.dynamics import PUSHES
@@ -23,8 +23,6 @@ from fctd.simulation.settling import settle, start_from_rest
 from fctd.simulation.simulate import Simulation
 from validation.cases import load, rotation
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
-
-Array = NDArray[np.float64]
 
 # One body on a belt: mass [kg], spring [N/m], speed of the belt [m/s], normal force [N], factors, decay speed [m/s].
 MASS, SPRING, BELT, PRESSED, KINETIC, STATIC, DECAY = 1000.0, 4000.0, 0.1, 1e4, 0.2, 0.3, 0.02
