@@ -1,7 +1,5 @@
 """The upper end of a run: pipe is fed at a rotary table (``Fed``), or the string hangs from a block (hung.py)."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """Levels of a refinement: strings of one fineness, the loads that count, and the errors that remain."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
